@@ -1,0 +1,30 @@
+/// \file
+/// Points, directions and closed polygons in the plane of the mechanism. mm.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+namespace fusee {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+
+/// A closed polygon; the last point joins the first and is not repeated. Outlines run counter-clockwise.
+using Polygon = std::vector<Vec2>;
+
+/// Unit vector at `angle` (rad, counter-clockwise from +x).
+inline Vec2 unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
+/// `v` turned by +90°.
+inline Vec2 turned_left(const Vec2& v) { return {-v.y(), v.x()}; }
+inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Signed area: positive when counter-clockwise. mm².
+double signed_area(const Polygon& polygon);
+/// Length once around. mm.
+double perimeter(const Polygon& polygon);
+/// The convex hull, counter-clockwise, without collinear points.
+Polygon convex_hull(Polygon points);
+
+}  // namespace fusee

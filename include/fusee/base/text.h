@@ -1,0 +1,19 @@
+/// \file
+/// Numbers to text, the same on every machine: no locale, no trailing noise, no negative zero.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fusee {
+
+/// The shortest text that reads back as the same double ("0.1", "1e+20", "-0" becomes "0").
+std::string shortest(double value);
+/// Fixed decimals, negative zero written as zero: fixed(-0.00001, 3) == "0.000".
+std::string fixed(double value, int decimals);
+/// For messages: `digits` significant digits, no exponent between 1e-4 and 1e7 ("18.9", "0.0123").
+std::string rounded(double value, int digits = 4);
+/// JSON/JavaScript-safe and HTML-safe text.
+std::string escape_html(std::string_view text);
+
+}  // namespace fusee

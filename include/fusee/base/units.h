@@ -1,0 +1,15 @@
+/// \file
+/// Angles are radians inside and degrees in files and flags; lengths are mm everywhere.
+#pragma once
+
+#include <numbers>
+
+namespace fusee {
+
+inline constexpr double k_pi = std::numbers::pi;
+inline constexpr double k_two_pi = 2.0 * std::numbers::pi;
+
+constexpr double radians(double degrees) { return degrees * (k_pi / 180.0); }
+constexpr double degrees(double radians) { return radians * (180.0 / k_pi); }
+
+}  // namespace fusee

@@ -1,0 +1,47 @@
+/// \file
+/// The field table: one row for every key of the mechanism file, from which come the reader, the writer, `fusee explain`,
+/// `fusee new`, the JSON schema and the searches for advice.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/mechanism/mechanism.h"
+
+namespace fusee {
+
+enum class FieldKind { number, range, choice, text, boolean };
+
+struct Field {
+  std::string_view table;  ///< "joint"; "" for the keys at the top of the file
+  std::string_view key;    ///< "length_mm": the unit stands in the name
+  std::string_view symbol; ///< the paper's symbol or "" ("R")
+  FieldKind kind = FieldKind::number;
+  std::string_view unit;   ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
+  bool required = false;
+  /// Default as it would be written in the file ("0.12", "\"u\"", "true"); "" when required.
+  std::string_view fallback;
+  /// Inclusive bounds in the file's unit for numbers and both ends of ranges.
+  double least = 0;
+  double most = 0;
+  std::vector<std::string_view> choices;  ///< of a choice
+  std::string_view meaning;               ///< one line
+
+  /// In the file's unit. number: the value; range: `end` 0 or 1. Only for number and range.
+  double (*get)(const Mechanism&, int end) = nullptr;
+  void (*set)(Mechanism&, int end, double value) = nullptr;
+  /// choice, text and boolean ("true"/"false").
+  std::string (*get_text)(const Mechanism&) = nullptr;
+  void (*set_text)(Mechanism&, std::string_view value) = nullptr;
+
+  std::string name() const;  ///< "joint.length_mm"
+};
+
+/// All fields in the order in which they stand in a file.
+std::span<const Field> fields();
+/// By dotted name, or null.
+const Field* find_field(std::string_view name);
+
+}  // namespace fusee

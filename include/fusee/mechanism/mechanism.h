@@ -1,0 +1,128 @@
+/// \file
+/// A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in MPa.
+///
+/// Joint axis O is the origin; y points to the tendon's attachment C at home; C = R (sin θ, cos θ). Guide pins stand at
+/// B (−EB, −OE) and D (ED, −OE); the pulley's axis G is at (0, −OE − EF). Tendon 1 runs C → B → P1 on the left, tendon 2
+/// C → D → P2 on the right. α > 0 turns the pulley clockwise: tendon 1 is paid out, tendon 2 wound in, θ grows.
+///
+/// Every number here has one row in the field table (fields.h): its key, unit, range, default and meaning.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fusee/base/units.h"
+
+namespace fusee {
+
+struct Joint {
+  double R = 0;          ///< OC, from the joint axis to the tendons' attachment
+  double theta_min = 0;  ///< rad, < 0 or = 0: home lies within the range
+  double theta_max = 0;  ///< rad
+};
+
+struct Guides {
+  double EB = 0;      ///< pin B stands at (−EB, −OE)
+  double ED = 0;      ///< pin D stands at (ED, −OE)
+  double OE = 0;      ///< positive: the pins are below the joint, away from C
+  double radius = 0;  ///< of the pin itself; 0 is a point
+  double mu = 0;      ///< capstan coefficient at the pins
+};
+
+enum class Law { compensate, linear, table };
+enum class Method { exact, paper };
+
+/// One row of a declared law θ(α). rad.
+struct LawRow {
+  double alpha = 0;
+  double theta = 0;
+};
+
+struct Pulley {
+  double EF = 0;             ///< from the pins' line down to the pulley's axis G
+  double r1 = 0;             ///< P1's pitch radius (law = compensate)
+  Law law = Law::compensate;
+  double ratio = 0;          ///< α per θ (law = linear)
+  std::string table;         ///< the CSV of law = table, as written in the file
+  std::vector<LawRow> rows;  ///< its contents, by increasing α
+  Method method = Method::exact;
+};
+
+struct Tendon {
+  double diameter = 0;
+  double modulus = 0;     ///< Young's modulus, MPa
+  double pretension = 0;  ///< of tendon 1 at home, N
+  double bend_ratio = 0;  ///< smallest D/d before a warning
+};
+
+struct Load {
+  double tip_force = 0;  ///< F_c across OC, positive against +θ, N
+};
+
+enum class Groove { u, v, flat };
+enum class Flange { follow, round };
+enum class Bore { round, d, hex, square, keyway, horn };
+enum class Marks { engraved, raised, none };
+
+/// The printed body. 0 stands for "automatic" where the field table says so; solid/layout.h resolves it.
+struct Body {
+  Groove groove = Groove::u;
+  double groove_angle = 0;      ///< full angle between the walls, rad
+  double groove_depth = 0;      ///< lip above the floor; 0: 2 d
+  double seat_ratio = 0;        ///< seat radius of a U groove per tendon diameter
+  Flange flange = Flange::follow;
+  double flange_thickness = 0;  ///< at the lip
+  double hub_diameter = 0;      ///< 0: from the bore and the set screw
+  double hub_height = 0;        ///< above the top flange; 0: no hub
+  Bore bore = Bore::round;
+  double bore_diameter = 0;     ///< shaft diameter, across flats for hex and square
+  double bore_flat = 0;         ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
+  std::string horn;             ///< bore = horn: a name in profiles/horns.toml
+  std::string set_screw;        ///< "none", "M2" … "M6"
+  bool nut_trap = false;
+  double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3
+  double knot_pocket = 0;       ///< diameter; 0: 3.5 d
+  Marks marks = Marks::engraved;
+  double mark_depth = 0;
+  double min_wall = 0;
+};
+
+struct Material {
+  std::string name;
+  double shrinkage = 0;          ///< fraction by which a print comes out smaller
+  double hole_compensation = 0;  ///< added to the diameter of holes, mm
+  double elephant_foot = 0;      ///< chamfer at the bed, mm
+};
+
+/// Cutting the part as a stack of plates.
+struct Cut {
+  double kerf = 0;
+  double plate = 0;  ///< plate thickness
+  double sheet_width = 0;
+  double sheet_height = 0;
+  double dowel = 0;  ///< dowel hole diameter
+};
+
+/// A joint that is not this mechanism, for calibration alone: θ = offset + α/ratio.
+struct RatioTransmission {
+  double ratio = 0;
+};
+
+struct Mechanism {
+  std::string name;
+  Joint joint;
+  Guides guides;
+  Pulley pulley;
+  Tendon tendon;
+  Load load;
+  Body body;
+  Material material;
+  Cut cut;
+  std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
+
+  /// Pin radius to the tendon's centre line: ρp of mechanics, mm.
+  double guide_pitch_radius() const { return guides.radius + 0.5 * tendon.diameter; }
+};
+
+}  // namespace fusee

@@ -1,0 +1,60 @@
+/// \file
+/// Mechanism → both pitch curves, or the reasons why there are none and the nearest numbers with which there would be.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fusee/profile/outline.h"
+#include "fusee/transmission/transmission.h"
+
+namespace fusee {
+
+struct SynthesisOptions {
+  /// Largest sagitta between the polygon and the curve, on the pitch curve and on every curve parallel to it up to the flange. mm
+  double tolerance = 0.01;
+  /// Search for changes of single numbers that would make an infeasible mechanism feasible.
+  bool advice = true;
+  /// Number of steps of the stroke table.
+  int stroke_steps = 180;
+};
+
+/// A condition of feasibility that was looked at, whether it holds, and where it is tightest.
+struct Condition {
+  std::string name;     ///< "convex_floor", "tendon_on_pin_D", "one_turn" …
+  bool ok = true;
+  double alpha = 0;     ///< where it is tightest, rad
+  double value = 0;     ///< there
+  double limit = 0;     ///< value must stay above (below) this
+  std::string unit;
+  std::string message;  ///< for a person: what happens, where, by how much
+};
+
+/// The nearest value of one number of the file with which every condition would hold.
+struct Change {
+  std::string key;   ///< "pulley.r1_mm"
+  double from = 0;   ///< in the file's unit
+  double to = 0;
+  std::string unit;
+  std::string text;  ///< "r1 ≤ 18.9 mm"
+};
+
+enum class SynthesisStatus { made, infeasible };
+
+struct SynthesisResult {
+  SynthesisStatus status = SynthesisStatus::infeasible;
+  Outline p1;
+  Outline p2;
+  std::vector<TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
+  std::vector<Condition> conditions;      ///< all of them, those that hold too
+  std::vector<Change> advice;             ///< empty when made, or when no change of one number helps
+  std::vector<std::string> warnings;      ///< made all the same: tight bends, slack of method = "paper" …
+
+  bool made() const { return status == SynthesisStatus::made; }
+  /// One paragraph: what was made, or why not and what to change.
+  std::string brief() const;
+};
+
+SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options = {});
+
+}  // namespace fusee

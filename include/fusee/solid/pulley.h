@@ -1,0 +1,44 @@
+/// \file
+/// Two pitch curves → one compound body, as a mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fusee/solid/layout.h"
+#include "fusee/solid/mesh.h"
+
+namespace fusee {
+
+/// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket.
+struct Anchor {
+  Side side = Side::left;
+  bool wound_end = true;       ///< the end that carries load; false: the spare one at the other end of the arc
+  Vec2 exit;                   ///< where the channel's centre line leaves the floor, mm
+  Polygon channel;             ///< outline of the channel in the groove's plane, ccw
+  Vec2 pocket;                 ///< centre of the knot pocket
+};
+
+enum class PulleyStatus { made, impossible };
+
+struct Pulley {
+  PulleyStatus status = PulleyStatus::impossible;
+  BodyLayout layout;
+  TriangleMesh mesh;                  ///< coordinates are floats already
+  std::vector<Anchor> anchors;
+  std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too; messages name the number to change
+  double expected_volume = 0;         ///< exact volume of the discretised part, by areas of sections, mm³
+  int expected_euler = 0;             ///< V − E + F
+
+  bool made() const { return status == PulleyStatus::made; }
+  std::string brief() const;
+};
+
+Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis);
+
+/// What a mesh of this pulley must be, measured on `mesh` (usually one read back from a file): check_mesh, then Euler number, volume, deviation
+/// from the analytic surface within `tolerance`, smallest wall, groove depth and width.
+std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
+                                const Pulley& pulley, double tolerance);
+
+}  // namespace fusee

@@ -1,0 +1,49 @@
+/// \file
+/// The upper half of a tendon: from the attachment C over its guide pin. Moment arm, lengths, and their derivatives, in closed form.
+///
+/// One derivation serves both tendons: tendon 1 is the mirror image of tendon 2 (x → −x, θ → −θ, α → −α).
+#pragma once
+
+#include "fusee/base/plane.h"
+#include "fusee/mechanism/mechanism.h"
+
+namespace fusee {
+
+/// left: tendon 1, pin B, pulley P1. right: tendon 2, pin D, pulley P2.
+enum class Side { left, right };
+
+/// +1 for the right, −1 for the left: the factor between the mechanism's θ, α, x and those of the right-hand image.
+constexpr double mirror_sign(Side side) { return side == Side::right ? 1.0 : -1.0; }
+
+/// Pin and pulley axis of one tendon in its right-hand image. mm.
+struct PinPlace {
+  double e;    ///< EB or ED: the pin stands at (e, −OE)
+  double oe;   ///< OE
+  double ef;   ///< EF: the pulley's axis stands at (0, −OE − EF)
+  double rho;  ///< ρp: pin radius to the tendon's centre line (0: a point)
+  double R;    ///< OC
+
+  Vec2 pin() const { return {e, -oe}; }
+  Vec2 pulley_axis() const { return {0.0, -oe - ef}; }
+  /// c and φ: the pin seen from the pulley's axis.
+  double c() const { return std::hypot(e, ef); }
+  double phi() const { return std::atan2(ef, e); }
+};
+
+PinPlace pin_place(const Mechanism& mechanism, Side side, double rho);
+
+/// The span from C to its tangent point on the pin, in the right-hand image, at joint angle `theta` of that image.
+struct UpperSpan {
+  double m = 0;        ///< moment arm about O: −dL/dθ, mm [4]
+  double dm = 0;       ///< dm/dθ
+  double d2m = 0;      ///< d²m/dθ²
+  double free = 0;     ///< C to the tangent point, mm [2],[3]
+  double normal = 0;   ///< direction of the line's outward normal, rad
+  /// free + ρp · normal: the tendon's length above any fixed point of the pin's rim, but for a constant. mm
+  double length = 0;
+};
+
+/// NaN throughout where C lies within the pin's circle.
+UpperSpan upper_span(const PinPlace& place, double theta);
+
+}  // namespace fusee
