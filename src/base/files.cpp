@@ -1,0 +1,1 @@
+#include "fusee/base/files.h"

@@ -1,0 +1,37 @@
+#include "fusee/base/plane.h"
+
+#include <algorithm>
+
+namespace fusee {
+
+double signed_area(const Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return 0.5 * twice;
+}
+
+double perimeter(const Polygon& polygon) {
+  double length = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  return length;
+}
+
+Polygon convex_hull(Polygon points) {
+  // Andrew's monotone chain.
+  const auto by_xy = [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); };
+  std::sort(points.begin(), points.end(), by_xy);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  Polygon hull;
+  const auto extend = [&hull](const Vec2& point, std::size_t floor) {
+    while (hull.size() > floor && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0) hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const Vec2& point : points) extend(point, 1);
+  const std::size_t lower = hull.size();
+  for (auto it = points.rbegin() + 1; it != points.rend(); ++it) extend(*it, lower);
+  hull.pop_back();
+  return hull;
+}
+
+}  // namespace fusee

@@ -1,0 +1,55 @@
+#include "fusee/base/text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+/// "-0", "-0.000" → without the sign.
+std::string without_negative_zero(std::string text) {
+  if (!text.empty() && text[0] == '-' && text.find_first_of("123456789", 1) == std::string::npos &&
+      text.find_first_not_of("-0.", 0) == std::string::npos) {
+    text.erase(0, 1);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string shortest(double value) { return without_negative_zero(fmt::format("{}", value)); }
+
+std::string fixed(double value, int decimals) { return without_negative_zero(fmt::format("{:.{}f}", value, decimals)); }
+
+std::string rounded(double value, int digits) {
+  const double size = std::abs(value);
+  if (value == 0 || !std::isfinite(value) || size < 1e-4 || size >= 1e7) {
+    return without_negative_zero(fmt::format("{:.{}g}", value, digits));
+  }
+  const int before_point = static_cast<int>(std::floor(std::log10(size))) + 1;
+  std::string text = fixed(value, std::max(0, digits - before_point));
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text;
+}
+
+std::string escape_html(std::string_view text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      case '"': escaped += "&quot;"; break;
+      case '\'': escaped += "&#39;"; break;
+      default: escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace fusee
