@@ -39,7 +39,8 @@ struct LawRow {
   double theta = 0;
 };
 
-struct Pulley {
+/// Where the pulley sits and what it must do. (The body that comes out is solid/pulley.h's Pulley.)
+struct PulleyDrive {
   double EF = 0;             ///< from the pins' line down to the pulley's axis G
   double r1 = 0;             ///< P1's pitch radius (law = compensate)
   Law law = Law::compensate;
@@ -113,7 +114,7 @@ struct Mechanism {
   std::string name;
   Joint joint;
   Guides guides;
-  Pulley pulley;
+  PulleyDrive pulley;
   Tendon tendon;
   Load load;
   Body body;
