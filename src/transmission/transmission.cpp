@@ -1,0 +1,177 @@
+#include "fusee/transmission/transmission.h"
+
+#include <algorithm>
+#include <array>
+
+#include "fusee/base/diagnostics.h"
+#include "transmission/table_law.h"
+
+namespace fusee {
+namespace {
+
+/// Moment arm of one tendon and its derivatives with respect to the mechanism's θ.
+struct Arm {
+  UpperSpan span;
+  double m = 0;
+  double dm = 0;
+  double d2m = 0;
+};
+
+Arm arm(const PinPlace& place, Side side, double theta) {
+  const double sign = mirror_sign(side);
+  const UpperSpan span = upper_span(place, sign * theta);
+  return {span, span.m, sign * span.dm, span.d2m};
+}
+
+double to_world(Side side, double image_angle) { return side == Side::right ? image_angle : k_pi - image_angle; }
+
+TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, double g, double dg, double d2g) {
+  TendonPoint point;
+  point.m = arm.m;
+  point.p = arm.m * g;
+  point.dp = arm.dm * g * g + arm.m * dg;
+  point.d2p = arm.d2m * g * g * g + 3.0 * arm.dm * g * dg + arm.m * d2g;
+  const double c = place.c();
+  const double beyond_pin = point.p - place.rho;
+  const double lower_image = place.phi() - std::acos(beyond_pin / c);
+  point.upper_normal = to_world(side, arm.span.normal);
+  point.lower_normal = to_world(side, lower_image);
+  point.wrap = arm.span.normal - lower_image;
+  point.free_upper = arm.span.free;
+  point.lower_reach = std::sqrt((c - beyond_pin) * (c + beyond_pin));
+  point.length = point.free_upper + place.rho * point.wrap + point.lower_reach;
+  return point;
+}
+
+/// A place where `holds` turns false between `good` and `bad`, to the last digits.
+template <typename Predicate>
+double border(double good, double bad, Predicate holds) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (good + bad);
+    (holds(middle) ? good : bad) = middle;
+  }
+  return bad;
+}
+
+/// The root of a function that grows from `low` to `high`: Newton's steps, halved back into the bracket where they leave it.
+template <typename ValueAndSlope>
+double grown_to(double target, double low, double high, double start, ValueAndSlope evaluate) {
+  double x = std::clamp(start, low, high);
+  for (int i = 0; i < 80; ++i) {
+    const auto [value, slope] = evaluate(x);
+    const double miss = value - target;
+    if (miss == 0) break;
+    (miss > 0 ? high : low) = x;
+    double next = x - miss / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - x) <= 1e-15 * (1.0 + std::abs(x))) return next;
+    x = next;
+  }
+  return x;
+}
+
+/// Joint angles a little beyond the range are still answered: integrators and root finders step over its ends.
+constexpr double k_margin = 0.02;
+
+}  // namespace
+
+Transmission::Transmission(const Mechanism& mechanism)
+    : Transmission(mechanism, mechanism.pulley.method == Method::paper ? 0.0 : mechanism.guide_pitch_radius()) {}
+
+Transmission::Transmission(const Mechanism& mechanism, double rho)
+    : law_(mechanism.pulley.law),
+      r1_(mechanism.pulley.r1),
+      ratio_(mechanism.pulley.ratio),
+      left_(pin_place(mechanism, Side::left, rho)),
+      right_(pin_place(mechanism, Side::right, rho)),
+      theta_min_(mechanism.joint.theta_min),
+      theta_max_(mechanism.joint.theta_max) {
+  if (law_ == Law::table) table_ = std::make_shared<const TableLaw>(mechanism.pulley.rows);
+  home_length_ = upper_span(left_, 0.0).length;
+
+  const auto has_arms = [this](double theta) {
+    return upper_span(left_, -theta).m > 0 && upper_span(right_, theta).m > 0;
+  };
+  // From home outwards, so that what is named is the first place where it fails.
+  constexpr int steps = 64;
+  for (int i = 0; i <= steps && !dead_centre_; ++i) {
+    for (const double end : {theta_min_, theta_max_}) {
+      const double theta = end * i / steps;
+      if (!has_arms(theta)) dead_centre_ = i == 0 ? 0.0 : border(end * (i - 1) / steps, theta, has_arms);
+    }
+  }
+  if (dead_centre_) return;
+  alpha_min_ = alpha(theta_min_);
+  alpha_max_ = alpha(theta_max_);
+}
+
+double Transmission::alpha(double theta) const {
+  switch (law_) {
+    case Law::compensate:
+      // Tendon 1 is wound on a round pulley: what its upper span takes, P1 pays out.
+      return (upper_span(left_, -theta).length - home_length_) / r1_;
+    case Law::linear: return theta * ratio_;
+    case Law::table: break;
+  }
+  const double reach = table_->last_alpha() - table_->first_alpha();
+  const double low = table_->first_alpha() - k_margin * reach;
+  const double high = table_->last_alpha() + k_margin * reach;
+  return grown_to(theta, low, high, 0.5 * (low + high), [this](double a) {
+    const LawValue value = table_->at(a);
+    return std::array{value.theta, value.d1};
+  });
+}
+
+double Transmission::theta(double alpha) const {
+  switch (law_) {
+    case Law::compensate: break;
+    case Law::linear: return alpha / ratio_;
+    case Law::table: return table_->at(alpha).theta;
+  }
+  const double span = theta_max_ - theta_min_;
+  const double stroke = alpha_max_ - alpha_min_;
+  const double start = theta_min_ + span * (alpha - alpha_min_) / stroke;
+  return grown_to(alpha, theta_min_ - k_margin * span, theta_max_ + k_margin * span, start, [this](double t) {
+    const UpperSpan upper = upper_span(left_, -t);
+    return std::array{(upper.length - home_length_) / r1_, upper.m / r1_};
+  });
+}
+
+TransmissionPoint Transmission::at_alpha(double alpha) const { return at(alpha, theta(alpha)); }
+
+TransmissionPoint Transmission::at_theta(double theta) const { return at(alpha(theta), theta); }
+
+TransmissionPoint Transmission::at(double alpha, double theta) const {
+  const Arm arm1 = arm(left_, Side::left, theta);
+  const Arm arm2 = arm(right_, Side::right, theta);
+  TransmissionPoint point;
+  point.alpha = alpha;
+  point.theta = theta;
+  switch (law_) {
+    case Law::compensate:
+      // p1 = m1 g = r1 for all α: its derivatives vanish, which gives those of g.
+      point.g = r1_ / arm1.m;
+      point.dg = -arm1.dm * point.g * point.g / arm1.m;
+      point.d2g = -(arm1.d2m * point.g * point.g * point.g + 3.0 * arm1.dm * point.g * point.dg) / arm1.m;
+      break;
+    case Law::linear: point.g = 1.0 / ratio_; break;
+    case Law::table: {
+      const LawValue value = table_->at(alpha);
+      point.g = value.d1;
+      point.dg = value.d2;
+      point.d2g = value.d3;
+      break;
+    }
+  }
+  point.t1 = tendon_point(left_, Side::left, arm1, point.g, point.dg, point.d2g);
+  point.t2 = tendon_point(right_, Side::right, arm2, point.g, point.dg, point.d2g);
+  if (law_ == Law::compensate) {
+    // Exactly round, not round to the last digit: a circle in gives a circle out.
+    point.t1.p = r1_;
+    point.t1.dp = 0;
+    point.t1.d2p = 0;
+  }
+  return point;
+}
+
+}  // namespace fusee
