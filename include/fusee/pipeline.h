@@ -8,18 +8,32 @@
 ///     BuildResult     built     = build(file, options);                       // all of these, and every file
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
 #include "fusee/export/export.h"
 
 namespace fusee {
 
+/// What the pulley as built may miss before a check fails.
+struct AsBuiltLimits {
+  double theta_error = 0.05;  ///< deg
+  double slack = 0.05;        ///< mm
+};
+
 struct BuildOptions {
-  double tolerance = 0.01;              ///< sagitta of curves, mm
-  double theta_error_limit = 0.05;      ///< of the pulley as built, deg
-  double slack_limit = 0.05;            ///< mm
+  double tolerance = 0.01;  ///< sagitta of curves, mm
+  AsBuiltLimits limits;
   DxfVersion dxf = DxfVersion::ac1015;
-  std::filesystem::path folder;         ///< where the files go
+  std::filesystem::path folder;  ///< where the files go
   bool force = false;
-  bool dry_run = false;                 ///< everything but publishing
+  bool dry_run = false;  ///< everything but publishing; what has to be read back is staged in the system's temporary folder
+  /// Called before each step with what it does. What it throws stops the build, and nothing is left behind.
+  std::function<void(std::string_view step)> before_step;
 };
 
 enum class BuildStatus { done, infeasible, check_failed };
@@ -27,17 +41,32 @@ enum class BuildStatus { done, infeasible, check_failed };
 struct BuildResult {
   BuildStatus status = BuildStatus::done;
   Product product;
-  std::vector<OutputFile> outputs;  ///< manifest.json last
+  std::vector<OutputFile> outputs;  ///< manifest.json last; empty when infeasible
   bool published = false;
 };
 
 /// Mechanism → checked pulley in every format. Infeasible designs and failed checks are values; InputError and OutputError as their names say.
 /// A build whose check failed is published only where there is no earlier run to lose, or with `force`.
+/// What is checked is what was written: every mesh and drawing is read back from the disk.
 BuildResult build(const MechanismFile& file, const BuildOptions& options);
 
-/// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them.
-RewindResult rewind_mesh(const Mechanism& mechanism, const TriangleMesh& mesh);
-/// The same on a drawing's P1_FLOOR and P2_FLOOR (or, without them, the P*_PITCH curves shrunk by d/2).
-RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing);
+/// The files that build() leaves, in the order in which they are written.
+const std::vector<std::string>& output_names();
+
+// Parts from anywhere --------------------------------------------------------------------------------------------------
+
+/// A made part as a file holds it.
+using Part = std::variant<TriangleMesh, Drawing>;
+/// A mesh (stl obj 3mf off ply drc) or a drawing (dxf), told apart by content, then by the name's ending. InputError.
+Part read_part(const std::filesystem::path& path);
+/// check_mesh or check_drawing.
+std::vector<Check> check_part(const Part& part);
+
+/// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them, or on a drawing's P1_FLOOR and P2_FLOOR (without
+/// them on the P*_PITCH curves). InputError when there is no such groove.
+RewindResult rewind_part(const Mechanism& mechanism, const Part& part);
+/// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as "theta_error_reported" and
+/// "slack_reported", held only against 180 deg and the joint's length.
+std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built, const AsBuiltLimits& limits);
 
 }  // namespace fusee

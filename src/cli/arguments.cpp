@@ -1,0 +1,196 @@
+#include "cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "cli/command.h"
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+
+namespace fusee::cli {
+namespace {
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    if (end > 0) parts.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return parts;
+}
+
+std::vector<Option> options_of(const Command& command) {
+  std::vector<Option> options = command.options;
+  options.insert(options.end(), common_options().begin(), common_options().end());
+  return options;
+}
+
+std::string nearest_option(const std::string& word, const std::vector<Option>& options) {
+  std::vector<std::string> names;
+  for (const Option& option : options) names.emplace_back(option.name());
+  return nearest_word(word.substr(0, word.find('=')), names);
+}
+
+UsageError unknown_option(const std::string& word, const Command& command, const std::vector<Option>& options) {
+  const std::string nearest = nearest_option(word, options);
+  const std::string help = "'fusee " + std::string(command.name) + " --help' lists the options";
+  return UsageError("unknown option '" + word + "'", nearest.empty() ? help : "did you mean '" + nearest + "'?");
+}
+
+/// CLI11's own words name its types and counts; they all come down to an option whose value is missing or not wanted.
+UsageError in_our_words(const CLI::ParseError& error, const CLI::App& app, const Command& command,
+                        const std::vector<Option>& options) {
+  const std::string what = error.what();
+  for (const std::string& word : app.remaining()) return unknown_option(word, command, options);
+  for (const Option& option : options) {
+    const std::string name(option.name());
+    if (what.find(name) == std::string::npos) continue;
+    if (option.value.empty()) return UsageError(name + " is a switch and takes no value");
+    return UsageError(name + " needs a value: " + name + " " + std::string(option.value), std::string(option.meaning));
+  }
+  return UsageError(what);
+}
+
+void check_count(const Command& command, const std::vector<std::string>& given) {
+  const std::vector<std::string> expected = split(command.positionals, ' ');
+  const std::string usage = "usage: fusee " + std::string(command.name) + " " + std::string(command.positionals);
+  if (given.size() > expected.size()) {
+    throw UsageError("'" + given[expected.size()] + "' is one argument too many for '" + std::string(command.name) + "'", usage);
+  }
+  for (std::size_t i = given.size(); i < expected.size(); ++i) {
+    if (expected[i][0] != '[') throw UsageError("'" + std::string(command.name) + "' needs " + expected[i], usage);
+  }
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i].empty()) throw UsageError(expected[i] + " is empty", usage);
+  }
+}
+
+void check_values(const Option& option, const std::vector<std::string>& values) {
+  const std::string name(option.name());
+  if (values.size() > 1 && !option.repeatable) throw UsageError(name + " is given " + std::to_string(values.size()) + " times");
+  for (const std::string& value : values) {
+    if (value.empty() || value.rfind("--", 0) == 0) {
+      throw UsageError(name + " needs a value: " + name + " " + std::string(option.value), std::string(option.meaning));
+    }
+  }
+}
+
+/// Switches of one letter each, "-qv", and values in the same word, "--set=a.b=1" or "-oDIR", take no further word.
+bool takes_next_word(const std::string& word) {
+  for (const Command& command : commands()) {
+    for (const Option& option : options_of(command)) {
+      if (option.value.empty()) continue;
+      const std::vector<std::string> flags = split(option.flags, ',');
+      if (std::find(flags.begin(), flags.end(), word) != flags.end()) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+UsageError::UsageError(std::string message, std::string hint)
+    : std::runtime_error(std::move(message)), hint_(std::move(hint)) {}
+
+const std::vector<Option>& common_options() {
+  static const std::vector<Option> options = {
+      {"--json", "", "stdout holds one JSON document and nothing else"},
+      {"--set", "KEY=VALUE", "use VALUE for a key of the mechanism file, such as\npulley.r1_mm=18; may be given several times", true},
+      {"--force", "", "overwrite files that fusee did not write"},
+      {"--dry-run", "", "do everything, but leave no file behind"},
+      {"-q,--quiet", "", "no warnings and no progress; errors are still shown"},
+      {"-v,--verbose", "", "say more: each step, and every check"},
+      {"--no-color", "", "no colours (nor with NO_COLOR set in the environment)"},
+      {"-h,--help", "", "this help"},
+      {"--version", "", "the version of fusee"},
+  };
+  return options;
+}
+
+Arguments::Arguments(const Command& command, const std::vector<std::string>& words) {
+  const std::vector<Option> options = options_of(command);
+  std::map<std::string, bool> switches;
+  CLI::App app;
+  app.set_help_flag();
+  app.add_option("arguments", positionals_);
+  for (const Option& option : options) {
+    const std::string name(option.name());
+    if (option.value.empty()) {
+      app.add_flag(std::string(option.flags), switches[name]);
+    } else {
+      app.add_option(std::string(option.flags), values_[name])
+          ->expected(1)
+          ->allow_extra_args(false)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+  }
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 reads from the back
+  } catch (const CLI::ParseError& error) {
+    throw in_our_words(error, app, command, options);
+  }
+  for (const Option& option : options) {
+    const std::string name(option.name());
+    if (option.value.empty() ? !switches[name] : values_[name].empty()) {
+      values_.erase(name);
+    } else if (!option.value.empty()) {
+      check_values(option, values_[name]);
+    } else {
+      values_[name];
+    }
+  }
+  if (!has("--help") && !has("--version")) check_count(command, positionals_);
+}
+
+std::optional<std::string> Arguments::text(std::string_view option) const {
+  const auto found = values_.find(std::string(option));
+  if (found == values_.end()) return std::nullopt;
+  return found->second.front();
+}
+
+double Arguments::number(std::string_view option, double fallback, double least, double most, std::string_view unit) const {
+  const std::optional<std::string> given = text(option);
+  if (!given) return fallback;
+  double value = 0;
+  const char* end = given->data() + given->size();
+  const auto [stop, error] = std::from_chars(given->data(), end, value);
+  const bool is_number = error == std::errc() && stop == end;
+  if (!is_number || !std::isfinite(value) || value < least || value > most) {
+    throw UsageError(std::string(option) + " must be a number from " + shortest(least) + " to " + shortest(most) + " " +
+                     std::string(unit) + "; '" + *given + "' is not");
+  }
+  return value;
+}
+
+std::vector<Setting> Arguments::settings() const {
+  const auto found = values_.find("--set");
+  if (found == values_.end()) return {};
+  std::vector<Setting> settings;
+  for (const std::string& text : found->second) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+      throw UsageError("--set takes table.key=value; '" + text + "' is not of that form", "for example: --set pulley.r1_mm=18");
+    }
+    settings.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return settings;
+}
+
+std::optional<std::size_t> find_command(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--") return i + 1 < words.size() ? std::optional(i + 1) : std::nullopt;
+    if (words[i].size() < 2 || words[i][0] != '-') return i;
+    if (takes_next_word(words[i])) ++i;
+  }
+  return std::nullopt;
+}
+
+bool has_switch(const std::vector<std::string>& words, std::string_view option) {
+  const auto end = std::find(words.begin(), words.end(), "--");
+  return std::find(words.begin(), end, option) != end;
+}
+
+}  // namespace fusee::cli

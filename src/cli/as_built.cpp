@@ -1,0 +1,50 @@
+#include "cli/as_built.h"
+
+#include "cli/table.h"
+#include "fusee/base/text.h"
+
+namespace fusee::cli {
+namespace {
+
+/// Counts and plain numbers have the unit "1", which nobody wants to read.
+std::string with_unit(double value, const std::string& unit) { return rounded(value) + (unit == "1" ? "" : " " + unit); }
+
+}  // namespace
+
+const std::vector<Option>& limit_options() {
+  static const std::vector<Option> options = {
+      {"--max-theta-error-deg", "DEG", "largest error of the joint angle as built (default 0.05)"},
+      {"--max-slack-mm", "MM", "largest slack of a tendon as built (default 0.05)"},
+  };
+  return options;
+}
+
+AsBuiltLimits limits_from(const Arguments& arguments) {
+  AsBuiltLimits limits;
+  limits.theta_error = arguments.number("--max-theta-error-deg", limits.theta_error, 0.0, 180.0, "deg");
+  limits.slack = arguments.number("--max-slack-mm", limits.slack, 0.0, 1000.0, "mm");
+  return limits;
+}
+
+std::string as_built_text(const RewindResult& as_built) {
+  return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, slack within " + rounded(as_built.max_slack, 2) + " mm";
+}
+
+std::string checks_table(const std::vector<Check>& checks) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Check& check : checks) {
+    rows.push_back({check.ok ? "ok" : "FAILED", check.name, rounded(check.value), rounded(check.limit), check.unit == "1" ? "" : check.unit,
+                    check.where});
+  }
+  return table({{""}, {"check"}, {"value", Align::right}, {"limit", Align::right}, {"unit"}, {"where"}}, rows);
+}
+
+void add_failures(const std::vector<Check>& checks, Reply& reply) {
+  for (const Check& check : checks) {
+    if (check.ok) continue;
+    reply.diagnostics.push_back(note(Severity::error, "check '" + check.name + "' failed: " + with_unit(check.value, check.unit) + ", limit " +
+                                           with_unit(check.limit, check.unit) + (check.where.empty() ? "" : "; " + check.where)));
+  }
+}
+
+}  // namespace fusee::cli

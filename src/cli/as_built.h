@@ -1,0 +1,24 @@
+/// \file
+/// What `build`, `check` and `rewind` have in common: limits of the pulley as built, and how checks are shown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/reply.h"
+#include "fusee/pipeline.h"
+
+namespace fusee::cli {
+
+/// --max-theta-error-deg and --max-slack-mm.
+const std::vector<Option>& limit_options();
+AsBuiltLimits limits_from(const Arguments& arguments);
+
+/// "theta within 0.0012 deg, slack within 0.003 mm"
+std::string as_built_text(const RewindResult& as_built);
+std::string checks_table(const std::vector<Check>& checks);
+/// An error for each failed check.
+void add_failures(const std::vector<Check>& checks, Reply& reply);
+
+}  // namespace fusee::cli

@@ -1,0 +1,209 @@
+#include <filesystem>
+
+#include "cli/as_built.h"
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/table.h"
+#include "fusee/base/text.h"
+#include "fusee/pipeline.h"
+
+namespace fusee::cli {
+namespace {
+
+struct Range {
+  double least = 0;
+  double most = 0;
+};
+
+template <typename Value>
+Range range_over(const std::vector<TransmissionPoint>& stroke, Value value) {
+  Range range{value(stroke.front()), value(stroke.front())};
+  for (const TransmissionPoint& point : stroke) {
+    range.least = std::min(range.least, value(point));
+    range.most = std::max(range.most, value(point));
+  }
+  return range;
+}
+
+struct StrokeRanges {
+  Range alpha, theta, r1, r2;  ///< deg, mm
+};
+
+StrokeRanges ranges_of(const std::vector<TransmissionPoint>& stroke) {
+  return {range_over(stroke, [](const TransmissionPoint& point) { return degrees(point.alpha); }),
+          range_over(stroke, [](const TransmissionPoint& point) { return degrees(point.theta); }),
+          range_over(stroke, [](const TransmissionPoint& point) { return point.t1.p; }),
+          range_over(stroke, [](const TransmissionPoint& point) { return point.t2.p; })};
+}
+
+std::string line(std::string title, const std::string& text) {
+  title.resize(12, ' ');
+  return "  " + title + text + "\n";
+}
+
+std::string range_text(const Range& range, int decimals, const std::string& unit) {
+  return "from " + fixed(range.least, decimals) + " to " + fixed(range.most, decimals) + " " + unit;
+}
+
+std::string size_text(std::size_t bytes) {
+  return bytes < 10000 ? std::to_string(bytes) + " B" : std::to_string((bytes + 500) / 1000) + " kB";
+}
+
+std::string files_text(const BuildResult& built, const BuildOptions& options) {
+  if (options.dry_run) return line("files", "none written (--dry-run)");
+  if (!built.published) return line("files", "none written: " + options.folder.string() + " keeps its earlier run");
+  std::string text = line("files", "in " + options.folder.string());
+  for (const OutputFile& file : built.outputs) {
+    std::string name = file.name;
+    name.resize(18, ' ');
+    const std::string size = size_text(file.bytes.size());
+    text += std::string(14, ' ') + name + std::string(8 - std::min<std::size_t>(8, size.size()), ' ') + size + "\n";
+  }
+  return text;
+}
+
+std::string checks_line(const std::vector<Check>& checks) {
+  const auto passed = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.ok; });
+  return line("checks", std::to_string(passed) + " of " + std::to_string(checks.size()) + " passed");
+}
+
+std::string summary(const BuildResult& built, const BuildOptions& options, bool verbose) {
+  const Product& product = built.product;
+  const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
+  std::string text = product.file.mechanism.name + "\n";
+  text += line("alpha", range_text(ranges.alpha, 2, "deg at the pulley"));
+  text += line("theta", range_text(ranges.theta, 2, "deg at the joint"));
+  text += line("r1", range_text(ranges.r1, 3, "mm"));
+  text += line("r2", range_text(ranges.r2, 3, "mm"));
+  text += line("as built", as_built_text(product.as_built));
+  text += checks_line(product.checks);
+  text += files_text(built, options);
+  return verbose ? text + "\n" + checks_table(product.checks) : text;
+}
+
+Json range_json(const Range& range) { return {range.least, range.most}; }
+
+Json product_json(const BuildResult& built, const BuildOptions& options) {
+  const Product& product = built.product;
+  const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
+  Json json;
+  json["name"] = product.file.mechanism.name;
+  json["folder"] = options.folder.string();
+  json["published"] = built.published;
+  json["alpha_deg"] = range_json(ranges.alpha);
+  json["theta_deg"] = range_json(ranges.theta);
+  json["r1_mm"] = range_json(ranges.r1);
+  json["r2_mm"] = range_json(ranges.r2);
+  json["as_built"] = {{"max_theta_error_deg", degrees(product.as_built.max_theta_error)}, {"max_slack_mm", product.as_built.max_slack}};
+  json["checks"] = to_json(product.checks);
+  json["outputs"] = Json::array();
+  for (const OutputFile& file : built.outputs) {
+    json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  }
+  return json;
+}
+
+/// Why no such pulley can be made, where, and what would help.
+void explain_infeasible(const BuildResult& built, Reply& reply) {
+  const Product& product = built.product;
+  const bool has_curves = product.synthesis.made();
+  const std::vector<Condition>& conditions = has_curves ? product.pulley.conditions : product.synthesis.conditions;
+  for (const Condition& condition : conditions) {
+    if (!condition.ok) reply.diagnostics.push_back(about_file(Severity::error, product.file.path, condition.message));
+  }
+  const std::vector<Change>& advice = product.synthesis.advice;
+  if (!has_curves) {
+    for (const Change& change : advice) {
+      reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + change.text + " (" + change.key + " is " +
+                                                           rounded(change.from) + ")"));
+    }
+    if (advice.empty()) reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
+  }
+  reply.exit = Exit::infeasible;
+  reply.fields["conditions"] = to_json(conditions);
+  reply.fields["advice"] = to_json(has_curves ? std::vector<Change>() : advice);
+}
+
+void add_failed_checks(const BuildResult& built, const BuildOptions& options, Reply& reply) {
+  reply.exit = Exit::check_failed;
+  add_failures(built.product.checks, reply);
+  if (!built.published && !options.dry_run) {
+    reply.diagnostics.push_back(note(Severity::note, "the files of the earlier run in " + options.folder.string() + " were kept",
+                                     "--force replaces them with the faulty ones"));
+  }
+}
+
+void add_warnings(const Product& product, Reply& reply) {
+  reply.diagnostics.insert(reply.diagnostics.end(), product.file.warnings.begin(), product.file.warnings.end());
+  const auto add = [&](Severity severity, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) reply.diagnostics.push_back(about_file(severity, product.file.path, text));
+  };
+  add(Severity::warning, product.synthesis.warnings);
+  add(Severity::note, product.pulley.layout.notes);
+}
+
+DxfVersion dxf_version(const Arguments& arguments) {
+  const std::string name = arguments.text("--dxf").value_or("ac1015");
+  if (name == "ac1015") return DxfVersion::ac1015;
+  if (name == "r12") return DxfVersion::r12;
+  throw UsageError("--dxf must be ac1015 or r12; '" + name + "' is not");
+}
+
+BuildOptions options_from(const Arguments& arguments) {
+  BuildOptions options;
+  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
+  options.limits = limits_from(arguments);
+  options.dxf = dxf_version(arguments);
+  options.force = arguments.has("--force");
+  options.dry_run = arguments.has("--dry-run");
+  const std::filesystem::path spec = arguments.positionals().front();
+  options.folder = arguments.text("--out").value_or(("out" / spec.stem()).string());
+  return options;
+}
+
+Reply run_build(const Arguments& arguments, Console& console) {
+  BuildOptions options = options_from(arguments);
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
+  options.before_step = [&console](std::string_view step) {
+    stop_if_interrupted();
+    console.progress(step);
+  };
+  const InterruptsDeferred deferred;
+  const BuildResult built = build(file, options);
+  Reply reply;
+  add_warnings(built.product, reply);
+  if (built.status == BuildStatus::infeasible) {
+    explain_infeasible(built, reply);
+    return reply;
+  }
+  reply.text = summary(built, options, console.verbose());
+  reply.fields = product_json(built, options);
+  if (built.status == BuildStatus::check_failed) add_failed_checks(built, options, reply);
+  return reply;
+}
+
+}  // namespace
+
+Command build_command() {
+  std::vector<Option> options = {
+      {"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>)"},
+      {"--tolerance-mm", "MM", "how far facets may stray from the curve (default 0.01)"},
+      {"--dxf", "VERSION", "drawings as ac1015 (default) or r12"},
+  };
+  for (const Option& option : limit_options()) options.push_back(option);
+  return {"build",
+          "SPEC",
+          "the pulley in every format, checked",
+          "Makes the pulley of the mechanism file SPEC: meshes to print, drawings to cut,\n"
+          "tables and a report. Everything that was written is read back and checked, and\n"
+          "tendons are wound on the mesh to find the joint angle that it really gives.\n"
+          "When no such pulley can be made, it says where, why, and which change of which\n"
+          "number would make it possible.",
+          options,
+          {{"fusee build arm.toml", "everything in out/arm; open out/arm/report.html"},
+           {"fusee build arm.toml -o parts --dxf r12", "into parts, with drawings for an old laser cutter"},
+           {"fusee build arm.toml --set pulley.r1_mm=15 --dry-run", "would another r1 do? writes nothing"}},
+          run_build};
+}
+
+}  // namespace fusee::cli

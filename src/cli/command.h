@@ -1,0 +1,42 @@
+/// \file
+/// What a command of the program is: a name, its help as data, and a function from arguments to a reply.
+/// Help, parsing, the nearest option of a misspelt one and the tests of the examples all read the same table.
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/console.h"
+#include "cli/reply.h"
+
+namespace fusee::cli {
+
+/// A command line that a person can copy, and what it does.
+struct Example {
+  std::string_view line;
+  std::string_view effect;
+};
+
+struct Command {
+  std::string_view name;
+  std::string_view positionals;  ///< "SPEC FILE", "[KEY]": brackets mark what may be left out
+  std::string_view summary;      ///< one line in the list of commands
+  std::string_view description;  ///< one paragraph for someone who has never used it
+  std::vector<Option> options;   ///< beside those that every command takes
+  std::vector<Example> examples;
+  std::function<Reply(const Arguments&, Console&)> run;
+};
+
+// One file a command.
+Command new_command();
+Command explain_command();
+Command build_command();
+Command check_command();
+Command rewind_command();
+
+/// All of them, in the order in which a person meets them.
+const std::vector<Command>& commands();
+
+}  // namespace fusee::cli

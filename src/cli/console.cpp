@@ -1,0 +1,93 @@
+#include "cli/console.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+
+namespace fusee::cli {
+namespace {
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// Names of files stand in messages and may hold escape sequences that a terminal would obey.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if ((code < 0x20 && c != '\n' && c != '\t') || code == 0x7f) c = '?';
+  }
+  return text;
+}
+
+/// "error:" in red, "warning:" in yellow, "hint:" in cyan: the first of each.
+std::string colored(std::string text, Severity severity) {
+  const auto paint = [&text](std::string_view word, std::string_view code) {
+    const std::size_t at = text.find(word);
+    if (at != std::string::npos) text.replace(at, word.size(), "\x1b[" + std::string(code) + "m" + std::string(word) + "\x1b[0m");
+  };
+  if (severity == Severity::error) paint("error:", "1;31");
+  if (severity == Severity::warning) paint("warning:", "1;33");
+  if (severity == Severity::note) paint("note:", "1;34");
+  paint("  hint:", "36");
+  return text;
+}
+
+bool wants_color() {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  return (no_color == nullptr || *no_color == '\0') && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+}  // namespace
+
+Console::Console(ConsoleOptions options)
+    : options_(options), terminal_(::isatty(STDERR_FILENO) == 1), color_(terminal_ && !options.no_color && wants_color()) {}
+
+Console::~Console() { end_progress(); }
+
+void Console::say(const Diagnostic& diagnostic) {
+  if (options_.quiet && diagnostic.severity != Severity::error) return;
+  end_progress();
+  std::string text = printable(to_text(diagnostic));
+  if (diagnostic.place.file.empty()) text.insert(0, "fusee: ");
+  if (color_) text = colored(std::move(text), diagnostic.severity);
+  write_all(STDERR_FILENO, text + "\n");
+}
+
+void Console::progress(std::string_view step) {
+  if (options_.quiet) return;
+  if (options_.verbose) {
+    write_all(STDERR_FILENO, "fusee: " + std::string(step) + "\n");
+  } else if (terminal_) {
+    write_all(STDERR_FILENO, "\r\x1b[K" + std::string(step) + " …");
+    progress_shown_ = true;
+  }
+}
+
+void Console::end_progress() {
+  if (progress_shown_) write_all(STDERR_FILENO, "\r\x1b[K");
+  progress_shown_ = false;
+}
+
+bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, text); }
+
+void make_streams_safe() {
+  std::signal(SIGPIPE, SIG_IGN);
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // open() takes the lowest free number, which is this one.
+    ::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+}  // namespace fusee::cli

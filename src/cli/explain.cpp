@@ -1,0 +1,37 @@
+#include "cli/command.h"
+#include "fusee/mechanism/file.h"
+
+namespace fusee::cli {
+namespace {
+
+Reply run_explain(const Arguments& arguments, Console&) {
+  Reply reply;
+  if (arguments.has("--schema")) {
+    const std::string schema = mechanism_schema();
+    reply.text = schema;
+    reply.fields["json_schema"] = Json::parse(schema);
+    return reply;
+  }
+  const std::string key = arguments.positionals().empty() ? "" : arguments.positionals().front();
+  reply.text = explain(key);
+  reply.fields["explained"] = Json::parse(explain_json(key));
+  return reply;
+}
+
+}  // namespace
+
+Command explain_command() {
+  return {"explain",
+          "[KEY]",
+          "what a key of the mechanism file means",
+          "Says what a key of the mechanism file means, its unit, its range and its default.\n"
+          "KEY is a key (r1_mm), a key with its table (pulley.r1_mm) or a table (pulley).\n"
+          "Without KEY it lists them all.",
+          {{"--schema", "", "the JSON schema of the mechanism file, for editors"}},
+          {{"fusee explain", "list every key"},
+           {"fusee explain pulley.r1_mm", "one key"},
+           {"fusee explain --schema > mechanism.schema.json", "completion and checking in an editor"}},
+          run_explain};
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,68 @@
+#include "cli/help.h"
+
+#include <algorithm>
+
+namespace fusee::cli {
+namespace {
+
+constexpr std::size_t k_meaning_column = 26;
+
+/// "  -o, --out DIR           where the files go"; further lines of a meaning stand below its first.
+std::string option_line(const Option& option) {
+  std::string flags(option.flags);
+  if (const std::size_t comma = flags.find(','); comma != std::string::npos) flags.insert(comma + 1, " ");
+  std::string line = (flags.rfind("--", 0) == 0 ? "      " : "  ") + flags;
+  if (!option.value.empty()) line += " " + std::string(option.value);
+  line.resize(std::max(line.size() + 2, k_meaning_column), ' ');
+  for (const char c : option.meaning) line += c == '\n' ? "\n" + std::string(k_meaning_column, ' ') : std::string(1, c);
+  return line + "\n";
+}
+
+std::string option_lines(const std::vector<Option>& options) {
+  std::string text;
+  for (const Option& option : options) text += option_line(option);
+  return text;
+}
+
+}  // namespace
+
+std::string main_help() {
+  std::string text =
+      "fusee: from a tendon-driven joint to the pulley that drives it, checked and ready\n"
+      "to print or cut.\n"
+      "\n"
+      "usage: fusee COMMAND [ARGUMENTS] [OPTIONS]\n"
+      "\n"
+      "commands:\n";
+  for (const Command& command : commands()) {
+    std::string line = "  " + std::string(command.name) + " " + std::string(command.positionals);
+    line.resize(std::max(line.size() + 2, k_meaning_column), ' ');
+    text += line + std::string(command.summary) + "\n";
+  }
+  text += "\noptions, before or after the command:\n" + option_lines(common_options());
+  text +=
+      "\n"
+      "examples:\n"
+      "  fusee new paper_optimum > arm.toml   a mechanism file to start from\n"
+      "  fusee build arm.toml                 the pulley and its report, in out/arm\n"
+      "  fusee explain pulley.r1_mm           what a key of that file means\n"
+      "\n"
+      "exit codes: 0 done, 1 a bug in fusee, 2 wrong usage, 3 bad input, 4 no such pulley\n"
+      "can be made, 5 made but a check failed, 6 an output exists or cannot be written,\n"
+      "130 interrupted. 'fusee COMMAND --help' says more about a command.\n";
+  return text;
+}
+
+std::string command_help(const Command& command) {
+  std::string text = "usage: fusee " + std::string(command.name) + " " + std::string(command.positionals) + " [OPTIONS]\n\n";
+  text += std::string(command.description) + "\n";
+  if (!command.options.empty()) text += "\noptions of this command:\n" + option_lines(command.options);
+  text += "\noptions of every command:\n" + option_lines(common_options());
+  text += "\nexamples:\n";
+  for (const Example& example : command.examples) {
+    text += "  " + std::string(example.line) + "\n      " + std::string(example.effect) + "\n";
+  }
+  return text;
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,28 @@
+/// \file
+/// Ctrl-C, SIGTERM and SIGHUP: exit 130, nothing half done.
+#pragma once
+
+#include <stdexcept>
+
+namespace fusee::cli {
+
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+/// From here on a signal ends the program at once with exit 130, but for the places below. `json`: with a document on stdout.
+void catch_interrupts(bool json);
+
+/// While one of these lives something stands on the disk that has to be removed: a signal is only noted, and
+/// stop_if_interrupted() throws Interrupted at the next step.
+class InterruptsDeferred {
+ public:
+  InterruptsDeferred();
+  ~InterruptsDeferred();
+  InterruptsDeferred(const InterruptsDeferred&) = delete;
+  InterruptsDeferred& operator=(const InterruptsDeferred&) = delete;
+};
+void stop_if_interrupted();
+
+}  // namespace fusee::cli

@@ -1,0 +1,80 @@
+#include "cli/reply.h"
+
+namespace fusee::cli {
+namespace {
+
+Json to_json(const Diagnostic& diagnostic) {
+  return {{"file", diagnostic.place.file},
+          {"line", diagnostic.place.line},
+          {"column", diagnostic.place.column},
+          {"message", diagnostic.message},
+          {"hint", diagnostic.hint}};
+}
+
+Json of_severity(const std::vector<Diagnostic>& diagnostics, bool errors) {
+  Json list = Json::array();
+  for (const Diagnostic& diagnostic : diagnostics) {
+    if ((diagnostic.severity == Severity::error) == errors) list.push_back(to_json(diagnostic));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string document(const Reply& reply, const std::string& command) {
+  Json json = {{"schema", 1}, {"command", command}, {"ok", reply.exit == Exit::done}, {"exit", static_cast<int>(reply.exit)}};
+  json["errors"] = of_severity(reply.diagnostics, true);
+  json["warnings"] = of_severity(reply.diagnostics, false);
+  json.update(reply.fields);
+  // Names of files may hold any bytes; JSON may not.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json to_json(const Check& check) {
+  return {{"name", check.name}, {"value", check.value}, {"limit", check.limit},
+          {"unit", check.unit}, {"ok", check.ok},       {"where", check.where}};
+}
+
+Json to_json(const std::vector<Check>& checks) {
+  Json list = Json::array();
+  for (const Check& check : checks) list.push_back(to_json(check));
+  return list;
+}
+
+Json to_json(const std::vector<Condition>& conditions) {
+  Json list = Json::array();
+  for (const Condition& condition : conditions) {
+    list.push_back({{"name", condition.name},
+                    {"ok", condition.ok},
+                    {"alpha_deg", degrees(condition.alpha)},
+                    {"value", condition.value},
+                    {"limit", condition.limit},
+                    {"unit", condition.unit},
+                    {"message", condition.message}});
+  }
+  return list;
+}
+
+Json to_json(const std::vector<Change>& advice) {
+  Json list = Json::array();
+  for (const Change& change : advice) {
+    list.push_back({{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}});
+  }
+  return list;
+}
+
+Diagnostic note(Severity severity, std::string message, std::string hint) {
+  Diagnostic diagnostic;
+  diagnostic.severity = severity;
+  diagnostic.message = std::move(message);
+  diagnostic.hint = std::move(hint);
+  return diagnostic;
+}
+
+Diagnostic about_file(Severity severity, std::string file, std::string message) {
+  Diagnostic diagnostic = note(severity, std::move(message));
+  diagnostic.place.file = std::move(file);
+  return diagnostic;
+}
+
+}  // namespace fusee::cli

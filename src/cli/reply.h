@@ -1,0 +1,38 @@
+/// \file
+/// What a command answers: an exit code, text for a person and the same as JSON for a machine.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fusee/base/check.h"
+#include "fusee/base/diagnostics.h"
+#include "fusee/profile/synthesis.h"
+
+namespace fusee::cli {
+
+using Json = nlohmann::ordered_json;
+
+enum class Exit { done = 0, bug = 1, usage = 2, bad_input = 3, infeasible = 4, check_failed = 5, cannot_write = 6, interrupted = 130 };
+
+struct Reply {
+  Exit exit = Exit::done;
+  std::string text;                     ///< results, for stdout
+  std::vector<Diagnostic> diagnostics;  ///< for stderr, and "errors" and "warnings" of the document
+  Json fields = Json::object();         ///< what the document holds beside schema, ok, exit, errors and warnings
+};
+
+/// The one document of --json.
+std::string document(const Reply& reply, const std::string& command);
+
+Json to_json(const Check& check);
+Json to_json(const std::vector<Check>& checks);
+Json to_json(const std::vector<Condition>& conditions);
+Json to_json(const std::vector<Change>& advice);
+
+/// A diagnostic without a place in a file, and one about a whole file.
+Diagnostic note(Severity severity, std::string message, std::string hint = {});
+Diagnostic about_file(Severity severity, std::string file, std::string message);
+
+}  // namespace fusee::cli

@@ -1,0 +1,124 @@
+#include "cli/run.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "cli/command.h"
+#include "cli/help.h"
+#include "cli/interrupt.h"
+
+namespace fusee::cli {
+namespace {
+
+constexpr const char* k_version = FUSEE_VERSION;
+
+const Command& find_known_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) {
+    if (command.name == name) return command;
+    names.emplace_back(command.name);
+  }
+  const std::string nearest = nearest_word(name, names);
+  throw UsageError("unknown command '" + name + "'",
+                   nearest.empty() ? "'fusee --help' lists the commands" : "did you mean 'fusee " + nearest + "'?");
+}
+
+Reply help_reply(const std::string& text) {
+  Reply reply;
+  reply.text = text;
+  reply.fields["help"] = text;
+  return reply;
+}
+
+Reply version_reply() {
+  Reply reply;
+  reply.text = std::string("fusee ") + k_version + "\n";
+  reply.fields["tool"] = "fusee";
+  reply.fields["version"] = k_version;
+  return reply;
+}
+
+Reply without_command(const std::vector<std::string>& words) {
+  if (has_switch(words, "--help") || has_switch(words, "-h")) return help_reply(main_help());
+  if (has_switch(words, "--version")) return version_reply();
+  throw UsageError("no command given", "'fusee --help' lists the commands");
+}
+
+Reply answer(std::vector<std::string> words, std::string& command_name, Console& console) {
+  const auto at = find_command(words);
+  if (!at) return without_command(words);
+  const Command& command = find_known_command(words[*at]);
+  command_name = command.name;
+  words.erase(words.begin() + static_cast<std::ptrdiff_t>(*at));
+  const Arguments arguments(command, words);
+  if (arguments.has("--help")) return help_reply(command_help(command));
+  if (arguments.has("--version")) return version_reply();
+  return command.run(arguments, console);
+}
+
+Reply failed(Exit exit, Diagnostic diagnostic) {
+  Reply reply;
+  reply.exit = exit;
+  reply.diagnostics.push_back(std::move(diagnostic));
+  return reply;
+}
+
+Reply bug(const std::string& what) {
+  return failed(Exit::bug, note(Severity::error, what + ": this is a bug in fusee",
+                                      "please report it with the command line, the mechanism file and the output of 'fusee --version'"));
+}
+
+/// The one place where exceptions become exit codes.
+Reply guarded_answer(const std::vector<std::string>& words, std::string& command_name, Console& console) {
+  try {
+    return answer(words, command_name, console);
+  } catch (const UsageError& error) {
+    return failed(Exit::usage, note(Severity::error, error.what(), error.hint()));
+  } catch (const InputError& error) {
+    Reply reply;
+    reply.exit = Exit::bad_input;
+    reply.diagnostics = error.diagnostics();
+    return reply;
+  } catch (const OutputError& error) {
+    return failed(Exit::cannot_write, note(Severity::error, error.what(), error.hint()));
+  } catch (const Interrupted& error) {
+    return failed(Exit::interrupted, note(Severity::error, error.what()));
+  } catch (const std::bad_alloc&) {
+    return bug("out of memory");
+  } catch (const std::exception& error) {
+    return bug(error.what());
+  } catch (...) {
+    return bug("unknown exception");
+  }
+}
+
+}  // namespace
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = {new_command(), explain_command(), build_command(), check_command(), rewind_command()};
+  return all;
+}
+
+int run(const std::vector<std::string>& words) {
+  const bool json = has_switch(words, "--json");
+  ConsoleOptions options;
+  options.quiet = has_switch(words, "-q") || has_switch(words, "--quiet");
+  options.verbose = has_switch(words, "-v") || has_switch(words, "--verbose");
+  options.no_color = has_switch(words, "--no-color");
+  catch_interrupts(json);
+  Console console(options);
+  std::string command_name;
+  const Reply reply = guarded_answer(words, command_name, console);
+  for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);
+  console.end_progress();
+  if (!write_result(json ? document(reply, command_name) : reply.text)) {
+    console.say(note(Severity::error, std::string("the result could not be written to stdout: ") + std::strerror(errno)));
+    return static_cast<int>(reply.exit == Exit::done ? Exit::cannot_write : reply.exit);
+  }
+  return static_cast<int>(reply.exit);
+}
+
+}  // namespace fusee::cli

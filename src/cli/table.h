@@ -1,0 +1,21 @@
+/// \file
+/// Columns of text for a person.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fusee::cli {
+
+enum class Align { left, right };
+
+struct Column {
+  std::string_view title;
+  Align align = Align::left;
+};
+
+/// A title line and one line a row, columns two spaces apart, without trailing blanks. Widths count characters, not bytes.
+std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace fusee::cli

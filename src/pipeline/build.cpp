@@ -1,0 +1,153 @@
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "fusee/pipeline.h"
+#include "pipeline/agreement.h"
+
+namespace fusee {
+namespace {
+
+/// A folder of our own in the system's temporary folder, gone with all it holds at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "fusee-dry-run-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw OutputError("the temporary folder cannot be written: " + name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A build under way: what was made so far and where it is staged.
+struct Workshop {
+  const BuildOptions& options;
+  OutputFolder& folder;
+  BuildResult& result;
+
+  void step(std::string_view what) const {
+    if (options.before_step) options.before_step(what);
+  }
+  void stage(std::string name, std::string bytes) {
+    result.outputs.push_back({std::move(name), std::move(bytes)});
+    folder.stage(result.outputs.back());
+  }
+  Part read_back(const std::string& name) const { return read_part(folder.staged_path(name)); }
+  void add(std::vector<Check> checks, const std::string& prefix = {}) {
+    for (Check& check : checks) {
+      check.name = prefix + check.name;
+      result.product.checks.push_back(std::move(check));
+    }
+  }
+};
+
+/// False when no such pulley can be made.
+bool design(Workshop& shop) {
+  Product& product = shop.result.product;
+  const Mechanism& mechanism = product.file.mechanism;
+  shop.step("finding both pitch curves");
+  SynthesisOptions synthesis_options;
+  synthesis_options.tolerance = shop.options.tolerance;
+  product.synthesis = synthesise(mechanism, synthesis_options);
+  if (!product.synthesis.made()) return false;
+  shop.step("making the body");
+  product.pulley = make_pulley(mechanism, product.synthesis);
+  return product.pulley.made();
+}
+
+void write_parts(Workshop& shop) {
+  const Product& product = shop.result.product;
+  const TriangleMesh& mesh = product.pulley.mesh;
+  const std::string& name = product.file.mechanism.name;
+  shop.step("writing meshes and drawings");
+  shop.stage("pulley.stl", stl_bytes(mesh, name));
+  shop.stage("pulley.obj", obj_text(mesh, name));
+  shop.stage("pulley.3mf", threemf_bytes(mesh, name));
+  shop.stage("pulley.drc", draco_bytes(mesh, shop.options.tolerance));
+  shop.stage("pulley.scad", scad_text(product));
+  shop.stage("profile.dxf", profile_dxf(product, shop.options.dxf));
+  shop.stage("plates.dxf", plates_dxf(product, shop.options.dxf));
+}
+
+/// Everything below looks at files, not at what is in memory: only what was written can be printed.
+void check_parts(Workshop& shop) {
+  Product& product = shop.result.product;
+  const Mechanism& mechanism = product.file.mechanism;
+  shop.step("checking the mesh that was written");
+  const Part written = shop.read_back("pulley.stl");
+  const auto& mesh = std::get<TriangleMesh>(written);
+  shop.add(check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance));
+  shop.step("winding tendons on it");
+  product.as_built = rewind_part(mechanism, written);
+  shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
+  shop.step("checking the other files");
+  for (const std::string format : {"obj", "3mf", "drc"}) {
+    const Part other = shop.read_back("pulley." + format);
+    shop.add(agreement(mesh, std::get<TriangleMesh>(other), format == "drc" ? shop.options.tolerance : 0.0), format + "_");
+  }
+  for (const std::string drawing : {"profile", "plates"}) {
+    shop.add(check_part(shop.read_back(drawing + ".dxf")), drawing + "_dxf_");
+  }
+}
+
+void write_texts(Workshop& shop) {
+  const Product& product = shop.result.product;
+  shop.step("writing tables, report and manifest");
+  shop.stage("profile.csv", profile_csv(product));
+  shop.stage("transmission.csv", transmission_csv(product));
+  shop.stage("report.html", report_html(product));
+  shop.stage("manifest.json", manifest_json(product, shop.result.outputs));
+}
+
+void work(Workshop& shop) {
+  if (!design(shop)) {
+    shop.result.status = BuildStatus::infeasible;
+    return;
+  }
+  write_parts(shop);
+  check_parts(shop);
+  write_texts(shop);
+  shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
+}
+
+}  // namespace
+
+const std::vector<std::string>& output_names() {
+  static const std::vector<std::string> names = {"pulley.stl",  "pulley.obj", "pulley.3mf",  "pulley.drc",       "pulley.scad",  "profile.dxf",
+                                                 "plates.dxf", "profile.csv", "transmission.csv", "report.html", "manifest.json"};
+  return names;
+}
+
+BuildResult build(const MechanismFile& file, const BuildOptions& options) {
+  BuildResult result;
+  result.product.file = file;
+  OutputFolder target(options.folder, options.force);
+  target.claim(output_names());  // before the work: a refusal should not cost a wait
+  if (options.dry_run) {
+    const TemporaryFolder temporary;
+    OutputFolder staging(temporary.path() / "out", true);
+    Workshop shop{options, staging, result};
+    work(shop);
+    return result;
+  }
+  Workshop shop{options, target, result};
+  work(shop);
+  const bool may_publish = result.status == BuildStatus::done || !target.has_earlier_run() || options.force;
+  if (result.status == BuildStatus::infeasible || !may_publish) return result;
+  shop.step("publishing");
+  target.publish();
+  result.published = true;
+  return result;
+}
+
+}  // namespace fusee
