@@ -20,8 +20,11 @@ struct Field {
   std::string_view symbol; ///< the paper's symbol or "" ("R")
   FieldKind kind = FieldKind::number;
   std::string_view unit;   ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
+  /// Must be written. Where [transmission] stands in place of the mechanism, only its own keys must.
   bool required = false;
-  /// Default as it would be written in the file ("0.12", "\"u\"", "true"); "" when required.
+  /// "pulley.law=compensate": the key is used only then (a warning otherwise), and must be written then if it has no default.
+  std::string_view only_when;
+  /// Default as it would be written in the file ("0.12", "\"u\"", "true"); "" when there is none.
   std::string_view fallback;
   /// Inclusive bounds in the file's unit for numbers and both ends of ranges.
   double least = 0;
@@ -43,5 +46,15 @@ struct Field {
 std::span<const Field> fields();
 /// By dotted name, or null.
 const Field* find_field(std::string_view name);
+
+/// The tables in the order in which they stand in a file; "" (the top of the file) first.
+std::vector<std::string> field_tables();
+/// One line on what a table of the file is about.
+std::string_view table_meaning(std::string_view table);
+
+/// True when the key has a use in this mechanism (see Field::only_when).
+bool is_used(const Field& field, const Mechanism& mechanism);
+/// A mechanism with every default and nothing else.
+Mechanism default_mechanism();
 
 }  // namespace fusee

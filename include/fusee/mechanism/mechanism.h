@@ -20,6 +20,8 @@ struct Joint {
   double R = 0;          ///< OC, from the joint axis to the tendons' attachment
   double theta_min = 0;  ///< rad, < 0 or = 0: home lies within the range
   double theta_max = 0;  ///< rad
+
+  bool operator==(const Joint&) const = default;
 };
 
 struct Guides {
@@ -28,6 +30,8 @@ struct Guides {
   double OE = 0;      ///< positive: the pins are below the joint, away from C
   double radius = 0;  ///< of the pin itself; 0 is a point
   double mu = 0;      ///< capstan coefficient at the pins
+
+  bool operator==(const Guides&) const = default;
 };
 
 enum class Law { compensate, linear, table };
@@ -37,6 +41,8 @@ enum class Method { exact, paper };
 struct LawRow {
   double alpha = 0;
   double theta = 0;
+
+  bool operator==(const LawRow&) const = default;
 };
 
 /// Where the pulley sits and what it must do. (The body that comes out is solid/pulley.h's Pulley.)
@@ -48,6 +54,8 @@ struct PulleyDrive {
   std::string table;         ///< the CSV of law = table, as written in the file
   std::vector<LawRow> rows;  ///< its contents, by increasing α
   Method method = Method::exact;
+
+  bool operator==(const PulleyDrive&) const = default;
 };
 
 struct Tendon {
@@ -55,10 +63,14 @@ struct Tendon {
   double modulus = 0;     ///< Young's modulus, MPa
   double pretension = 0;  ///< of tendon 1 at home, N
   double bend_ratio = 0;  ///< smallest D/d before a warning
+
+  bool operator==(const Tendon&) const = default;
 };
 
 struct Load {
   double tip_force = 0;  ///< F_c across OC, positive against +θ, N
+
+  bool operator==(const Load&) const = default;
 };
 
 enum class Groove { u, v, flat };
@@ -75,18 +87,20 @@ struct Body {
   Flange flange = Flange::follow;
   double flange_thickness = 0;  ///< at the lip
   double hub_diameter = 0;      ///< 0: from the bore and the set screw
-  double hub_height = 0;        ///< above the top flange; 0: no hub
+  double hub_height = 0;        ///< above the top flange; 0: no hub. Where there is no room for one it is left out, with a note
   Bore bore = Bore::round;
-  double bore_diameter = 0;     ///< shaft diameter, across flats for hex and square
+  double bore_diameter = 0;     ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
   double bore_flat = 0;         ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
-  std::string horn;             ///< bore = horn: a name in profiles/horns.toml
-  std::string set_screw;        ///< "none", "M2" … "M6"
+  std::string horn;             ///< bore = horn: a name of catalogue.h
+  std::string set_screw;        ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
   double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3
   double knot_pocket = 0;       ///< diameter; 0: 3.5 d
   Marks marks = Marks::engraved;
   double mark_depth = 0;
   double min_wall = 0;
+
+  bool operator==(const Body&) const = default;
 };
 
 struct Material {
@@ -94,6 +108,8 @@ struct Material {
   double shrinkage = 0;          ///< fraction by which a print comes out smaller
   double hole_compensation = 0;  ///< added to the diameter of holes, mm
   double elephant_foot = 0;      ///< chamfer at the bed, mm
+
+  bool operator==(const Material&) const = default;
 };
 
 /// Cutting the part as a stack of plates.
@@ -103,11 +119,15 @@ struct Cut {
   double sheet_width = 0;
   double sheet_height = 0;
   double dowel = 0;  ///< dowel hole diameter
+
+  bool operator==(const Cut&) const = default;
 };
 
 /// A joint that is not this mechanism, for calibration alone: θ = offset + α/ratio.
 struct RatioTransmission {
   double ratio = 0;
+
+  bool operator==(const RatioTransmission&) const = default;
 };
 
 struct Mechanism {
@@ -121,6 +141,8 @@ struct Mechanism {
   Material material;
   Cut cut;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
+
+  bool operator==(const Mechanism&) const = default;
 
   /// Pin radius to the tendon's centre line: ρp of mechanics, mm.
   double guide_pitch_radius() const { return guides.radius + 0.5 * tendon.diameter; }

@@ -1,0 +1,25 @@
+# cmake -DOUTPUT=… -DTEMPLATES="a.toml;b.toml" -DCATALOGUE="…" -P embed_profiles.cmake
+# Writes a C++ source that holds the files of profiles/ as raw strings.
+
+function(append_files list_name files)
+  string(APPEND source "const std::vector<EmbeddedFile>& ${list_name}() {\n  static const std::vector<EmbeddedFile> files = {\n")
+  foreach(file IN LISTS files)
+    get_filename_component(name "${file}" NAME_WE)
+    file(READ "${file}" text)
+    string(FIND "${text}" ")fusee\"" delimiter)
+    if(NOT delimiter EQUAL -1)
+      message(FATAL_ERROR "${file} holds the raw string's end")
+    endif()
+    string(APPEND source "      {\"${name}\", R\"fusee(${text})fusee\"},\n")
+  endforeach()
+  string(APPEND source "  };\n  return files;\n}\n")
+  set(source "${source}" PARENT_SCOPE)
+endfunction()
+
+set(source "// Made by embed_profiles.cmake from profiles/.\n#include \"mechanism/embedded.h\"\n\nnamespace fusee {\n\n")
+string(REPLACE "|" ";" TEMPLATES "${TEMPLATES}")
+string(REPLACE "|" ";" CATALOGUE "${CATALOGUE}")
+append_files(embedded_templates "${TEMPLATES}")
+append_files(embedded_catalogue "${CATALOGUE}")
+string(APPEND source "\n}  // namespace fusee\n")
+file(WRITE "${OUTPUT}" "${source}")

@@ -1,0 +1,94 @@
+#include "mechanism/field_text.h"
+
+#include <fmt/format.h>
+
+#include "fusee/base/text.h"
+
+namespace fusee {
+
+std::string with_unit(double value, std::string_view unit) {
+  return unit.empty() ? shortest(value) : shortest(value) + " " + std::string(unit);
+}
+
+std::string choices_text(const std::vector<std::string_view>& choices) {
+  std::string text;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (i > 0) text += i + 1 == choices.size() ? " or " : ", ";
+    text += "\"" + std::string(choices[i]) + "\"";
+  }
+  return text;
+}
+
+std::string allowed_text(const Field& field) {
+  switch (field.kind) {
+    case FieldKind::number:
+      if (field.least == field.most) return shortest(field.least);
+      return shortest(field.least) + " to " + with_unit(field.most, field.unit);
+    case FieldKind::range: return "lowest <= 0 <= highest, both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
+    case FieldKind::choice: return choices_text(field.choices);
+    case FieldKind::text: return "any text of one line";
+    case FieldKind::boolean: return "true or false";
+  }
+  return {};
+}
+
+std::string kind_text(const Field& field) {
+  const std::string in_unit = field.unit.empty() ? "" : " in " + std::string(field.unit);
+  switch (field.kind) {
+    case FieldKind::number: return "a number" + in_unit;
+    case FieldKind::range: return "two numbers [lowest, highest]" + in_unit;
+    case FieldKind::choice: return choices_text(field.choices);
+    case FieldKind::text: return "a text in quotes";
+    case FieldKind::boolean: return "true or false";
+  }
+  return {};
+}
+
+std::string toml_string(std::string_view text) {
+  std::string escaped = "\"";
+  for (const char c : text) {
+    switch (c) {
+      case '"': escaped += "\\\""; break;
+      case '\\': escaped += "\\\\"; break;
+      case '\n': escaped += "\\n"; break;
+      case '\r': escaped += "\\r"; break;
+      case '\t': escaped += "\\t"; break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+          escaped += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+        } else {
+          escaped += c;
+        }
+    }
+  }
+  return escaped + "\"";
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t k_longest = 60;
+  if (text.size() <= k_longest) return toml_string(text);
+  std::size_t end = k_longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a UTF-8 character
+  return toml_string(std::string(text.substr(0, end)) + "...");
+}
+
+std::string printable(std::string_view text) {
+  const std::string quoted = in_quotes(text);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
+std::string condition_text(const Field& field) {
+  const std::size_t equals = field.only_when.find('=');
+  const std::size_t dot = field.only_when.find('.');
+  return std::string(field.only_when.substr(dot + 1, equals - dot - 1)) + " = \"" +
+         std::string(field.only_when.substr(equals + 1)) + "\"";
+}
+
+std::string default_text(const Field& field) {
+  const std::string only = field.only_when.empty() ? "" : " with " + condition_text(field);
+  if (field.fallback.empty()) return "required" + only;
+  const std::string unit = field.unit.empty() ? "" : " " + std::string(field.unit);
+  return "default " + std::string(field.fallback) + unit + (only.empty() ? "" : "; used only" + only);
+}
+
+}  // namespace fusee

@@ -1,0 +1,32 @@
+/// \file
+/// Internal: what messages, the writer, explain and the schema say about one field.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/mechanism/fields.h"
+
+namespace fusee {
+
+/// "40 mm", "-5 %", "3".
+std::string with_unit(double value, std::string_view unit);
+/// What may stand there: "1 to 10000 mm", "two angles, -175 to 175 deg", "\"exact\" or \"paper\"", "true or false".
+std::string allowed_text(const Field& field);
+/// What it is: "a number in mm", "two angles [lowest, highest] in deg" …
+std::string kind_text(const Field& field);
+/// The text a person typed, safe and short enough to be shown: control characters escaped, cut after 60 bytes.
+std::string printable(std::string_view text);
+/// The same in quotes.
+std::string in_quotes(std::string_view text);
+/// `"exact" or "paper"`.
+std::string choices_text(const std::vector<std::string_view>& choices);
+/// TOML basic string with its quotes.
+std::string toml_string(std::string_view text);
+/// "required", "required with law = \"linear\"", "default 40 mm".
+std::string default_text(const Field& field);
+/// Field::only_when as it is written in a file: `law = "linear"`.
+std::string condition_text(const Field& field);
+
+}  // namespace fusee

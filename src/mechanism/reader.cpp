@@ -1,0 +1,426 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include <toml++/toml.h>
+
+#include "fusee/base/files.h"
+#include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism/file.h"
+#include "mechanism/field_text.h"
+#include "mechanism/law_table.h"
+#include "mechanism/nesting.h"
+
+// From bytes to a Mechanism in four steps, each of which goes on after an error so that all errors of a file come at once:
+//   1. toml++ reads the text (a syntax error is the only one that ends the reading at once);
+//   2. the tree is flattened to "table.key" → node with its place, and --set values replace or supply entries;
+//   3. each entry is held against its row of the field table, and what is required and absent is named;
+//   4. keys are held against each other, and the CSV of law = "table" is loaded.
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_largest_file = 1 << 20;
+constexpr std::size_t k_largest_table = 8 << 20;
+constexpr std::size_t k_longest_text = 200;
+constexpr std::size_t k_most_errors = 100;
+
+Place place_of(const toml::source_region& region, const std::string& file) {
+  return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+/// A value of the file or of --set, and where it stands.
+struct Entry {
+  const toml::node* node = nullptr;
+  Place place;
+};
+
+/// What messages call a value: `the string "abc"`, "a table", "4".
+std::string described(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string: return "the string " + in_quotes(**node.as_string());
+    case toml::node_type::integer: return "the number " + std::to_string(**node.as_integer());
+    case toml::node_type::floating_point: return "the number " + shortest(**node.as_floating_point());
+    case toml::node_type::boolean: return **node.as_boolean() ? "true" : "false";
+    case toml::node_type::array: return "a list of " + std::to_string(node.as_array()->size());
+    case toml::node_type::table: return "a table";
+    default: return "a date or time";
+  }
+}
+
+class MechanismReader {
+ public:
+  MechanismReader(const std::string& name, const std::filesystem::path& folder) : name_(name), folder_(folder) {}
+
+  Mechanism read(std::string_view text, const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings);
+
+ private:
+  // Step 1 and 2
+  void parse(std::string_view text);
+  void flatten();
+  void flatten_table(const std::string& table, const toml::table& node);
+  void apply(const Setting& setting);
+  toml::table setting_value(const Setting& setting, const std::string& file);
+  // Step 3
+  void take(const Field& field, const Entry& entry);
+  void take_number(const Field& field, const Entry& entry, int end, const toml::node& node);
+  void take_range(const Field& field, const Entry& entry);
+  void take_text(const Field& field, const Entry& entry);
+  void look_for_missing();
+  // Step 4
+  void check_transmission();
+  void check_unused();
+  void check_bore();
+  void load_table();
+
+  bool has(const std::string& key) const { return entries_.count(key) > 0; }
+  bool has_table(const std::string& table) const;
+  Place table_place(std::string_view table) const;
+  void fail(const Place& place, std::string message, std::string hint = {});
+  void warn(const Place& place, std::string message, std::string hint = {});
+  void fail_unknown(const Place& place, const std::string& table, const std::string& key);
+  void finish(std::vector<Diagnostic>* warnings);
+
+  const std::string& name_;
+  const std::filesystem::path& folder_;
+  toml::table root_;
+  std::vector<std::unique_ptr<toml::table>> setting_values_;  ///< keeps the nodes of --set alive
+  std::map<std::string, Entry> entries_;                      ///< by dotted name
+  std::map<std::string, Place> tables_;                       ///< those that stand in the file
+  std::vector<Diagnostic> errors_;
+  std::vector<Diagnostic> table_errors_;  ///< of the CSV: they stand behind those of the file
+  std::vector<Diagnostic> warnings_;
+  std::map<std::string, bool> good_;  ///< fields that were taken without an error
+  Mechanism mechanism_;
+};
+
+void MechanismReader::fail(const Place& place, std::string message, std::string hint) {
+  errors_.push_back({Severity::error, place, std::move(message), std::move(hint)});
+}
+
+void MechanismReader::warn(const Place& place, std::string message, std::string hint) {
+  warnings_.push_back({Severity::warning, place, std::move(message), std::move(hint)});
+}
+
+bool MechanismReader::has_table(const std::string& table) const {
+  if (tables_.count(table) > 0) return true;
+  const auto next = entries_.lower_bound(table + ".");
+  return next != entries_.end() && next->first.compare(0, table.size() + 1, table + ".") == 0;
+}
+
+Place MechanismReader::table_place(std::string_view table) const {
+  const auto found = tables_.find(std::string(table));
+  return found == tables_.end() ? Place{name_, 0, 0} : found->second;
+}
+
+// ---- 1. text → tree -------------------------------------------------------------------------------------------------
+
+void MechanismReader::parse(std::string_view text) {
+  if (text.size() > k_largest_file) throw InputError(name_, "is larger than 1 MB: this is no mechanism file");
+  if (text.find('\0') != std::string_view::npos) throw InputError(name_, "is a binary file", "a mechanism file is TOML, a text; see fusee new");
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw InputError(name_, "is empty", "fusee new prints a file to start from");
+  if (const auto place = too_deep_place(text, name_)) {
+    throw InputError(Diagnostic{Severity::error, *place, "tables or lists nest too deep", "a mechanism file has tables of plain keys only"});
+  }
+  try {
+    root_ = toml::parse(text, name_);
+  } catch (const toml::parse_error& error) {
+    // What toml++ says may quote the file's bytes.
+    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_), "not TOML: " + printable(error.description()),
+                                "strings stand in quotes, lists in [ ], one key = value a line"});
+  }
+}
+
+// ---- 2. tree → entries ----------------------------------------------------------------------------------------------
+
+void MechanismReader::fail_unknown(const Place& place, const std::string& table, const std::string& key) {
+  const std::string shown = (table.empty() ? "" : table + ".") + printable(key);
+  std::vector<std::string> here, everywhere;
+  for (const Field& field : fields()) {
+    if (field.key == key) {
+      const std::string belongs = field.table.empty() ? "the top of the file" : "[" + std::string(field.table) + "]";
+      return fail(place, "unknown key " + shown, field.name() + ": " + key + " belongs in " + belongs);
+    }
+    if (field.table == table) here.emplace_back(field.key);
+    everywhere.emplace_back(field.key);
+  }
+  std::string nearest = nearest_word(key, here);
+  if (!nearest.empty()) return fail(place, "unknown key " + shown, "did you mean " + nearest + "?");
+  nearest = nearest_word(key, everywhere);
+  for (const Field& field : fields()) {
+    if (field.key == nearest) return fail(place, "unknown key " + shown, "did you mean " + field.name() + "?");
+  }
+  fail(place, "unknown key " + shown, table.empty() ? "" : "fusee explain " + table + " lists the keys of [" + table + "]");
+}
+
+void MechanismReader::flatten_table(const std::string& table, const toml::table& node) {
+  for (const auto& [key, value] : node) {
+    const std::string name = table + "." + std::string(key.str());
+    if (find_field(name) == nullptr) {
+      fail_unknown(place_of(key.source(), name_), table, std::string(key.str()));
+    } else {
+      entries_[name] = {&value, place_of(value.source(), name_)};
+    }
+  }
+}
+
+void MechanismReader::flatten() {
+  const std::vector<std::string> tables = field_tables();
+  for (const auto& [key, value] : root_) {
+    const std::string name(key.str());
+    const Place place = place_of(key.source(), name_);
+    if (std::find(tables.begin(), tables.end(), name) != tables.end() && !name.empty()) {
+      tables_[name] = place;
+      if (value.is_table()) {
+        flatten_table(name, *value.as_table());
+      } else {
+        fail(place, name + " is a table, not " + described(value), "write [" + name + "] on a line of its own and its keys below");
+      }
+    } else if (value.is_table() || value.is_array_of_tables()) {
+      const std::string nearest = nearest_word(name, tables);
+      fail(place, "unknown table [" + printable(name) + "]",
+           nearest.empty() ? "fusee explain lists the tables" : "did you mean [" + nearest + "]?");
+    } else if (find_field(name) == nullptr || name.find('.') != std::string::npos) {
+      fail_unknown(place, "", name);
+    } else {
+      entries_[name] = {&value, place_of(value.source(), name_)};
+    }
+  }
+}
+
+/// The value of --set as TOML. A bare word is a string; what is neither is an error.
+toml::table MechanismReader::setting_value(const Setting& setting, const std::string& file) {
+  const bool one_line = setting.value.find_first_of("\r\n") == std::string::npos;
+  if (one_line && setting.value.size() <= 4 * k_longest_text && !too_deep_place(setting.value, file)) {
+    try {
+      toml::table table = toml::parse("value = " + setting.value + "\n");
+      if (table.size() == 1) return table;
+    } catch (const toml::parse_error&) {
+      // Perhaps a bare word, below.
+    }
+  }
+  toml::table table;
+  if (!one_line || setting.value.empty() || setting.value.find_first_of("\"'[]{}=") != std::string::npos) {
+    fail({file, 0, 0}, in_quotes(setting.value) + " is not a value", "a number, [lowest, highest], true, false or a word");
+  } else {
+    try {
+      table = toml::parse("value = " + toml_string(setting.value) + "\n");
+    } catch (const toml::parse_error&) {
+      fail({file, 0, 0}, in_quotes(setting.value) + " is not a text", "text is UTF-8");
+    }
+  }
+  return table;
+}
+
+void MechanismReader::apply(const Setting& setting) {
+  const std::string file = "--set " + printable(setting.key + "=" + setting.value);
+  const std::size_t dot = setting.key.find('.');
+  if (find_field(setting.key) == nullptr) {
+    const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
+    const std::vector<std::string> tables = field_tables();
+    if (std::find(tables.begin(), tables.end(), table) == tables.end()) {
+      const std::string nearest = nearest_word(table, tables);
+      return fail({file, 0, 0}, "unknown table " + in_quotes(table), nearest.empty() ? "fusee explain lists the tables" : "did you mean " + nearest + "?");
+    }
+    return fail_unknown({file, 0, 0}, table, dot == std::string::npos ? setting.key : setting.key.substr(dot + 1));
+  }
+  setting_values_.push_back(std::make_unique<toml::table>(setting_value(setting, file)));
+  if (const toml::node* node = setting_values_.back()->get("value")) {
+    entries_[setting.key] = {node, {file, 0, 0}};
+  } else {
+    entries_.erase(setting.key);
+    good_[setting.key] = false;  // its error is said; do not call it missing as well
+  }
+}
+
+// ---- 3. entries → fields --------------------------------------------------------------------------------------------
+
+void MechanismReader::take_number(const Field& field, const Entry& entry, int end, const toml::node& node) {
+  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
+  if (!value) {
+    return fail(place, field.name() + " must be " + kind_text(field) + ", not " + described(node), "allowed: " + allowed_text(field));
+  }
+  if (!std::isfinite(*value)) return fail(place, field.name() + " must be a finite number, not " + shortest(*value), "allowed: " + allowed_text(field));
+  if (*value < field.least || *value > field.most) {
+    return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is out of range", "allowed: " + allowed_text(field));
+  }
+  field.set(mechanism_, end, *value);
+  good_[field.name()] = true;
+}
+
+void MechanismReader::take_range(const Field& field, const Entry& entry) {
+  const toml::array* ends = entry.node->as_array();
+  if (ends == nullptr || ends->size() != 2) {
+    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node), "allowed: " + allowed_text(field));
+  }
+  const std::size_t errors = errors_.size();
+  take_number(field, entry, 0, (*ends)[0]);
+  take_number(field, entry, 1, (*ends)[1]);
+  good_[field.name()] = errors == errors_.size();
+  if (!good_[field.name()]) return;
+  const double lowest = *(*ends)[0].value<double>(), highest = *(*ends)[1].value<double>();
+  if (lowest <= 0 && highest >= 0 && lowest < highest) return;
+  good_[field.name()] = false;
+  fail(entry.place, field.name() + " = [" + shortest(lowest) + ", " + shortest(highest) + "] deg does not hold home",
+       "the lowest angle is at most 0, the highest at least 0, and they differ");
+}
+
+void MechanismReader::take_text(const Field& field, const Entry& entry) {
+  std::string value;
+  if (field.kind == FieldKind::boolean) {
+    if (!entry.node->is_boolean()) return fail(entry.place, field.name() + " must be true or false, not " + described(*entry.node));
+    value = **entry.node->as_boolean() ? "true" : "false";
+  } else {
+    if (!entry.node->is_string()) {
+      return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node));
+    }
+    value = **entry.node->as_string();
+  }
+  if (field.kind == FieldKind::choice && std::find(field.choices.begin(), field.choices.end(), value) == field.choices.end()) {
+    const std::string nearest = nearest_word(value, {field.choices.begin(), field.choices.end()});
+    return fail(entry.place, field.name() + " = " + in_quotes(value) + " is not known",
+                "allowed: " + allowed_text(field) + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  }
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (value.size() > k_longest_text || std::any_of(value.begin(), value.end(), is_control)) {
+    return fail(entry.place, field.name() + " must be one line of at most " + std::to_string(k_longest_text) + " bytes", "take a shorter text");
+  }
+  field.set_text(mechanism_, value);
+  good_[field.name()] = true;
+}
+
+void MechanismReader::take(const Field& field, const Entry& entry) {
+  good_[field.name()] = false;
+  switch (field.kind) {
+    case FieldKind::number: return take_number(field, entry, 0, *entry.node);
+    case FieldKind::range: return take_range(field, entry);
+    case FieldKind::choice:
+    case FieldKind::text:
+    case FieldKind::boolean: return take_text(field, entry);
+  }
+}
+
+void MechanismReader::look_for_missing() {
+  const bool other_joint = has_table("transmission");
+  for (const Field& field : fields()) {
+    const bool belongs_to_other = field.table == "transmission";
+    if (!field.table.empty() && belongs_to_other != other_joint) continue;
+    const bool conditional = !field.only_when.empty() && field.fallback.empty() && is_used(field, mechanism_) && !other_joint;
+    if (!(field.required || conditional) || good_.count(field.name()) > 0) continue;
+    const std::string where = field.table.empty() ? "at the top of the file" : "under [" + std::string(field.table) + "]";
+    const std::string example = field.least == field.most && field.kind == FieldKind::number ? shortest(field.least) : "...";
+    fail(table_place(field.table), "missing key " + field.name() + (conditional ? " (needed with " + condition_text(field) + ")" : ""),
+         "add " + std::string(field.key) + " = " + example + " " + where + ": " + std::string(field.meaning) + "; " + allowed_text(field));
+  }
+}
+
+// ---- 4. keys against each other -------------------------------------------------------------------------------------
+
+void MechanismReader::check_transmission() {
+  if (!has_table("transmission")) return;
+  for (const char* table : {"joint", "guides", "pulley"}) {
+    if (!has_table(table)) continue;
+    fail(table_place(table), std::string("[") + table + "] and [transmission] cannot both be declared",
+         "[transmission] stands in place of [joint], [guides] and [pulley]: leave one side out");
+  }
+  if (good_.count("transmission.ratio") > 0 && good_["transmission.ratio"] && mechanism_.transmission->ratio == 0) {
+    fail(entries_["transmission.ratio"].place, "transmission.ratio = 0 turns nothing", "theta = offset + alpha/ratio: any number but 0");
+  }
+}
+
+void MechanismReader::check_unused() {
+  for (const Field& field : fields()) {
+    const auto entry = entries_.find(field.name());
+    if (entry == entries_.end() || is_used(field, mechanism_)) continue;
+    warn(entry->second.place, field.name() + " is not used: it is for " + condition_text(field) + " only");
+  }
+}
+
+void MechanismReader::check_bore() {
+  const Body& body = mechanism_.body;
+  if (body.bore == Bore::horn && good_["body.horn"] && find_horn(body.horn) == nullptr) {
+    std::vector<std::string> names;
+    for (const Horn& horn : horns()) names.push_back(horn.name);
+    const std::string nearest = nearest_word(body.horn, names);
+    fail(entries_["body.horn"].place, "body.horn = " + in_quotes(body.horn) + " is not known",
+         (nearest.empty() ? "" : "did you mean \"" + nearest + "\"? ") + std::string("fusee explain body.horn lists the horns"));
+  }
+  if (body.bore == Bore::d && body.bore_flat > 0 && body.bore_diameter > 0 &&
+      (body.bore_flat <= 0.5 * body.bore_diameter || body.bore_flat > body.bore_diameter) && has("body.bore_flat_mm")) {
+    fail(entries_["body.bore_flat_mm"].place,
+         "body.bore_flat_mm = " + shortest(body.bore_flat) + " mm does not go with bore_diameter_mm = " + shortest(body.bore_diameter) + " mm",
+         "from the flat to the far side: more than half the diameter and at most all of it");
+  }
+}
+
+void MechanismReader::load_table() {
+  const PulleyDrive& pulley = mechanism_.pulley;
+  if (pulley.law != Law::table || !good_["pulley.table"] || !good_["joint.range_deg"]) return;
+  const std::filesystem::path path = folder_ / std::filesystem::path(pulley.table);
+  try {
+    const std::string csv = read_file(path, k_largest_table);
+    mechanism_.pulley.rows = parse_law_table(csv, path.string(), mechanism_.joint, table_errors_);
+  } catch (const InputError& error) {
+    const Diagnostic& cause = error.diagnostics().front();
+    fail(entries_["pulley.table"].place, "pulley.table: " + cause.place.file + ": " + cause.message,
+         "a CSV file with columns alpha_deg,theta_deg; its place is relative to the mechanism file");
+  }
+}
+
+// ---- the whole ------------------------------------------------------------------------------------------------------
+
+void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
+  // By place in the file; --set comes behind.
+  const auto key = [this](const Diagnostic& d) { return std::make_tuple(d.place.file != name_, d.place.line, d.place.column); };
+  const auto by_place = [&key](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); };
+  std::stable_sort(errors_.begin(), errors_.end(), by_place);
+  std::stable_sort(warnings_.begin(), warnings_.end(), by_place);
+  errors_.insert(errors_.end(), table_errors_.begin(), table_errors_.end());
+  if (errors_.size() > k_most_errors) {
+    const std::size_t more = errors_.size() - k_most_errors;
+    errors_.resize(k_most_errors);
+    fail({name_, 0, 0}, "and " + std::to_string(more) + " more errors");
+  }
+  if (!errors_.empty()) throw InputError(errors_);
+  if (warnings != nullptr) *warnings = warnings_;
+}
+
+Mechanism MechanismReader::read(std::string_view text, const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings) {
+  parse(text);
+  mechanism_ = default_mechanism();
+  flatten();
+  for (const Setting& setting : settings) apply(setting);
+  for (const Field& field : fields()) {
+    const auto entry = entries_.find(field.name());
+    if (entry != entries_.end()) take(field, entry->second);
+  }
+  look_for_missing();
+  check_transmission();
+  check_unused();
+  check_bore();
+  load_table();
+  finish(warnings);
+  return mechanism_;
+}
+
+}  // namespace
+
+Mechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                          const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings) {
+  return MechanismReader(name, folder).read(text, settings, warnings);
+}
+
+MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings) {
+  const std::string text = read_file(path, k_largest_file);
+  MechanismFile file;
+  file.path = path.string();
+  file.sha256 = sha256(text);
+  file.mechanism = parse_mechanism(text, file.path, path.parent_path(), settings, &file.warnings);
+  return file;
+}
+
+}  // namespace fusee
