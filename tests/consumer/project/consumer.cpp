@@ -1,0 +1,15 @@
+// What somebody else's program does with fusee: read a mechanism, find the pulley, print how its second radius varies.
+#include <algorithm>
+#include <cstdio>
+
+#include "fusee/pipeline.h"
+
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
+  const fusee::MechanismFile file = fusee::read_mechanism(arguments[1]);
+  const fusee::SynthesisResult synthesis = fusee::synthesise(file.mechanism);
+  if (!synthesis.made()) return 4;
+  const auto [least, most] = std::minmax_element(synthesis.stroke.begin(), synthesis.stroke.end(),
+                                                 [](const auto& a, const auto& b) { return a.t2.p < b.t2.p; });
+  std::printf("r2 from %.3f to %.3f mm\n", least->t2.p, most->t2.p);
+}
