@@ -22,7 +22,7 @@ struct BoreLayout {
   Bore kind = Bore::round;
   Polygon outline;     ///< counter-clockwise about the axis, hole compensation included
   double radius = 0;   ///< of the largest circle about the axis that the bore reaches
-  std::vector<Polygon> screw_holes;  ///< of a servo horn, through holes
+  std::vector<Polygon> screw_holes;  ///< of a servo horn, through holes; with a recess the first is the centre screw's
   double horn_recess = 0;            ///< depth of the horn's pocket from the bottom face; 0: through
 };
 

@@ -1,0 +1,189 @@
+#include "solid/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/diagnostics.h"
+
+namespace fusee {
+namespace {
+
+// How far a rim stands outside what it must contain: more than any facet's sagitta, less than anyone would see.
+constexpr double k_rim_margin = 0.2;
+// Width of the blend where the middle flange changes from following one lip to following the other.
+constexpr double k_blend = 0.5;
+
+// The circle at the same normals.
+Polygon circle_like(const Outline& outline, double radius) {
+  Polygon points;
+  points.reserve(outline.points.size());
+  for (const OutlinePoint& point : outline.points) points.push_back(radius * point.normal);
+  return points;
+}
+
+double circumradius(const Polygon& polygon) {
+  double radius = 0;
+  for (const Vec2& point : polygon) radius = std::max(radius, point.norm());
+  return radius;
+}
+
+// Is each flat quad between two loops of equal normals free of folds?
+bool strictly_outside(const Polygon& outer, const Polygon& inner) {
+  const std::size_t n = inner.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    const Vec2 along_inner = inner[j] - inner[i], along_outer = outer[j] - outer[i];
+    const bool clear = cross(along_inner, outer[i] - inner[i]) < 0 && cross(along_inner, outer[j] - inner[i]) < 0 &&
+                       cross(along_outer, inner[i] - outer[i]) > 0 && cross(along_outer, inner[j] - outer[i]) > 0;
+    if (!clear) return false;
+  }
+  return true;
+}
+
+// Round both outlines by the smooth maximum of their support functions, h = τ log(e^{h1/τ} + e^{h2/τ}). Its radius of
+// curvature h + h'' is the weighted mean of both plus w1 w2 (h1' − h2')²/τ > 0, so it is convex; its point is h n + h'
+// t with h' = w1 h1' + w2 h2'.
+Polygon around_both(const Outline& p1, const Outline& p2, double offset, double margin) {
+  Polygon points;
+  points.reserve(p1.points.size());
+  for (std::size_t i = 0; i < p1.points.size(); ++i) {
+    const Vec2& normal = p1.points[i].normal;
+    const Vec2 tangent = turned_left(normal);
+    const double h1 = p1.points[i].position.dot(normal), h2 = p2.points[i].position.dot(normal);
+    const double larger = std::max(h1, h2);
+    const double e1 = std::exp((h1 - larger) / k_blend), e2 = std::exp((h2 - larger) / k_blend);
+    const double h = larger + k_blend * std::log(e1 + e2) + offset + margin;
+    const double dh = (e1 * p1.points[i].position.dot(tangent) + e2 * p2.points[i].position.dot(tangent)) / (e1 + e2);
+    points.push_back(h * normal + dh * tangent);
+  }
+  return points;
+}
+
+// The first rim of growing margin that is strictly outside: coarse outlines need more than fine ones.
+template <typename MakeRim>
+Polygon grown_until_outside(const MakeRim& make_rim, const Polygon& a, const Polygon& b) {
+  double margin = k_rim_margin;
+  Polygon rim = make_rim(margin);
+  for (int tries = 0; tries < 12 && !(strictly_outside(rim, a) && strictly_outside(rim, b)); ++tries) {
+    margin *= 1.5;
+    rim = make_rim(margin);
+  }
+  demand(strictly_outside(rim, a) && strictly_outside(rim, b),
+         "no rim around the grooves' lips: the outlines are sampled too coarsely");
+  return rim;
+}
+
+class StackBuilder {
+ public:
+  StackBuilder(const Outline& p1, const Outline& p2, double tendon_diameter, Flange kind, const BodyLayout& layout)
+      : p1_(p1),
+        p2_(p2),
+        d_(tendon_diameter),
+        layout_(layout),
+        kind_(kind),
+        rims_(flange_rims(p1, p2, tendon_diameter, layout.groove_depth, kind)) {}
+
+  RingStack build() {
+    const double half = layout_.groove_half_width;
+    add_lower_flange(layout_.z_p1 - half);
+    add_groove(p1_, layout_.z_p1);
+    add(layout_.z_p1 + half, rims_.middle);
+    add(layout_.z_p2 - half, rims_.middle);
+    add_groove(p2_, layout_.z_p2);
+    if (kind_ == Flange::round) add(layout_.z_p2 + half, rims_.upper);
+    add(layout_.z_top, rims_.upper);
+    if (layout_.hub_radius > 0) {
+      add(layout_.z_top, circle_like(p2_, layout_.hub_radius));
+      add(layout_.z_hub, circle_like(p2_, layout_.hub_radius));
+    }
+    add_bore();
+    return std::move(stack_);
+  }
+
+ private:
+  void add(double z, Polygon points) { stack_.rings.push_back({z, std::move(points)}); }
+
+  // The edge on the bed is chamfered by the width to which a first layer spreads.
+  void add_lower_flange(double top) {
+    if (layout_.elephant_foot > 0) {
+      const double foot = layout_.elephant_foot;
+      add(0.0, kind_ == Flange::round ? circle_like(p1_, circumradius(rims_.lower) - foot)
+                                      : parallel(p1_, -0.5 * d_ + layout_.groove_depth - foot));
+    }
+    add(layout_.elephant_foot, rims_.lower);
+    if (kind_ == Flange::round) add(top, rims_.lower);
+  }
+
+  void add_groove(const Outline& outline, double z) {
+    const auto& half = layout_.groove;
+    const auto add_point = [&](const GroovePoint& point, double sign) {
+      add(z + sign * point.dz, parallel(outline, -0.5 * d_ + point.offset));
+    };
+    for (std::size_t k = half.size(); k-- > 1;) add_point(half[k], -1.0);
+    for (std::size_t k = 1; k < half.size(); ++k) add_point(half[k], 1.0);
+  }
+
+  void add_bore() {
+    const BoreLayout& bore = layout_.bore;
+    if (bore.horn_recess > 0) {
+      stack_.recess = Shaft{bore.outline, 0.0, bore.horn_recess};
+    } else {
+      stack_.through.push_back({bore.outline, 0.0, layout_.z_hub});
+    }
+    for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
+      const bool in_recess = bore.horn_recess > 0 && k == 0;
+      stack_.through.push_back({bore.screw_holes[k], in_recess ? bore.horn_recess : 0.0, layout_.z_hub});
+    }
+  }
+
+  const Outline& p1_;
+  const Outline& p2_;
+  double d_;
+  const BodyLayout& layout_;
+  Flange kind_;
+  FlangeRims rims_;
+  RingStack stack_;
+};
+
+}  // namespace
+
+FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diameter, double groove_depth, Flange kind) {
+  demand(p1.points.size() == p2.points.size() && p1.points.size() >= 3,
+         "outlines of " + std::to_string(p1.points.size()) + " and " + std::to_string(p2.points.size()) + " points");
+  const double lip = groove_depth - 0.5 * tendon_diameter;
+  FlangeRims rims;
+  rims.lip1 = parallel(p1, lip);
+  rims.lip2 = parallel(p2, lip);
+  if (kind == Flange::follow) {
+    rims.lower = rims.lip1;
+    rims.upper = rims.lip2;
+    rims.middle =
+        grown_until_outside([&](double margin) { return around_both(p1, p2, lip, margin); }, rims.lip1, rims.lip2);
+    return rims;
+  }
+  const auto circle_around = [&p1](const Polygon& a, const Polygon& b) {
+    const double radius = std::max(circumradius(a), circumradius(b));
+    return grown_until_outside([&](double margin) { return circle_like(p1, radius + margin); }, a, b);
+  };
+  rims.lower = circle_around(rims.lip1, rims.lip1);
+  rims.middle = circle_around(rims.lip1, rims.lip2);
+  rims.upper = circle_around(rims.lip2, rims.lip2);
+  return rims;
+}
+
+RingStack body_stack(const Outline& p1, const Outline& p2, double tendon_diameter, Flange kind,
+                     const BodyLayout& layout) {
+  return StackBuilder(p1, p2, tendon_diameter, kind, layout).build();
+}
+
+double inradius(const Polygon& convex) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    const Vec2 along = convex[(i + 1) % convex.size()] - convex[i];
+    least = std::min(least, cross(along, -convex[i]) / along.norm());
+  }
+  return least;
+}
+
+}  // namespace fusee

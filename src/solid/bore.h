@@ -1,0 +1,17 @@
+/// \file
+/// Outlines of the holes along the axis. mm.
+#pragma once
+
+#include "fusee/solid/layout.h"
+
+namespace fusee {
+
+/// A print's round hole: facets tangent to the circle from outside, as many as the printer's corners bear (two per mm
+/// of diameter).
+Polygon polyhole(double diameter, const Vec2& centre);
+
+/// The bore for a shaft of `diameter` (across flats for hex and square; of no meaning for a horn). Flats and keyways
+/// face +y, towards the joint at home. Nothing is checked: make_pulley's conditions do that.
+BoreLayout bore_layout(const Body& body, double diameter, double compensation);
+
+}  // namespace fusee

@@ -1,0 +1,12 @@
+/// \file
+#pragma once
+
+#include "fusee/solid/mesh.h"
+
+namespace fusee {
+
+/// Builds the half-edge mesh of `mesh` and demands (Bug) that it is a closed 2-manifold: what is cut later relies on
+/// it.
+void demand_solid(const TriangleMesh& mesh, const char* what);
+
+}  // namespace fusee

@@ -1,0 +1,66 @@
+#include "solid/groove.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+
+namespace fusee {
+namespace {
+
+// Sagitta of a seat's facets. Prints and mills leave more than this; finer facets would only be triangles.
+constexpr double k_seat_sagitta = 0.01;
+// Floor of a flat groove per tendon diameter.
+constexpr double k_flat_floor_ratio = 1.4;
+
+// The seat's arc as the polygon of its tangents at 0, δ, 2δ … up to the wall, which is the last tangent: the floor band
+// is the first of them, at offset 0 exactly. Corners stand at the half steps, at the radius s / cos(δ/2).
+std::vector<GroovePoint> seat_corners(double seat, double lean) {
+  const double turn = 0.5 * k_pi - lean;
+  const double finest = 2.0 * std::acos(1.0 / (1.0 + k_seat_sagitta / seat));
+  const int steps = std::max(1, static_cast<int>(std::ceil(turn / finest)));
+  const double step = turn / steps;
+  const double corner_radius = seat / std::cos(0.5 * step);
+  std::vector<GroovePoint> corners;
+  for (int k = 0; k < steps; ++k) {
+    const double angle = (k + 0.5) * step;
+    corners.push_back({k == 0 ? 0.0 : seat - corner_radius * std::cos(angle), corner_radius * std::sin(angle)});
+  }
+  return corners;
+}
+
+// The end of the section: the wall from the last corner that lies below the lip, cut off at the lip.
+void finish_at_lip(std::vector<GroovePoint>& points, double depth, double lean) {
+  while (points.size() > 2 && points.back().offset >= depth) points.pop_back();
+  // A corner that was cut away leaves its own, flatter tangent; the wall's lean is the steepest of them and holds the
+  // tendon best.
+  const GroovePoint& last = points.back();
+  points.push_back({depth, last.dz + (depth - last.offset) * std::tan(lean)});
+}
+
+}  // namespace
+
+std::vector<GroovePoint> groove_section(const Body& body, double tendon_diameter, double depth) {
+  demand(tendon_diameter > 0 && depth > 0,
+         "groove of a tendon of " + std::to_string(tendon_diameter) + " mm, depth " + std::to_string(depth));
+  const double lean = 0.5 * body.groove_angle;
+  std::vector<GroovePoint> points{{0.0, 0.0}};
+  switch (body.groove) {
+    case Groove::u: {
+      const auto corners = seat_corners(std::max(0.5, body.seat_ratio) * tendon_diameter, lean);
+      points.insert(points.end(), corners.begin(), corners.end());
+      break;
+    }
+    case Groove::v:
+      // Half-width at which a circle of diameter d touches the floor and both walls.
+      points.push_back({0.0, 0.5 * tendon_diameter * std::tan(0.25 * k_pi - 0.5 * lean)});
+      break;
+    case Groove::flat:
+      points.push_back({0.0, 0.5 * k_flat_floor_ratio * tendon_diameter});
+      break;
+  }
+  finish_at_lip(points, depth, lean);
+  return points;
+}
+
+}  // namespace fusee

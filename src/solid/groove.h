@@ -1,0 +1,16 @@
+/// \file
+/// The cross-section of a groove: half of it, from floor to lip. mm, rad.
+#pragma once
+
+#include <vector>
+
+#include "fusee/solid/layout.h"
+
+namespace fusee {
+
+/// Points from the groove's plane outward; the first is {0, 0}, the second has offset 0 too: the floor is a short flat
+/// band, so that a section at the groove's plane cuts faces and never a vertex. The tendon's centre line lies d/2 above
+/// that band in every kind of groove.
+std::vector<GroovePoint> groove_section(const Body& body, double tendon_diameter, double depth);
+
+}  // namespace fusee

@@ -1,0 +1,74 @@
+#include "fusee/solid/mesh.h"
+
+#include <bit>
+#include <limits>
+#include <unordered_map>
+
+namespace fusee {
+namespace {
+
+struct PositionHash {
+  std::size_t operator()(const std::array<double, 3>& position) const {
+    std::uint64_t hash = 0x9E3779B97F4A7C15u;
+    for (const double coordinate : position) {
+      hash ^= std::bit_cast<std::uint64_t>(coordinate);
+      hash *= 0xFF51AFD7ED558CCDu;
+      hash ^= hash >> 32;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+// −0 and 0 are the same place; a NaN is never equal to itself and so keeps a vertex of its own.
+std::array<double, 3> key_of(const Vec3& vertex) { return {vertex.x() + 0.0, vertex.y() + 0.0, vertex.z() + 0.0}; }
+
+}  // namespace
+
+double enclosed_volume(const TriangleMesh& mesh) {
+  if (mesh.vertices.empty()) return 0;
+  // About a vertex, not the origin: a small part far away would drown in rounding.
+  const Vec3 origin = mesh.vertices.front();
+  double six_times = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 u = mesh.vertices[a] - origin, v = mesh.vertices[b] - origin, w = mesh.vertices[c] - origin;
+    six_times += u.x() * (v.y() * w.z() - v.z() * w.y()) + u.y() * (v.z() * w.x() - v.x() * w.z()) +
+                 u.z() * (v.x() * w.y() - v.y() * w.x());
+  }
+  return six_times / 6.0;
+}
+
+Bounds bounds(const TriangleMesh& mesh) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Bounds box{Vec3::Constant(far), Vec3::Constant(-far)};
+  for (const Vec3& vertex : mesh.vertices) {
+    box.low = box.low.cwiseMin(vertex);
+    box.high = box.high.cwiseMax(vertex);
+  }
+  return box;
+}
+
+TriangleMesh weld(const TriangleMesh& mesh) {
+  TriangleMesh welded;
+  std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> places;
+  places.reserve(mesh.vertices.size());
+  std::vector<std::uint32_t> renumbered;
+  renumbered.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) {
+    const auto [place, fresh] = places.try_emplace(key_of(vertex), static_cast<std::uint32_t>(welded.vertices.size()));
+    if (fresh) welded.vertices.push_back(vertex);
+    renumbered.push_back(place->second);
+  }
+  const auto renumber = [&renumbered](std::uint32_t index) {
+    return index < renumbered.size() ? renumbered[index] : std::numeric_limits<std::uint32_t>::max();
+  };
+  welded.triangles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) welded.triangles.push_back({renumber(a), renumber(b), renumber(c)});
+  return welded;
+}
+
+TriangleMesh rounded_to_float(TriangleMesh mesh) {
+  for (Vec3& vertex : mesh.vertices) vertex = vertex.cast<float>().cast<double>();
+  return mesh;
+}
+
+}  // namespace fusee

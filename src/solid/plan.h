@@ -1,0 +1,24 @@
+/// \file
+/// What will be built, before any triangle: sizes, anchors, marks, and the conditions that say whether it can be. mm,
+/// not yet scaled.
+#pragma once
+
+#include <vector>
+
+#include "fusee/solid/pulley.h"
+#include "solid/body.h"
+
+namespace fusee {
+
+struct BodyPlan {
+  BodyLayout layout;
+  FlangeRims rims;
+  std::vector<Anchor> anchors;
+  std::vector<Condition> conditions;
+
+  bool possible() const;
+};
+
+BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis);
+
+}  // namespace fusee

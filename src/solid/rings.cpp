@@ -1,0 +1,176 @@
+#include "solid/rings.h"
+
+#include "fusee/base/diagnostics.h"
+#include "solid/caps.h"
+
+namespace fusee {
+namespace {
+
+double to_float(double value) { return static_cast<double>(static_cast<float>(value)); }
+
+Vec3 lifted(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
+
+// Of the quad between sides a and b of a strip: does the diagonal run from a[i] to b[j]? The shorter one, and this one
+// of two equal ones.
+bool rises_forward(const Ring& a, const Ring& b, std::size_t i, std::size_t j) {
+  return (a.points[i] - b.points[j]).squaredNorm() <= (a.points[j] - b.points[i]).squaredNorm();
+}
+
+class StackMesher {
+ public:
+  explicit StackMesher(const RingStack& stack) : stack_(stack) {}
+
+  TriangleMesh mesh() {
+    std::uint32_t below = 0;
+    for (std::size_t k = 0; k < stack_.rings.size(); ++k) {
+      const std::uint32_t above = add_loop(stack_.rings[k].points, stack_.rings[k].z);
+      if (k > 0) join_rings(k, below, above);
+      below = above;
+    }
+    add_holes(below);
+    return std::move(mesh_);
+  }
+
+ private:
+  std::uint32_t add_loop(const Polygon& points, double z) {
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (const Vec2& point : points) mesh_.vertices.push_back(lifted(point, z));
+    return first;
+  }
+
+  void join_rings(std::size_t k, std::uint32_t below, std::uint32_t above) {
+    const Ring& a = stack_.rings[k - 1];
+    const Ring& b = stack_.rings[k];
+    const std::size_t n = a.points.size();
+    demand(b.points.size() == n,
+           "rings of " + std::to_string(n) + " and " + std::to_string(b.points.size()) + " points");
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t j = (i + 1) % n;
+      const auto ai = below + static_cast<std::uint32_t>(i), aj = below + static_cast<std::uint32_t>(j);
+      const auto bi = above + static_cast<std::uint32_t>(i), bj = above + static_cast<std::uint32_t>(j);
+      if (rises_forward(a, b, i, j)) {
+        mesh_.triangles.push_back({ai, aj, bj});
+        mesh_.triangles.push_back({ai, bj, bi});
+      } else {
+        mesh_.triangles.push_back({ai, aj, bi});
+        mesh_.triangles.push_back({aj, bj, bi});
+      }
+    }
+  }
+
+  // Walls of a hole face its inside.
+  void join_shaft(std::uint32_t low, std::uint32_t high, std::size_t n) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const auto j = static_cast<std::uint32_t>((i + 1) % n);
+      mesh_.triangles.push_back({low + i, high + j, low + j});
+      mesh_.triangles.push_back({low + i, high + i, high + j});
+    }
+  }
+
+  // Every flat face with a hole in it: the top, the bottom, and the recess' ceiling.
+  void add_holes(std::uint32_t top_ring) {
+    FlatFace top{{&stack_.rings.back().points}, {top_ring}};
+    FlatFace bottom{{&stack_.rings.front().points}, {0}};
+    FlatFace ceiling;
+    if (stack_.recess) {
+      const Shaft& recess = *stack_.recess;
+      const std::uint32_t mouth = add_loop(recess.outline, recess.low);
+      bottom.add(recess.outline, mouth);
+      ceiling.add(recess.outline, add_loop(recess.outline, recess.high));
+      join_shaft(mouth, ceiling.firsts.front(), recess.outline.size());
+    }
+    for (const Shaft& shaft : stack_.through) {
+      const std::uint32_t low = add_loop(shaft.outline, shaft.low);
+      const std::uint32_t high = add_loop(shaft.outline, shaft.high);
+      join_shaft(low, high, shaft.outline.size());
+      top.add(shaft.outline, high);
+      (shaft.low == bottom_height() ? bottom : ceiling).add(shaft.outline, low);
+    }
+    close(top, true);
+    close(bottom, false);
+    if (stack_.recess) close(ceiling, false);
+  }
+
+  double bottom_height() const { return stack_.rings.front().z; }
+
+  struct FlatFace {
+    std::vector<const Polygon*> loops;
+    std::vector<std::uint32_t> firsts;  // number of each loop's first vertex
+
+    void add(const Polygon& loop, std::uint32_t first) {
+      loops.push_back(&loop);
+      firsts.push_back(first);
+    }
+  };
+
+  void close(const FlatFace& face, bool facing_up) {
+    std::vector<Polygon> loops;
+    std::vector<std::uint32_t> index;
+    for (std::size_t k = 0; k < face.loops.size(); ++k) {
+      loops.push_back(*face.loops[k]);
+      for (std::uint32_t i = 0; i < loops.back().size(); ++i) index.push_back(face.firsts[k] + i);
+    }
+    for (const auto& [a, b, c] : triangulate(loops)) {
+      if (facing_up) {
+        mesh_.triangles.push_back({index[a], index[b], index[c]});
+      } else {
+        mesh_.triangles.push_back({index[a], index[c], index[b]});
+      }
+    }
+  }
+
+  const RingStack& stack_;
+  TriangleMesh mesh_;
+};
+
+// Half-way between two rings the strip's section is the polygon through the middles of its uprights and diagonals.
+Polygon middle_section(const Ring& a, const Ring& b) {
+  const std::size_t n = a.points.size();
+  Polygon middle;
+  middle.reserve(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    middle.push_back(0.5 * (a.points[i] + b.points[i]));
+    middle.push_back(rises_forward(a, b, i, j) ? Vec2(0.5 * (a.points[i] + b.points[j]))
+                                               : Vec2(0.5 * (a.points[j] + b.points[i])));
+  }
+  return middle;
+}
+
+double prism_volume(const Shaft& shaft) { return signed_area(shaft.outline) * (shaft.high - shaft.low); }
+
+}  // namespace
+
+RingStack scaled_to_float(RingStack stack, double scale) {
+  const auto round = [scale](Polygon& points, double& z) {
+    for (Vec2& point : points) point = {to_float(scale * point.x()), to_float(scale * point.y())};
+    z = to_float(scale * z);
+  };
+  for (Ring& ring : stack.rings) round(ring.points, ring.z);
+  const auto round_shaft = [&](Shaft& shaft) {
+    round(shaft.outline, shaft.low);
+    shaft.high = to_float(scale * shaft.high);
+  };
+  for (Shaft& shaft : stack.through) round_shaft(shaft);
+  if (stack.recess) round_shaft(*stack.recess);
+  return stack;
+}
+
+TriangleMesh mesh_of(const RingStack& stack) {
+  demand(stack.rings.size() >= 2, "a stack of " + std::to_string(stack.rings.size()) + " rings");
+  return StackMesher(stack).mesh();
+}
+
+double volume_of(const RingStack& stack) {
+  double volume = 0;
+  for (std::size_t k = 1; k < stack.rings.size(); ++k) {
+    const Ring& a = stack.rings[k - 1];
+    const Ring& b = stack.rings[k];
+    const double areas = signed_area(a.points) + 4.0 * signed_area(middle_section(a, b)) + signed_area(b.points);
+    volume += (b.z - a.z) * areas / 6.0;
+  }
+  for (const Shaft& shaft : stack.through) volume -= prism_volume(shaft);
+  return stack.recess ? volume - prism_volume(*stack.recess) : volume;
+}
+
+}  // namespace fusee

@@ -1,0 +1,62 @@
+#include "solid/set_screw.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace fusee {
+namespace {
+
+// Clearance: ISO 273 medium. Tapping: ISO 2306. Nuts: ISO 4032, width s and thickness m.
+constexpr std::array<Screw, 6> k_screws{{{"M2", 2.4, 1.6, 4.0, 1.6},
+                                         {"M2.5", 2.9, 2.05, 5.0, 2.0},
+                                         {"M3", 3.4, 2.5, 5.5, 2.4},
+                                         {"M4", 4.5, 3.3, 7.0, 3.2},
+                                         {"M5", 5.5, 4.2, 8.0, 4.7},
+                                         {"M6", 6.6, 5.0, 10.0, 5.2}}};
+
+// Between the nut's slot and the axis of a wall that carries the screw's thrust.
+double nut_wall(double wall) { return std::max(wall, 1.5); }
+
+}  // namespace
+
+const Screw* find_screw(const std::string& name) {
+  const auto found =
+      std::find_if(k_screws.begin(), k_screws.end(), [&name](const Screw& screw) { return screw.name == name; });
+  return found == k_screws.end() ? nullptr : &*found;
+}
+
+double nut_corner(const SetScrewLayout& screw) { return screw.nut_width / std::numbers::sqrt3; }
+double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter * std::numbers::sqrt2; }
+
+SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
+                                const BodyLayout& layout) {
+  SetScrewLayout result;
+  result.present = true;
+  result.nut_trap = nut_trap;
+  result.hole_diameter = (nut_trap ? screw.clearance : screw.tapping) + compensation;
+  result.angle = 0.5 * k_pi;
+  const double middle = 0.5 * (layout.z_top + layout.z_hub);
+  result.z = middle;
+  if (nut_trap) {
+    result.nut_width = screw.nut_width + compensation;
+    result.nut_thickness = screw.nut_thickness + compensation;
+    result.nut_distance = layout.bore.radius + nut_wall(wall) + 0.5 * result.nut_thickness;
+    result.z = std::max(middle, layout.z_top + nut_corner(result));
+  }
+  return result;
+}
+
+double hub_radius_for(const SetScrewLayout& screw, double bore_radius, double wall) {
+  if (screw.nut_trap) return screw.nut_distance + 0.5 * screw.nut_thickness + std::max(wall, 1.5);
+  return bore_radius + std::max(wall, 1.5 * screw.hole_diameter);
+}
+
+double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, double wall) {
+  const double above = layout.z_hub - screw.z - teardrop_top(screw) - wall;
+  const double below = screw.z - layout.z_top - (screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter);
+  return std::min(above, below);
+}
+
+}  // namespace fusee
