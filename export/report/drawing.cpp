@@ -1,0 +1,396 @@
+#include "export/report/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+// Geometry ------------------------------------------------------------------------------------------------------------
+
+Vec2 pulley_axis(const Mechanism& mechanism) { return {0, -mechanism.guides.OE - mechanism.pulley.EF}; }
+
+Vec2 pin_centre(const Mechanism& mechanism, Side side) {
+  return {side == Side::left ? -mechanism.guides.EB : mechanism.guides.ED, -mechanism.guides.OE};
+}
+
+Vec2 attachment(const Mechanism& mechanism, double theta) {
+  return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
+}
+
+Vec2 turned(const Vec2& v, double angle) {
+  return {v.x() * std::cos(angle) - v.y() * std::sin(angle), v.x() * std::sin(angle) + v.y() * std::cos(angle)};
+}
+
+double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_two_pi); }
+
+/// Outward normal of the line through `point` that touches the circle and has it on its inner side: the tendon passes the
+/// circle's outer side, away from `point` along the direction of travel. `sign` is mirror_sign of the side; NaN inside the circle.
+double tangent_normal(const Vec2& centre, double rho, const Vec2& point, bool point_above, double sign) {
+  const Vec2 to_point = point - centre;
+  const double opening = std::acos(rho / to_point.norm());
+  const double direction = std::atan2(to_point.y(), to_point.x());
+  // Right tendon: the outer side is clockwise of a point above, counter-clockwise of a point below.
+  return direction + (point_above ? -sign : sign) * opening;
+}
+
+struct PulleyContact {
+  std::size_t index = 0;  ///< in the outline
+  double normal = 0;      ///< of the lower span, in the world, rad
+};
+
+/// The common outer tangent of the pin and the turned pitch polygon: the outermost of the tangents from the vertices.
+std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Outline& outline, double alpha) {
+  const double sign = mirror_sign(outline.side);
+  const Vec2 pin = pin_centre(mechanism, outline.side);
+  const Vec2 axis = pulley_axis(mechanism);
+  const double rho = mechanism.guide_pitch_radius();
+  // Measured from the tangent towards the axis, so that the comparison never crosses ±π.
+  const double reference = tangent_normal(pin, rho, axis, false, sign);
+  PulleyContact best;
+  double outermost = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.points.size(); ++i) {
+    const Vec2 vertex = axis + turned(outline.points[i].position, -alpha);
+    const double normal = tangent_normal(pin, rho, vertex, false, sign);
+    if (!std::isfinite(normal)) return std::nullopt;
+    const double outward = sign * std::remainder(normal - reference, k_two_pi);
+    if (outward > outermost) {
+      outermost = outward;
+      best = {i, normal};
+    }
+  }
+  if (!std::isfinite(outermost)) return std::nullopt;
+  return best;
+}
+
+/// Vertices from `first` to the anchor's end of the active arc; just `first` when it already lies at or beyond that end.
+std::vector<std::size_t> wound_indices(const Outline& outline, std::size_t first) {
+  const std::size_t n = outline.points.size();
+  const std::size_t last = outline.anchor_end();
+  const bool forward = outline.side == Side::left;
+  const auto steps_between = [&](std::size_t from, std::size_t to) { return forward ? (to + n - from) % n : (from + n - to) % n; };
+  const std::size_t active_steps = steps_between(forward ? outline.active_first : outline.active_last, last);
+  const std::size_t steps = steps_between(first, last);
+  std::vector<std::size_t> indices{first};
+  // A take-off a vertex beyond the active arc's unwound end still winds all of it.
+  if (steps > active_steps + 2) return indices;
+  for (std::size_t k = 1; k <= steps; ++k) indices.push_back(forward ? (first + k) % n : (first + n - k) % n);
+  return indices;
+}
+
+double length_of(const std::vector<Vec2>& points) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+/// Points of an arc every few degrees, both ends included.
+std::vector<Vec2> arc(const Vec2& centre, double radius, double from, double to) {
+  const int steps = std::clamp(static_cast<int>(std::ceil(std::abs(to - from) / radians(4))), 1, 360);
+  std::vector<Vec2> points;
+  for (int i = 0; i <= steps; ++i) points.push_back(centre + radius * unit(from + (to - from) * i / steps));
+  return points;
+}
+
+std::vector<Vec2> positions(const Outline& outline) {
+  std::vector<Vec2> points;
+  for (const OutlinePoint& point : outline.points) points.push_back(point.position);
+  return points;
+}
+
+std::vector<Vec2> closed_copy(std::vector<Vec2> points) {
+  if (!points.empty()) points.push_back(points.front());
+  return points;
+}
+
+// Placing on paper ----------------------------------------------------------------------------------------------------
+
+/// mm, y up → px, y down.
+struct View {
+  Vec2 low{1e9, 1e9};
+  Vec2 high{-1e9, -1e9};
+  double scale = 1;
+  Vec2 origin{0, 0};
+
+  void include(const Vec2& point, double margin = 0) {
+    if (!point.allFinite()) return;
+    low = low.cwiseMin(point - Vec2(margin, margin));
+    high = high.cwiseMax(point + Vec2(margin, margin));
+  }
+  /// Fits what was included into a width and a height at (left, top).
+  void fit(double left, double top, double width, double height) {
+    const Vec2 size = (high - low).cwiseMax(Vec2(1e-6, 1e-6));
+    scale = std::min(width / size.x(), height / size.y());
+    const Vec2 middle = 0.5 * (low + high);
+    origin = {left + 0.5 * width - scale * middle.x(), top + 0.5 * height + scale * middle.y()};
+  }
+  Vec2 operator()(const Vec2& point) const { return {origin.x() + scale * point.x(), origin.y() - scale * point.y()}; }
+  std::vector<Vec2> operator()(std::vector<Vec2> points) const {
+    for (Vec2& point : points) point = (*this)(point);
+    return points;
+  }
+};
+
+constexpr double k_drawing_tolerance = 0.15;  // px
+
+std::string curve(std::string_view classes, const View& view, const std::vector<Vec2>& points, bool closed = false) {
+  return svg_path(classes, thinned(view(points), k_drawing_tolerance), closed);
+}
+
+std::string ink(Side side) { return side == Side::left ? "p1" : "p2"; }
+std::string_view pulley_name(Side side) { return side == Side::left ? "P1" : "P2"; }
+
+/// A round length for a scale bar of about `px` pixels.
+double scale_bar_length(double scale, double px) {
+  const double rough = px / scale;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * decade <= rough) return factor * decade;
+  }
+  return decade;
+}
+
+std::string scale_bar(const View& view, const Vec2& left_end) {
+  const double length = scale_bar_length(view.scale, 90);
+  const Vec2 right_end = left_end + Vec2(length * view.scale, 0);
+  const Vec2 tick(0, 4);
+  return svg_line("dimension", left_end, right_end) + svg_line("dimension", left_end - tick, left_end + tick) +
+         svg_line("dimension", right_end - tick, right_end + tick) +
+         svg_words("soft middle", 0.5 * (left_end + right_end) - Vec2(0, 6), rounded(length) + " mm");
+}
+
+// Mechanism -----------------------------------------------------------------------------------------------------------
+
+constexpr double k_panel_width = 340;
+constexpr double k_panel_height = 400;
+
+View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<Pose>& poses) {
+  View view;
+  view.include({0, 0}, 0.06 * mechanism.joint.R);
+  for (const Side side : {Side::left, Side::right}) {
+    view.include(pin_centre(mechanism, side), mechanism.guide_pitch_radius() + 0.5 * mechanism.tendon.diameter);
+  }
+  double reach = 0;
+  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    for (const OutlinePoint& point : outline->points) reach = std::max(reach, point.position.norm());
+  }
+  view.include(pulley_axis(mechanism), reach);
+  for (const Pose& pose : poses) view.include(attachment(mechanism, pose.theta));
+  view.fit(30, 34, k_panel_width - 60, k_panel_height - 92);
+  return view;
+}
+
+/// Turned with the pulley, a group of its own: the outlines as they lie at home.
+std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, double alpha) {
+  const Vec2 axis = pulley_axis(mechanism);
+  const Vec2 centre = view(axis);
+  std::string svg = "<g class=\"pulley\" transform=\"rotate(" + svg_number(degrees(alpha)) + " " + svg_number(centre.x()) + " " +
+                    svg_number(centre.y()) + ")\">";
+  double reach = 0;
+  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    std::vector<Vec2> points = closed_copy(positions(*outline));
+    for (Vec2& point : points) {
+      reach = std::max(reach, point.norm());
+      point += axis;
+    }
+    svg += curve("thin " + ink(outline->side), view, points);
+  }
+  // The home mark: it points to +y at α = 0.
+  const double mark = reach * view.scale;
+  svg += svg_line("axis-line", centre, centre - Vec2(0, mark + 7));
+  return svg + svg_circle("metal", centre, 3) + "</g>";
+}
+
+std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism, Side side) {
+  const double width = std::max(2.0, mechanism.tendon.diameter * view.scale);
+  std::string svg = "<g class=\"tendon\" style=\"stroke-width:" + svg_number(width) + "\">";
+  svg += curve(ink(side) + " whole", view, trace.free_path) + curve(ink(side) + " whole", view, trace.wound_path);
+  return svg + "</g>" + svg_circle("take-off", view(trace.take_off), 3);
+}
+
+std::string joint_group(const Mechanism& mechanism, const View& view, double theta) {
+  const Vec2 joint = view({0, 0});
+  const Vec2 end = view(attachment(mechanism, theta));
+  return "<g class=\"joint-link\">" + svg_line("link", joint, end) + "</g>" + svg_circle("metal", joint, 5) +
+         svg_circle("take-off", end, 3.5);
+}
+
+std::string pins(const Mechanism& mechanism, const View& view) {
+  std::string svg;
+  for (const Side side : {Side::left, Side::right}) {
+    svg += svg_circle("metal", view(pin_centre(mechanism, side)), std::max(1.5, mechanism.guides.radius * view.scale));
+  }
+  return svg;
+}
+
+std::string point_names(const Mechanism& mechanism, const View& view, double theta) {
+  const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
+  const Vec2 c = view(attachment(mechanism, theta));
+  const Vec2 away(std::sin(theta), -std::cos(theta));
+  return svg_words("halo middle", c + 15 * away + Vec2(0, 4), "C") + svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
+         svg_words("halo middle", view(pin_centre(mechanism, Side::left)) + Vec2(gap, 5), "B") +
+         svg_words("halo middle", view(pin_centre(mechanism, Side::right)) + Vec2(-gap, 5), "D") +
+         svg_words("halo", view(pulley_axis(mechanism)) + Vec2(7, 15), "G");
+}
+
+Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose) {
+  const std::string angles =
+      "θ " + readable(degrees(pose.theta), 1) + "°   α " + readable(degrees(pose.alpha), 1) + "°";
+  Figure figure{k_panel_width, k_panel_height, "The mechanism at " + angles, {}, {}};
+  figure.body = svg_words("heading", {4, 18}, angles) + joint_group(mechanism, view, pose.theta) +
+                pulley_group(mechanism, synthesis, view, pose.alpha) + pins(mechanism, view);
+  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    if (const auto trace = trace_tendon(mechanism, *outline, pose.alpha, pose.theta)) {
+      figure.body += tendon_group(*trace, view, mechanism, outline->side);
+    }
+  }
+  figure.body += point_names(mechanism, view, pose.theta) + scale_bar(view, {6, k_panel_height - 10});
+  return figure;
+}
+
+// Profile -------------------------------------------------------------------------------------------------------------
+
+constexpr double k_profile_width = 520;
+constexpr double k_profile_height = 520;
+
+/// A dimension along a radius: a line from the axis to the point, and its length beside the point.
+std::string radius_dimension(const View& view, const Vec2& point) {
+  const Vec2 tip = view(point);
+  const Vec2 outward = (tip - view({0, 0})).normalized();
+  const std::string anchor = outward.x() < -0.3 ? " end" : outward.x() > 0.3 ? "" : " middle";
+  return svg_line("dimension", view({0, 0}), tip) +
+         svg_words("small halo" + anchor, tip + 26 * outward + Vec2(0, 4), readable(point.norm(), 3));
+}
+
+/// Horizontal overall size below the drawing.
+std::string width_dimension(const View& view, double low, double high, double bottom_px, const std::string& words) {
+  const Vec2 left(view({low, 0}).x(), bottom_px);
+  const Vec2 right(view({high, 0}).x(), bottom_px);
+  const Vec2 tick(0, 5);
+  return svg_line("dimension", left, right) + svg_line("dimension", left - tick, left + tick) +
+         svg_line("dimension", right - tick, right + tick) + svg_words("small halo middle", 0.5 * (left + right) + Vec2(0, 5), words);
+}
+
+std::vector<Vec2> arc_points(const Outline& outline, std::size_t first, std::size_t last) {
+  std::vector<Vec2> points;
+  const std::size_t n = outline.points.size();
+  for (std::size_t i = first;; i = (i + 1) % n) {
+    points.push_back(outline.points[i].position);
+    if (i == last) return points;
+  }
+}
+
+std::string anchors(const View& view, const Pulley& pulley, Side side) {
+  std::string svg;
+  for (const Anchor& anchor : pulley.anchors) {
+    if (anchor.side != side) continue;
+    svg += curve("hole", view, anchor.channel, true) + svg_circle("hole", view(anchor.pocket), pulley.layout.pocket_radius * view.scale);
+    const Vec2 place = view(anchor.pocket);
+    svg += svg_words("soft halo middle", place + Vec2(0, 4), anchor.wound_end ? "a" : "s");
+  }
+  return svg;
+}
+
+std::string bore(const View& view, const BodyLayout& layout) {
+  std::string svg = curve("hole", view, layout.bore.outline, true);
+  for (const Polygon& hole : layout.bore.screw_holes) svg += curve("hole", view, hole, true);
+  return svg;
+}
+
+std::string axes(const View& view, double reach) {
+  return svg_line("axis-line", view({-1.06 * reach, 0}), view({1.06 * reach, 0})) +
+         svg_line("axis-line", view({0, -1.06 * reach}), view({0, 1.12 * reach})) +
+         svg_words("soft halo middle", view({0, 1.12 * reach}) - Vec2(0, 6), "home");
+}
+
+double active_turn(const Outline& outline) {
+  return wrapped(outline.points[outline.active_last].psi - outline.points[outline.active_first].psi);
+}
+
+std::string profile_legend(const Outline& outline) {
+  const std::string colour = ink(outline.side);
+  struct Entry {
+    std::string classes;
+    std::string words;
+  };
+  const Entry entries[] = {{"curve " + colour + " whole", "active arc (pitch)"},
+                           {"closing " + colour, "closing arc"},
+                           {"floor main", "groove floor"},
+                           {"flange", "lip"}};
+  std::string svg;
+  double x = 4;
+  for (const Entry& entry : entries) {
+    svg += svg_line(entry.classes, {x, 40}, {x + 24, 40}) + svg_words("small", {x + 30, 44}, entry.words);
+    x += 30 + words_width(entry.words, 12) + 14;
+  }
+  return svg;
+}
+
+}  // namespace
+
+// The tendon as a taut string over what is drawn: first the tangent from C to the pin, then the common tangent of the pin and the
+// pitch polygon, then along the polygon. Only α and θ come from the transmission; that the path's length stays the same over the
+// stroke is therefore a test of synthesis and drawing together.
+std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha, double theta) {
+  if (outline.points.size() < 3) return std::nullopt;
+  const double sign = mirror_sign(outline.side);
+  const double rho = mechanism.guide_pitch_radius();
+  const Vec2 pin = pin_centre(mechanism, outline.side);
+  TendonTrace trace;
+  trace.attachment = attachment(mechanism, theta);
+  const double upper = tangent_normal(pin, rho, trace.attachment, true, sign);
+  const auto contact = pulley_contact(mechanism, outline, alpha);
+  if (!std::isfinite(upper) || !contact) return std::nullopt;
+  // Wrap is positive when the tendon lies on the pin: the normal turns clockwise on the right on its way down.
+  const double wrap = -sign * std::remainder(contact->normal - upper, k_two_pi);
+  trace.onto_pin = pin + rho * unit(upper);
+  trace.off_pin = pin + rho * unit(contact->normal);
+  const Vec2 axis = pulley_axis(mechanism);
+  for (const std::size_t i : wound_indices(outline, contact->index)) {
+    trace.wound_path.push_back(axis + turned(outline.points[i].position, -alpha));
+  }
+  trace.take_off = trace.wound_path.front();
+  trace.free_path = arc(pin, rho, upper, upper - sign * wrap);
+  trace.free_path.insert(trace.free_path.begin(), trace.attachment);
+  trace.free_path.push_back(trace.take_off);
+  trace.free_length = (trace.onto_pin - trace.attachment).norm() + rho * wrap + (trace.take_off - trace.off_pin).norm();
+  trace.wound_length = length_of(trace.wound_path);
+  return trace;
+}
+
+std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<Pose>& poses) {
+  const View view = mechanism_view(mechanism, synthesis, poses);
+  std::vector<Figure> figures;
+  for (const Pose& pose : poses) figures.push_back(mechanism_figure(mechanism, synthesis, view, pose));
+  return figures;
+}
+
+Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const Pulley& pulley) {
+  const std::string name(pulley_name(outline.side));
+  Figure figure{k_profile_width, k_profile_height, "Profile of " + name, {}, {}};
+  if (outline.points.size() < 3) return figure;
+  const double radius = 0.5 * mechanism.tendon.diameter;
+  const Polygon floor = parallel(outline, -radius);
+  const Polygon lip = parallel(outline, pulley.layout.groove_depth - radius);
+  View view;
+  for (const Vec2& point : lip) view.include(point);
+  const double low = view.low.x(), high = view.high.x();
+  const double reach = std::max(view.high.cwiseAbs().maxCoeff(), view.low.cwiseAbs().maxCoeff());
+  view.include({0, 1.12 * reach});
+  view.fit(34, 66, k_profile_width - 68, k_profile_height - 118);
+  figure.body = svg_words("heading", {4, 18}, name + ", seen from +z at home") + profile_legend(outline);
+  figure.body += curve("flange", view, lip, true) + curve("floor main", view, floor, true);
+  figure.body += anchors(view, pulley, outline.side) + bore(view, pulley.layout) + axes(view, reach);
+  figure.body += curve("closing " + ink(outline.side), view, arc_points(outline, outline.active_last, outline.active_first));
+  figure.body += curve("curve whole " + ink(outline.side), view, arc_points(outline, outline.active_first, outline.active_last));
+  figure.body += radius_dimension(view, outline.points[outline.active_first].position) +
+                 radius_dimension(view, outline.points[outline.active_last].position);
+  const std::string words = "overall " + readable(high - low, 2) + " mm, active arc " + readable(degrees(active_turn(outline)), 1) + "°";
+  figure.body += width_dimension(view, low, high, k_profile_height - 28, words);
+  return figure;
+}
+
+}  // namespace fusee

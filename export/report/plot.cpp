@@ -1,0 +1,265 @@
+#include "export/report/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_small_font = 12;
+/// What is larger (or not a number) is left off the paper: no axis could show it beside anything else.
+constexpr double k_largest = 1e15;
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double value) {
+    if (!(std::abs(value) < k_largest)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double span() const { return high - low; }
+};
+
+/// Widened about its middle to `least` and beyond what a double can resolve; [0, 1] when nothing is in it.
+Range usable(Range range, double least) {
+  if (!(range.low <= range.high)) return {0, 1};
+  const double size = std::max(std::abs(range.low), std::abs(range.high));
+  const double wanted = std::max({least, 1e-9 * size, range.span()});
+  const double span = wanted > 0 ? wanted : 1;
+  const double middle = 0.5 * (range.low + range.high);
+  return span > range.span() ? Range{middle - 0.5 * span, middle + 0.5 * span} : range;
+}
+
+/// Where values go on paper.
+struct Frame {
+  Range x, y;
+  double left, top, width, height;
+  std::vector<double> x_ticks, y_ticks;
+
+  Vec2 operator()(const Vec2& value) const {
+    return {left + (value.x() - x.low) / x.span() * width, top + (y.high - value.y()) / y.span() * height};
+  }
+  double right() const { return left + width; }
+  double bottom() const { return top + height; }
+};
+
+Range forced(Range range, const PlotAxis& axis) {
+  if (axis.low) range.low = *axis.low;
+  if (axis.high) range.high = *axis.high;
+  return usable(range, axis.least_span);
+}
+
+double step_of(const std::vector<double>& ticks) { return ticks[1] - ticks[0]; }
+
+std::string tick_label(double value, double step) {
+  const double size = std::max(std::abs(value), std::abs(step));
+  if (size != 0 && (size >= 1e6 || std::abs(step) < 1e-5)) return readable_rounded(value, 3);
+  return readable(value, tick_decimals(step));
+}
+
+Frame make_frame(const Plot& plot) {
+  Range x, y;
+  for (const PlotSeries& series : plot.series) {
+    for (const Vec2& point : series.points) {
+      if (!point.allFinite()) continue;
+      x.include(point.x());
+      y.include(point.y());
+    }
+  }
+  for (const PlotLimit& limit : plot.limits) y.include(limit.y);
+  for (const PlotMark& mark : plot.marks) y.include(mark.at.y());
+  Frame frame;
+  frame.x = forced(x, plot.x);
+  const Range wanted = forced(y, plot.y);
+  frame.y_ticks = nice_ticks(wanted.low, wanted.high, 5, plot.y.unit);
+  frame.y = {frame.y_ticks.front(), frame.y_ticks.back()};
+  frame.x_ticks = nice_ticks(frame.x.low, frame.x.high, 7, plot.x.unit);
+  // The stroke fills the width: ticks beyond its ends would only be empty space.
+  const double slop = 1e-9 * frame.x.span();
+  std::erase_if(frame.x_ticks, [&](double t) { return t < frame.x.low - slop || t > frame.x.high + slop; });
+  double label_width = 0;
+  for (const double tick : frame.y_ticks) {
+    label_width = std::max(label_width, words_width(tick_label(tick, step_of(frame.y_ticks)), k_small_font));
+  }
+  frame.left = 34 + label_width;
+  frame.top = 58;
+  frame.width = plot.width - frame.left - 14;
+  frame.height = plot.height - frame.top - 48;
+  return frame;
+}
+
+std::string axis_words(const PlotAxis& axis) { return axis.unit.empty() ? axis.label : axis.label + " (" + axis.unit + ")"; }
+
+std::string x_axis(const Plot& plot, const Frame& frame) {
+  const double step = frame.x_ticks.size() > 1 ? step_of(frame.x_ticks) : frame.x.span();
+  std::string svg;
+  for (const double tick : frame.x_ticks) {
+    const Vec2 at = frame({tick, frame.y.low});
+    svg += svg_line("grid", at, {at.x(), frame.top});
+    svg += svg_words("soft middle", {at.x(), at.y() + 18}, tick_label(tick, step));
+  }
+  return svg + svg_words("small middle", {frame.left + 0.5 * frame.width, plot.height - 10}, axis_words(plot.x));
+}
+
+std::string y_axis(const Plot& plot, const Frame& frame) {
+  std::string svg;
+  for (const double tick : frame.y_ticks) {
+    const Vec2 at = frame({frame.x.low, tick});
+    const bool zero = std::abs(tick) < 1e-9 * step_of(frame.y_ticks);
+    svg += svg_line(zero ? "zero" : "grid", at, {frame.right(), at.y()});
+    svg += svg_words("soft end", {at.x() - 7, at.y() + 4}, tick_label(zero ? 0 : tick, step_of(frame.y_ticks)));
+  }
+  const double middle = frame.top + 0.5 * frame.height;
+  return svg + "<text class=\"small middle\" transform=\"translate(14 " + svg_number(middle) + ") rotate(-90)\">" +
+         safe_text(axis_words(plot.y)) + "</text>";
+}
+
+std::string_view ink_class(Ink ink) {
+  switch (ink) {
+    case Ink::p1: return "p1";
+    case Ink::p2: return "p2";
+    case Ink::third: return "third";
+    case Ink::main: break;
+  }
+  return "main";
+}
+
+std::string series_classes(const PlotSeries& series) {
+  return "curve " + std::string(ink_class(series.ink)) + (series.thin ? " thin" : "");
+}
+
+std::string legend(const Plot& plot) {
+  const auto named = std::count_if(plot.series.begin(), plot.series.end(), [](const auto& s) { return !s.name.empty(); });
+  std::string svg;
+  double x = 2;
+  for (const PlotSeries& series : plot.series) {
+    if (series.name.empty() || named < 2) continue;
+    svg += svg_line(series_classes(series), {x, 38}, {x + 26, 38});
+    svg += svg_words("small", {x + 32, 42}, series.name);
+    x += 32 + words_width(series.name, k_small_font) + 18;
+  }
+  return svg;
+}
+
+/// Values beyond the frame (an axis with a forced end) end the line at the frame: SVG clips what is outside by `clip`.
+std::string curves(const Plot& plot, const Frame& frame) {
+  std::string svg;
+  for (const PlotSeries& series : plot.series) {
+    std::vector<Vec2> points;
+    points.reserve(series.points.size());
+    for (const Vec2& value : series.points) {
+      Vec2 at = frame(value);
+      const double margin = 0.02 * frame.height;
+      if (at.y() < frame.top - margin || at.y() > frame.bottom() + margin) at.y() = std::numeric_limits<double>::quiet_NaN();
+      points.push_back(at);
+    }
+    svg += "<path class=\"" + series_classes(series) + "\"";
+    if (!series.name.empty()) svg += " data-series=\"" + safe_text(series.name) + "\"";
+    svg += " d=\"" + path_data(points, false) + "\"/>";
+  }
+  return svg;
+}
+
+std::string limits(const Plot& plot, const Frame& frame) {
+  std::string svg;
+  for (const PlotLimit& limit : plot.limits) {
+    const Vec2 at = frame({frame.x.low, limit.y});
+    if (!at.allFinite() || at.y() < frame.top - 1 || at.y() > frame.bottom() + 1) continue;
+    svg += svg_line("limit", at, {frame.right(), at.y()});
+    const bool below = at.y() < frame.top + 16;
+    svg += svg_words("limit-words halo end", {frame.right() - 4, at.y() + (below ? 14 : -5)}, limit.words);
+  }
+  return svg;
+}
+
+std::string marks(const Plot& plot, const Frame& frame) {
+  std::string svg;
+  for (const PlotMark& mark : plot.marks) {
+    const Vec2 at = frame(mark.at);
+    if (!at.allFinite()) continue;
+    const std::string ink(ink_class(mark.ink));
+    svg += svg_circle("dot " + ink, at, 3.5);
+    const double width = words_width(mark.words, k_small_font);
+    const bool at_right_edge = at.x() + 8 + width > frame.right();
+    const double y = at.y() < frame.top + 18 ? at.y() + 18 : at.y() - 8;
+    svg += svg_words(at_right_edge ? "small halo end" : "small halo", {at.x() + (at_right_edge ? -7 : 7), y}, mark.words);
+  }
+  return svg;
+}
+
+/// What the read-out needs to turn places back into values.
+std::string readout_attributes(const Plot& plot, const Frame& frame) {
+  std::string values;
+  for (const double value : {frame.left, frame.top, frame.width, frame.height, frame.x.low, frame.x.high, frame.y.low, frame.y.high}) {
+    values += (values.empty() ? "" : " ") + shortest(value);
+  }
+  return " data-plot=\"" + values + "\" data-x=\"" + safe_text(plot.x.unit) + "\" data-y=\"" + safe_text(plot.y.unit) + "\"";
+}
+
+}  // namespace
+
+std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit) {
+  const double rough = (high - low) / std::max(1, count);
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  std::vector<double> steps{decade, 2 * decade, 5 * decade, 10 * decade};
+  if (unit == "°" && rough > 5 && rough <= 360) steps = {10, 15, 30, 45, 90, 180, 360};
+  double step = steps.back();
+  for (const double candidate : steps) {
+    if (candidate >= rough * (1 - 1e-9)) {
+      step = candidate;
+      break;
+    }
+  }
+  // A hair of tolerance: an end that is on a tick but for rounding needs no further tick.
+  const double first = std::floor(low / step + 1e-9);
+  const double last = std::max(std::ceil(high / step - 1e-9), first + 1);
+  std::vector<double> ticks;
+  for (double k = first; k <= last; ++k) ticks.push_back(k * step);
+  return ticks;
+}
+
+int tick_decimals(double step) {
+  return std::clamp(static_cast<int>(-std::floor(std::log10(std::abs(step)) + 1e-9)), 0, 12);
+}
+
+// The height of the narrowest strip of a given slope about the points is a convex function of the slope: its minimum is found by
+// thirds, between the least and the largest slope of any chord between neighbours.
+BestLine best_line(const std::vector<Vec2>& points) {
+  const auto strip = [&](double slope) {
+    Range range;
+    for (const Vec2& point : points) range.include(point.y() - slope * point.x());
+    return range;
+  };
+  Range slopes;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vec2 chord = points[i] - points[i - 1];
+    if (chord.x() != 0) slopes.include(chord.y() / chord.x());
+  }
+  if (!(slopes.low <= slopes.high)) return {};
+  for (int i = 0; i < 120; ++i) {
+    const double third = slopes.span() / 3;
+    if (strip(slopes.low + third).span() < strip(slopes.high - third).span()) {
+      slopes.high -= third;
+    } else {
+      slopes.low += third;
+    }
+  }
+  const double slope = 0.5 * (slopes.low + slopes.high);
+  const Range range = strip(slope);
+  return {slope, 0.5 * (range.low + range.high), 0.5 * range.span()};
+}
+
+Figure plot_figure(const Plot& plot) {
+  const Frame frame = make_frame(plot);
+  Figure figure{plot.width, plot.height, plot.title, {}, readout_attributes(plot, frame)};
+  figure.body = svg_words("heading", {2, 17}, plot.title) + legend(plot) + x_axis(plot, frame) + y_axis(plot, frame) +
+                limits(plot, frame) + curves(plot, frame) + marks(plot, frame);
+  return figure;
+}
+
+}  // namespace fusee

@@ -1,0 +1,71 @@
+/// \file
+/// Line plots as plain values: title, axes with units, series, limits, marks → one figure. Nothing here knows a pulley.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "export/report/svg.h"
+
+namespace fusee {
+
+/// Colour and line style of a series; told apart in print and by the colour-blind too.
+enum class Ink { main, p1, p2, third };
+
+struct PlotAxis {
+  std::string label;        ///< "pulley angle α"
+  std::string unit;         ///< "mm", "°" … or "" for a plain number
+  std::optional<double> low;   ///< force the end of the axis
+  std::optional<double> high;
+  double least_span = 0;    ///< an axis is never stretched beyond this, so that rounding noise does not look like a result
+};
+
+struct PlotSeries {
+  std::string name;           ///< in the legend; "": not in the legend, no read-out
+  Ink ink = Ink::main;
+  std::vector<Vec2> points;   ///< a point that is not finite breaks the line
+  bool thin = false;          ///< secondary
+};
+
+/// A horizontal line: a limit, with its words at the right end.
+struct PlotLimit {
+  double y = 0;
+  std::string words;
+};
+
+/// A single point worth a name.
+struct PlotMark {
+  Vec2 at;
+  std::string words;
+  Ink ink = Ink::main;
+};
+
+struct Plot {
+  std::string title;
+  PlotAxis x;
+  PlotAxis y;
+  std::vector<PlotSeries> series;
+  std::vector<PlotLimit> limits;
+  std::vector<PlotMark> marks;
+  double width = 520;
+  double height = 320;
+};
+
+Figure plot_figure(const Plot& plot);
+
+/// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k, or for
+/// `unit` "°" also 15, 30, 45, 90. Needs finite low < high.
+std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit = {});
+/// The straight line that leaves the points least (minimax), and by how much: |y − (offset + slope x)| <= deviation.
+struct BestLine {
+  double slope = 0;
+  double offset = 0;
+  double deviation = 0;
+};
+BestLine best_line(const std::vector<Vec2>& points);
+
+/// Decimals that a tick label of this step needs.
+int tick_decimals(double step);
+
+}  // namespace fusee

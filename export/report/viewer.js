@@ -1,0 +1,153 @@
+// The part in 3-D: WebGL 2 and nothing else. Right-handed throughout; z is the pulley's axis.
+(() => {
+  const stage = document.querySelector(".stage");
+  if (!stage) return;
+  const canvas = stage.querySelector("canvas"), missing = stage.querySelector(".missing");
+  const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+  if (!gl) { canvas.hidden = true; return; }
+  missing.hidden = true;
+  stage.querySelector(".buttons").hidden = false;
+
+  // The code of export/report/mesh_code.h.
+  const bytes = Uint8Array.from(atob(document.getElementById("mesh").textContent.trim()), c => c.charCodeAt(0));
+  const data = canvas.dataset, low = data.low.split(" ").map(Number), step = Number(data.step), corners = 3 * Number(data.triangles);
+  const index = new Uint32Array(corners), place = [];
+  let position = 0;
+  const varint = () => { for (let v = 0, shift = 0; ; shift += 7) { const b = bytes[position++]; v |= (b & 127) << shift; if (b < 128) return v >>> 0; } };
+  const before = [0, 0, 0];
+  for (let i = 0, newest = 0; i < corners; i++) {
+    const back = varint();
+    index[i] = newest - back;
+    if (back) continue;
+    newest++;
+    for (let k = 0; k < 3; k++) { const z = varint(); before[k] += z & 1 ? -(z + 1) / 2 : z / 2; place.push(low[k] + step * before[k]); }
+  }
+
+  // Corner normals: the mean over the faces about a vertex that meet at less than the crease angle; edges where they do not.
+  const faces = corners / 3, normals = new Float32Array(corners), count = place.length / 3;
+  const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const unit = v => { const n = Math.hypot(...v) || 1; return [v[0] / n, v[1] / n, v[2] / n]; };
+  const vertex = i => [place[3 * i], place[3 * i + 1], place[3 * i + 2]];
+  const area = [], flat = [], about = Array.from({ length: count }, () => []), centre = [0, 0, 0], top3 = [-1e9, -1e9, -1e9], low3 = [1e9, 1e9, 1e9];
+  for (let f = 0; f < faces; f++) {
+    const [a, b, c] = [0, 1, 2].map(k => vertex(index[3 * f + k])), n = cross(sub(b, a), sub(c, a));
+    area.push(n); flat.push(unit(n));
+    for (let k = 0; k < 3; k++) about[index[3 * f + k]].push(f);
+  }
+  for (let i = 0; i < place.length; i++) { low3[i % 3] = Math.min(low3[i % 3], place[i]); top3[i % 3] = Math.max(top3[i % 3], place[i]); }
+  for (let k = 0; k < 3; k++) centre[k] = (low3[k] + top3[k]) / 2;
+  const radius = Math.hypot(...sub(top3, low3)) / 2, crease = Math.cos(32 * Math.PI / 180);
+  const points = new Float32Array(3 * corners), smooth = new Float32Array(3 * corners), edges = [], open = new Map();
+  for (let f = 0; f < faces; f++) for (let k = 0; k < 3; k++) {
+    const v = index[3 * f + k], next = index[3 * f + (k + 1) % 3], sum = [0, 0, 0];
+    for (const g of about[v]) if (dot(flat[f], flat[g]) > crease) for (let d = 0; d < 3; d++) sum[d] += area[g][d];
+    points.set(vertex(v), 9 * f + 3 * k);
+    smooth.set(unit(sum), 9 * f + 3 * k);
+    const twin = next * count + v;
+    if (open.has(twin)) { if (dot(flat[f], flat[open.get(twin)]) < crease) edges.push(...vertex(v), ...vertex(next)); open.delete(twin); }
+    else open.set(v * count + next, f);
+  }
+
+  const shader = (type, source) => {
+    const s = gl.createShader(type);
+    gl.shaderSource(s, "#version 300 es\nprecision highp float;\n" + source); gl.compileShader(s);
+    if (!gl.getShaderParameter(s, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(s));
+    return s;
+  };
+  const program = gl.createProgram();
+  gl.attachShader(program, shader(gl.VERTEX_SHADER, `layout(location=0) in vec3 p; layout(location=1) in vec3 n; uniform mat4 m; out vec3 at, normal;
+    void main(){ at = p; normal = n; gl_Position = m * vec4(p, 1.); }`));
+  gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `in vec3 at, normal; uniform vec3 eye, side, above, metal, ink1, ink2, cut, edge; uniform vec3 g1, g2; uniform bool line, half_; out vec4 colour;
+    bool within(vec3 g){ return abs(at.z - g.x) < g.y && length(at.xy) > g.z; }
+    void main(){
+      if (half_ && at.y < 0.) discard;
+      if (line) { colour = vec4(edge, 1.); return; }
+      if (!gl_FrontFacing) { colour = vec4(cut, 1.); return; }
+      vec3 n = normalize(normal), v = normalize(eye - at), base = within(g1) ? mix(metal, ink1, .55) : within(g2) ? mix(metal, ink2, .55) : metal;
+      vec3 key = normalize(.55 * v - .45 * side + .75 * above), fill = normalize(.6 * v + .8 * side - .1 * above);
+      float light = .34 + .12 * dot(n, above) + .52 * max(dot(n, key), 0.) + .2 * max(dot(n, fill), 0.);
+      float shine = pow(max(dot(n, normalize(key + v)), 0.), 40.);
+      colour = vec4(base * light * 1.12 + .10 * shine, 1.);
+    }`));
+  gl.linkProgram(program); gl.useProgram(program);
+  const uniform = name => gl.getUniformLocation(program, name);
+  const buffers = (positions, vectors) => {
+    const array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    [positions, vectors].forEach((values, slot) => {
+      if (!values) return;
+      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+      gl.enableVertexAttribArray(slot); gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, 0, 0);
+    });
+    return array;
+  };
+  const body = buffers(points, smooth), wires = buffers(new Float32Array(edges), null);
+  gl.enable(gl.DEPTH_TEST); gl.enable(gl.POLYGON_OFFSET_FILL); gl.polygonOffset(1, 1);
+
+  const colour = name => { const h = getComputedStyle(stage).getPropertyValue(name).trim(); return [1, 3, 5].map(i => parseInt(h.slice(i, i + 2), 16) / 255); };
+  const home = { turn: -65, lift: 32, zoom: 1, x: 0, y: 0, half: false };
+  const view = { ...home };
+  const draw = () => {
+    const ratio = Math.min(devicePixelRatio || 1, 2), w = Math.max(1, Math.round(canvas.clientWidth * ratio)), h = Math.max(1, Math.round(canvas.clientHeight * ratio));
+    if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
+    const turn = view.turn * Math.PI / 180, lift = view.lift * Math.PI / 180, aspect = w / h, f = 4;
+    const back = [Math.cos(lift) * Math.cos(turn), Math.cos(lift) * Math.sin(turn), Math.sin(lift)];
+    const side = [-Math.sin(turn), Math.cos(turn), 0], above = cross(back, side);  // side × above = back: right-handed
+    const distance = f * radius * 1.06 * Math.max(1, 1 / aspect) / view.zoom;
+    const eye = [0, 1, 2].map(k => centre[k] + distance * back[k] - view.x * side[k] - view.y * above[k]);
+    const near = Math.max(distance - 3 * radius, 0.02 * radius), far = distance + 3 * radius;
+    const a = (far + near) / (near - far), b = 2 * far * near / (near - far);
+    const rows = [side.map(s => s * f / aspect), above.map(s => s * f), back];
+    const shift = rows.map(r => -dot(r, eye));
+    const matrix = [];
+    for (let k = 0; k < 3; k++) matrix.push(rows[0][k], rows[1][k], a * back[k], -back[k]);
+    matrix.push(shift[0], shift[1], a * shift[2] + b, -shift[2]);
+    gl.viewport(0, 0, w, h);
+    gl.clearColor(...colour("--stage"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.uniformMatrix4fv(uniform("m"), false, matrix);
+    for (const [name, value] of Object.entries({ eye, side, above })) gl.uniform3fv(uniform(name), value);
+    for (const [name, source] of Object.entries({ metal: "--metal", ink1: "--p1", ink2: "--p2", cut: "--cut", edge: "--edge" })) gl.uniform3fv(uniform(name), colour(source));
+    gl.uniform3fv(uniform("g1"), data.groove1.split(" ").map(Number)); gl.uniform3fv(uniform("g2"), data.groove2.split(" ").map(Number));
+    gl.uniform1i(uniform("half_"), view.half);
+    gl.uniform1i(uniform("line"), 0); gl.bindVertexArray(body); gl.drawArrays(gl.TRIANGLES, 0, corners);
+    gl.uniform1i(uniform("line"), 1); gl.bindVertexArray(wires); gl.drawArrays(gl.LINES, 0, edges.length / 3);
+  };
+  let waiting = false;
+  const redraw = () => { if (!waiting) { waiting = true; requestAnimationFrame(() => { waiting = false; draw(); }); } };
+  const orbit = (dx, dy) => { view.turn -= dx; view.lift = Math.max(-90, Math.min(90, view.lift + dy)); redraw(); };
+  const zoom = factor => { view.zoom = Math.max(0.3, Math.min(20, view.zoom * factor)); redraw(); };
+  const pan = (dx, dy) => { const mm = 2.12 * radius / view.zoom / canvas.clientHeight; view.x += dx * mm; view.y -= dy * mm; redraw(); };
+
+  const fingers = new Map();
+  canvas.addEventListener("pointerdown", e => { canvas.setPointerCapture(e.pointerId); fingers.set(e.pointerId, [e.clientX, e.clientY]); canvas.focus({ preventScroll: true }); });
+  canvas.addEventListener("pointermove", e => {
+    const last = fingers.get(e.pointerId);
+    if (!last) return;
+    const dx = e.clientX - last[0], dy = e.clientY - last[1], apart = () => { const [p, q] = [...fingers.values()]; return Math.hypot(p[0] - q[0], p[1] - q[1]) || 1; };
+    if (fingers.size === 2) { const old = apart(); fingers.set(e.pointerId, [e.clientX, e.clientY]); zoom(apart() / old); pan(dx / 2, dy / 2); return; }
+    fingers.set(e.pointerId, [e.clientX, e.clientY]);
+    if (e.shiftKey || e.buttons & 6) pan(dx, dy); else orbit(0.45 * dx, 0.45 * dy);
+  });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, e => fingers.delete(e.pointerId));
+  canvas.addEventListener("contextmenu", e => e.preventDefault());
+  // The wheel belongs to the page until the view was clicked.
+  canvas.addEventListener("wheel", e => { if (document.activeElement === canvas || e.ctrlKey) { e.preventDefault(); zoom(Math.exp(-0.0015 * e.deltaY)); } }, { passive: false });
+  const set = change => { Object.assign(view, change); redraw(); };
+  const keys = { ArrowLeft: () => orbit(-6, 0), ArrowRight: () => orbit(6, 0), ArrowUp: () => orbit(0, -6), ArrowDown: () => orbit(0, 6), "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15), Home: () => set({ ...home, half: view.half }) };
+  canvas.addEventListener("keydown", e => { const act = keys[e.key]; if (act) { e.preventDefault(); act(); } });
+  const views = { slanted: home, top: { turn: -90, lift: 90 }, side: { turn: -90, lift: 0 }, below: { turn: -90, lift: -90 } };
+  for (const button of stage.querySelectorAll("button")) button.addEventListener("click", () => {
+    const name = button.dataset.view;
+    if (name !== "half") return set({ ...home, ...views[name], half: view.half });
+    set({ half: !view.half });
+    button.setAttribute("aria-pressed", view.half);
+  });
+  new ResizeObserver(redraw).observe(canvas);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  addEventListener("beforeprint", draw);
+  canvas.addEventListener("webglcontextlost", () => { canvas.hidden = true; missing.hidden = false; });
+  draw();
+})();
