@@ -69,6 +69,7 @@ class MechanismReader {
   void take_number(const Field& field, const Entry& entry, int end, const toml::node& node);
   void take_range(const Field& field, const Entry& entry);
   void take_text(const Field& field, const Entry& entry);
+  bool is_needed(const Field& field) const;
   void look_for_missing();
   // Step 4
   void check_transmission();
@@ -304,12 +305,19 @@ void MechanismReader::take(const Field& field, const Entry& entry) {
   }
 }
 
+/// A key without a default that this mechanism uses. Where the choice that decides it is wrong itself, nothing is known.
+bool MechanismReader::is_needed(const Field& field) const {
+  const std::string decider(field.only_when.substr(0, field.only_when.find('=')));
+  const auto decided = good_.find(decider);
+  return (decided == good_.end() || decided->second) && is_used(field, mechanism_);
+}
+
 void MechanismReader::look_for_missing() {
   const bool other_joint = has_table("transmission");
   for (const Field& field : fields()) {
     const bool belongs_to_other = field.table == "transmission";
     if (!field.table.empty() && belongs_to_other != other_joint) continue;
-    const bool conditional = !field.only_when.empty() && field.fallback.empty() && is_used(field, mechanism_) && !other_joint;
+    const bool conditional = !field.only_when.empty() && field.fallback.empty() && is_needed(field) && !other_joint;
     if (!(field.required || conditional) || good_.count(field.name()) > 0) continue;
     const std::string where = field.table.empty() ? "at the top of the file" : "under [" + std::string(field.table) + "]";
     const std::string example = field.least == field.most && field.kind == FieldKind::number ? shortest(field.least) : "...";
@@ -374,8 +382,10 @@ void MechanismReader::load_table() {
 // ---- the whole ------------------------------------------------------------------------------------------------------
 
 void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
-  // By place in the file; --set comes behind.
-  const auto key = [this](const Diagnostic& d) { return std::make_tuple(d.place.file != name_, d.place.line, d.place.column); };
+  // By place in the file; then what concerns all of it; then --set.
+  const auto key = [this](const Diagnostic& d) {
+    return std::make_tuple(d.place.file != name_, d.place.line == 0, d.place.line, d.place.column);
+  };
   const auto by_place = [&key](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); };
   std::stable_sort(errors_.begin(), errors_.end(), by_place);
   std::stable_sort(warnings_.begin(), warnings_.end(), by_place);

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism/file.h"
+#include "mechanism/field_text.h"
+
+namespace fusee {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The fields that a word means: a dotted name, a key (of every table that has it), a table, or all for "".
+std::vector<const Field*> meant(std::string_view word) {
+  std::vector<const Field*> found;
+  const std::vector<std::string> tables = field_tables();
+  const bool is_table = !word.empty() && std::find(tables.begin(), tables.end(), word) != tables.end();
+  std::vector<std::string> names = tables;
+  for (const Field& field : fields()) {
+    if (word.empty() || (is_table ? field.table == word : field.name() == word || field.key == word)) found.push_back(&field);
+    names.push_back(field.name());
+    names.emplace_back(field.key);
+  }
+  if (!found.empty()) return found;
+  const std::string nearest = nearest_word(word, names);
+  throw InputError("", "there is no key " + in_quotes(word),
+                   nearest.empty() ? "fusee explain lists all keys" : "did you mean " + nearest + "?");
+}
+
+std::string horn_list() {
+  std::string text = "  There are (profiles/catalogue/horns.toml):\n";
+  for (const Horn& horn : horns()) {
+    text += "    " + horn.name + ": " + horn.description + "; " + std::to_string(horn.hole_count) + " holes of " +
+            shortest(horn.hole_diameter) + " mm on " + shortest(horn.hole_circle) + " mm. " + horn.source + "\n";
+  }
+  return text;
+}
+
+std::string tendon_list() {
+  std::string text = "  Known tendons (profiles/catalogue/tendons.toml):\n";
+  for (const TendonType& type : tendon_types()) {
+    text += "    " + type.name + ": diameter_mm = " + shortest(type.diameter) + ", modulus_MPa = " + shortest(type.modulus) +
+            ", bend_ratio = " + shortest(type.bend_ratio) + "; breaks at " + shortest(type.breaking_strength) + " N. " +
+            type.description + ". " + type.source + "\n";
+  }
+  return text;
+}
+
+std::string material_list() {
+  std::string text = "  Known materials (profiles/catalogue/materials.toml):\n";
+  for (const MaterialType& type : material_types()) {
+    text += "    " + type.name + ": shrinks " + shortest(type.shrinkage_least) + " to " + shortest(type.shrinkage_most) + " %, mostly " +
+            shortest(type.shrinkage_typical) + " %. " + type.description + ". " + type.source + "\n";
+  }
+  return text;
+}
+
+/// What of the catalogue helps with a key.
+std::string catalogue_text(const Field& field) {
+  if (field.name() == "body.horn") return horn_list();
+  if (field.table == "tendon" && field.key != "pretension_N") return tendon_list();
+  if (field.name() == "material.name" || field.name() == "material.shrinkage_percent") return material_list();
+  return {};
+}
+
+std::string field_text(const Field& field) {
+  std::string text = field.name();
+  if (!field.symbol.empty()) text += "  (" + std::string(field.symbol) + ")";
+  text += "\n  " + std::string(field.meaning) + "\n  is       " + kind_text(field) + "\n";
+  if (field.kind != FieldKind::choice && field.kind != FieldKind::boolean) text += "  allowed  " + allowed_text(field) + "\n";
+  return text + "  " + default_text(field) + "\n";
+}
+
+/// One line a key, by tables.
+std::string list_text(const std::vector<const Field*>& list) {
+  std::size_t width = 0;
+  for (const Field* field : list) width = std::max(width, field->key.size());
+  std::string text;
+  std::string_view table = "?";
+  for (const Field* field : list) {
+    if (field->table != table) {
+      const std::string head = field->table.empty() ? "at the top" : "[" + std::string(field->table) + "]";
+      text += (text.empty() ? "" : "\n") + head + "  " + std::string(table_meaning(field->table)) + "\n";
+      table = field->table;
+    }
+    text += "  " + std::string(field->key) + std::string(width - field->key.size() + 2, ' ') + std::string(field->meaning) + " (" +
+            default_text(*field) + ")\n";
+  }
+  return text;
+}
+
+Json field_json(const Field& field) {
+  Json json;
+  json["name"] = field.name();
+  json["table"] = field.table;
+  json["key"] = field.key;
+  json["symbol"] = field.symbol;
+  constexpr const char* k_kinds[] = {"number", "range", "choice", "text", "boolean"};
+  json["kind"] = k_kinds[static_cast<int>(field.kind)];
+  json["unit"] = field.unit;
+  json["required"] = field.required;
+  json["only_when"] = field.only_when;
+  json["default"] = field.fallback;
+  if (field.kind == FieldKind::number || field.kind == FieldKind::range) {
+    json["least"] = field.least;
+    json["most"] = field.most;
+  }
+  if (field.kind == FieldKind::choice) json["choices"] = field.choices;
+  json["meaning"] = field.meaning;
+  return json;
+}
+
+Json catalogue_json() {
+  Json json;
+  for (const Horn& horn : horns()) {
+    json["horns"].push_back({{"name", horn.name}, {"description", horn.description}, {"source", horn.source},
+                             {"hub_diameter_mm", horn.hub_diameter}, {"recess_depth_mm", horn.recess_depth},
+                             {"centre_hole_mm", horn.centre_hole}, {"hole_count", horn.hole_count},
+                             {"hole_circle_mm", horn.hole_circle}, {"hole_diameter_mm", horn.hole_diameter}});
+  }
+  for (const TendonType& type : tendon_types()) {
+    json["tendons"].push_back({{"name", type.name}, {"description", type.description}, {"source", type.source},
+                               {"diameter_mm", type.diameter}, {"modulus_MPa", type.modulus},
+                               {"breaking_strength_N", type.breaking_strength}, {"bend_ratio", type.bend_ratio}});
+  }
+  for (const MaterialType& type : material_types()) {
+    json["materials"].push_back({{"name", type.name}, {"description", type.description}, {"source", type.source},
+                                 {"shrinkage_least_percent", type.shrinkage_least},
+                                 {"shrinkage_typical_percent", type.shrinkage_typical},
+                                 {"shrinkage_most_percent", type.shrinkage_most}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string explain(std::string_view key) {
+  const std::vector<const Field*> list = meant(key);
+  const bool one_key = !key.empty() && (list.front()->key == key || list.front()->name() == key);
+  if (!one_key) return list_text(list);
+  std::string text;
+  for (const Field* field : list) text += (text.empty() ? "" : "\n") + field_text(*field) + catalogue_text(*field);
+  return text;
+}
+
+std::string explain_json(std::string_view key) {
+  Json json;
+  json["schema"] = 1;
+  for (const Field* field : meant(key)) json["fields"].push_back(field_json(*field));
+  json["catalogue"] = catalogue_json();
+  return json.dump(2) + "\n";
+}
+
+}  // namespace fusee

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism/file.h"
+#include "mechanism/field_text.h"
+
+namespace fusee {
+namespace {
+
+bool reads_back(const Field& field, const Mechanism& mechanism, int end, const std::string& text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  Mechanism copy = mechanism;
+  field.set(copy, end, value);
+  return copy == mechanism;
+}
+
+/// The number with the fewest digits that reads back as what the mechanism holds. Conversion from degrees or percent rounds, so that
+/// the nearest number of the file's unit may miss by one bit where a neighbour does not. A value that no number of the
+/// file's unit gives (it did not come from a file) is written to the last bit but one.
+std::string number_text(const Field& field, const Mechanism& mechanism, int end) {
+  const double value = field.get(mechanism, end);
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    double rounded_value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), rounded_value);
+    text = shortest(rounded_value);
+    if (reads_back(field, mechanism, end, text)) return text;
+  }
+  constexpr int k_neighbours = 4;
+  double below = value, above = value;
+  for (int i = 0; i < k_neighbours; ++i) {
+    below = std::nextafter(below, -INFINITY);
+    above = std::nextafter(above, INFINITY);
+    for (const double neighbour : {below, above}) {
+      if (reads_back(field, mechanism, end, shortest(neighbour))) return shortest(neighbour);
+    }
+  }
+  return shortest(value);
+}
+
+std::string value_text(const Field& field, const Mechanism& mechanism) {
+  switch (field.kind) {
+    case FieldKind::number: return number_text(field, mechanism, 0);
+    case FieldKind::range: return "[" + number_text(field, mechanism, 0) + ", " + number_text(field, mechanism, 1) + "]";
+    case FieldKind::boolean: return field.get_text(mechanism);
+    case FieldKind::choice:
+    case FieldKind::text: return toml_string(field.get_text(mechanism));
+  }
+  return {};
+}
+
+/// A key that has no use here and holds nothing is written as a comment.
+bool is_blank(const Field& field, const Mechanism& mechanism) {
+  if (field.only_when.empty() || is_used(field, mechanism)) return false;
+  return field.get != nullptr ? field.get(mechanism, 0) == 0 : field.get_text(mechanism).empty();
+}
+
+std::string comment(const Field& field) {
+  std::string text = "# ";
+  if (!field.symbol.empty()) text += std::string(field.symbol) + ": ";
+  text += std::string(field.meaning) + "\n#   ";
+  if (field.kind != FieldKind::text) text += allowed_text(field) + "; ";
+  return text + default_text(field) + "\n";
+}
+
+}  // namespace
+
+std::string write_mechanism(const Mechanism& mechanism) {
+  std::string text = "# A mechanism of fusee. `fusee explain KEY` tells more about a key.\n";
+  std::string_view table;
+  for (const Field& field : fields()) {
+    const bool of_mechanism = field.table == "joint" || field.table == "guides" || field.table == "pulley";
+    if (mechanism.transmission ? of_mechanism : field.table == "transmission") continue;
+    // A ratio declares no tendon unless it does.
+    if (mechanism.transmission && field.name() == "tendon.diameter_mm" && mechanism.tendon.diameter == 0) continue;
+    if (field.table != table) text += "\n# " + std::string(table_meaning(field.table)) + "\n[" + std::string(field.table) + "]\n";
+    table = field.table;
+    text += comment(field);
+    if (is_blank(field, mechanism)) {
+      text += "# " + std::string(field.key) + " =\n";
+    } else {
+      text += std::string(field.key) + " = " + value_text(field, mechanism) + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace fusee
