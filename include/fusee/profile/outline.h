@@ -21,7 +21,7 @@ struct OutlinePoint {
 /// point i of one and point i of the other (and of any parallel curve) have the same normal.
 ///
 /// The active arc is what tendons leave from within the range: from points[active_first] counter-clockwise (wrapping past the end of
-/// the vector) to points[active_last], both exact ends. The rest is the closing arc: no tendon in range touches it but
+/// the vector) to points[active_last]: its exact ends, but for ends of P1 and P2 less than 0.1° apart, which share a point. The rest is the closing arc: no tendon in range touches it but
 /// for the short lap at the wound end that leads to the anchor.
 struct Outline {
   Side side = Side::left;

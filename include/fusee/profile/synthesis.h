@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fusee/profile/advice.h"
 #include "fusee/profile/outline.h"
 #include "fusee/transmission/transmission.h"
 
@@ -28,15 +29,6 @@ struct Condition {
   double limit = 0;     ///< value must stay above (below) this
   std::string unit;
   std::string message;  ///< for a person: what happens, where, by how much
-};
-
-/// The nearest value of one number of the file with which every condition would hold.
-struct Change {
-  std::string key;   ///< "pulley.r1_mm"
-  double from = 0;   ///< in the file's unit
-  double to = 0;
-  std::string unit;
-  std::string text;  ///< "r1 ≤ 18.9 mm"
 };
 
 enum class SynthesisStatus { made, infeasible };

@@ -1,0 +1,125 @@
+#include "profile/closing_arc.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+constexpr int k_segments = 192;
+
+/// ∫ ρ t dψ over a segment on which ρ goes linearly from r0 to r1: the way the curve goes there.
+/// With t = n' and ∫ n = −t:  [ρ n] − slope ∫ n = r1 n1 − r0 n0 + slope (t1 − t0).
+Vec2 way(double psi0, double psi1, double r0, double r1) {
+  const Vec2 n0 = unit(psi0);
+  const Vec2 n1 = unit(psi1);
+  const double slope = (r1 - r0) / (psi1 - psi0);
+  return r1 * n1 - r0 * n0 + slope * (turned_left(n1) - turned_left(n0));
+}
+
+/// A radius of curvature at each knot, and how it answers to the two multipliers of the closure.
+struct Knots {
+  std::vector<double> psi;
+  std::vector<double> rest;    ///< radius that the arc would like to have: the ends', blended
+  std::vector<double> window;  ///< how freely the radius may leave it: nothing at the ends
+  std::vector<double> least;
+
+  double radius(std::size_t i, const Vec2& multipliers) const {
+    return std::max(least[i], rest[i] + window[i] * multipliers.dot(turned_left(unit(psi[i]))));
+  }
+};
+
+Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
+  Knots knots;
+  for (int i = 0; i <= k_segments; ++i) {
+    const double u = static_cast<double>(i) / k_segments;
+    const double sine = std::sin(k_pi * u);
+    knots.psi.push_back(begin.psi + (end.psi - begin.psi) * u);
+    knots.rest.push_back(begin.radius + (end.radius - begin.radius) * u);
+    knots.window.push_back(sine * sine);
+    knots.least.push_back(std::min(least_radius, knots.rest.back()));
+  }
+  return knots;
+}
+
+/// Where the arc ends up with these multipliers, seen from where it should.
+Vec2 closure_gap(const Knots& knots, const Vec2& multipliers, const Vec2& target) {
+  Vec2 gap = -target;
+  for (std::size_t i = 0; i + 1 < knots.psi.size(); ++i) {
+    gap += way(knots.psi[i], knots.psi[i + 1], knots.radius(i, multipliers), knots.radius(i + 1, multipliers));
+  }
+  return gap;
+}
+
+/// d gap / d multipliers over the knots that are free to move.
+Eigen::Matrix2d closure_slope(const Knots& knots, const Vec2& multipliers) {
+  Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
+  const double step = knots.psi[1] - knots.psi[0];
+  for (std::size_t i = 1; i + 1 < knots.psi.size(); ++i) {
+    if (knots.radius(i, multipliers) <= knots.least[i]) continue;
+    const Vec2 t = turned_left(unit(knots.psi[i]));
+    const Vec2 hat = way(knots.psi[i] - step, knots.psi[i], 0, 1) + way(knots.psi[i], knots.psi[i] + step, 1, 0);
+    slope += hat * (knots.window[i] * t).transpose();
+  }
+  return slope;
+}
+
+}  // namespace
+
+// Of all radii of curvature ρ(ψ) ≥ ρ_least that close the curve, ∫ρ t dψ = V, the one nearest to the blend ρ0 of both ends, weighed by
+// 1/window, is ρ = max(ρ_least, ρ0 + window · λ·t(ψ)): the multipliers λ of the two closure equations are found by Newton's method on a convex
+// dual. When no convex arc closes the curve they run away.
+std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
+  if (!(end.psi > begin.psi) || !(begin.radius > 0) || !(end.radius > 0)) return std::nullopt;
+  const Knots knots = make_knots(begin, end, least_radius);
+  const Vec2 target = end.position() - begin.position();
+  const double size = target.norm() + begin.radius + end.radius;
+
+  Vec2 multipliers(0, 0);
+  Vec2 gap = closure_gap(knots, multipliers, target);
+  for (int i = 0; i < 100 && gap.norm() > 1e-13 * size; ++i) {
+    const Vec2 step = -closure_slope(knots, multipliers).fullPivLu().solve(gap);
+    if (!step.allFinite()) return std::nullopt;
+    double fraction = 1.0;
+    Vec2 next_gap = closure_gap(knots, multipliers + step, target);
+    while (next_gap.norm() >= gap.norm() && fraction > 1e-6) {
+      fraction *= 0.5;
+      next_gap = closure_gap(knots, multipliers + fraction * step, target);
+    }
+    if (next_gap.norm() >= gap.norm()) break;
+    multipliers += fraction * step;
+    gap = next_gap;
+  }
+  if (!(gap.norm() <= 1e-10 * size)) return std::nullopt;
+
+  ClosingArc arc;
+  arc.begin_ = begin.psi;
+  arc.step_ = (end.psi - begin.psi) / k_segments;
+  arc.positions_.push_back(begin.position());
+  for (std::size_t i = 0; i < knots.psi.size(); ++i) {
+    arc.radii_.push_back(knots.radius(i, multipliers));
+    if (i > 0) {
+      arc.positions_.push_back(arc.positions_.back() + way(knots.psi[i - 1], knots.psi[i], arc.radii_[i - 1], arc.radii_[i]));
+    }
+  }
+  return arc;
+}
+
+CurvePoint ClosingArc::at(double psi) const {
+  const double place = std::clamp((psi - begin_) / step_, 0.0, static_cast<double>(k_segments));
+  const auto i = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(k_segments - 1));
+  const double psi0 = begin_ + static_cast<double>(i) * step_;
+  const double radius = radii_[i] + (radii_[i + 1] - radii_[i]) * (place - static_cast<double>(i));
+  Vec2 position = positions_[i];
+  if (psi > psi0) position += way(psi0, psi, radii_[i], radius);
+  return {psi, position.dot(unit(psi)), position.dot(turned_left(unit(psi))), radius};
+}
+
+double ClosingArc::length() const {
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < radii_.size(); ++i) length += 0.5 * (radii_[i] + radii_[i + 1]) * step_;
+  return length;
+}
+
+}  // namespace fusee

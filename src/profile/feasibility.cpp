@@ -1,0 +1,253 @@
+#include "profile/feasibility.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+constexpr int k_samples = 192;
+/// A groove floor that bends more sharply is an edge, not a seat. mm
+constexpr double k_least_floor_radius = 0.05;
+/// Arc that the closing arc must leave for the tendon's lap and its tie-off at the wound end, in tendon diameters.
+constexpr double k_anchor_lap = 5.0;
+
+std::string number(Side side) { return side == Side::left ? "1" : "2"; }
+std::string pin_name(Side side) { return side == Side::left ? "B" : "D"; }
+/// "r2 turns inward", "r1 …".
+std::string radius_name(Side side) { return "r" + number(side); }
+
+/// A quantity of the stroke that must stay above a limit.
+struct Probe {
+  std::string name;
+  std::string unit;
+  double limit = 0;
+  std::function<double(const TakeOff&)> value;
+  std::function<std::string(const std::string& where, double value)> failure;
+};
+
+/// The joint angle of the image at which the probe is smallest: the smallest sample, refined by golden section between its neighbours.
+TakeOff tightest(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const Probe& probe) {
+  std::size_t smallest = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double value = probe.value(samples[i]);
+    // A value that does not exist is the tightest of all.
+    if (!(value == value)) return samples[i];
+    if (value < probe.value(samples[smallest])) smallest = i;
+  }
+  const double sign = mirror_sign(take_offs.side());
+  double low = sign * samples[smallest == 0 ? 0 : smallest - 1].stroke.theta;
+  double high = sign * samples[std::min(smallest + 1, samples.size() - 1)].stroke.theta;
+  constexpr double golden = 0.61803398874989485;
+  for (int i = 0; i < 24; ++i) {
+    const double a = high - golden * (high - low);
+    const double b = low + golden * (high - low);
+    if (probe.value(take_offs.at(a)) < probe.value(take_offs.at(b))) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  const TakeOff refined = take_offs.at(0.5 * (low + high));
+  return probe.value(refined) < probe.value(samples[smallest]) ? refined : samples[smallest];
+}
+
+Condition judged(const Probe& probe, const TakeOff& worst) {
+  Condition condition;
+  condition.name = probe.name;
+  condition.alpha = worst.stroke.alpha;
+  condition.value = probe.value(worst);
+  condition.limit = probe.limit;
+  condition.unit = probe.unit;
+  condition.ok = condition.value > probe.limit;
+  if (!condition.ok) condition.message = probe.failure(at_alpha_text(condition.alpha), condition.value);
+  return condition;
+}
+
+/// Probes in the order in which a failure makes the later ones meaningless.
+std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
+  const Side side = take_offs.side();
+  const double half = 0.5 * mechanism.tendon.diameter;
+  const PinPlace place = take_offs.place();
+  const auto tendon = [&take_offs](const TakeOff& t) -> const TendonPoint& { return take_offs.tendon(t); };
+  const std::string pin = pin_name(side);
+  std::vector<Probe> probes;
+  probes.push_back({"law_grows_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.stroke.g; },
+                    [](const std::string& where, double) { return "θ(α) stops growing at " + where + ": the law must rise everywhere"; }});
+  probes.push_back({"radius_P" + number(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).p - half; },
+                    [=](const std::string& where, double value) {
+                      return radius_name(side) + " falls to " + rounded(value + half) + " mm at " + where +
+                             ": less than half the tendon's diameter, the groove floor would cross the axis";
+                    }});
+  probes.push_back({"line_reaches_pin_" + pin, "mm", 0.0,
+                    [=](const TakeOff& t) { return place.c() - std::abs(tendon(t).p - place.rho); },
+                    [=](const std::string& where, double value) {
+                      return radius_name(side) + " is too large at " + where + ": pin " + pin + " stands " + rounded(-value) +
+                             " mm inside the pulley's pitch curve";
+                    }});
+  probes.push_back({"tendon_on_pin_" + pin, "deg", 0.0, [=](const TakeOff& t) { return degrees(tendon(t).wrap); },
+                    [=](const std::string& where, double value) {
+                      return "tendon " + number(side) + " leaves pin " + pin + " at " + where + ": its wrap there is " + rounded(value, 3) +
+                             "° and must stay above 0°";
+                    }});
+  return probes;
+}
+
+std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
+  const Side side = take_offs.side();
+  const double half = 0.5 * mechanism.tendon.diameter;
+  const auto tendon = [&take_offs](const TakeOff& t) -> const TendonPoint& { return take_offs.tendon(t); };
+  std::vector<Probe> probes;
+  probes.push_back({"take_off_advances_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
+                    [=](const std::string& where, double) {
+                      return radius_name(side) + " changes so fast at " + where + " that the take-off point runs backwards";
+                    }});
+  probes.push_back({"convex_floor_P" + number(side), "mm", k_least_floor_radius,
+                    [=](const TakeOff& t) { return t.curve.radius - half; },
+                    [=](const std::string& where, double value) {
+                      return radius_name(side) + " turns inward at " + where + ": the groove floor's radius of curvature falls to " +
+                             rounded(value, 3) + " mm there and must stay above " + rounded(k_least_floor_radius) + " mm";
+                    }});
+  probes.push_back({"free_span_" + number(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).lower_reach - t.curve.dh; },
+                    [=](const std::string& where, double value) {
+                      return "tendon " + number(side) + " has no free span between pin and pulley at " + where + " (" + rounded(value, 3) +
+                             " mm): the pin stands in the pulley";
+                    }});
+  return probes;
+}
+
+/// Appends the conditions; true when all hold.
+bool judge(std::vector<Condition>& conditions, const std::vector<Probe>& probes, const TakeOffs& take_offs,
+           const std::vector<TakeOff>& samples) {
+  for (const Probe& probe : probes) {
+    conditions.push_back(judged(probe, tightest(take_offs, samples, probe)));
+    if (!conditions.back().ok) return false;
+  }
+  return true;
+}
+
+std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& take_offs) {
+  const bool right = take_offs.side() == Side::right;
+  const double begin = right ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
+  const double end = right ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
+  std::vector<TakeOff> samples;
+  samples.reserve(k_samples + 1);
+  for (int i = 0; i <= k_samples; ++i) samples.push_back(take_offs.at(i == k_samples ? end : begin + (end - begin) * i / k_samples));
+  return samples;
+}
+
+/// The end of the active arc where the tendon stays wound: in the image the beginning of the stroke.
+Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<TakeOff>& samples) {
+  // A polar drawing spans the motor's own turn.
+  const double active = mechanism.pulley.method == Method::exact
+                            ? samples.back().curve.psi - samples.front().curve.psi
+                            : std::abs(samples.back().stroke.alpha - samples.front().stroke.alpha);
+  const double lap = k_anchor_lap * mechanism.tendon.diameter / samples.front().curve.h;
+  Condition condition;
+  condition.name = "one_turn_P" + number(side);
+  condition.alpha = samples.front().stroke.alpha;
+  condition.value = degrees(k_two_pi - active - lap);
+  condition.limit = 0;
+  condition.unit = "deg";
+  condition.ok = condition.value > 0;
+  if (!condition.ok) {
+    condition.message = "P" + number(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
+                        rounded(degrees(lap), 3) + "° for the anchor: more than one turn (helical grooves are not made yet)";
+  }
+  return condition;
+}
+
+Condition closes(Side side, const SideAttempt& attempt) {
+  Condition condition;
+  condition.name = "closing_arc_P" + number(side);
+  condition.alpha = attempt.samples.back().stroke.alpha;
+  condition.value = attempt.closing ? attempt.closing->length() : 0.0;
+  condition.unit = "mm";
+  condition.ok = attempt.closing.has_value();
+  if (!condition.ok) {
+    condition.message = "the ends of P" + number(side) + "'s active arc (" + radius_name(side) + " " +
+                        rounded(attempt.samples.front().curve.h) + " and " + rounded(attempt.samples.back().curve.h) +
+                        " mm) cannot be joined by a convex arc over the " +
+                        rounded(360.0 - degrees(attempt.samples.back().curve.psi - attempt.samples.front().curve.psi), 3) + "° left";
+  }
+  return condition;
+}
+
+/// The joint is driven over a place where a tendon has no lever.
+Condition dead_centre(const Transmission& transmission) {
+  Condition condition;
+  condition.name = "moment_arms";
+  condition.unit = "deg";
+  condition.ok = !transmission.dead_centre();
+  if (condition.ok) return condition;
+  const double theta = *transmission.dead_centre();
+  const bool left = !(upper_span(transmission.place(Side::left), -theta).m > 1e-6);
+  const Side side = left ? Side::left : Side::right;
+  condition.value = degrees(theta);
+  condition.message = "tendon " + number(side) + " has no moment arm about the joint at θ = " + rounded(degrees(theta), 4) +
+                      "° (dead centre, or C runs into pin " + pin_name(side) + "): the range must end before it";
+  return condition;
+}
+
+/// With gentle bends where there is room for them, sharper ones where not.
+std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
+  CurvePoint next_turn = samples.front().curve;
+  next_turn.psi += k_two_pi;
+  const double half = 0.5 * mechanism.tendon.diameter;
+  const double gentle = half + 2.0 * mechanism.tendon.diameter;
+  auto closing = ClosingArc::between(samples.back().curve, next_turn, gentle);
+  return closing ? closing : ClosingArc::between(samples.back().curve, next_turn, half + k_least_floor_radius);
+}
+
+SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs) {
+  SideAttempt side{take_offs, take_samples(mechanism, take_offs), std::nullopt};
+  if (!judge(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
+  const bool exact = mechanism.pulley.method == Method::exact;
+  // A polar drawing is not asked to be the envelope of anything: it is drawn, and what it does wrong is measured.
+  if (exact && !judge(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples)) return side;
+  conditions.push_back(one_turn(mechanism, take_offs.side(), side.samples));
+  if (!exact || !conditions.back().ok) return side;
+  side.closing = close(mechanism, side.samples);
+  conditions.push_back(closes(take_offs.side(), side));
+  return side;
+}
+
+}  // namespace
+
+bool Attempt::feasible() const {
+  return std::all_of(conditions.begin(), conditions.end(), [](const Condition& condition) { return condition.ok; });
+}
+
+std::string at_alpha_text(double alpha) { return "α = " + rounded(degrees(alpha), 3) + "°"; }
+
+Attempt attempt(const Mechanism& mechanism, const Transmission& transmission) {
+  Attempt attempt;
+  attempt.conditions.push_back(dead_centre(transmission));
+  if (!attempt.conditions.back().ok) return attempt;
+  for (const Side side : {Side::left, Side::right}) {
+    const TakeOffs take_offs(transmission, side);
+    attempt.sides[side == Side::left ? 0 : 1] = attempt_side(attempt.conditions, mechanism, take_offs);
+  }
+  return attempt;
+}
+
+std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt& attempt) {
+  std::vector<std::string> warnings;
+  if (mechanism.pulley.method == Method::paper) return warnings;
+  const double least = 0.5 * mechanism.tendon.bend_ratio * mechanism.tendon.diameter;
+  for (const Side side : {Side::left, Side::right}) {
+    const std::vector<TakeOff>& samples = attempt.sides[side == Side::left ? 0 : 1]->samples;
+    const auto tightest = std::min_element(samples.begin(), samples.end(), [](const TakeOff& a, const TakeOff& b) {
+      return a.curve.radius < b.curve.radius;
+    });
+    if (tightest->curve.radius >= least) continue;
+    warnings.push_back("P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
+                       at_alpha_text(tightest->stroke.alpha) + "; this tendon wants " + rounded(least, 3) + " mm or more (D/d = " +
+                       rounded(mechanism.tendon.bend_ratio, 3) + "): it will wear there");
+  }
+  return warnings;
+}
+
+}  // namespace fusee

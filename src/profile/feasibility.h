@@ -1,0 +1,38 @@
+/// \file
+/// Can the two pitch curves exist? Every condition on the law, the tendons' paths and the curves, tightest place included.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "fusee/profile/synthesis.h"
+#include "profile/closing_arc.h"
+#include "profile/take_off.h"
+
+namespace fusee {
+
+/// One side of an attempt at a pulley. Index 0 of pairs is tendon 1, P1, pin B; index 1 tendon 2, P2, pin D.
+struct SideAttempt {
+  TakeOffs take_offs;
+  std::vector<TakeOff> samples;  ///< by increasing joint angle of the image
+  std::optional<ClosingArc> closing;  ///< method = "exact"
+};
+
+struct Attempt {
+  std::vector<Condition> conditions;
+  std::array<std::optional<SideAttempt>, 2> sides;  ///< absent when the law itself has no value
+
+  bool feasible() const;
+};
+
+/// Looks at everything. Conditions that an earlier failure makes meaningless are left out. The attempt refers to `transmission`.
+Attempt attempt(const Mechanism& mechanism, const Transmission& transmission);
+
+/// What no condition forbids but a person should know: bends tighter than the tendon likes.
+std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt& attempt);
+
+/// "α = −88°".
+std::string at_alpha_text(double alpha);
+
+}  // namespace fusee

@@ -1,0 +1,45 @@
+#include "profile/pitch_curve.h"
+
+#include <algorithm>
+
+namespace fusee {
+
+double turned_into(double start, double psi) {
+  const double turn = std::fmod(psi - start, k_two_pi);
+  return start + (turn < 0 ? turn + k_two_pi : turn);
+}
+
+EnvelopeCurve::EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const ClosingArc& closing)
+    : take_offs_(take_offs), samples_(samples), closing_(closing) {}
+
+CurvePoint EnvelopeCurve::at(double psi) const {
+  // The ends belong to the active arc, also after a rounding error in the turn.
+  constexpr double slip = 1e-12;
+  const double turned = turned_into(active_begin() - slip, psi);
+  CurvePoint point = turned <= active_end() + slip ? active_at(turned) : closing_.at(turned);
+  point.psi = psi;
+  return point;
+}
+
+CurvePoint EnvelopeCurve::active_at(double psi) const {
+  const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, psi,
+                                      [](double value, const TakeOff& sample) { return value < sample.curve.psi; });
+  const double sign = mirror_sign(take_offs_.side());
+  double low = sign * (above - 1)->stroke.theta;
+  double high = sign * above->stroke.theta;
+  TakeOff found = *(above - 1);
+  double theta = low;
+  for (int i = 0; i < 60; ++i) {
+    const double miss = found.curve.psi - psi;
+    if (std::abs(miss) < 1e-14 * (1.0 + std::abs(psi))) break;
+    (miss > 0 ? high : low) = theta;
+    double next = theta - miss * found.stroke.g / found.dpsi;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (next == theta) break;
+    theta = next;
+    found = take_offs_.at(theta);
+  }
+  return found.curve;
+}
+
+}  // namespace fusee

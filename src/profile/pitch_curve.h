@@ -1,0 +1,47 @@
+/// \file
+/// One side's closed pitch curve as a function of the direction of its normal.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "profile/closing_arc.h"
+#include "profile/take_off.h"
+
+namespace fusee {
+
+/// Convex, closed, in the right-hand image of its side.
+class PitchCurve {
+ public:
+  virtual ~PitchCurve() = default;
+  /// At any ψ.
+  virtual CurvePoint at(double psi) const = 0;
+  /// Normals at the ends of the active arc; end > begin, less than a turn apart.
+  virtual double active_begin() const = 0;
+  virtual double active_end() const = 0;
+  /// Directions at which the curve runs straight: samples stand on both sides of each.
+  virtual std::vector<double> straight_directions() const { return {}; }
+};
+
+/// method = "exact": the envelope of the tendon's lines, closed by an arc. Refers to what it is given: keep it alive.
+class EnvelopeCurve : public PitchCurve {
+ public:
+  /// `samples`: take-offs by increasing joint angle of the image, over the whole range, ψ increasing.
+  EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const ClosingArc& closing);
+
+  CurvePoint at(double psi) const override;
+  double active_begin() const override { return samples_.front().curve.psi; }
+  double active_end() const override { return samples_.back().curve.psi; }
+
+ private:
+  CurvePoint active_at(double psi) const;
+
+  const TakeOffs& take_offs_;
+  const std::vector<TakeOff>& samples_;
+  const ClosingArc& closing_;
+};
+
+/// `psi` turned by full turns into [start, start + 2π).
+double turned_into(double start, double psi);
+
+}  // namespace fusee

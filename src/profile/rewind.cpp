@@ -1,0 +1,185 @@
+#include "fusee/profile/rewind.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/transmission/transmission.h"
+
+// The second route. Nothing here knows a support function, a derivative or an envelope: a string is laid round the corners of a
+// polygon, over a disc and to a point, its length is added up piece by piece, and the joint angle at which that length
+// is what it was at home is found by bisection.
+
+namespace fusee {
+namespace {
+
+/// `angle` turned by full turns to within half a turn of `near`.
+double turned_near(double angle, double near) { return angle - k_two_pi * std::round((angle - near) / k_two_pi); }
+
+double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
+
+/// One string on its pulley, pin and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
+class String {
+ public:
+  String(const Mechanism& mechanism, const Polygon& floor, double hand)
+      : corners_(convex_hull(floor)),
+        hand_(hand),
+        half_(0.5 * mechanism.tendon.diameter),
+        rho_(mechanism.guides.radius + half_),
+        R_(mechanism.joint.R),
+        pin_(hand > 0 ? mechanism.guides.ED : -mechanism.guides.EB, -mechanism.guides.OE),
+        pin_from_axis_(pin_.x(), mechanism.pulley.EF) {
+    const std::string name = hand > 0 ? "P2" : "P1";
+    if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
+    double along = 0;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      const Vec2& next = corners_[(i + 1) % corners_.size()];
+      if (cross(corners_[i], next) <= 0) throw InputError("", "the groove floor of " + name + " does not surround the axis");
+      along_.push_back(along);
+      along += (next - corners_[i]).norm();
+      const double normal = direction(next - corners_[i]) - 0.5 * k_pi;
+      edge_normals_.push_back(i == 0 ? normal : turned_near(normal, edge_normals_.back()));
+    }
+    girth_ = along;
+  }
+
+  /// Moves the pulley; small steps, so that turns are counted.
+  void turn_to(double alpha) {
+    alpha_ = alpha;
+    // Seen from the pulley, which turns clockwise, the world turns the other way.
+    const Vec2 pin(std::cos(alpha) * pin_from_axis_.x() - std::sin(alpha) * pin_from_axis_.y(),
+                   std::sin(alpha) * pin_from_axis_.x() + std::cos(alpha) * pin_from_axis_.y());
+    find_corner(pin);
+    const double normal = tangent_normal(pin, corner_);
+    normal_ = started_ ? turned_near(normal, normal_) : normal;
+    started_ = true;
+    const double reach = (pin - corners_[corner_]).norm();
+    span_ = std::sqrt((reach - (half_ - rho_)) * (reach + (half_ - rho_)));
+    if (!(span_ > 0)) throw InputError("", std::string("the groove floor of ") + (hand_ > 0 ? "P2" : "P1") + " swallows its guide pin");
+  }
+
+  /// Length of the string from a fixed place of the pulley to the joint at `theta`, but for a constant.
+  double length(double theta) const { return hand_ * wound() + span_ + over_pin_and_up(theta); }
+
+ private:
+  /// Outward normal of the line that touches the disc about a corner and the pin's disc, both on their outer side.
+  double tangent_normal(const Vec2& pin, std::size_t corner) const {
+    const Vec2 away = pin - corners_[corner];
+    return direction(away) - hand_ * std::acos(std::clamp((half_ - rho_) / away.norm(), -1.0, 1.0));
+  }
+
+  /// Walks to the corner whose tangent leaves all others inside.
+  void find_corner(const Vec2& pin) {
+    const std::size_t count = corners_.size();
+    for (std::size_t steps = 0; steps < 2 * count; ++steps) {
+      const double normal = tangent_normal(pin, corner_);
+      const std::size_t before = (corner_ + count - 1) % count;
+      if (turned_near(normal, edge_normals_[before]) < edge_normals_[before]) {
+        corner_ = before;
+      } else if (turned_near(normal, edge_normals_[corner_]) > edge_normals_[corner_]) {
+        corner_ = (corner_ + 1) % count;
+      } else {
+        return;
+      }
+    }
+    // Two neighbours that each point to the other, by rounding: both are right.
+  }
+
+  /// Counter-clockwise along the centre line on the pulley, full turns included: edges passed, and arcs of d/2 about the corners.
+  double wound() const {
+    const double before = corner_ == 0 ? edge_normals_.back() - k_two_pi : edge_normals_[corner_ - 1];
+    const double turns = std::round((normal_ - 0.5 * (before + edge_normals_[corner_])) / k_two_pi);
+    return along_[corner_] + girth_ * turns + half_ * normal_;
+  }
+
+  double over_pin_and_up(double theta) const {
+    const Vec2 up = Vec2(R_ * std::sin(theta), R_ * std::cos(theta)) - pin_;
+    const double distance = up.norm();
+    const double upper_normal = direction(up) - hand_ * std::acos(std::clamp(rho_ / distance, -1.0, 1.0));
+    const double lower_normal = normal_ - alpha_;
+    const double wrap = turned_near(hand_ * (upper_normal - lower_normal), 0.5 * k_pi);
+    return rho_ * wrap + std::sqrt(std::max(0.0, (distance - rho_) * (distance + rho_)));
+  }
+
+  Polygon corners_;
+  std::vector<double> along_;         ///< length of the edges before each corner
+  std::vector<double> edge_normals_;  ///< of the edge that leaves each corner, increasing
+  double girth_ = 0;
+  double hand_;
+  double half_;
+  double rho_;
+  double R_;
+  Vec2 pin_;            ///< in the world
+  Vec2 pin_from_axis_;  ///< from the pulley's axis, at home
+
+  double alpha_ = 0;
+  std::size_t corner_ = 0;
+  double normal_ = 0;  ///< of the lower span in the pulley's frame, turns counted
+  double span_ = 0;
+  bool started_ = false;
+};
+
+/// The joint angle at which the string is as long as at home. Its length grows with θ on the left.
+double taut_theta(const String& string, double home_length, double alpha, double guess) {
+  constexpr double reach = 0.6;
+  double low = guess - reach;
+  double high = guess + reach;
+  if (!(string.length(low) < home_length && string.length(high) > home_length)) {
+    throw InputError("", "no joint angle within ±34° of the declared one makes tendon 1 taut at α = " + rounded(degrees(alpha), 4) + "°",
+                     "is this the pulley of this mechanism, in mm, its axis at the origin?");
+  }
+  for (int i = 0; i < 52; ++i) {
+    const double middle = 0.5 * (low + high);
+    (string.length(middle) < home_length ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps) {
+  const Transmission declared(mechanism);
+  if (const auto dead = declared.dead_centre()) {
+    throw InputError("", "the declared law ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°", "make the range smaller");
+  }
+  String string1(mechanism, floor1, -1.0);
+  String string2(mechanism, floor2, +1.0);
+  RewindResult result;
+  const auto wind_to = [&](double alpha, double home1, double home2) {
+    string1.turn_to(alpha);
+    string2.turn_to(alpha);
+    RewindPoint point{alpha, declared.theta(alpha), 0, 0};
+    point.theta = taut_theta(string1, home1, alpha, point.theta_declared);
+    point.slack = home2 - string2.length(point.theta);
+    result.points.push_back(point);
+  };
+  string1.turn_to(0.0);
+  string2.turn_to(0.0);
+  const double home1 = string1.length(0.0);
+  const double home2 = string2.length(0.0);
+
+  // From home to one end and back through home to the other, so that turns are counted without a jump.
+  for (int i = 0; i < steps; ++i) {
+    string1.turn_to(declared.alpha_min() * i / steps);
+    string2.turn_to(declared.alpha_min() * i / steps);
+  }
+  for (int i = 0; i <= steps; ++i) {
+    wind_to(declared.alpha_min() + (declared.alpha_max() - declared.alpha_min()) * i / steps, home1, home2);
+  }
+  for (const RewindPoint& point : result.points) {
+    const double error = std::abs(point.theta - point.theta_declared);
+    if (error >= result.max_theta_error) {
+      result.max_theta_error = error;
+      result.max_theta_error_at = point.alpha;
+    }
+    if (std::abs(point.slack) >= result.max_slack) {
+      result.max_slack = std::abs(point.slack);
+      result.max_slack_at = point.alpha;
+    }
+  }
+  return result;
+}
+
+}  // namespace fusee

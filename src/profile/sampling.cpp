@@ -1,0 +1,101 @@
+#include "profile/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+/// However coarse the tolerance, a chord turns no further: a string wound on the polygon is then right to 5e-5 of its length.
+constexpr double k_largest_turn = radians(2.0);
+/// Directions nearer than this are one: a strip between them would be a sliver.
+constexpr double k_smallest_turn = radians(0.1);
+
+/// P1's curve in the world: the mirror image of its right-hand image.
+CurvePoint mirrored(const PitchCurve& image, double psi) {
+  CurvePoint point = image.at(k_pi - psi);
+  point.psi = psi;
+  point.dh = -point.dh;
+  return point;
+}
+
+/// The largest turn at ψ that both curves, and their parallels, bear.
+double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, const SamplingOptions& options) {
+  const double radius = std::max(mirrored(left, psi).radius, right.at(psi).radius) + options.reach;
+  return std::min(k_largest_turn, std::sqrt(8.0 * options.tolerance / radius));
+}
+
+/// Directions from `begin` up to (not with) `end`, as dense as the curves ask.
+void append_directions(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, double begin, double end,
+                       const SamplingOptions& options) {
+  const int probes = std::max(8, static_cast<int>(std::ceil((end - begin) / radians(1.0))));
+  std::vector<double> count(static_cast<std::size_t>(probes) + 1, 0.0);  // chords needed from `begin` to each probe
+  double previous = 1.0 / allowed_turn(left, right, begin, options);
+  for (int i = 1; i <= probes; ++i) {
+    const double psi = begin + (end - begin) * i / probes;
+    const double density = 1.0 / allowed_turn(left, right, psi, options);
+    // The denser end of the step rules it: the bound on the sagitta holds inside the step too.
+    count[static_cast<std::size_t>(i)] =
+        count[static_cast<std::size_t>(i) - 1] + std::max(previous, density) * (end - begin) / probes;
+    previous = density;
+  }
+  const int chords = std::max(1, static_cast<int>(std::ceil(count.back())));
+  std::size_t probe = 1;
+  for (int i = 0; i < chords; ++i) {
+    const double wanted = count.back() * i / chords;
+    while (count[probe] < wanted) ++probe;
+    const double fraction = (wanted - count[probe - 1]) / (count[probe] - count[probe - 1]);
+    directions.push_back(begin + (end - begin) * (static_cast<double>(probe - 1) + fraction) / probes);
+  }
+}
+
+/// The wanted directions in one turn from the first on, each pair of near ones made one.
+std::vector<double> kept_apart(std::vector<double> wanted) {
+  const double first = wanted.front();
+  for (double& psi : wanted) psi = turned_into(first, psi);
+  std::sort(wanted.begin(), wanted.end());
+  std::vector<double> apart{first};
+  for (const double psi : wanted) {
+    if (psi - apart.back() > k_smallest_turn && first + k_two_pi - psi > k_smallest_turn) apart.push_back(psi);
+  }
+  return apart;
+}
+
+std::size_t nearest(const std::vector<double>& directions, double psi) {
+  const double wanted = turned_into(directions.front(), psi);
+  const auto above = std::lower_bound(directions.begin(), directions.end(), wanted);
+  const double above_value = above == directions.end() ? directions.front() + k_two_pi : *above;
+  const auto index = static_cast<std::size_t>(above - directions.begin()) % directions.size();
+  if (above == directions.begin()) return 0;
+  return wanted - *(above - 1) < above_value - wanted ? static_cast<std::size_t>(above - directions.begin()) - 1 : index;
+}
+
+OutlinePoint outline_point(const CurvePoint& curve) { return {curve.psi, curve.position(), unit(curve.psi), curve.radius}; }
+
+}  // namespace
+
+std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
+  const std::array<double, 4> ends{right.active_begin(), right.active_end(), k_pi - left.active_end(), k_pi - left.active_begin()};
+  std::vector<double> wanted(ends.begin(), ends.end());
+  for (const double psi : right.straight_directions()) wanted.insert(wanted.end(), {psi - k_smallest_turn, psi + k_smallest_turn});
+  for (const double psi : left.straight_directions()) {
+    wanted.insert(wanted.end(), {k_pi - psi - k_smallest_turn, k_pi - psi + k_smallest_turn});
+  }
+  const std::vector<double> mandatory = kept_apart(std::move(wanted));
+  std::vector<double> directions;
+  for (std::size_t i = 0; i < mandatory.size(); ++i) {
+    const double end = i + 1 < mandatory.size() ? mandatory[i + 1] : mandatory.front() + k_two_pi;
+    append_directions(directions, left, right, mandatory[i], end, options);
+  }
+
+  std::array<Outline, 2> outlines;
+  outlines[0] = {Side::left, {}, nearest(directions, ends[2]), nearest(directions, ends[3])};
+  outlines[1] = {Side::right, {}, nearest(directions, ends[0]), nearest(directions, ends[1])};
+  for (const double psi : directions) {
+    outlines[0].points.push_back(outline_point(mirrored(left, psi)));
+    outlines[1].points.push_back(outline_point(right.at(psi)));
+  }
+  return outlines;
+}
+
+}  // namespace fusee

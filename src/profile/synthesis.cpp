@@ -1,0 +1,92 @@
+#include "fusee/profile/synthesis.h"
+
+#include <algorithm>
+
+#include "fusee/base/text.h"
+#include "profile/feasibility.h"
+#include "profile/polar_curve.h"
+#include "profile/sampling.h"
+
+namespace fusee {
+namespace {
+
+/// How far outward of a pitch curve the body's outermost parallel curve lies: the flange's lip, and a little more.
+double flange_reach(const Mechanism& mechanism) {
+  const double diameter = mechanism.tendon.diameter;
+  const double depth = mechanism.body.groove_depth > 0 ? mechanism.body.groove_depth : 2.0 * diameter;
+  return depth + diameter;
+}
+
+std::vector<TransmissionPoint> stroke_table(const Transmission& transmission, int steps) {
+  std::vector<double> alphas;
+  for (int i = 0; i <= steps; ++i) {
+    alphas.push_back(transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / steps);
+  }
+  // Home is a row of its own, in place of the nearest one when that is home but for rounding.
+  const auto after = std::lower_bound(alphas.begin(), alphas.end(), -1e-9);
+  if (after != alphas.end() && *after < 1e-9) {
+    *after = 0.0;
+  } else {
+    alphas.insert(after, 0.0);
+  }
+  std::vector<TransmissionPoint> points;
+  for (const double alpha : alphas) points.push_back(transmission.at_alpha(alpha));
+  return points;
+}
+
+bool is_feasible(const Mechanism& mechanism) { return attempt(mechanism, Transmission(mechanism)).feasible(); }
+
+std::unique_ptr<PitchCurve> pitch_curve(const Mechanism& mechanism, const SideAttempt& side, std::vector<std::string>& warnings) {
+  if (mechanism.pulley.method == Method::exact) return std::make_unique<EnvelopeCurve>(side.take_offs, side.samples, *side.closing);
+  auto polar = std::make_unique<PolarCurve>(mechanism, side.take_offs);
+  if (polar->deepest_hollow() > 0.01) {
+    warnings.push_back(std::string("the polar drawing of ") + (side.take_offs.side() == Side::left ? "P1" : "P2") + " is hollow by up to " +
+                       rounded(polar->deepest_hollow(), 3) + " mm: the tendon bridges it, and the groove is made as the bridge");
+  }
+  return polar;
+}
+
+void draw(SynthesisResult& result, const Mechanism& mechanism, const Attempt& attempt, const SynthesisOptions& options) {
+  result.warnings = bend_warnings(mechanism, attempt);
+  const auto curve1 = pitch_curve(mechanism, *attempt.sides[0], result.warnings);
+  const auto curve2 = pitch_curve(mechanism, *attempt.sides[1], result.warnings);
+  auto outlines = sample(*curve1, *curve2, {options.tolerance, flange_reach(mechanism)});
+  result.p1 = std::move(outlines[0]);
+  result.p2 = std::move(outlines[1]);
+}
+
+std::string stroke_text(const std::vector<TransmissionPoint>& stroke) {
+  const auto [low, high] = std::minmax_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return a.t2.p < b.t2.p; });
+  return "α " + fixed(degrees(stroke.front().alpha), 2) + "° … " + fixed(degrees(stroke.back().alpha), 2) + "°, r2 " +
+         fixed(low->t2.p, 3) + " … " + fixed(high->t2.p, 3) + " mm";
+}
+
+}  // namespace
+
+SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options) {
+  SynthesisResult result;
+  const Transmission transmission(mechanism);
+  Attempt tried = attempt(mechanism, transmission);
+  if (!transmission.dead_centre()) result.stroke = stroke_table(transmission, options.stroke_steps);
+  if (tried.feasible()) {
+    result.status = SynthesisStatus::made;
+    draw(result, mechanism, tried, options);
+  } else if (options.advice) {
+    result.advice = nearest_changes(mechanism, is_feasible);
+  }
+  result.conditions = std::move(tried.conditions);
+  return result;
+}
+
+std::string SynthesisResult::brief() const {
+  if (made()) return stroke_text(stroke);
+  std::string text;
+  for (const Condition& condition : conditions) {
+    if (condition.ok) continue;
+    text += (text.empty() ? "" : "; ") + condition.message;
+  }
+  const std::string change = advice_sentence(advice);
+  return text + ": " + (change.empty() ? "no change of one number alone would make it possible" : change);
+}
+
+}  // namespace fusee

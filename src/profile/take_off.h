@@ -1,0 +1,45 @@
+/// \file
+/// method = "exact": where a tendon leaves its pulley, one point of the pitch curve for each place of the stroke.
+///
+/// Everything in this room up to the sampled outline lives in the right-hand image of the tendon, in the pulley's frame: P1 is
+/// the mirror image (x → −x, α → −α, θ → −θ) of what is computed here for it.
+#pragma once
+
+#include "fusee/transmission/transmission.h"
+
+namespace fusee {
+
+/// A point of a convex curve by its normal: X = h n + h' t, radius of curvature h + h''. rad, mm.
+struct CurvePoint {
+  double psi = 0;     ///< direction of the outward normal
+  double h = 0;       ///< support: distance of the tangent from the axis
+  double dh = 0;      ///< dh/dψ
+  double radius = 0;  ///< of curvature
+
+  Vec2 position() const { return h * unit(psi) + dh * turned_left(unit(psi)); }
+};
+
+struct TakeOff {
+  TransmissionPoint stroke;  ///< of the mechanism itself, not of its image
+  CurvePoint curve;          ///< in the image
+  double dpsi = 0;           ///< dψ/dα of the image; must stay positive
+};
+
+/// The take-off points of one side, by the joint angle of its image. Refers to the transmission: keep it alive.
+class TakeOffs {
+ public:
+  TakeOffs(const Transmission& transmission, Side side);
+
+  TakeOff at(double image_theta) const;
+  const TendonPoint& tendon(const TakeOff& take_off) const {
+    return side_ == Side::left ? take_off.stroke.t1 : take_off.stroke.t2;
+  }
+  Side side() const { return side_; }
+  const PinPlace& place() const { return transmission_->place(side_); }
+
+ private:
+  const Transmission* transmission_;
+  Side side_;
+};
+
+}  // namespace fusee
