@@ -72,7 +72,7 @@ std::string in_quotes(std::string_view text) {
   return toml_string(std::string(text.substr(0, end)) + "...");
 }
 
-std::string printable(std::string_view text) {
+std::string as_shown(std::string_view text) {
   const std::string quoted = in_quotes(text);
   return quoted.substr(1, quoted.size() - 2);
 }

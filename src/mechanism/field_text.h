@@ -17,7 +17,7 @@ std::string allowed_text(const Field& field);
 /// What it is: "a number in mm", "two angles [lowest, highest] in deg" …
 std::string kind_text(const Field& field);
 /// The text a person typed, safe and short enough to be shown: control characters escaped, cut after 60 bytes.
-std::string printable(std::string_view text);
+std::string as_shown(std::string_view text);
 /// The same in quotes.
 std::string in_quotes(std::string_view text);
 /// `"exact" or "paper"`.

@@ -130,7 +130,7 @@ void MechanismReader::parse(std::string_view text) {
     root_ = toml::parse(text, name_);
   } catch (const toml::parse_error& error) {
     // What toml++ says may quote the file's bytes.
-    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_), "not TOML: " + printable(error.description()),
+    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_), "not TOML: " + as_shown(error.description()),
                                 "strings stand in quotes, lists in [ ], one key = value a line"});
   }
 }
@@ -138,7 +138,7 @@ void MechanismReader::parse(std::string_view text) {
 // ---- 2. tree → entries ----------------------------------------------------------------------------------------------
 
 void MechanismReader::fail_unknown(const Place& place, const std::string& table, const std::string& key) {
-  const std::string shown = (table.empty() ? "" : table + ".") + printable(key);
+  const std::string shown = (table.empty() ? "" : table + ".") + as_shown(key);
   std::vector<std::string> here, everywhere;
   for (const Field& field : fields()) {
     if (field.key == key) {
@@ -182,7 +182,7 @@ void MechanismReader::flatten() {
       }
     } else if (value.is_table() || value.is_array_of_tables()) {
       const std::string nearest = nearest_word(name, tables);
-      fail(place, "unknown table [" + printable(name) + "]",
+      fail(place, "unknown table [" + as_shown(name) + "]",
            nearest.empty() ? "fusee explain lists the tables" : "did you mean [" + nearest + "]?");
     } else if (find_field(name) == nullptr || name.find('.') != std::string::npos) {
       fail_unknown(place, "", name);
@@ -217,7 +217,7 @@ toml::table MechanismReader::setting_value(const Setting& setting, const std::st
 }
 
 void MechanismReader::apply(const Setting& setting) {
-  const std::string file = "--set " + printable(setting.key + "=" + setting.value);
+  const std::string file = "--set " + as_shown(setting.key + "=" + setting.value);
   const std::size_t dot = setting.key.find('.');
   if (find_field(setting.key) == nullptr) {
     const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
