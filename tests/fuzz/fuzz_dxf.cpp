@@ -1,0 +1,14 @@
+// Any bytes as a drawing: read, then checked. Corpus: tests/fuzz/dxf, which read_dxf_test.cpp replays.
+#include <cstddef>
+#include <cstdint>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/export/export.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    fusee::check_drawing(fusee::read_dxf({reinterpret_cast<const char*>(data), size}, "fuzz.dxf"));
+  } catch (const fusee::InputError&) {
+  }
+  return 0;
+}
