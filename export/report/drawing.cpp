@@ -166,6 +166,15 @@ std::string scale_bar(const View& view, const Vec2& left_end) {
 
 constexpr double k_panel_width = 340;
 constexpr double k_panel_height = 400;
+constexpr double k_detail_height = 270;
+
+double pulley_reach(const SynthesisResult& synthesis) {
+  double reach = 0;
+  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    for (const OutlinePoint& point : outline->points) reach = std::max(reach, point.position.norm());
+  }
+  return reach;
+}
 
 View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<Pose>& poses) {
   View view;
@@ -173,13 +182,17 @@ View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis
   for (const Side side : {Side::left, Side::right}) {
     view.include(pin_centre(mechanism, side), mechanism.guide_pitch_radius() + 0.5 * mechanism.tendon.diameter);
   }
-  double reach = 0;
-  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
-    for (const OutlinePoint& point : outline->points) reach = std::max(reach, point.position.norm());
-  }
-  view.include(pulley_axis(mechanism), reach);
+  view.include(pulley_axis(mechanism), pulley_reach(synthesis));
   for (const Pose& pose : poses) view.include(attachment(mechanism, pose.theta));
-  view.fit(30, 34, k_panel_width - 60, k_panel_height - 92);
+  view.fit(30, 40, k_panel_width - 60, k_panel_height - 82);
+  return view;
+}
+
+/// The pulley alone, larger: on the whole mechanism it is small.
+View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+  View view;
+  view.include(pulley_axis(mechanism), pulley_reach(synthesis));
+  view.fit(24, 24, k_panel_width - 48, k_detail_height - 48);
   return view;
 }
 
@@ -189,25 +202,22 @@ std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synt
   const Vec2 centre = view(axis);
   std::string svg = "<g class=\"pulley\" transform=\"rotate(" + svg_number(degrees(alpha)) + " " + svg_number(centre.x()) + " " +
                     svg_number(centre.y()) + ")\">";
-  double reach = 0;
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     std::vector<Vec2> points = closed_copy(positions(*outline));
-    for (Vec2& point : points) {
-      reach = std::max(reach, point.norm());
-      point += axis;
-    }
+    for (Vec2& point : points) point += axis;
     svg += curve("thin " + ink(outline->side), view, points);
   }
   // The home mark: it points to +y at α = 0.
-  const double mark = reach * view.scale;
-  svg += svg_line("axis-line", centre, centre - Vec2(0, mark + 7));
+  svg += svg_line("axis-line", centre, centre - Vec2(0, pulley_reach(synthesis) * view.scale + 7));
   return svg + svg_circle("metal", centre, 3) + "</g>";
 }
 
 std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism, Side side) {
   const double width = std::max(2.0, mechanism.tendon.diameter * view.scale);
-  std::string svg = "<g class=\"tendon\" style=\"stroke-width:" + svg_number(width) + "\">";
-  svg += curve(ink(side) + " whole", view, trace.free_path) + curve(ink(side) + " whole", view, trace.wound_path);
+  // Dashes as long as the line is wide: where tendon 2 covers tendon 1, both are seen.
+  const std::string dashes = side == Side::right ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width) : "";
+  std::string svg = "<g class=\"tendon\" style=\"stroke-width:" + svg_number(width) + dashes + "\">";
+  svg += curve(ink(side), view, trace.free_path) + curve(ink(side), view, trace.wound_path);
   return svg + "</g>" + svg_circle("take-off", view(trace.take_off), 3);
 }
 
@@ -236,25 +246,35 @@ std::string point_names(const Mechanism& mechanism, const View& view, double the
          svg_words("halo", view(pulley_axis(mechanism)) + Vec2(7, 15), "G");
 }
 
-Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose) {
-  const std::string angles =
-      "θ " + readable(degrees(pose.theta), 1) + "°   α " + readable(degrees(pose.alpha), 1) + "°";
-  Figure figure{k_panel_width, k_panel_height, "The mechanism at " + angles, {}, {}};
-  figure.body = svg_words("heading", {4, 18}, angles) + joint_group(mechanism, view, pose.theta) +
-                pulley_group(mechanism, synthesis, view, pose.alpha) + pins(mechanism, view);
+std::string scene(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose) {
+  std::string svg = joint_group(mechanism, view, pose.theta) + pulley_group(mechanism, synthesis, view, pose.alpha) + pins(mechanism, view);
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     if (const auto trace = trace_tendon(mechanism, *outline, pose.alpha, pose.theta)) {
-      figure.body += tendon_group(*trace, view, mechanism, outline->side);
+      svg += tendon_group(*trace, view, mechanism, outline->side);
     }
   }
-  figure.body += point_names(mechanism, view, pose.theta) + scale_bar(view, {6, k_panel_height - 10});
+  return svg + point_names(mechanism, view, pose.theta);
+}
+
+Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& whole, const View& detail,
+                        const Pose& pose) {
+  const std::string angles = "θ = " + readable(degrees(pose.theta), 1) + "°, α = " + readable(degrees(pose.alpha), 1) + "°";
+  Figure figure{k_panel_width, k_panel_height + k_detail_height, "The mechanism at " + angles, {}, {}};
+  figure.body = svg_words("heading", {4, 18}, angles) + scene(mechanism, synthesis, whole, pose) +
+                scale_bar(whole, {6, k_panel_height - 8});
+  // An svg within the svg cuts off what does not belong to the detail.
+  figure.body += "<svg x=\"1\" y=\"" + svg_number(k_panel_height) + "\" width=\"" + svg_number(k_panel_width - 2) + "\" height=\"" +
+                 svg_number(k_detail_height - 1) + "\">" + scene(mechanism, synthesis, detail, pose) +
+                 scale_bar(detail, {10, k_detail_height - 14}) + "</svg>";
+  const Vec2 low(1, k_panel_height), high(k_panel_width - 1, k_panel_height + k_detail_height - 1);
+  figure.body += svg_path("frame", {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, true);
   return figure;
 }
 
 // Profile -------------------------------------------------------------------------------------------------------------
 
-constexpr double k_profile_width = 520;
-constexpr double k_profile_height = 520;
+constexpr double k_profile_width = 480;
+constexpr double k_profile_height = 490;
 
 /// A dimension along a radius: a line from the axis to the point, and its length beside the point.
 std::string radius_dimension(const View& view, const Vec2& point) {
@@ -271,7 +291,7 @@ std::string width_dimension(const View& view, double low, double high, double bo
   const Vec2 right(view({high, 0}).x(), bottom_px);
   const Vec2 tick(0, 5);
   return svg_line("dimension", left, right) + svg_line("dimension", left - tick, left + tick) +
-         svg_line("dimension", right - tick, right + tick) + svg_words("small halo middle", 0.5 * (left + right) + Vec2(0, 5), words);
+         svg_line("dimension", right - tick, right + tick) + svg_words("small middle", 0.5 * (left + right) + Vec2(0, 17), words);
 }
 
 std::vector<Vec2> arc_points(const Outline& outline, std::size_t first, std::size_t last) {
@@ -297,7 +317,9 @@ std::string anchors(const View& view, const Pulley& pulley, Side side) {
 std::string bore(const View& view, const BodyLayout& layout) {
   std::string svg = curve("hole", view, layout.bore.outline, true);
   for (const Polygon& hole : layout.bore.screw_holes) svg += curve("hole", view, hole, true);
-  return svg;
+  if (layout.bore.radius <= 0) return svg;
+  const std::string words = "⌀ " + readable_rounded(2 * layout.bore.radius);
+  return svg + svg_words("small halo middle", view({0, 0}) + Vec2(0, layout.bore.radius * view.scale + 17), words);
 }
 
 std::string axes(const View& view, double reach) {
@@ -324,7 +346,7 @@ std::string profile_legend(const Outline& outline) {
   double x = 4;
   for (const Entry& entry : entries) {
     svg += svg_line(entry.classes, {x, 40}, {x + 24, 40}) + svg_words("small", {x + 30, 44}, entry.words);
-    x += 30 + words_width(entry.words, 12) + 14;
+    x += 30 + words_width(entry.words, 12) + 10;
   }
   return svg;
 }
@@ -362,9 +384,10 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
 }
 
 std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<Pose>& poses) {
-  const View view = mechanism_view(mechanism, synthesis, poses);
+  const View whole = mechanism_view(mechanism, synthesis, poses);
+  const View detail = pulley_view(mechanism, synthesis);
   std::vector<Figure> figures;
-  for (const Pose& pose : poses) figures.push_back(mechanism_figure(mechanism, synthesis, view, pose));
+  for (const Pose& pose : poses) figures.push_back(mechanism_figure(mechanism, synthesis, whole, detail, pose));
   return figures;
 }
 
@@ -389,7 +412,7 @@ Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const 
   figure.body += radius_dimension(view, outline.points[outline.active_first].position) +
                  radius_dimension(view, outline.points[outline.active_last].position);
   const std::string words = "overall " + readable(high - low, 2) + " mm, active arc " + readable(degrees(active_turn(outline)), 1) + "°";
-  figure.body += width_dimension(view, low, high, k_profile_height - 28, words);
+  figure.body += width_dimension(view, low, high, k_profile_height - 24, words);
   return figure;
 }
 

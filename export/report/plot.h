@@ -48,8 +48,8 @@ struct Plot {
   std::vector<PlotSeries> series;
   std::vector<PlotLimit> limits;
   std::vector<PlotMark> marks;
-  double width = 520;
-  double height = 320;
+  double width = 460;
+  double height = 300;
 };
 
 Figure plot_figure(const Plot& plot);

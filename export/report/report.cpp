@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -293,7 +295,7 @@ PlotSeries curvature_series(const Outline& outline, bool active) {
 }
 
 Plot curvature_plot(const Product& product) {
-  Plot plot{"Radius of curvature of the pitch curves", {"direction of the normal ψ", "°", {}, {}, 1e-6}, {"radius of curvature", "mm", 0.0, {}, 0.1},
+  Plot plot{"Radius of curvature of the pitch curves (thin: closing arc)", {"direction of the normal ψ", "°", {}, {}, 1e-6}, {"radius of curvature", "mm", 0.0, {}, 0.1},
             {}, {}, {}};
   double largest = 0;
   for (const bool active : {false, true}) {
@@ -412,7 +414,7 @@ std::vector<std::string> steps(const Product& product) {
                     product.file.mechanism.material.name + ": do not scale again.");
   }
   items.push_back("Measure the bore and the groove with callipers before going on.");
-  items.push_back("Put the pulley on its shaft with P1 below and the home mark pointing to +y (from the pulley’s axis towards O when the joint is at home).");
+  items.push_back("Put the pulley on its shaft with P1 below and the home mark pointing to +y: the way that C lies from O at home.");
   items.push_back("Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the outer side of pin B to C; tendon 2 "
                   "likewise from P2 over pin D.");
   items.push_back("Tighten both until tendon 1 carries " + with_unit(product.file.mechanism.tendon.pretension, "N") +
@@ -443,7 +445,9 @@ std::string making(const Product& product) {
 }
 
 std::string source_words(const MechanismFile& file) {
-  std::string words = file.path.empty() ? "" : "from <code>" + safe_text(file.path) + "</code>";
+  // Without its folder: the same input gives the same page, wherever it lies.
+  const std::string file_name = std::filesystem::path(file.path).filename().string();
+  std::string words = file_name.empty() ? "" : "from <code>" + safe_text(file_name) + "</code>";
   if (!file.sha256.empty()) words += " (SHA-256 " + safe_text(file.sha256.substr(0, 12)) + "…)";
   return words;
 }

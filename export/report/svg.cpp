@@ -24,6 +24,13 @@ std::string with_true_minus(const std::string& number) {
   return text;
 }
 
+std::string superscript(int number) {
+  constexpr std::string_view k_digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (const char c : std::to_string(number)) text += c == '-' ? std::string_view("⁻") : k_digits[c - '0'];
+  return text;
+}
+
 std::string svg_element(const Figure& figure, std::string_view namespace_attribute, std::string_view style) {
   std::string svg = "<svg class=\"figure\"";
   svg += namespace_attribute;
@@ -140,7 +147,11 @@ std::string readable(double value, int decimals) {
 }
 
 std::string readable_rounded(double value, int digits) {
-  return std::isfinite(value) ? with_true_minus(rounded(value, digits)) : "–";
+  if (!std::isfinite(value)) return "–";
+  const std::string number = rounded(value, digits);
+  const std::size_t exponent = number.find('e');
+  if (exponent == std::string::npos) return with_true_minus(number);
+  return with_true_minus(number.substr(0, exponent)) + "·10" + superscript(std::stoi(number.substr(exponent + 1)));
 }
 
 }  // namespace fusee

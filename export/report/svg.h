@@ -43,7 +43,7 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance);
 
 /// A number as a person reads it: a true minus sign, "–" for what is not finite.
 std::string readable(double value, int decimals);
-/// The same to significant digits.
+/// The same to significant digits, "9·10⁻⁵" where it is very small or large.
 std::string readable_rounded(double value, int digits = 4);
 
 }  // namespace fusee

@@ -9,14 +9,45 @@
 namespace fusee {
 namespace {
 
+/// '#' stands for 1 or 2, '@' for the pin of the same side, B or D. In a name, its last letter may be any of these.
 struct PlainName {
   std::string_view name;
   std::string_view words;
 };
 
 constexpr PlainName k_plain_names[] = {
-    {"finite", "All coordinates are finite numbers"},
+    // profile: conditions of feasibility
+    {"moment_arms", "No dead centre: both tendons have a moment arm about O"},
+    {"law_grows_P#", "θ grows with α, as P# sees it"},
+    {"radius_P#", "P#’s groove floor stays clear of the axis"},
+    {"line_reaches_pin_@", "Pin @ lies beyond the tendon’s reach on P#"},
+    {"tendon_on_pin_@", "Tendon # stays on pin @ (wrap angle)"},
+    {"take_off_advances_P#", "The take-off point never turns back on P#"},
+    {"convex_floor_P#", "P#’s groove floor is convex (its smallest radius)"},
+    {"free_span_#", "Tendon # has a free span between P# and its pin"},
+    {"one_turn_P#", "P# fits into one turn (room for anchors and closing arc)"},
+    {"closing_arc_P#", "P#’s closing arc has room to turn"},
+    // pipeline: what wound tendons give
+    {"theta_error", "Joint angle as built against the declared θ(α)"},
+    {"slack", "Slack or stretch of tendon 2 as built"},
+    {"theta_error_reported", "Joint angle as built against the declared θ(α) (method “paper”: reported only)"},
+    {"slack_reported", "Slack or stretch of tendon 2 as built (method “paper”: reported only)"},
 };
+
+/// "2" for "convex_floor_P2" and "tendon_on_pin_D" when `pattern` is theirs; ' ' without a wildcard; 0: not theirs.
+char matched_side(std::string_view name, std::string_view pattern) {
+  if (name == pattern) return ' ';
+  if (name.size() != pattern.size() || name.substr(0, name.size() - 1) != pattern.substr(0, pattern.size() - 1)) return 0;
+  const std::string_view allowed = pattern.back() == '#' ? "12" : pattern.back() == '@' ? "BD" : "";
+  const std::size_t found = allowed.find(name.back());
+  return found == std::string_view::npos ? '\0' : "12"[found];
+}
+
+std::string with_side(std::string_view words, char side) {
+  std::string text;
+  for (const char c : words) text += c == '#' ? side : c == '@' ? (side == '1' ? 'B' : 'D') : c;
+  return text;
+}
 
 std::string cell(std::string_view classes, const std::string& html) {
   return (classes.empty() ? std::string("<td>") : "<td class=\"" + std::string(classes) + "\">") + html + "</td>";
@@ -41,7 +72,7 @@ std::string row_start(bool ok) { return ok ? "<tr><td class=\"state\">✓</td>" 
 
 std::string plain_name(std::string_view name) {
   for (const PlainName& known : k_plain_names) {
-    if (known.name == name) return std::string(known.words);
+    if (const char side = matched_side(name, known.name)) return with_side(known.words, side);
   }
   std::string words(name);
   std::replace(words.begin(), words.end(), '_', ' ');
@@ -51,6 +82,7 @@ std::string plain_name(std::string_view name) {
 
 std::string shown_unit(std::string_view unit) {
   if (unit == "deg") return "°";
+  if (unit == "deg/deg") return "°/°";
   if (unit == "1") return "";
   return std::string(unit);
 }

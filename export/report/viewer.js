@@ -66,8 +66,8 @@
       if (line) { colour = vec4(edge, 1.); return; }
       if (!gl_FrontFacing) { colour = vec4(cut, 1.); return; }
       vec3 n = normalize(normal), v = normalize(eye - at), base = within(g1) ? mix(metal, ink1, .55) : within(g2) ? mix(metal, ink2, .55) : metal;
-      vec3 key = normalize(.55 * v - .45 * side + .75 * above), fill = normalize(.6 * v + .8 * side - .1 * above);
-      float light = .34 + .12 * dot(n, above) + .52 * max(dot(n, key), 0.) + .2 * max(dot(n, fill), 0.);
+      vec3 key = normalize(.8 * v - .45 * side + .6 * above), fill = normalize(.7 * v + .8 * side - .25 * above);
+      float light = .40 + .08 * dot(n, above) + .44 * max(dot(n, key), 0.) + .24 * max(dot(n, fill), 0.);
       float shine = pow(max(dot(n, normalize(key + v)), 0.), 40.);
       colour = vec4(base * light * 1.12 + .10 * shine, 1.);
     }`));
@@ -96,7 +96,7 @@
     const turn = view.turn * Math.PI / 180, lift = view.lift * Math.PI / 180, aspect = w / h, f = 4;
     const back = [Math.cos(lift) * Math.cos(turn), Math.cos(lift) * Math.sin(turn), Math.sin(lift)];
     const side = [-Math.sin(turn), Math.cos(turn), 0], above = cross(back, side);  // side × above = back: right-handed
-    const distance = f * radius * 1.06 * Math.max(1, 1 / aspect) / view.zoom;
+    const distance = f * radius * 0.86 * Math.max(1, 1 / aspect) / view.zoom;
     const eye = [0, 1, 2].map(k => centre[k] + distance * back[k] - view.x * side[k] - view.y * above[k]);
     const near = Math.max(distance - 3 * radius, 0.02 * radius), far = distance + 3 * radius;
     const a = (far + near) / (near - far), b = 2 * far * near / (near - far);
