@@ -40,6 +40,13 @@ UsageError unknown_option(const std::string& word, const Command& command, const
   return UsageError("unknown option '" + word + "'", nearest.empty() ? help : "did you mean '" + nearest + "'?");
 }
 
+UsageError value_missing(const Option& option) {
+  std::string meaning(option.meaning);
+  std::replace(meaning.begin(), meaning.end(), '\n', ' ');
+  const std::string name(option.name());
+  return UsageError(name + " needs a value: " + name + " " + std::string(option.value), meaning);
+}
+
 /// CLI11's own words name its types and counts; they all come down to an option whose value is missing or not wanted.
 UsageError in_our_words(const CLI::ParseError& error, const CLI::App& app, const Command& command,
                         const std::vector<Option>& options) {
@@ -48,10 +55,20 @@ UsageError in_our_words(const CLI::ParseError& error, const CLI::App& app, const
   for (const Option& option : options) {
     const std::string name(option.name());
     if (what.find(name) == std::string::npos) continue;
-    if (option.value.empty()) return UsageError(name + " is a switch and takes no value");
-    return UsageError(name + " needs a value: " + name + " " + std::string(option.value), std::string(option.meaning));
+    return value_missing(option);
   }
   return UsageError(what);
+}
+
+/// CLI11 would take --json=3 for --json.
+void refuse_switch_values(const std::vector<Option>& options, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word == "--") return;
+    for (const Option& option : options) {
+      const std::string name(option.name());
+      if (option.value.empty() && word.rfind(name + "=", 0) == 0) throw UsageError(name + " is a switch and takes no value");
+    }
+  }
 }
 
 void check_count(const Command& command, const std::vector<std::string>& given) {
@@ -72,9 +89,7 @@ void check_values(const Option& option, const std::vector<std::string>& values) 
   const std::string name(option.name());
   if (values.size() > 1 && !option.repeatable) throw UsageError(name + " is given " + std::to_string(values.size()) + " times");
   for (const std::string& value : values) {
-    if (value.empty() || value.rfind("--", 0) == 0) {
-      throw UsageError(name + " needs a value: " + name + " " + std::string(option.value), std::string(option.meaning));
-    }
+    if (value.empty() || value.rfind("--", 0) == 0) throw value_missing(option);
   }
 }
 
@@ -112,6 +127,7 @@ const std::vector<Option>& common_options() {
 
 Arguments::Arguments(const Command& command, const std::vector<std::string>& words) {
   const std::vector<Option> options = options_of(command);
+  refuse_switch_values(options, words);
   std::map<std::string, bool> switches;
   CLI::App app;
   app.set_help_flag();

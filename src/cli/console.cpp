@@ -50,8 +50,7 @@ bool wants_color() {
 
 }  // namespace
 
-Console::Console(ConsoleOptions options)
-    : options_(options), terminal_(::isatty(STDERR_FILENO) == 1), color_(terminal_ && !options.no_color && wants_color()) {}
+Console::Console() : terminal_(::isatty(STDERR_FILENO) == 1), color_(terminal_ && wants_color()) {}
 
 Console::~Console() { end_progress(); }
 
@@ -60,7 +59,7 @@ void Console::say(const Diagnostic& diagnostic) {
   end_progress();
   std::string text = printable(to_text(diagnostic));
   if (diagnostic.place.file.empty()) text.insert(0, "fusee: ");
-  if (color_) text = colored(std::move(text), diagnostic.severity);
+  if (color_ && !options_.no_color) text = colored(std::move(text), diagnostic.severity);
   write_all(STDERR_FILENO, text + "\n");
 }
 

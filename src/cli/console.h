@@ -17,11 +17,12 @@ struct ConsoleOptions {
 
 class Console {
  public:
-  explicit Console(ConsoleOptions options = {});
+  Console();
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
+  void set_options(ConsoleOptions options) { options_ = options; }
   bool verbose() const { return options_.verbose; }
   /// A diagnostic on stderr. With --quiet only errors.
   void say(const Diagnostic& diagnostic);
@@ -33,7 +34,7 @@ class Console {
  private:
   ConsoleOptions options_;
   bool terminal_;
-  bool color_;
+  bool color_;  ///< as far as terminal and environment go
   bool progress_shown_ = false;
 };
 

@@ -13,7 +13,8 @@ std::string option_line(const Option& option) {
   if (const std::size_t comma = flags.find(','); comma != std::string::npos) flags.insert(comma + 1, " ");
   std::string line = (flags.rfind("--", 0) == 0 ? "      " : "  ") + flags;
   if (!option.value.empty()) line += " " + std::string(option.value);
-  line.resize(std::max(line.size() + 2, k_meaning_column), ' ');
+  if (line.size() + 2 > k_meaning_column) line += "\n" + std::string(k_meaning_column, ' ');
+  line.resize(std::max(line.size(), k_meaning_column), ' ');
   for (const char c : option.meaning) line += c == '\n' ? "\n" + std::string(k_meaning_column, ' ') : std::string(1, c);
   return line + "\n";
 }

@@ -54,6 +54,7 @@ Reply answer(std::vector<std::string> words, std::string& command_name, Console&
   command_name = command.name;
   words.erase(words.begin() + static_cast<std::ptrdiff_t>(*at));
   const Arguments arguments(command, words);
+  console.set_options({arguments.has("--quiet"), arguments.has("--verbose"), arguments.has("--no-color")});
   if (arguments.has("--help")) return help_reply(command_help(command));
   if (arguments.has("--version")) return version_reply();
   return command.run(arguments, console);
@@ -104,12 +105,8 @@ const std::vector<Command>& commands() {
 
 int run(const std::vector<std::string>& words) {
   const bool json = has_switch(words, "--json");
-  ConsoleOptions options;
-  options.quiet = has_switch(words, "-q") || has_switch(words, "--quiet");
-  options.verbose = has_switch(words, "-v") || has_switch(words, "--verbose");
-  options.no_color = has_switch(words, "--no-color");
   catch_interrupts(json);
-  Console console(options);
+  Console console;
   std::string command_name;
   const Reply reply = guarded_answer(words, command_name, console);
   for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);

@@ -1,0 +1,138 @@
+"""One line a case: arguments, exit code, what stands on stdout, what stands on stderr. Each runs with --json too."""
+
+import harness
+
+# Files that the cases name, beside arm.toml.
+FILES = {
+    "empty.toml": b"",
+    "binary.toml": bytes(range(256)) * 40,
+    "broken.toml": b"schema = 1\n[joint\n",
+    "unknown.toml": b"schema = 1\n[joint]\nlenght_mm = 100\n",
+    "many.toml": b"schema = 1\n[joint]\nlength_mm = -1\nrange_deg = 3\n[guides]\nEB_mm = \"wide\"\n[pulley]\nlaw = \"lineal\"\n[tendon]\ndiameter_mm = nan\n",
+    "empty.stl": b"",
+    "short.stl": b"\0" * 84 + b"\x10",
+    "text.stl": b"this is no mesh at all\n",
+    "empty.dxf": b"",
+    "text.dxf": b"this is no drawing\n",
+    "triangle.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+}
+
+ALL_COMMANDS = "new.*explain.*build.*check.*rewind"
+
+CASES = [
+    # Asking for help.
+    ("--help", 0, ALL_COMMANDS, "^$"),
+    ("-h", 0, ALL_COMMANDS, "^$"),
+    ("--version", 0, r"^fusee \d+\.\d+\.\d+\n$", "^$"),
+    ("build --version", 0, "^fusee ", "^$"),
+    ("build --help", 0, "usage: fusee build SPEC.*examples:", "^$"),
+    ("--help build", 0, "usage: fusee build SPEC", "^$"),
+    ("new -h", 0, "usage: fusee new", "^$"),
+    ("explain --help", 0, "usage: fusee explain", "^$"),
+    ("check --help", 0, "usage: fusee check FILE", "^$"),
+    ("rewind --help", 0, "usage: fusee rewind SPEC FILE", "^$"),
+    # Wrong usage.
+    ("", 2, "^$", "no command given.*fusee --help"),
+    ("bild arm.toml", 2, "^$", "unknown command 'bild'.*fusee build"),
+    ("zzzzzzzzzz", 2, "^$", "unknown command.*fusee --help"),
+    ("build", 2, "^$", "'build' needs SPEC.*usage: fusee build SPEC"),
+    ("build arm.toml more.toml", 2, "^$", "'more.toml' is one argument too many"),
+    ("rewind arm.toml", 2, "^$", "'rewind' needs FILE"),
+    ("check", 2, "^$", "'check' needs FILE"),
+    ("build ''", 2, "^$", "SPEC is empty"),
+    ("build arm.toml --tolerence-mm 0.1", 2, "^$", "unknown option '--tolerence-mm'.*'--tolerance-mm'"),
+    ("build arm.toml -x", 2, "^$", "unknown option '-x'"),
+    ("build arm.toml --tolerance-mm", 2, "^$", "--tolerance-mm needs a value"),
+    ("build arm.toml -o", 2, "^$", "--out needs a value"),
+    ("build arm.toml -o ''", 2, "^$", "--out needs a value"),
+    ("build arm.toml -o --force", 2, "^$", "--out needs a value"),
+    ("build arm.toml -o a -o b", 2, "^$", "--out is given 2 times"),
+    ("build arm.toml --force=yes", 2, "^$", "--force is a switch and takes no value"),
+    ("build arm.toml --tolerance-mm 0", 2, "^$", "from 0.0005 to 1 mm; '0' is not"),
+    ("build arm.toml --tolerance-mm -1", 2, "^$", "from 0.0005 to 1 mm; '-1' is not"),
+    ("build arm.toml --tolerance-mm nan", 2, "^$", "'nan' is not"),
+    ("build arm.toml --tolerance-mm 1e999", 2, "^$", "'1e999' is not"),
+    ("build arm.toml --tolerance-mm 0,01", 2, "^$", "'0,01' is not"),
+    ("build arm.toml --max-slack-mm inf", 2, "^$", "'inf' is not"),
+    ("build arm.toml --max-theta-error-deg x", 2, "^$", "'x' is not"),
+    ("build arm.toml --dxf r13", 2, "^$", "--dxf must be ac1015 or r12"),
+    ("build arm.toml --set r1", 2, "^$", "--set takes table.key=value.*for example"),
+    ("build arm.toml --set =3", 2, "^$", "--set takes table.key=value"),
+    # Options may stand before the command, after it, or after its arguments.
+    ("--dry-run build arm.toml", 0, "arm\n", "^$"),
+    ("build --dry-run arm.toml", 0, "arm\n", "^$"),
+    ("-o parts --set pulley.r1_mm=15.5 --dry-run build arm.toml", 0, r"r1 +from 15\.500 to 15\.500 mm", "^$"),
+    ("build arm.toml --dry-run --set pulley.r1_mm=15 --set pulley.r1_mm=15.5", 0, r"r1 +from 15\.500", "^$"),
+    ("build --dry-run -- arm.toml", 0, "arm\n", "^$"),
+    ("-qv build arm.toml --dry-run", 0, "arm\n", "^$"),
+    # Bad mechanism files: exit 3, all errors at once, where, and what to change.
+    ("build missing.toml", 3, "^$", "missing.toml: error: .*No such file"),
+    ("build .", 3, "^$", "is a directory"),
+    ("build empty.toml", 3, "^$", "empty.toml"),
+    ("build binary.toml", 3, "^$", "binary.toml"),
+    ("build broken.toml", 3, "^$", "broken.toml:2:"),
+    ("build unknown.toml", 3, "^$", "unknown.toml:3:1: .*lenght_mm.*length_mm"),
+    ("build many.toml", 3, "^$", "many.toml:3:.*many.toml:4:.*many.toml:6:.*many.toml:8:.*linear.*many.toml:10:"),
+    ("build /dev/zero", 3, "^$", "is not a regular file"),
+    ("build arm.toml --set pulley.r1=15", 3, "^$", "pulley.r1_mm"),
+    ("build arm.toml --set pully.r1_mm=15", 3, "^$", "pulley"),
+    ("build arm.toml --set pulley.r1_mm=nan", 3, "^$", "r1_mm"),
+    ("build arm.toml --set pulley.r1_mm=inf", 3, "^$", "r1_mm"),
+    ("build arm.toml --set pulley.r1_mm=-3", 3, "^$", "r1_mm"),
+    ("build arm.toml --set pulley.r1_mm=wide", 3, "^$", "r1_mm"),
+    ("build arm.toml --set joint.range_deg=[30,-30]", 3, "^$", "range_deg"),
+    ("build arm.toml --set joint.range_deg=[1,2,3]", 3, "^$", "range_deg"),
+    ("build arm.toml --set pulley.law=linear", 3, "^$", "ratio"),
+    ("build arm.toml --set pulley.law=table --set pulley.table=none.csv", 3, "^$", "none.csv"),
+    ("rewind missing.toml triangle.obj", 3, "^$", "missing.toml"),
+    # Designs that cannot be made: exit 4, where, why, and which number to change.
+    ("build arm.toml --set pulley.r1_mm=60", 4, "^$", "error: .*it would be possible with "),
+    ("build arm.toml --set joint.range_deg=[-80,80]", 4, "^$", "error: "),
+    ("build arm.toml --set body.bore_diameter_mm=60", 4, "^$", "error: .*bore"),
+    # Bad parts.
+    ("check missing.stl", 3, "^$", "missing.stl"),
+    ("check .", 3, "^$", "is a directory"),
+    ("check empty.stl", 3, "^$", "empty.stl"),
+    ("check short.stl", 3, "^$", "short.stl"),
+    ("check text.stl", 3, "^$", "text.stl"),
+    ("check empty.dxf", 3, "^$", "empty.dxf"),
+    ("check text.dxf", 3, "^$", "text.dxf"),
+    ("check arm.toml", 3, "^$", "arm.toml"),
+    ("check triangle.obj", 5, "FAILED", "check '.*' failed"),
+    ("rewind arm.toml triangle.obj", 3, "^$", "triangle.obj.*groove"),
+    ("rewind arm.toml missing.stl", 3, "^$", "missing.stl"),
+    # Templates and keys.
+    ("new", 0, "paper_optimum", "^$"),
+    ("new paper_optimum", 0, r"^#.*schema = 1.*\[joint\]", "^$"),
+    ("new paper_optimum --set pulley.r1_mm=15.25", 0, "r1_mm = 15.25", ""),
+    ("new paper_optimun", 3, "^$", "paper_optimum"),
+    ("explain", 0, "length_mm.*EF_mm", "^$"),
+    ("explain pulley.r1_mm", 0, "mm", "^$"),
+    ("explain pulley", 0, "EF_mm.*r1_mm", "^$"),
+    ("explain pulley.r1_m", 3, "^$", "r1_mm"),
+    ("explain --schema", 0, "\"\\$schema\"", "^$"),
+]
+
+
+class Cases(harness.Scratch):
+    def setUp(self):
+        super().setUp()
+        for name, content in FILES.items():
+            (self.folder / name).write_bytes(content)
+
+    def test_every_case(self):
+        before = sorted(self.folder.rglob("*"))
+        for arguments, code, out, err in CASES:
+            with self.subTest(arguments):
+                self.expect(arguments, code, out, err)
+                self.expect_json(arguments, code)
+        self.assertEqual(sorted(self.folder.rglob("*")), before, "a case left something behind")
+
+    def test_a_huge_file_is_refused_at_once(self):
+        with open(self.folder / "huge.toml", "wb") as huge:
+            huge.truncate(100 << 20)
+        self.expect("build huge.toml", 3, "^$", "huge.toml: error: .*larger")
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,32 @@
+"""Every example of --help works as it is written, in the order in which the help shows them."""
+
+import re
+import subprocess
+import unittest
+
+import harness
+
+
+class Examples(harness.Scratch):
+    def examples(self, command):
+        text = self.fusee(f"{command} --help").stdout.decode()
+        lines = re.findall(r"^  (fusee .*?)(?:   .*)?$", text.split("examples:\n")[1], re.M)
+        self.assertGreaterEqual(len(lines), 2, f"'{command}' needs examples")
+        return lines
+
+    def test_all(self):
+        (self.folder / "arm.toml").unlink()  # the examples make their own
+        for command in ["", "new", "explain", "build", "check", "rewind"]:
+            for line in self.examples(command):
+                with self.subTest(line):
+                    done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True, timeout=120)
+                    self.assertEqual(done.returncode, 0, done.stderr.decode())
+
+    def test_help_fits_a_terminal(self):
+        for command in ["", "new", "explain", "build", "check", "rewind"]:
+            for line in self.fusee(f"{command} --help").stdout.decode().splitlines():
+                self.assertLessEqual(len(line), 84, line)
+
+
+if __name__ == "__main__":
+    harness.main()

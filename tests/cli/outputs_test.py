@@ -1,0 +1,254 @@
+"""What a build leaves behind, in good times and in bad: whole files or none."""
+
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import harness
+
+OUTPUTS = {"pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "pulley.scad", "profile.dxf", "plates.dxf",
+           "profile.csv", "transmission.csv", "report.html", "manifest.json"}
+
+
+class Build(harness.Scratch):
+    def test_leaves_every_file_and_nothing_else(self):
+        files = self.build()
+        self.assertEqual(set(files), OUTPUTS)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["arm.toml", "out"])
+        self.assertTrue(all(files.values()))
+
+    def test_same_input_same_bytes(self):
+        first = self.build("one")
+        os.environ["TZ"] = "Pacific/Chatham"
+        self.assertEqual(first, self.build("two"))
+
+    def test_summary_fits_a_narrow_terminal(self):
+        done = self.expect("build arm.toml", 0, "alpha.*r2.*as built.*checks.*report.html")
+        self.assertLessEqual(max(len(line) for line in done.stdout.decode().splitlines()), 80)
+
+    def test_document_agrees_with_the_manifest(self):
+        document = self.expect_json("build arm.toml", 0)
+        manifest = harness.json.loads((self.folder / "out/arm/manifest.json").read_bytes())
+        self.assertEqual(document["as_built"], manifest["as_built"])
+        self.assertEqual([check["name"] for check in document["checks"]], [check["name"] for check in manifest["checks"]])
+        self.assertEqual([output["file"] for output in document["outputs"]],
+                         [output["file"] for output in manifest["outputs"]] + ["manifest.json"])
+
+    def test_dry_run_leaves_nothing(self):
+        self.expect("build arm.toml --dry-run", 0, r"none written \(--dry-run\)")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["arm.toml"])
+
+    def test_what_was_built_passes_check_and_rewind(self):
+        self.build("p")
+        for name in ["pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "profile.dxf", "plates.dxf"]:
+            self.expect(f"check p/{name}", 0, "valid")
+        for name in ["pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "profile.dxf"]:
+            self.expect(f"rewind arm.toml p/{name}", 0, "theta within")
+
+    def test_limits_that_cannot_be_met_fail_the_build(self):
+        self.expect("build arm.toml --max-theta-error-deg 0", 5, "FAILED|of", "check 'theta_error' failed")
+        document = self.expect_json("rewind arm.toml out/arm/pulley.stl --max-slack-mm 0", 5)
+        self.assertTrue(document["points"])
+
+    def test_failed_check_keeps_the_earlier_run(self):
+        earlier = self.build()
+        self.expect("build arm.toml --max-theta-error-deg 0", 5, "keeps its earlier run", "were kept.*--force")
+        self.assertEqual(self.files("out/arm"), earlier)
+        self.expect("build arm.toml --max-theta-error-deg 0 --force", 5, "report.html")
+        self.assertNotEqual(self.files("out/arm"), earlier)
+
+    def test_infeasible_design_says_what_would_do(self):
+        document = self.expect_json("build arm.toml --set pulley.r1_mm=60", 4)
+        broken = [condition for condition in document["conditions"] if not condition["ok"]]
+        self.assertTrue(broken)
+        self.assertTrue(document["advice"])
+        for change in document["advice"]:
+            self.assertEqual(set(change), {"key", "from", "to", "unit", "text"})
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_advice_is_true(self):
+        advice = self.expect_json("build arm.toml --set pulley.r1_mm=60", 4)["advice"]
+        r1 = [change for change in advice if change["key"] == "pulley.r1_mm"]
+        self.assertTrue(r1)
+        self.expect(f"build arm.toml --dry-run --set pulley.r1_mm={r1[0]['to']}", 0)
+
+    def test_paper_method_is_reported_not_failed(self):
+        document = self.expect_json("build arm.toml --set pulley.method=paper", 0)
+        names = [check["name"] for check in document["checks"]]
+        self.assertIn("theta_error_reported", names)
+        self.assertNotIn("theta_error", names)
+        self.assertGreater(document["as_built"]["max_slack_mm"], 0.05)
+
+
+class SomebodysWork(harness.Scratch):
+    def test_is_refused_without_force(self):
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/pulley.stl").write_text("a week of work")
+        self.expect("build arm.toml -o mine", 6, "^$", "fusee did not write: pulley.stl.*--force")
+        self.assertEqual(self.files("mine"), {"pulley.stl": b"a week of work"})
+        self.expect("build arm.toml -o mine --force", 0)
+
+    def test_beside_the_outputs_is_left_alone(self):
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/notes.txt").write_text("notes")
+        files = self.build("mine")
+        self.assertEqual(files.pop("notes.txt"), b"notes")
+        self.assertEqual(set(files), OUTPUTS)
+
+    def test_is_seen_when_an_output_was_edited(self):
+        self.build()
+        (self.folder / "out/arm/pulley.scad").write_text("my changes")
+        self.expect("build arm.toml", 6, "^$", "changed after fusee wrote them: pulley.scad")
+        self.assertEqual((self.folder / "out/arm/pulley.scad").read_text(), "my changes")
+
+    def test_own_files_are_replaced(self):
+        first = self.build()
+        second = self.build(arguments="--set pulley.r1_mm=15")
+        self.assertNotEqual(first["pulley.stl"], second["pulley.stl"])
+
+    def test_a_file_in_the_way(self):
+        (self.folder / "out").write_text("a file")
+        self.expect("build arm.toml", 6, "^$", "out.*not a folder")
+
+    def test_a_folder_in_the_way(self):
+        (self.folder / "out/arm/pulley.stl").mkdir(parents=True)
+        self.expect("build arm.toml", 6, "^$", "pulley.stl")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
+    def test_a_folder_that_cannot_be_written(self):
+        (self.folder / "locked").mkdir(mode=0o500)
+        self.expect("build arm.toml -o locked", 6, "^$", "locked")
+
+    def test_a_place_that_nobody_can_write(self):
+        self.expect("build arm.toml -o /proc/fusee", 6, "^$", "/proc")
+
+
+class FullDisk(harness.Scratch):
+    def setUp(self):
+        super().setUp()
+        self.disk = self.folder / "disk"
+        self.disk.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", self.disk], stderr=subprocess.DEVNULL).returncode:
+            self.skipTest("a small disk needs root")
+        self.addCleanup(subprocess.run, ["umount", self.disk], check=True)
+
+    def test_leaves_nothing(self):
+        self.expect("build arm.toml -o disk/parts", 6, "^$", "disk is full|No space left")
+        self.assertEqual(list(self.disk.iterdir()), [])
+
+
+class Streams(harness.Scratch):
+    """stdout and stderr closed, full or broken: a clear end, and never a message inside an output file."""
+
+    def shell(self, line):
+        return subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, timeout=120)
+
+    def test_full(self):
+        done = self.shell("fusee explain > /dev/full")
+        self.assertEqual(done.returncode, 6)
+        self.assertRegex(done.stderr.decode(), "could not be written to stdout: No space left")
+
+    def test_broken(self):
+        done = self.shell("fusee explain | true; exit ${PIPESTATUS[0]}")
+        self.assertIn(done.returncode, (0, 6))
+
+    def test_closed(self):
+        self.assertEqual(self.shell("fusee explain >&-").returncode, 6)
+        self.assertEqual(self.shell("fusee explain 2>&-").returncode, 0)
+        self.assertEqual(self.shell("fusee bild 2>&-").returncode, 2)
+        self.assertEqual(self.shell("fusee explain <&-").returncode, 0)
+
+    def test_closed_while_building(self):
+        good = self.build("good")
+        self.assertEqual(self.shell("fusee build arm.toml -o bad -v <&- >&- 2>&-").returncode, 6)
+        self.assertEqual(self.files("bad"), good)
+
+    def test_no_colours_and_no_progress_off_a_terminal(self):
+        for line in ["fusee build arm.toml --force", "fusee build missing.toml"]:
+            self.assertNotIn(b"\x1b", self.shell(line).stderr)
+
+    def terminal(self, line):
+        """What `line` shows on a terminal."""
+        return self.shell(f"TERM=xterm script -qec '{line}' /dev/null").stdout
+
+    @unittest.skipUnless(shutil.which("script"), "needs script(1)")
+    def test_colours_on_a_terminal(self):
+        self.assertIn(b"\x1b[1;31merror:", self.terminal("fusee build missing.toml"))
+        self.assertNotIn(b"\x1b", self.terminal("fusee build missing.toml --no-color"))
+        self.assertNotIn(b"\x1b", self.terminal("NO_COLOR=1 fusee build missing.toml"))
+        self.assertIn("finding both pitch curves …".encode(), self.terminal("fusee build arm.toml"))
+
+    def test_escape_sequences_in_names_are_not_obeyed(self):
+        done = self.fusee(["build", "\x1b[31mred.toml"])
+        self.assertEqual(done.returncode, 3)
+        self.assertNotIn(b"\x1b", done.stderr)
+
+    def test_names_that_are_no_text(self):
+        done = self.fusee([b"build", b"\xff\xfe.toml", b"--json"])
+        self.assertEqual(harness.json.loads(done.stdout)["exit"], 3)
+
+
+class Kill(harness.Scratch):
+    """Killed at any moment, the earlier files are whole, and the next run cleans up."""
+
+    DELAYS = [0.005, 0.02, 0.05, 0.08, 0.11, 0.15, 0.2, 0.3]
+
+    def start(self, arguments=""):
+        line = [harness.PROGRAM, "build", "arm.toml", "--set", "pulley.r1_mm=15", *arguments.split()]
+        return subprocess.Popen(line, cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def check_folder(self, earlier, later):
+        """All of one run, but that a kill between two renames may mix them; each file is whole either way."""
+        files = {name: data for name, data in self.files("out/arm").items() if not name.startswith(".")} if earlier else {}
+        for name, data in files.items():
+            self.assertIn(data, (earlier[name], later[name]), name)
+
+    def test_outright(self):
+        later = self.build(arguments="--set pulley.r1_mm=15")
+        earlier = self.build()
+        for delay in self.DELAYS:
+            process = self.start()
+            time.sleep(delay)
+            process.kill()
+            process.communicate()
+            for name, data in {p.name: p.read_bytes() for p in (self.folder / "out/arm").iterdir() if p.is_file()}.items():
+                self.assertIn(data, (earlier[name], later[name]), name)
+        self.assertEqual(self.build(), earlier)
+
+    def interrupt(self, number):
+        earlier = self.build()
+        later = self.build("later", "--set pulley.r1_mm=15")
+        for delay in self.DELAYS:
+            process = self.start("--json")
+            time.sleep(delay)
+            process.send_signal(number)
+            out, _ = process.communicate(timeout=60)
+            self.assertIn(process.returncode, (0, 130, -number), delay)
+            if process.returncode == -number:
+                continue  # so early that the program had not begun
+            self.assertEqual(harness.json.loads(out)["exit"], process.returncode)
+            self.assertEqual(self.files("out/arm"), later if process.returncode == 0 else earlier)
+            if process.returncode == 0:
+                self.build()
+
+    def test_interrupted(self):
+        self.interrupt(signal.SIGINT)
+
+    def test_terminated(self):
+        self.interrupt(signal.SIGTERM)
+
+    def test_two_at_once(self):
+        runs = [self.start("-o both"), self.start("-o both")]
+        for run in runs:
+            out, err = run.communicate(timeout=120)
+            self.assertIn(run.returncode, (0, 6), err)
+        self.assertEqual(set(self.files("both")), OUTPUTS)
+        self.expect("check both/pulley.stl", 0)
+
+
+if __name__ == "__main__":
+    harness.main()
