@@ -4,6 +4,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "solid/nearest_float.h"
+
 namespace fusee {
 namespace {
 
@@ -67,7 +69,7 @@ TriangleMesh weld(const TriangleMesh& mesh) {
 }
 
 TriangleMesh rounded_to_float(TriangleMesh mesh) {
-  for (Vec3& vertex : mesh.vertices) vertex = vertex.cast<float>().cast<double>();
+  for (Vec3& vertex : mesh.vertices) vertex = vertex.unaryExpr(&nearest_float);
   return mesh;
 }
 

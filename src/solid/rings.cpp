@@ -2,11 +2,10 @@
 
 #include "fusee/base/diagnostics.h"
 #include "solid/caps.h"
+#include "solid/nearest_float.h"
 
 namespace fusee {
 namespace {
-
-double to_float(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 Vec3 lifted(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
 
@@ -143,13 +142,13 @@ double prism_volume(const Shaft& shaft) { return signed_area(shaft.outline) * (s
 
 RingStack scaled_to_float(RingStack stack, double scale) {
   const auto round = [scale](Polygon& points, double& z) {
-    for (Vec2& point : points) point = {to_float(scale * point.x()), to_float(scale * point.y())};
-    z = to_float(scale * z);
+    for (Vec2& point : points) point = {nearest_float(scale * point.x()), nearest_float(scale * point.y())};
+    z = nearest_float(scale * z);
   };
   for (Ring& ring : stack.rings) round(ring.points, ring.z);
   const auto round_shaft = [&](Shaft& shaft) {
     round(shaft.outline, shaft.low);
-    shaft.high = to_float(scale * shaft.high);
+    shaft.high = nearest_float(scale * shaft.high);
   };
   for (Shaft& shaft : stack.through) round_shaft(shaft);
   if (stack.recess) round_shaft(*stack.recess);

@@ -23,32 +23,45 @@ std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
 }
 
-// The same two numbers give the same place from both sides of an edge.
-Vec2 crossing(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double z) {
-  const Vec3& low = mesh.vertices[std::min(a, b)];
-  const Vec3& high = mesh.vertices[std::max(a, b)];
-  const double share = (z - low.z()) / (high.z() - low.z());
-  return (low + share * (high - low)).head<2>();
+// A vertex exactly at z counts as above, so that no case is special.
+bool above(const Vec3& vertex, double z) { return vertex.z() >= z; }
+
+// The triangles that the plane cuts, welded: neighbours are found by place, not by how a file numbered them.
+TriangleMesh cut_triangles(const TriangleMesh& mesh, double z) {
+  TriangleMesh cut;
+  const std::size_t count = mesh.vertices.size();
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (a >= count || b >= count || c >= count) continue;
+    const Vec3 &va = mesh.vertices[a], &vb = mesh.vertices[b], &vc = mesh.vertices[c];
+    if (above(va, z) == above(vb, z) && above(vb, z) == above(vc, z)) continue;
+    const auto first = static_cast<std::uint32_t>(cut.vertices.size());
+    cut.vertices.insert(cut.vertices.end(), {va, vb, vc});
+    cut.triangles.push_back({first, first + 1, first + 2});
+  }
+  return weld(cut);
 }
 
-// A vertex exactly at z counts as above, so that no case is special.
+// The same two numbers, in the same order, give the same place from both sides of an edge.
+Vec2 crossing(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double z) {
+  const Vec3& first = mesh.vertices[std::min(a, b)];
+  const Vec3& second = mesh.vertices[std::max(a, b)];
+  const double share = (z - first.z()) / (second.z() - first.z());
+  return (first + share * (second - first)).head<2>();
+}
+
 std::vector<Cut> cuts_at(const TriangleMesh& mesh, double z) {
   std::vector<Cut> cuts;
-  const std::size_t count = mesh.vertices.size();
   for (const auto& triangle : mesh.triangles) {
-    const auto [a, b, c] = triangle;
-    if (a >= count || b >= count || c >= count) continue;
-    const std::array<bool, 3> above{mesh.vertices[a].z() >= z, mesh.vertices[b].z() >= z, mesh.vertices[c].z() >= z};
-    if (above[0] == above[1] && above[1] == above[2]) continue;
     Cut cut;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      if (above[k] == above[next]) continue;
-      if (above[k]) {
-        cut.from = edge_key(triangle[k], triangle[next]);
-        cut.start = crossing(mesh, triangle[k], triangle[next], z);
+      const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
+      const bool from_above = above(mesh.vertices[from], z);
+      if (from_above == above(mesh.vertices[to], z)) continue;
+      if (from_above) {
+        cut.to = edge_key(from, to);
       } else {
-        cut.to = edge_key(triangle[k], triangle[next]);
+        cut.from = edge_key(from, to);
+        cut.start = crossing(mesh, from, to, z);
       }
     }
     cuts.push_back(cut);
@@ -69,7 +82,7 @@ Polygon without_repeats(const Polygon& points) {
 }  // namespace
 
 std::vector<Polygon> section(const TriangleMesh& mesh, double z) {
-  std::vector<Cut> cuts = cuts_at(mesh, z);
+  std::vector<Cut> cuts = cuts_at(cut_triangles(mesh, z), z);
   std::unordered_multimap<std::uint64_t, std::size_t> starts;
   starts.reserve(cuts.size());
   for (std::size_t k = cuts.size(); k-- > 0;) starts.emplace(cuts[k].from, k);

@@ -1,5 +1,6 @@
 /// \file
-/// Pulleys of known shape for tests of what comes after the synthesis: convex outlines given by their support functions.
+/// Pulleys of known shape for tests of what comes after the synthesis: convex outlines given by their support
+/// functions.
 #pragma once
 
 #include <cmath>
@@ -36,7 +37,9 @@ struct SupportShape {
   }
 };
 
-inline SupportShape circle(double radius, Vec2 centre = Vec2::Zero()) { return {radius, {{1, centre.x(), centre.y()}}}; }
+inline SupportShape circle(double radius, Vec2 centre = Vec2::Zero()) {
+  return {radius, {{1, centre.x(), centre.y()}}};
+}
 
 inline Outline sampled(const SupportShape& shape, Side side, int count, double active_from, double active_to) {
   Outline outline;
@@ -44,9 +47,12 @@ inline Outline sampled(const SupportShape& shape, Side side, int count, double a
   for (int i = 0; i < count; ++i) {
     const double psi = k_two_pi * i / count;
     const Vec2 normal = unit(psi);
-    outline.points.push_back({psi, shape.p(psi) * normal + shape.dp(psi) * turned_left(normal), normal, shape.p(psi) + shape.d2p(psi)});
+    outline.points.push_back(
+        {psi, shape.p(psi) * normal + shape.dp(psi) * turned_left(normal), normal, shape.p(psi) + shape.d2p(psi)});
   }
-  const auto index = [count](double psi) { return static_cast<std::size_t>(std::lround(psi / k_two_pi * count) % count); };
+  const auto index = [count](double psi) {
+    return static_cast<std::size_t>(std::lround(psi / k_two_pi * count) % count);
+  };
   outline.active_first = index(active_from);
   outline.active_last = index(active_to);
   return outline;

@@ -1,0 +1,304 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/solid/mesh.h"
+#include "solid/self_intersection.h"
+
+namespace fusee {
+namespace {
+
+std::string place_of(const Vec3& point) {
+  return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ", " + fixed(point.z(), 3) + ") mm";
+}
+
+std::string facet_at(const TriangleMesh& mesh, std::size_t facet) {
+  const auto& [a, b, c] = mesh.triangles[facet];
+  return "facet " + std::to_string(facet) + " at " +
+         place_of((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0);
+}
+
+// How many facets are faulty, and which is the first.
+struct Tally {
+  std::size_t count = 0;
+  std::size_t first = 0;
+
+  void add(std::size_t facet) {
+    first = count == 0 ? facet : std::min(first, facet);
+    ++count;
+  }
+};
+
+Check none_of(const TriangleMesh& mesh, std::string name, const Tally& tally) {
+  return exactly(std::move(name), static_cast<double>(tally.count), 0, "1",
+                 tally.count > 0 ? facet_at(mesh, tally.first) : std::string());
+}
+
+Check not_looked_at(std::string name, const std::string& reason) {
+  return {std::move(name), 0, 0, "1", false, "not looked at: " + reason};
+}
+
+// Each side of each facet, those of one edge together.
+struct EdgeSide {
+  std::uint32_t low = 0, high = 0;
+  std::uint32_t facet = 0;
+  bool upward = false;  // the facet runs from low to high
+};
+
+std::vector<EdgeSide> edge_sides(const TriangleMesh& mesh) {
+  std::vector<EdgeSide> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(f), a < b});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const EdgeSide& s, const EdgeSide& t) {
+    return std::tie(s.low, s.high, s.facet, s.upward) < std::tie(t.low, t.high, t.facet, t.upward);
+  });
+  return sides;
+}
+
+template <typename Visit>
+void for_each_edge(const std::vector<EdgeSide>& sides, const Visit& visit) {
+  for (std::size_t first = 0; first < sides.size();) {
+    std::size_t last = first + 1;
+    while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
+    visit(first, last);
+    first = last;
+  }
+}
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t root(std::size_t item) {
+    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+    return item;
+  }
+  void unite(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+struct Topology {
+  Tally open, crowded, turned, pinched;
+};
+
+std::size_t corner_of(const TriangleMesh& mesh, std::size_t facet, std::uint32_t vertex) {
+  const auto& triangle = mesh.triangles[facet];
+  return 3 * facet + static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin());
+}
+
+// A vertex is pinched when the facets round it fall into groups that share no edge there.
+Tally pinched_vertices(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
+  DisjointSets corners(3 * mesh.triangles.size());
+  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first + 1; k < last; ++k) {
+      for (const std::uint32_t vertex : {sides[k].low, sides[k].high}) {
+        corners.unite(corner_of(mesh, sides[first].facet, vertex), corner_of(mesh, sides[k].facet, vertex));
+      }
+    }
+  });
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> group(mesh.vertices.size(), none);
+  Tally pinched;
+  for (std::size_t corner = 0; corner < 3 * mesh.triangles.size(); ++corner) {
+    std::size_t& known = group[mesh.triangles[corner / 3][corner % 3]];
+    const std::size_t here = corners.root(corner);
+    if (known != none && known != here && here == corner) pinched.add(corner / 3);
+    known = known == none ? here : known;
+  }
+  return pinched;
+}
+
+Topology topology_of(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
+  Topology topology;
+  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    if (last - first == 1) topology.open.add(sides[first].facet);
+    if (last - first > 2) topology.crowded.add(sides[first].facet);
+    if (last - first == 2 && sides[first].upward == sides[first + 1].upward) topology.turned.add(sides[first].facet);
+  });
+  topology.pinched = pinched_vertices(mesh, sides);
+  return topology;
+}
+
+Tally degenerate_facets(const TriangleMesh& mesh) {
+  Tally degenerate;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (is_degenerate(mesh, f)) degenerate.add(f);
+  }
+  return degenerate;
+}
+
+Tally duplicate_facets(const TriangleMesh& mesh) {
+  std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> sorted;
+  sorted.reserve(mesh.triangles.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    auto corners = mesh.triangles[f];
+    std::sort(corners.begin(), corners.end());
+    sorted.emplace_back(corners, f);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  Tally duplicate;
+  for (std::size_t k = 1; k < sorted.size(); ++k) {
+    if (sorted[k].first == sorted[k - 1].first) duplicate.add(sorted[k].second);
+  }
+  return duplicate;
+}
+
+// ---- outward --------------------------------------------------------------------------------------------------------
+
+struct Part {
+  std::vector<std::size_t> facets;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  Vec3 extreme = Vec3::Zero();  // its vertex of largest x: outside of it, as near as can be
+  double volume = 0;
+};
+
+std::vector<Part> parts_of(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
+  DisjointSets facets(mesh.triangles.size());
+  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first + 1; k < last; ++k) facets.unite(sides[first].facet, sides[k].facet);
+  });
+  std::vector<std::size_t> number(mesh.triangles.size());
+  std::vector<Part> parts;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const std::size_t root = facets.root(f);
+    if (root == f) {
+      number[f] = parts.size();
+      parts.emplace_back();
+    }
+    Part& part = parts[number[root]];
+    part.facets.push_back(f);
+    for (const std::uint32_t index : mesh.triangles[f]) {
+      const Vec3& vertex = mesh.vertices[index];
+      if (!(vertex.x() <= part.high.x())) part.extreme = vertex;
+      part.low = part.low.cwiseMin(vertex);
+      part.high = part.high.cwiseMax(vertex);
+    }
+  }
+  for (Part& part : parts) {
+    for (const std::size_t f : part.facets) {
+      const auto& [a, b, c] = mesh.triangles[f];
+      const Vec3 u = mesh.vertices[a] - part.low, v = mesh.vertices[b] - part.low, w = mesh.vertices[c] - part.low;
+      part.volume += u.dot(v.cross(w)) / 6.0;
+    }
+  }
+  return parts;
+}
+
+// How often a part's surface goes round `point`: the sum of its facets' solid angles over 4π.
+double winding_number(const TriangleMesh& mesh, const Part& part, const Vec3& point) {
+  double angle = 0;
+  for (const std::size_t f : part.facets) {
+    const auto& [ia, ib, ic] = mesh.triangles[f];
+    const Vec3 a = mesh.vertices[ia] - point, b = mesh.vertices[ib] - point, c = mesh.vertices[ic] - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (2.0 * k_two_pi);
+}
+
+// A part must enclose volume where it stands outside of the others, and be a cavity where it stands inside one.
+Check outward_check(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides) {
+  const std::vector<Part> parts = parts_of(mesh, sides);
+  // Nested parts by the thousand are nobody's pulley.
+  std::size_t facets_left = 200'000'000;
+  Tally inverted;
+  for (const Part& part : parts) {
+    double around = 0;
+    for (const Part& other : parts) {
+      const bool may_contain = &other != &part && (part.extreme.array() > other.low.array()).all() &&
+                               (part.extreme.array() < other.high.array()).all();
+      if (!may_contain) continue;
+      if (other.facets.size() > facets_left)
+        return not_looked_at("inverted_parts", "too many parts within one another");
+      facets_left -= other.facets.size();
+      around += winding_number(mesh, other, part.extreme);
+    }
+    const bool inside = std::lround(around) != 0;
+    if (!(inside ? part.volume < 0 : part.volume > 0)) inverted.add(part.facets.front());
+  }
+  return none_of(mesh, "inverted_parts", inverted);
+}
+
+Check crossing_check(const TriangleMesh& mesh) {
+  const CrossingSearch search = find_crossing(mesh);
+  if (search.gave_up) return not_looked_at("self_intersections", "too many facets lie on top of one another");
+  if (!search.facets) return exactly("self_intersections", 0, 0, "1");
+  const auto [f, g] = *search.facets;
+  return exactly("self_intersections", 1, 0, "1", facet_at(mesh, f) + " crosses facet " + std::to_string(g));
+}
+
+// ---- what must hold before anything else can be asked
+// ----------------------------------------------------------------
+
+Check indices_check(const TriangleMesh& mesh) {
+  Tally bad;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& triangle = mesh.triangles[f];
+    if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.vertices.size()) bad.add(f);
+  }
+  return exactly("indices_out_of_range", static_cast<double>(bad.count), 0, "1",
+                 "facet " + std::to_string(bad.first) + " names a vertex that is not there");
+}
+
+Check finite_check(const TriangleMesh& mesh) {
+  const auto bad =
+      std::find_if(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& vertex) { return !vertex.allFinite(); });
+  const auto count = std::count_if(bad, mesh.vertices.end(), [](const Vec3& vertex) { return !vertex.allFinite(); });
+  return exactly("vertices_not_finite", static_cast<double>(count), 0, "1",
+                 "vertex " + std::to_string(bad - mesh.vertices.begin()));
+}
+
+std::optional<std::string> unusable(const std::vector<Check>& checks) {
+  if (!checks[0].ok) return "there are no facets";
+  if (!checks[1].ok) return "facets name vertices that are not there";
+  if (!checks[2].ok) return "coordinates are not finite";
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Check> check_mesh(const TriangleMesh& mesh) {
+  std::vector<Check> checks{
+      at_least("facets", static_cast<double>(mesh.triangles.size()), 4, "1", "there are not enough for a solid"),
+      indices_check(mesh), finite_check(mesh)};
+  if (const auto reason = unusable(checks)) {
+    for (const char* name : {"degenerate_facets", "duplicate_facets", "open_edges", "edges_of_more_than_two_facets",
+                             "flipped_facets", "pinched_vertices", "inverted_parts", "self_intersections"}) {
+      checks.push_back(not_looked_at(name, *reason));
+    }
+    return checks;
+  }
+  const TriangleMesh welded = weld(mesh);
+  const std::vector<EdgeSide> sides = edge_sides(welded);
+  const Topology topology = topology_of(welded, sides);
+  checks.push_back(none_of(welded, "degenerate_facets", degenerate_facets(welded)));
+  checks.push_back(none_of(welded, "duplicate_facets", duplicate_facets(welded)));
+  checks.push_back(none_of(welded, "open_edges", topology.open));
+  checks.push_back(none_of(welded, "edges_of_more_than_two_facets", topology.crowded));
+  checks.push_back(none_of(welded, "flipped_facets", topology.turned));
+  checks.push_back(none_of(welded, "pinched_vertices", topology.pinched));
+  const bool closed = topology.open.count == 0 && topology.crowded.count == 0 && topology.turned.count == 0;
+  checks.push_back(closed ? outward_check(welded, sides)
+                          : not_looked_at("inverted_parts", "the surface has no inside: see the checks above"));
+  checks.push_back(crossing_check(welded));
+  return checks;
+}
+
+}  // namespace fusee
