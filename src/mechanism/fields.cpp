@@ -206,8 +206,8 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::seat_ratio>({"body.seat_ratio", "", "0.55", "seat radius of a u groove per tendon diameter"}, "", 0.5, 2));
   table.push_back(choice<body, &Body::flange>({"body.flange", "", "\"follow\"", "follow: flanges are parallel to the groove's outline; round: circles"}));
   table.push_back(number<body, &Body::flange_thickness>({"body.flange_thickness_mm", "", "1.2", "thickness of the flanges at the lip"}, "mm", 0.2, 50));
-  table.push_back(number<body, &Body::hub_diameter>({"body.hub_diameter_mm", "", "0", "0: from the bore and the set screw"}, "mm", 0, 1000));
-  table.push_back(number<body, &Body::hub_height>({"body.hub_height_mm", "", "8", "above the top flange; 0: no hub; left out, with a note, where there is no room for one"}, "mm", 0, 500));
+  table.push_back(number<body, &Body::hub_diameter>({"body.hub_diameter_mm", "", "0", "diameter of the hub; 0: from the bore and the set screw"}, "mm", 0, 1000));
+  table.push_back(number<body, &Body::hub_height>({"body.hub_height_mm", "", "8", "height of the hub above the top flange; 0: no hub; left out, with a note, where there is no room for one"}, "mm", 0, 500));
   table.push_back(choice<body, &Body::bore>({"body.bore", "", "\"round\"", "shape of the bore; horn: a servo horn is screwed on"}));
   table.push_back(number<body, &Body::bore_diameter>({"body.bore_diameter_mm", "", "0", "diameter of the shaft, across flats for hex and square; 0: 5 mm, or what there is room for"}, "mm", 0, 500));
   table.push_back(number<body, &Body::bore_flat>({"body.bore_flat_mm", "", "0", "from the flat of a D shaft to its far side; 0: 0.9 times the diameter", "body.bore=d"}, "mm", 0, 500));

@@ -1,0 +1,359 @@
+#include "fusee/base/files.h"
+
+#include <gmock/gmock.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "fusee/base/diagnostics.h"
+
+namespace fusee {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::string bytes_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void put(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+/// Names in a folder, hidden ones too, sorted.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// A manifest as fusee writes it.
+OutputFile manifest_of(const std::vector<OutputFile>& files) {
+  nlohmann::json manifest = {{"schema", 1}, {"tool", "fusee 0.1.0"}, {"outputs", nlohmann::json::array()}};
+  for (const OutputFile& file : files) {
+    manifest["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  }
+  return {"manifest.json", manifest.dump()};
+}
+
+/// One whole run.
+void publish(const fs::path& folder, const std::vector<OutputFile>& files, bool force = false) {
+  OutputFolder output(folder, force);
+  output.stage(manifest_of(files));
+  for (const OutputFile& file : files) output.stage(file);
+  output.publish();
+}
+
+/// What OutputError says; "" when nothing is thrown.
+template <class Action>
+std::string output_error(Action action) {
+  try {
+    action();
+  } catch (const OutputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "";
+}
+
+template <class Action>
+std::string input_error(Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::path(testing::TempDir()) / "fusee_files_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    root_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  fs::path root_;
+};
+
+// ---- reading --------------------------------------------------------------------------------------------------------
+
+TEST_F(Files, ReadsBytesAsTheyAre) {
+  const std::string bytes("a\0b\r\n\xff", 6);
+  put(root_ / "f", bytes);
+  EXPECT_EQ(read_file(root_ / "f", 6), bytes);
+  put(root_ / "empty", "");
+  EXPECT_EQ(read_file(root_ / "empty", 0), "");
+}
+
+TEST_F(Files, ReadsFilesThatHideTheirSize) {
+  EXPECT_THAT(read_file("/proc/self/status", 1 << 20), HasSubstr("Pid:"));
+  EXPECT_THAT(input_error([] { read_file("/proc/self/status", 10); }), HasSubstr("is larger than 10 bytes"));
+}
+
+TEST_F(Files, RefusesWhatIsNoFile) {
+  EXPECT_THAT(input_error([&] { read_file(root_ / "missing", 10); }), HasSubstr("missing: error: cannot be read: No such file"));
+  EXPECT_THAT(input_error([&] { read_file(root_, 10); }), HasSubstr("is a directory"));
+  EXPECT_THAT(input_error([&] { read_file("/dev/zero", 10); }), HasSubstr("is not a regular file"));
+  EXPECT_THAT(input_error([&] { read_file("", 10); }), HasSubstr("cannot be read"));
+  ASSERT_EQ(mkfifo((root_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(input_error([&] { read_file(root_ / "pipe", 10); }), HasSubstr("is not a regular file"));
+}
+
+TEST_F(Files, RefusesLargeFilesBeforeReading) {
+  put(root_ / "large", "");
+  fs::resize_file(root_ / "large", std::uintmax_t{1} << 40);  // a hole: no blocks
+  EXPECT_THAT(input_error([&] { read_file(root_ / "large", 1000); }), HasSubstr("is larger than 1000 bytes"));
+  put(root_ / "just", "1234567");
+  EXPECT_THAT(input_error([&] { read_file(root_ / "just", 6); }), HasSubstr("is larger than 6 bytes"));
+}
+
+TEST(Sha256, KnownVectors) {  // FIPS 180-2, appendix B
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(sha256(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+// ---- a folder of outputs --------------------------------------------------------------------------------------------
+
+TEST_F(Files, PublishesIntoANewFolder) {
+  const fs::path folder = root_ / "a" / "b";
+  {
+    OutputFolder output(folder, false);
+    EXPECT_FALSE(output.has_earlier_run());
+    EXPECT_FALSE(fs::exists(root_ / "a"));
+    output.stage({"x.stl", "xyz"});
+    EXPECT_EQ(bytes_of(output.staged_path("x.stl")), "xyz");
+    EXPECT_FALSE(fs::exists(folder / "x.stl"));
+    output.publish();
+  }
+  EXPECT_THAT(names_in(folder), ElementsAre("x.stl"));
+  EXPECT_EQ(bytes_of(folder / "x.stl"), "xyz");
+}
+
+TEST_F(Files, LeavesNothingWithoutPublishing) {
+  { OutputFolder(root_ / "a" / "b", false).stage({"x.stl", "xyz"}); }
+  EXPECT_THAT(names_in(root_), IsEmpty());
+  fs::create_directory(root_ / "mine");
+  { OutputFolder(root_ / "mine", false).stage({"x.stl", "xyz"}); }
+  EXPECT_THAT(names_in(root_ / "mine"), IsEmpty());
+}
+
+TEST_F(Files, OverwritesItsOwnWork) {
+  publish(root_ / "out", {{"x.stl", "old"}, {"y.obj", "same"}});
+  EXPECT_TRUE(OutputFolder(root_ / "out", false).has_earlier_run());
+  publish(root_ / "out", {{"x.stl", "new"}, {"y.obj", "same"}});
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "new");
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl", "y.obj"));
+}
+
+TEST_F(Files, RefusesForeignFiles) {
+  fs::create_directory(root_ / "out");
+  put(root_ / "out" / "x.stl", "somebody's");
+  put(root_ / "out" / "notes.txt", "somebody's");
+  EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}}); }),
+              HasSubstr("files that fusee did not write: x.stl | choose another folder with -o, or overwrite them with --force"));
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "somebody's");
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("notes.txt", "x.stl"));
+  publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true);
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "new");
+  EXPECT_EQ(bytes_of(root_ / "out" / "notes.txt"), "somebody's");
+}
+
+TEST_F(Files, RefusesFilesChangedSince) {
+  publish(root_ / "out", {{"x.stl", "old"}, {"y.obj", "same"}});
+  put(root_ / "out" / "x.stl", "edited by hand");
+  EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}, {"y.obj", "other"}}); }),
+              HasSubstr("files that were changed after fusee wrote them: x.stl |"));
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "edited by hand");
+  EXPECT_EQ(bytes_of(root_ / "out" / "y.obj"), "same");
+  publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true);
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "new");
+}
+
+TEST_F(Files, ClaimNamesAllAtOnceAndWritesNothing) {
+  publish(root_ / "out", {{"x.stl", "old"}});
+  put(root_ / "out" / "x.stl", "edited");
+  put(root_ / "out" / "z.csv", "foreign");
+  const OutputFolder output(root_ / "out", false);
+  const std::string error = output_error([&] { output.claim({"x.stl", "y.obj", "z.csv", "manifest.json"}); });
+  EXPECT_THAT(error, HasSubstr("did not write: z.csv; and files that were changed after fusee wrote them: x.stl |"));
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl", "z.csv"));
+  const OutputFolder elsewhere(root_ / "new", false);
+  elsewhere.claim({"x.stl"});
+  EXPECT_FALSE(fs::exists(root_ / "new"));
+}
+
+TEST_F(Files, ABrokenOrForeignManifestIsSomebodyElses) {
+  for (const std::string& manifest : {std::string("{\"tool\":\"fusee"), std::string("{\"tool\":\"npm\",\"outputs\":[]}"), std::string("[]"), std::string("{}"),
+                                      std::string("{\"tool\":\"fusee\",\"outputs\":{}}"), std::string(200000, '['), std::string("\xff")}) {
+    fs::create_directory(root_ / "out");
+    put(root_ / "out" / "manifest.json", manifest);
+    EXPECT_FALSE(OutputFolder(root_ / "out", false).has_earlier_run()) << manifest.substr(0, 40);
+    EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}}); }), HasSubstr("did not write: manifest.json"));
+    EXPECT_EQ(bytes_of(root_ / "out" / "manifest.json"), manifest);
+    fs::remove_all(root_ / "out");
+  }
+}
+
+TEST_F(Files, NeverReplacesWhatIsNoFile) {
+  fs::create_directories(root_ / "out" / "x.stl");
+  EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true); }), HasSubstr("is not a regular file"));
+  EXPECT_TRUE(fs::is_directory(root_ / "out" / "x.stl"));
+}
+
+TEST_F(Files, TheFolderMayNotBeAFile) {
+  put(root_ / "file", "bytes");
+  for (const fs::path& folder : {root_ / "file", root_ / "file" / "below", root_ / "file" / "below" / "further"}) {
+    EXPECT_THAT(output_error([&] { publish(folder, {{"x.stl", "new"}}); }), HasSubstr("file is not a folder")) << folder;
+    EXPECT_THAT(output_error([&] { OutputFolder(folder, false).claim({"x.stl"}); }), HasSubstr("file is not a folder"));
+  }
+  EXPECT_EQ(bytes_of(root_ / "file"), "bytes");
+}
+
+TEST_F(Files, AFolderThatTakesNoFilesIsAnOutputError) {
+  // /proc lets nobody make files, not even root.
+  EXPECT_NE(output_error([&] { publish("/proc", {{"x.stl", "new"}}); }), "");
+  EXPECT_NE(output_error([&] { publish("/proc/fusee/out", {{"x.stl", "new"}}); }), "");
+  EXPECT_NE(output_error([&] { write_file("/proc/x.stl", "new", false); }), "");
+}
+
+TEST_F(Files, AFullDiskLeavesEarlierFilesWhole) {
+  // A file system of 1 MB, seen by this process alone.
+  const fs::path disk = root_ / "disk";
+  fs::create_directory(disk);
+  const bool alone = ::unshare(CLONE_NEWNS) == 0 && ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
+  if (!alone || ::mount("fusee", disk.c_str(), "tmpfs", 0, "size=1m") != 0) GTEST_SKIP() << "may not mount";
+  publish(disk / "out", {{"x.stl", "old"}});
+  const std::vector<std::string> before = names_in(disk / "out");
+  const std::string error = output_error([&] { publish(disk / "out", {{"a.obj", "small"}, {"x.stl", std::string(4 << 20, 'x')}}); });
+  const std::string content = bytes_of(disk / "out" / "x.stl");
+  const std::vector<std::string> after = names_in(disk / "out");
+  ::umount(disk.c_str());
+  EXPECT_THAT(error, HasSubstr("the disk is full"));
+  EXPECT_EQ(content, "old");
+  EXPECT_EQ(after, before);
+}
+
+TEST_F(Files, ARenameThatFailsPutsEarlierFilesBack) {
+  publish(root_ / "out", {{"a.obj", "old a"}, {"b.stl", "old b"}});
+  OutputFolder output(root_ / "out", false);
+  output.stage(manifest_of({{"a.obj", "new a"}, {"b.stl", "new b"}}));
+  output.stage({"a.obj", "new a"});
+  output.stage({"new.csv", "new"});
+  output.stage({"b.stl", "new b"});
+  fs::remove(output.staged_path("b.stl"));
+  fs::create_directory(output.staged_path("b.stl"));  // a folder cannot be renamed onto a file
+  EXPECT_NE(output_error([&] { output.publish(); }), "");
+  EXPECT_EQ(bytes_of(root_ / "out" / "a.obj"), "old a");
+  EXPECT_EQ(bytes_of(root_ / "out" / "b.stl"), "old b");
+  EXPECT_FALSE(fs::exists(root_ / "out" / "new.csv"));
+}
+
+/// Runs `action` in a child and kills it where it stops by itself.
+template <class Action>
+void kill_after(Action action) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    action();
+    ::raise(SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST_F(Files, WhatAKilledRunStagedIsRemovedByTheNext) {
+  publish(root_ / "out", {{"x.stl", "old"}});
+  kill_after([&] {
+    OutputFolder* output = new OutputFolder(root_ / "out", false);
+    output->stage({"x.stl", "half"});
+  });
+  EXPECT_EQ(names_in(root_ / "out").size(), 3u);  // the staging folder is still there
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "old");
+  publish(root_ / "out", {{"x.stl", "new"}});
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
+}
+
+TEST_F(Files, ARunKilledWhilePublishingIsStillOurs) {
+  publish(root_ / "out", {{"a.obj", "old"}, {"x.stl", "old"}});
+  kill_after([&] {
+    OutputFolder* output = new OutputFolder(root_ / "out", false);
+    output->stage(manifest_of({{"a.obj", "new"}, {"x.stl", "new"}}));
+    output->stage({"a.obj", "new"});
+    output->stage({"x.stl", "new"});
+    fs::rename(output->staged_path("a.obj"), root_ / "out" / "a.obj");  // killed after the first of three renames
+  });
+  publish(root_ / "out", {{"a.obj", "newer"}, {"x.stl", "newer"}});
+  EXPECT_EQ(bytes_of(root_ / "out" / "a.obj"), "newer");
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("a.obj", "manifest.json", "x.stl"));
+}
+
+TEST_F(Files, ALivingRunIsLeftAlone) {
+  OutputFolder living(root_ / "out", false);
+  living.stage({"x.stl", "mine"});
+  publish(root_ / "out", {{"y.obj", "other"}});
+  EXPECT_EQ(bytes_of(living.staged_path("x.stl")), "mine");
+  living.publish();
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "mine");
+}
+
+TEST_F(Files, OutputsHaveOrdinaryRights) {
+  publish(root_ / "out", {{"x.stl", "new"}});
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  EXPECT_EQ(static_cast<mode_t>(fs::status(root_ / "out" / "x.stl").permissions()), 0666 & ~mask);
+  EXPECT_EQ(static_cast<mode_t>(fs::status(root_ / "out").permissions()), 0777 & ~mask);
+}
+
+TEST_F(Files, NamesStayWithinTheFolder) {
+  OutputFolder output(root_ / "out", false);
+  for (const char* name : {"", "../x", "a/b", ".hidden", "/etc/x"}) EXPECT_THROW(output.stage({name, ""}), Bug) << name;
+  output.stage({"x", "1"});
+  EXPECT_THROW(output.stage({"x", "2"}), Bug);
+}
+
+// ---- one file -------------------------------------------------------------------------------------------------------
+
+TEST_F(Files, WritesOneFile) {
+  write_file(root_ / "new" / "x.toml", "one", false);
+  EXPECT_EQ(bytes_of(root_ / "new" / "x.toml"), "one");
+  EXPECT_THAT(output_error([&] { write_file(root_ / "new" / "x.toml", "two", false); }), HasSubstr("x.toml exists | choose another name, or overwrite it with --force"));
+  EXPECT_EQ(bytes_of(root_ / "new" / "x.toml"), "one");
+  write_file(root_ / "new" / "x.toml", "two", true);
+  EXPECT_EQ(bytes_of(root_ / "new" / "x.toml"), "two");
+  EXPECT_THAT(names_in(root_ / "new"), ElementsAre("x.toml"));
+}
+
+TEST_F(Files, WritesThroughALink) {
+  put(root_ / "target", "one");
+  fs::create_symlink(root_ / "target", root_ / "link");
+  write_file(root_ / "link", "two", true);
+  EXPECT_TRUE(fs::is_symlink(root_ / "link"));
+  EXPECT_EQ(bytes_of(root_ / "target"), "two");
+}
+
+TEST_F(Files, WritesOverFilesOnly) {
+  EXPECT_THAT(output_error([&] { write_file(root_, "x", true); }), HasSubstr("is not a regular file"));
+  ASSERT_EQ(mkfifo((root_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(output_error([&] { write_file(root_ / "pipe", "x", true); }), HasSubstr("is not a regular file"));
+  EXPECT_THAT(output_error([&] { write_file("", "x", true); }), HasSubstr("names no file"));
+}
+
+}  // namespace
+}  // namespace fusee

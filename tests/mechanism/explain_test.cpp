@@ -1,0 +1,151 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "fusee/base/files.h"
+#include "fusee/base/text.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism/file.h"
+
+namespace fusee {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::filesystem::path k_profiles = std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles";
+
+TEST(Explain, OneKeyTellsAll) {
+  const std::string text = explain("r1_mm");
+  EXPECT_EQ(text, explain("pulley.r1_mm"));
+  for (const char* part : {"pulley.r1_mm  (r1)", "a number in mm", "0.1 to 1000 mm", "required with law = \"compensate\""}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(explain("friction"), HasSubstr("default 0.12"));
+}
+
+TEST(Explain, AKeyOfTwoTablesTellsBoth) {
+  EXPECT_THAT(explain("ratio"), HasSubstr("pulley.ratio"));
+  EXPECT_THAT(explain("ratio"), HasSubstr("transmission.ratio"));
+}
+
+TEST(Explain, ATableListsItsKeysOnly) {
+  EXPECT_THAT(explain("pulley"), HasSubstr("EF_mm"));
+  EXPECT_THAT(explain("pulley"), Not(HasSubstr("length_mm")));
+}
+
+TEST(Explain, NothingListsEverything) {
+  for (const Field& field : fields()) EXPECT_THAT(explain(""), HasSubstr("  " + std::string(field.key) + " "));
+}
+
+TEST(Explain, TheCatalogueIsShownWhereItHelps) {
+  EXPECT_THAT(explain("body.horn"), HasSubstr("lynxmotion-ses"));
+  EXPECT_THAT(explain("tendon.modulus_MPa"), HasSubstr("steel-7x19-2.4"));
+  EXPECT_THAT(explain("material.name"), HasSubstr("PETG"));
+}
+
+TEST(Explain, AMisspeltKeyNamesTheNearest) {
+  try {
+    explain("r1_m");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.diagnostics().front().hint, HasSubstr("r1_mm"));
+  }
+}
+
+TEST(Explain, JsonHoldsEveryField) {
+  const nlohmann::json json = nlohmann::json::parse(explain_json(""));
+  EXPECT_EQ(json["fields"].size(), fields().size());
+  EXPECT_FALSE(json["catalogue"]["horns"].empty());
+  EXPECT_EQ(nlohmann::json::parse(explain_json("EF_mm"))["fields"][0]["unit"], "mm");
+}
+
+TEST(Schema, HasEveryKeyWithItsBounds) {
+  const nlohmann::json schema = nlohmann::json::parse(mechanism_schema());
+  EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  for (const Field& field : fields()) {
+    const nlohmann::json& object = field.table.empty() ? schema : schema["properties"][std::string(field.table)];
+    EXPECT_EQ(object["additionalProperties"], false);
+    const nlohmann::json& property = object["properties"][std::string(field.key)];
+    EXPECT_THAT(property["description"].get<std::string>(), HasSubstr(std::string(field.meaning)));
+    const bool is_number = field.kind == FieldKind::number;
+    EXPECT_EQ(property.value("minimum", 0.0), is_number ? field.least : 0.0) << field.name();
+    EXPECT_EQ(property.value("maximum", 0.0), is_number ? field.most : 0.0) << field.name();
+    if (field.kind == FieldKind::choice) {
+      EXPECT_EQ(property["enum"].size(), field.choices.size()) << field.name();
+    }
+    EXPECT_EQ(property.contains("default"), !field.fallback.empty()) << field.name();
+  }
+}
+
+TEST(Templates, AreTheProfilesAndCanBeRead) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(k_profiles)) {
+    if (entry.path().extension() != ".toml") continue;
+    ++count;
+    const std::string text = read_file(entry.path(), 1 << 20);
+    EXPECT_EQ(find_template(entry.path().stem().string()), text);
+    std::vector<Diagnostic> warnings;
+    EXPECT_NO_THROW(parse_mechanism(text, entry.path().string(), k_profiles, {}, &warnings));
+    EXPECT_TRUE(warnings.empty()) << to_text(warnings.front());
+  }
+  EXPECT_EQ(templates().size(), count);
+}
+
+TEST(Templates, AMisspeltNameNamesTheNearest) {
+  try {
+    find_template("forarm");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.diagnostics().front().hint, HasSubstr("forearm"));
+  }
+}
+
+std::string code(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+std::string allowed_cell(const Field& field) {
+  if (field.kind == FieldKind::number || field.kind == FieldKind::range) {
+    return field.least == field.most ? shortest(field.least) : shortest(field.least) + " … " + shortest(field.most);
+  }
+  std::string text;
+  for (const std::string_view choice : field.choices) text += (text.empty() ? "" : " ") + code(choice);
+  return text;
+}
+
+std::string default_cell(const Field& field) {
+  const std::string text = field.fallback.empty() ? "required" : code(field.fallback);
+  return field.only_when.empty() ? text : text + ", with " + code(field.only_when);
+}
+
+/// The key table of profiles/README.md, as the field table gives it.
+std::string key_table() {
+  std::string text;
+  std::string_view table = "?";
+  for (const Field& field : fields()) {
+    if (field.table != table) {
+      table = field.table;
+      text += table.empty() ? "At the top of the file:\n" : "\n" + code("[" + std::string(table) + "]") + " " + std::string(table_meaning(table)) + ":\n";
+      text += "\n| key | meaning | unit | allowed | default |\n|---|---|---|---|---|\n";
+    }
+    const std::string symbol = field.symbol.empty() ? "" : std::string(field.symbol) + ": ";
+    text += "| " + code(field.key) + " | " + symbol + std::string(field.meaning) + " | " + std::string(field.unit) + " | " + allowed_cell(field) +
+            " | " + default_cell(field) + " |\n";
+  }
+  return text;
+}
+
+TEST(Readme, ItsKeyTableIsThatOfTheFields) {
+  const std::string readme = read_file(k_profiles / "README.md", 1 << 20);
+  const std::string begin = "<!-- key table: begin -->\n", end = "<!-- key table: end -->";
+  const std::size_t from = readme.find(begin), to = readme.find(end);
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  EXPECT_EQ(readme.substr(from + begin.size(), to - from - begin.size()), key_table())
+      << "profiles/README.md lags behind the field table: put the text above between its two marks";
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,69 @@
+#include "fusee/mechanism/fields.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "fusee/mechanism/file.h"
+#include "mechanism/mechanism_text.h"
+
+namespace fusee {
+namespace {
+
+TEST(Fields, NamesAreUniqueAndFound) {
+  std::set<std::string> names;
+  for (const Field& field : fields()) {
+    EXPECT_TRUE(names.insert(field.name()).second) << field.name();
+    EXPECT_EQ(find_field(field.name()), &field);
+    EXPECT_FALSE(field.meaning.empty()) << field.name();
+  }
+  EXPECT_EQ(find_field("joint.nothing"), nullptr);
+  EXPECT_EQ(find_field(""), nullptr);
+}
+
+TEST(Fields, TheUnitStandsInTheName) {
+  for (const Field& field : fields()) {
+    const std::string unit = field.unit == "%" ? "percent" : std::string(field.unit);
+    EXPECT_TRUE(unit.empty() || field.key.ends_with("_" + unit)) << field.name();
+  }
+}
+
+TEST(Fields, EachRowReachesAMemberOfItsOwn) {
+  const Mechanism start = parse_mechanism(k_good_file, "f.toml");
+  std::vector<Mechanism> changed;
+  for (const Field& field : fields()) {
+    if (field.key == "schema") continue;
+    for (int end = 0; end < (field.kind == FieldKind::range ? 2 : 1); ++end) {
+      Mechanism mechanism = start;
+      if (field.set != nullptr) {
+        field.set(mechanism, end, 0.25 * field.least + 0.75 * field.most - 0.125);
+        EXPECT_NEAR(field.get(mechanism, end), 0.25 * field.least + 0.75 * field.most - 0.125, 1e-9) << field.name();
+      } else if (field.kind == FieldKind::text) {
+        field.set_text(mechanism, "another text");
+        EXPECT_EQ(field.get_text(mechanism), "another text");
+      } else {
+        const std::string now = field.get_text(mechanism);
+        for (const std::string_view value : field.choices) {
+          if (value != now) field.set_text(mechanism, value);
+        }
+        if (field.kind == FieldKind::boolean) field.set_text(mechanism, now == "true" ? "false" : "true");
+        EXPECT_NE(field.get_text(mechanism), now) << field.name();
+      }
+      EXPECT_FALSE(mechanism == start) << field.name();
+      for (const Mechanism& other : changed) EXPECT_FALSE(mechanism == other) << field.name();
+      changed.push_back(mechanism);
+    }
+  }
+}
+
+TEST(Fields, DefaultsLieWithinTheirBounds) {
+  const Mechanism defaults = default_mechanism();
+  for (const Field& field : fields()) {
+    if (field.kind != FieldKind::number || field.fallback.empty()) continue;
+    EXPECT_GE(field.get(defaults, 0), field.least) << field.name();
+    EXPECT_LE(field.get(defaults, 0), field.most) << field.name();
+  }
+}
+
+}  // namespace
+}  // namespace fusee

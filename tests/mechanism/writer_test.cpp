@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+#include <rapidcheck.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "fusee/mechanism/catalogue.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism/file.h"
+#include "mechanism/mechanism_text.h"
+
+namespace fusee {
+namespace {
+
+using testing::HasSubstr;
+
+/// A number within the field's bounds, often at one of them, of many or few digits.
+double random_number(const Field& field) {
+  const int digits = *rc::gen::inRange(0, 1 << 30);
+  const double fraction = *rc::gen::element(0.0, 1.0, 0.5, digits / double(1 << 30), (digits % 1000) / 1000.0);
+  return field.least + fraction * (field.most - field.least);
+}
+
+void set_random(const Field& field, Mechanism& mechanism) {
+  switch (field.kind) {
+    case FieldKind::number: field.set(mechanism, 0, random_number(field)); break;
+    case FieldKind::range:
+      field.set(mechanism, 0, *rc::gen::inRange(-17500000, -1) / 1e5);
+      field.set(mechanism, 1, *rc::gen::inRange(0, 17500000) / 1e5);
+      break;
+    case FieldKind::choice: field.set_text(mechanism, *rc::gen::elementOf(field.choices)); break;
+    case FieldKind::boolean: field.set_text(mechanism, *rc::gen::element(std::string_view("true"), std::string_view("false"))); break;
+    case FieldKind::text: {
+      const std::string text = *rc::gen::container<std::string>(rc::gen::inRange<char>(' ', '~'));
+      field.set_text(mechanism, text.substr(0, 100));
+    }
+  }
+}
+
+/// Every field at random, then made to agree with itself.
+Mechanism random_mechanism() {
+  Mechanism mechanism;
+  const bool other_joint = *rc::gen::inRange(0, 5) == 0;
+  for (const Field& field : fields()) {
+    const bool of_mechanism = field.table == "joint" || field.table == "guides" || field.table == "pulley";
+    if (other_joint ? of_mechanism : field.table == "transmission") continue;
+    set_random(field, mechanism);
+  }
+  if (other_joint) {
+    // What is not declared has its defaults.
+    const Mechanism defaults = default_mechanism();
+    mechanism.joint = defaults.joint;
+    mechanism.guides = defaults.guides;
+    mechanism.pulley = defaults.pulley;
+    if (mechanism.transmission->ratio == 0) mechanism.transmission->ratio = 1;
+  }
+  if (mechanism.pulley.law == Law::table) mechanism.pulley.law = Law::linear;
+  mechanism.body.horn = "lynxmotion-ses";
+  if (mechanism.body.bore == Bore::d) mechanism.body.bore_flat = 0;
+  return mechanism;
+}
+
+TEST(Writer, WhatIsWrittenReadsBackExactly) {
+  ::setenv("RC_PARAMS", "seed=1 max_success=300", /*replace=*/0);
+  const bool holds = rc::check("parse(write(m)) == m", [] {
+    const Mechanism mechanism = random_mechanism();
+    RC_ASSERT(parse_mechanism(write_mechanism(mechanism), "written") == mechanism);
+  });
+  EXPECT_TRUE(holds);
+}
+
+TEST(Writer, ATableIsWrittenByItsName) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fusee_writer";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "law.csv") << "alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0\n45,15\n90,30\n";
+  const std::string text = replaced(k_good_file, "r1_mm = 16\n", "law = \"table\"\ntable = \"law.csv\"\n");
+  const Mechanism mechanism = parse_mechanism(text, "f.toml", folder);
+  EXPECT_EQ(mechanism.pulley.rows.size(), 5u);
+  EXPECT_TRUE(parse_mechanism(write_mechanism(mechanism), "written", folder) == mechanism);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Writer, NumbersAreWrittenAsAPersonWould) {
+  const std::string text = write_mechanism(parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.3\n", "f.toml"));
+  EXPECT_THAT(text, HasSubstr("\nrange_deg = [-30, 30]\n"));
+  EXPECT_THAT(text, HasSubstr("\nshrinkage_percent = 0.3\n"));
+  EXPECT_THAT(text, HasSubstr("\ngroove_angle_deg = 50\n"));
+  EXPECT_THAT(text, HasSubstr("\n# ratio =\n"));
+}
+
+TEST(Writer, EveryKeyStandsThereWithItsMeaning) {
+  const std::string text = write_mechanism(parse_mechanism(k_good_file, "f.toml"));
+  for (const Field& field : fields()) {
+    if (field.table == "transmission") continue;
+    EXPECT_THAT(text, HasSubstr("\n" + std::string(is_used(field, default_mechanism()) ? "" : "# ") + std::string(field.key) + " ="));
+    EXPECT_THAT(text, HasSubstr(std::string(field.meaning)));
+  }
+}
+
+TEST(Writer, AnglesThatNoFileGivesAreKeptToTheLastBits) {
+  Mechanism mechanism = parse_mechanism(k_good_file, "f.toml");
+  mechanism.joint.theta_min = -1.0 / 3;
+  const Mechanism again = parse_mechanism(write_mechanism(mechanism), "written");
+  EXPECT_DOUBLE_EQ(again.joint.theta_min, -1.0 / 3);
+}
+
+}  // namespace
+}  // namespace fusee
