@@ -1,6 +1,7 @@
 #include "fusee/profile/advice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -71,12 +72,12 @@ std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::strin
   return all;
 }
 
-/// `value` to three digits, towards `safe`.
-double rounded_towards(double value, double safe) {
-  if (value == 0) return 0;
+/// `value` to three digits: nearest, and next towards `direction`.
+std::array<double, 2> in_three_digits(double value, double direction) {
+  if (value == 0) return {0, 0};
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
   const double scaled = value / unit;
-  return (safe > value ? std::ceil(scaled - 1e-9) : std::floor(scaled + 1e-9)) * unit;
+  return {std::round(scaled) * unit, (direction > 0 ? std::ceil(scaled) : std::floor(scaled)) * unit};
 }
 
 /// The value nearest to the dial's, in one direction (+1, −1), with which `possible` holds.
@@ -103,8 +104,8 @@ std::optional<double> nearest_value(const Mechanism& mechanism, const Dial& dial
       const double middle = 0.5 * (near + bad);
       (holds(middle) ? near : bad) = middle;
     }
-    for (const double safe : {rounded_towards(near, near + direction * dial.scale), good}) {
-      if (safe >= dial.least && safe <= dial.most && holds(safe)) return safe;
+    for (const double plain : in_three_digits(near, direction)) {
+      if (plain >= dial.least && plain <= dial.most && holds(plain)) return plain;
     }
     return near;
   }

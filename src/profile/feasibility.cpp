@@ -74,8 +74,6 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
   const auto tendon = [&take_offs](const TakeOff& t) -> const TendonPoint& { return take_offs.tendon(t); };
   const std::string pin = pin_name(side);
   std::vector<Probe> probes;
-  probes.push_back({"law_grows_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.stroke.g; },
-                    [](const std::string& where, double) { return "θ(α) stops growing at " + where + ": the law must rise everywhere"; }});
   probes.push_back({"radius_P" + number(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).p - half; },
                     [=](const std::string& where, double value) {
                       return radius_name(side) + " falls to " + rounded(value + half) + " mm at " + where +
@@ -191,6 +189,29 @@ Condition dead_centre(const Transmission& transmission) {
   return condition;
 }
 
+/// A smooth curve through rows that rise need not rise between them. Looked for along α: where θ(α) turns back, θ does not tell.
+Condition law_grows(const Transmission& transmission) {
+  constexpr int steps = 1024;
+  Condition condition;
+  condition.name = "law_grows";
+  condition.unit = "deg/deg";
+  condition.value = 1e300;
+  for (int i = 0; i <= steps; ++i) {
+    const double alpha = transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / steps;
+    const double g = transmission.at_alpha(alpha).g;
+    if (g < condition.value) {
+      condition.value = g;
+      condition.alpha = alpha;
+    }
+  }
+  condition.ok = condition.value > 0;
+  if (!condition.ok) {
+    condition.message = "the smooth curve through the table stops rising at " + at_alpha_text(condition.alpha) +
+                        ": make its rows closer and its steps more even there";
+  }
+  return condition;
+}
+
 /// With gentle bends where there is room for them, sharper ones where not.
 std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
   CurvePoint next_turn = samples.front().curve;
@@ -226,6 +247,10 @@ Attempt attempt(const Mechanism& mechanism, const Transmission& transmission) {
   Attempt attempt;
   attempt.conditions.push_back(dead_centre(transmission));
   if (!attempt.conditions.back().ok) return attempt;
+  if (mechanism.pulley.law == Law::table) {
+    attempt.conditions.push_back(law_grows(transmission));
+    if (!attempt.conditions.back().ok) return attempt;
+  }
   for (const Side side : {Side::left, Side::right}) {
     const TakeOffs take_offs(transmission, side);
     attempt.sides[side == Side::left ? 0 : 1] = attempt_side(attempt.conditions, mechanism, take_offs);

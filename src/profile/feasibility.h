@@ -21,7 +21,7 @@ struct SideAttempt {
 
 struct Attempt {
   std::vector<Condition> conditions;
-  std::array<std::optional<SideAttempt>, 2> sides;  ///< absent when the law itself has no value
+  std::array<std::optional<SideAttempt>, 2> sides;  ///< absent when the law itself fails
 
   bool feasible() const;
 };

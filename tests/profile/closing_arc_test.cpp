@@ -1,0 +1,49 @@
+#include "profile/closing_arc.h"
+
+#include <gtest/gtest.h>
+
+namespace fusee {
+namespace {
+
+TEST(ClosingArc, OfACircleIsTheCircle) {
+  const auto arc = ClosingArc::between({0.4, 10.0, 0.0, 10.0}, {2.9, 10.0, 0.0, 10.0}, 1.0);
+  ASSERT_TRUE(arc.has_value());
+  for (double psi = 0.4; psi <= 2.9; psi += 0.1) {
+    EXPECT_NEAR(arc->at(psi).h, 10.0, 1e-12);
+    EXPECT_NEAR(arc->at(psi).radius, 10.0, 1e-12);
+  }
+  EXPECT_NEAR(arc->length(), 25.0, 1e-12);
+}
+
+TEST(ClosingArc, MeetsBothEndsInPlaceDirectionAndCurvature) {
+  const CurvePoint begin{1.0, 14.0, -6.0, 5.0};
+  const CurvePoint end{3.5, 18.0, -8.0, 30.0};
+  const auto arc = ClosingArc::between(begin, end, 2.0);
+  ASSERT_TRUE(arc.has_value());
+  for (const CurvePoint& wanted : {begin, end}) {
+    const CurvePoint found = arc->at(wanted.psi);
+    EXPECT_NEAR((found.position() - wanted.position()).norm(), 0.0, 1e-8);
+    EXPECT_NEAR(found.radius, wanted.radius, 1e-12);
+  }
+}
+
+TEST(ClosingArc, IsConvexAndItsSupportIsConsistent) {
+  const auto arc = ClosingArc::between({1.0, 14.0, -6.0, 5.0}, {3.5, 18.0, -8.0, 30.0}, 2.0);
+  ASSERT_TRUE(arc.has_value());
+  constexpr double step = 1e-4;
+  for (double psi = 1.1; psi < 3.4; psi += 0.07) {
+    const CurvePoint at = arc->at(psi);
+    EXPECT_GE(at.radius, 2.0 - 1e-12);
+    EXPECT_NEAR((arc->at(psi + step).h - arc->at(psi - step).h) / (2 * step), at.dh, 1e-6);
+    EXPECT_NEAR((arc->at(psi + step).dh - arc->at(psi - step).dh) / (2 * step), at.radius - at.h, 1e-4);
+  }
+}
+
+TEST(ClosingArc, ThatWouldHaveToRunBackwardsDoesNotExist) {
+  // The end lies behind the beginning: no convex arc of a sixth of a turn gets there.
+  EXPECT_FALSE(ClosingArc::between({0.0, 10.0, 8.0, 5.0}, {1.0, 10.0, 8.0 - 25.0, 5.0}, 0.1).has_value());
+  EXPECT_FALSE(ClosingArc::between({1.0, 10.0, 0.0, 5.0}, {1.0, 10.0, 0.0, 5.0}, 0.1).has_value());
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,122 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fusee/mechanism/fields.h"
+#include "fusee/profile/synthesis.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Condition& failed(const SynthesisResult& result) {
+  const auto found = std::find_if(result.conditions.begin(), result.conditions.end(), [](const Condition& c) { return !c.ok; });
+  EXPECT_NE(found, result.conditions.end()) << "everything holds";
+  return *found;
+}
+
+/// The mechanism with a change of advice taken.
+Mechanism with(Mechanism mechanism, const Change& change) {
+  if (change.key == "joint.range_deg") {
+    mechanism.joint.theta_min = -radians(change.to);
+    mechanism.joint.theta_max = radians(change.to);
+  } else if (change.key == "joint.range_deg[0]") {
+    mechanism.joint.theta_min = radians(change.to);
+  } else if (change.key == "joint.range_deg[1]") {
+    mechanism.joint.theta_max = radians(change.to);
+  } else {
+    find_field(change.key)->set(mechanism, 0, change.to);
+  }
+  return mechanism;
+}
+
+/// Refused for this reason, and every advice given makes it possible.
+void expect_refused(const Mechanism& mechanism, const std::string& condition, const std::string& words) {
+  const SynthesisResult result = synthesise(mechanism);
+  ASSERT_FALSE(result.made());
+  EXPECT_EQ(failed(result).name, condition);
+  EXPECT_THAT(result.brief(), HasSubstr(words));
+  EXPECT_FALSE(result.advice.empty()) << result.brief();
+  for (const Change& change : result.advice) {
+    EXPECT_TRUE(synthesise(with(mechanism, change), {.advice = false}).made()) << change.text;
+    EXPECT_THAT(result.brief(), HasSubstr(change.text));
+  }
+}
+
+TEST(Feasibility, ReferenceTurnsInward) {
+  Mechanism mechanism = testing::reference();
+  mechanism.tendon.diameter = 0.01;
+  expect_refused(mechanism, "convex_floor_P2", "r2 turns inward at α = 92");
+}
+
+TEST(Feasibility, DeadCentre) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.joint.theta_max = radians(60);
+  expect_refused(mechanism, "moment_arms", "dead centre");
+}
+
+TEST(Feasibility, PulleyAsLargeAsThePinsDistance) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.pulley.EF = 30.0;
+  mechanism.pulley.r1 = 62.0;
+  expect_refused(mechanism, "line_reaches_pin_B", "inside the pulley's pitch curve");
+}
+
+TEST(Feasibility, TendonLeavesItsPin) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.pulley.EF = 400.0;
+  mechanism.guides.OE = 10.0;
+  mechanism.joint.theta_min = radians(-40);
+  mechanism.joint.theta_max = radians(40);
+  expect_refused(mechanism, "tendon_on_pin_B", "leaves pin B");
+}
+
+TEST(Feasibility, MoreThanOneTurn) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.pulley.r1 = 9.0;
+  const SynthesisResult result = synthesise(mechanism);
+  expect_refused(mechanism, "one_turn_P1", "more than one turn");
+  EXPECT_TRUE(std::any_of(result.advice.begin(), result.advice.end(), [](const Change& c) { return c.key == "pulley.r1_mm" && c.to > 9.0; }));
+}
+
+TEST(Feasibility, ThinnerThanItsTendon) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.tendon.diameter = 40.0;
+  mechanism.guides.radius = 0.0;
+  EXPECT_EQ(failed(synthesise(mechanism, {.advice = false})).name, "radius_P1");
+}
+
+TEST(Feasibility, TableThatFallsIsRefused) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.pulley.law = Law::table;
+  // The rows rise; the smooth curve through a step between two flats overshoots it.
+  for (const auto& [alpha, theta] : {std::pair{-0.8, -0.2000}, {-0.6, -0.1999}, {-0.4, -0.1998}, {-0.2, -0.1}, {0.0, 0.0},
+                                     {0.2, 0.1}, {0.4, 0.1998}, {0.6, 0.1999}, {0.8, 0.2}}) {
+    mechanism.pulley.rows.push_back({alpha, theta});
+  }
+  mechanism.joint.theta_min = -0.19995;
+  mechanism.joint.theta_max = 0.19995;
+  EXPECT_EQ(failed(synthesise(mechanism, {.advice = false})).name, "law_grows");
+}
+
+TEST(Feasibility, TightBendIsAWarningOnly) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.tendon.bend_ratio = 25.0;
+  const SynthesisResult result = synthesise(mechanism);
+  ASSERT_TRUE(result.made());
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_THAT(result.warnings.back(), HasSubstr("D/d = 25"));
+}
+
+TEST(Feasibility, EveryConditionIsNamedWhenAllHold) {
+  const SynthesisResult result = synthesise(testing::forearm());
+  ASSERT_TRUE(result.made());
+  EXPECT_EQ(result.conditions.size(), 17U);
+  for (const Condition& condition : result.conditions) EXPECT_TRUE(condition.message.empty()) << condition.name;
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,88 @@
+#include "fusee/profile/rewind.h"
+
+#include <gtest/gtest.h>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/profile/synthesis.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using testing::forearm;
+using testing::linear_wrist;
+using testing::unsymmetric;
+
+RewindResult wound(const Mechanism& mechanism, const SynthesisResult& made) {
+  const double half = 0.5 * mechanism.tendon.diameter;
+  return rewind(mechanism, parallel(made.p1, -half), parallel(made.p2, -half));
+}
+
+// Two routes, one answer: the analytic envelope and a string wound on its polygon agree the better the finer the polygon.
+TEST(Rewind, StringOnTheEnvelopeGivesTheDeclaredLaw) {
+  for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
+    const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-6});
+    ASSERT_TRUE(fine.made()) << fine.brief();
+    const RewindResult result = wound(mechanism, fine);
+    EXPECT_LT(degrees(result.max_theta_error), 2e-6);
+    EXPECT_LT(result.max_slack, 2e-6);
+  }
+}
+
+TEST(Rewind, ErrorIsThatOfTheChords) {
+  const SynthesisResult coarse = synthesise(forearm(), {.tolerance = 0.01});
+  const RewindResult result = wound(forearm(), coarse);
+  EXPECT_GT(degrees(result.max_theta_error), 1e-4);
+  EXPECT_LT(degrees(result.max_theta_error), 0.01);
+}
+
+TEST(Rewind, SeesAWrongTurningSense) {
+  // The trap: a profile drawn with the wrong turning sense looks better and is wrong.
+  const SynthesisResult made = synthesise(forearm());
+  Polygon wrong;
+  for (const Vec2& point : parallel(made.p2, -0.5)) wrong.insert(wrong.begin(), Vec2(-point.x(), point.y()));
+  const RewindResult result = rewind(forearm(), parallel(made.p1, -0.5), wrong);
+  EXPECT_GT(result.max_slack, 1.0);
+}
+
+TEST(Rewind, SeesAScaledAndATurnedPulley) {
+  const SynthesisResult made = synthesise(forearm());
+  Polygon larger = parallel(made.p1, -0.5);
+  for (Vec2& point : larger) point *= 1.02;
+  EXPECT_GT(degrees(rewind(forearm(), larger, parallel(made.p2, -0.5)).max_theta_error), 0.4);
+  Polygon turned = parallel(made.p2, -0.5);
+  const Vec2 by = unit(radians(3));
+  for (Vec2& point : turned) point = Vec2(by.x() * point.x() - by.y() * point.y(), by.y() * point.x() + by.x() * point.y());
+  EXPECT_GT(rewind(forearm(), parallel(made.p1, -0.5), turned).max_slack, 0.05);
+}
+
+TEST(Rewind, PassesFullTurns) {
+  // A round pulley of 4 mm on both sides needs more than a turn each way; θ comes back as the compensating law says.
+  Mechanism mechanism = forearm();
+  mechanism.pulley.r1 = 4.0;
+  Polygon circle;
+  for (int i = 0; i < 2000; ++i) circle.push_back(3.5 * unit(k_two_pi * i / 2000));
+  EXPECT_LT(degrees(rewind(mechanism, circle, circle, 400).max_theta_error), 1e-4);
+}
+
+TEST(Rewind, BridgesWhatIsHollow) {
+  const SynthesisResult made = synthesise(forearm());
+  Polygon notched = parallel(made.p1, -0.5);
+  notched[notched.size() / 2] *= 0.8;
+  EXPECT_LT(degrees(rewind(forearm(), notched, parallel(made.p2, -0.5)).max_theta_error), 0.1);
+}
+
+TEST(Rewind, RefusesWhatIsNoPulley) {
+  const SynthesisResult made = synthesise(forearm());
+  const Polygon floor = parallel(made.p1, -0.5);
+  Polygon aside = floor;
+  for (Vec2& point : aside) point.x() += 30.0;
+  EXPECT_THROW(rewind(forearm(), aside, floor), InputError);
+  EXPECT_THROW(rewind(forearm(), floor, Polygon{{1, 0}, {0, 1}}), InputError);
+  Polygon huge = floor;
+  for (Vec2& point : huge) point *= 12.0;
+  EXPECT_THROW(rewind(forearm(), huge, floor), InputError);
+}
+
+}  // namespace
+}  // namespace fusee

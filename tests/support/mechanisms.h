@@ -1,0 +1,70 @@
+/// \file
+/// Mechanisms that many tests start from.
+#pragma once
+
+#include "fusee/mechanism/mechanism.h"
+
+namespace fusee::testing {
+
+/// The paper's mechanism at 100 mm over point pins, r1 20, EF 60: the reference case of the project.
+inline Mechanism reference() {
+  Mechanism mechanism;
+  mechanism.name = "reference";
+  mechanism.joint = {100.0, radians(-30.0), radians(30.0)};
+  mechanism.guides = {50.0, 50.0, -40.0, 0.0, 0.12};
+  mechanism.pulley.EF = 60.0;
+  mechanism.pulley.r1 = 20.0;
+  mechanism.tendon = {1.0, 40000.0, 5.0, 8.0};
+  return mechanism;
+}
+
+/// A joint that can be made: pins and tendon of real size, a smaller pulley further from the pins.
+inline Mechanism forearm() {
+  Mechanism mechanism = reference();
+  mechanism.name = "forearm";
+  mechanism.guides.radius = 2.0;
+  mechanism.pulley.EF = 80.0;
+  mechanism.pulley.r1 = 16.0;
+  return mechanism;
+}
+
+/// Both pulleys non-circular: θ = α/3.2.
+inline Mechanism linear_wrist() {
+  Mechanism mechanism = forearm();
+  mechanism.pulley.law = Law::linear;
+  mechanism.pulley.ratio = 3.2;
+  mechanism.joint.theta_min = radians(-25.0);
+  mechanism.joint.theta_max = radians(25.0);
+  return mechanism;
+}
+
+/// Nothing alike on both sides.
+inline Mechanism unsymmetric() {
+  Mechanism mechanism = forearm();
+  mechanism.guides.EB = 42.0;
+  mechanism.guides.ED = 56.0;
+  mechanism.guides.OE = -30.0;
+  mechanism.joint.theta_min = radians(-20.0);
+  mechanism.joint.theta_max = radians(32.0);
+  return mechanism;
+}
+
+/// The mirror image of a joint: what was left is right.
+inline Mechanism mirrored(Mechanism mechanism) {
+  std::swap(mechanism.guides.EB, mechanism.guides.ED);
+  std::swap(mechanism.joint.theta_min, mechanism.joint.theta_max);
+  mechanism.joint.theta_min *= -1.0;
+  mechanism.joint.theta_max *= -1.0;
+  return mechanism;
+}
+
+/// Every length times `factor`.
+inline Mechanism scaled(Mechanism mechanism, double factor) {
+  for (double* length : {&mechanism.joint.R, &mechanism.guides.EB, &mechanism.guides.ED, &mechanism.guides.OE, &mechanism.guides.radius,
+                         &mechanism.pulley.EF, &mechanism.pulley.r1, &mechanism.tendon.diameter}) {
+    *length *= factor;
+  }
+  return mechanism;
+}
+
+}  // namespace fusee::testing
