@@ -189,15 +189,21 @@ Condition dead_centre(const Transmission& transmission) {
   return condition;
 }
 
-/// A smooth curve through rows that rise need not rise between them. Looked for along α: where θ(α) turns back, θ does not tell.
-Condition law_grows(const Transmission& transmission) {
+/// A smooth curve through rows that rise need not rise between them. Looked for along α, between
+/// the rows that enclose the range: the ends of the stroke themselves are known only if it does not.
+Condition law_grows(const Mechanism& mechanism, const Transmission& transmission) {
   constexpr int steps = 1024;
+  const std::vector<LawRow>& rows = mechanism.pulley.rows;
+  std::size_t first = 0;
+  while (first + 1 < rows.size() && rows[first + 1].theta <= mechanism.joint.theta_min) ++first;
+  std::size_t last = rows.size() - 1;
+  while (last > first + 1 && rows[last - 1].theta >= mechanism.joint.theta_max) --last;
   Condition condition;
   condition.name = "law_grows";
   condition.unit = "deg/deg";
   condition.value = 1e300;
   for (int i = 0; i <= steps; ++i) {
-    const double alpha = transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / steps;
+    const double alpha = rows[first].alpha + (rows[last].alpha - rows[first].alpha) * i / steps;
     const double g = transmission.at_alpha(alpha).g;
     if (g < condition.value) {
       condition.value = g;
@@ -248,7 +254,7 @@ Attempt attempt(const Mechanism& mechanism, const Transmission& transmission) {
   attempt.conditions.push_back(dead_centre(transmission));
   if (!attempt.conditions.back().ok) return attempt;
   if (mechanism.pulley.law == Law::table) {
-    attempt.conditions.push_back(law_grows(transmission));
+    attempt.conditions.push_back(law_grows(mechanism, transmission));
     if (!attempt.conditions.back().ok) return attempt;
   }
   for (const Side side : {Side::left, Side::right}) {
