@@ -173,6 +173,15 @@ Field transmission_ratio_field() {
 // Bounds are those of things that can be made and of formulas that make sense, with room to spare: they catch a slipped
 // decimal point or a wrong unit. Whether a pulley exists is for synthesis to say.
 
+void add_load(std::vector<Field>& table) {
+  constexpr auto load = &Mechanism::load;
+  table.push_back(number<load, &Load::tip_force>({"load.tip_force_N", "F_c", "0", "force across OC at C, positive against +theta"}, "N", -100000, 100000));
+  table.push_back(number<load, &Load::torque>({"load.torque_Nmm", "", "0", "torque on the joint, positive against +theta"}, "Nmm", -10000000, 10000000));
+  table.push_back(number<load, &Load::mass>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
+  table.push_back(number<load, &Load::lever>({"load.lever_mm", "", "0", "from the joint axis along OC to the centre of that mass"}, "mm", -10000, 10000));
+  table.push_back(number<load, &Load::tilt, degrees, radians>({"load.tilt_deg", "", "0", "the joint angle at which OC points straight up: 0 at home, 90: level at home, the weight loads tendon 2; 180: it hangs down at home"}, "deg", -360, 360));
+}
+
 void add_mechanism(std::vector<Field>& table) {
   constexpr auto joint = &Mechanism::joint;
   constexpr auto guides = &Mechanism::guides;
@@ -195,7 +204,8 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(number<tendon, &Tendon::modulus>({"tendon.modulus_MPa", "E", "40000", "Young's modulus over the full section of the diameter"}, "MPa", 1, 1000000));
   table.push_back(number<tendon, &Tendon::pretension>({"tendon.pretension_N", "", "5", "pretension of tendon 1 at home"}, "N", 0, 100000));
   table.push_back(number<tendon, &Tendon::bend_ratio>({"tendon.bend_ratio", "D/d", "8", "smallest bend diameter per tendon diameter before a warning"}, "", 1, 1000));
-  table.push_back(number<&Mechanism::load, &Load::tip_force>({"load.tip_force_N", "F_c", "0", "force across OC at C, positive against +theta"}, "N", -100000, 100000));
+  table.push_back(number<tendon, &Tendon::strength>({"tendon.strength_N", "", "0", "the tension at which a tendon breaks, knots included; 0: not known"}, "N", 0, 1000000));
+  add_load(table);
 }
 
 void add_body(std::vector<Field>& table) {

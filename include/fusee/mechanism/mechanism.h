@@ -63,12 +63,18 @@ struct Tendon {
   double modulus = 0;     ///< Young's modulus, MPa
   double pretension = 0;  ///< of tendon 1 at home, N
   double bend_ratio = 0;  ///< smallest D/d before a warning
+  double strength = 0;    ///< the tension at which it breaks, N; 0: not known
 
   bool operator==(const Tendon&) const = default;
 };
 
+/// What the joint carries. Forces and torques are positive against +θ: they load tendon 2.
 struct Load {
-  double tip_force = 0;  ///< F_c across OC, positive against +θ, N
+  double tip_force = 0;  ///< F_c across OC, N
+  double torque = 0;     ///< about O, N·mm
+  double mass = 0;       ///< of the link, kg
+  double lever = 0;      ///< from O along OC to the centre of that mass
+  double tilt = 0;       ///< the joint angle at which OC points straight up, rad
 
   bool operator==(const Load&) const = default;
 };
