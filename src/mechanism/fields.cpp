@@ -57,6 +57,11 @@ struct BooleanAccess {
   static void set(Mechanism& mechanism, std::string_view value) { mechanism.*Part.*Member = value == "true"; }
 };
 
+template <auto Part, auto Member>
+auto& member_of(Mechanism& mechanism) {
+  return mechanism.*Part.*Member;
+}
+
 // ---- builders of rows -----------------------------------------------------------------------------------------------
 
 /// What all kinds of rows have in common.
@@ -117,6 +122,24 @@ Field boolean(const Row& row) {
   Field field = base_field(row, FieldKind::boolean);
   field.get_text = &BooleanAccess<Part, Member>::get;
   field.set_text = &BooleanAccess<Part, Member>::set;
+  return field;
+}
+
+/// `least`, `most`: of each number of the list.
+template <auto Part, auto Member>
+Field numbers(const Row& row, double least, double most) {
+  Field field = base_field(row, FieldKind::numbers);
+  field.least = least;
+  field.most = most;
+  field.numbers = &member_of<Part, Member>;
+  return field;
+}
+
+template <auto Part, auto Member>
+Field texts(const Row& row, std::vector<std::string_view> choices = {}) {
+  Field field = base_field(row, FieldKind::texts);
+  field.choices = std::move(choices);
+  field.texts = &member_of<Part, Member>;
   return field;
 }
 
@@ -247,6 +270,17 @@ void add_making(std::vector<Field>& table) {
   table.push_back(transmission_ratio_field());
 }
 
+void add_optimize(std::vector<Field>& table) {
+  constexpr auto optimize = &Mechanism::optimize;
+  table.push_back(texts<optimize, &Optimization::objectives>({"optimize.objective", "", "[\"max_tension\"]", "what is made small (min_bend: large); two or three for a front"}, {"max_tension", "max_error", "footprint", "motor_torque", "min_bend"}));
+  table.push_back(texts<optimize, &Optimization::variables>({"optimize.variables", "", "[]", "keys of this file that may change"}));
+  table.push_back(numbers<optimize, &Optimization::lower>({"optimize.lower", "", "[]", "least value of each variable, in its own unit"}, -1e6, 1e6));
+  table.push_back(numbers<optimize, &Optimization::upper>({"optimize.upper", "", "[]", "largest value of each variable, in its own unit"}, -1e6, 1e6));
+  table.push_back(texts<optimize, &Optimization::tied>({"optimize.tied", "", "[]", "keys that follow others: \"guides.EB_mm = guides.ED_mm\""}));
+  table.push_back(texts<optimize, &Optimization::constraints>({"optimize.constraints", "", "[]", "linear conditions on keys: \"guides.EB_mm <= 0.5 * joint.length_mm\""}));
+  table.push_back(boolean<optimize, &Optimization::feasible>({"optimize.feasible", "", "false", "only designs of which a pulley can be made"}));
+}
+
 std::vector<Field> make_table() {
   std::vector<Field> table;
   table.push_back(schema_field());
@@ -254,6 +288,7 @@ std::vector<Field> make_table() {
   add_mechanism(table);
   add_body(table);
   add_making(table);
+  add_optimize(table);
   return table;
 }
 
@@ -265,6 +300,11 @@ void set_fallback(const Field& field, Mechanism& mechanism) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     demand(error == std::errc() && end == text.data() + text.size(), "default of " + field.name());
     field.set(mechanism, 0, value);
+    return;
+  }
+  if (field.kind == FieldKind::numbers || field.kind == FieldKind::texts) {
+    // Lists are empty or hold one text.
+    if (text.size() > 2) field.texts(mechanism) = {std::string(text.substr(2, text.size() - 4))};
     return;
   }
   if (text.size() >= 2 && text.front() == '"') text = text.substr(1, text.size() - 2);
@@ -287,6 +327,28 @@ const Field* find_field(std::string_view name) {
   return nullptr;
 }
 
+std::optional<NumberKey> find_number_key(std::string_view name) {
+  int end = 0;
+  const bool first = name.ends_with("[0]"), second = name.ends_with("[1]");
+  if (first || second) {
+    end = second ? 1 : 0;
+    name.remove_suffix(3);
+  }
+  const Field* field = find_field(name);
+  const FieldKind kind = first || second ? FieldKind::range : FieldKind::number;
+  if (field == nullptr || field->kind != kind || field->table.empty()) return std::nullopt;
+  return NumberKey{field, end};
+}
+
+std::vector<std::string> number_key_names() {
+  std::vector<std::string> names;
+  for (const Field& field : fields()) {
+    if (field.kind == FieldKind::number && !field.table.empty()) names.push_back(field.name());
+    if (field.kind == FieldKind::range) names.insert(names.end(), {field.name() + "[0]", field.name() + "[1]"});
+  }
+  return names;
+}
+
 std::vector<std::string> field_tables() {
   std::vector<std::string> tables;
   for (const Field& field : fields()) {
@@ -304,6 +366,7 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "body") return "the body of the pulley";
   if (table == "material") return "what it is printed of";
   if (table == "cut") return "cutting it as a stack of plates";
+  if (table == "optimize") return "what fusee optimize may change, and what it is after";
   if (table == "transmission") return "in place of joint, guides and pulley: a joint of another kind, for calibrate alone";
   return "the file";
 }

@@ -129,6 +129,20 @@ struct Cut {
   bool operator==(const Cut&) const = default;
 };
 
+/// What `fusee optimize` may change and what it is after: the texts of [optimize] as they were written (and found to be well formed);
+/// optimize/problem.h gives them their meaning.
+struct Optimization {
+  std::vector<std::string> objectives;   ///< names of optimize/objectives.h
+  std::vector<std::string> variables;    ///< keys of the field table
+  std::vector<double> lower;             ///< one a variable, in the file's units
+  std::vector<double> upper;
+  std::vector<std::string> tied;         ///< "guides.EB_mm = guides.ED_mm"
+  std::vector<std::string> constraints;  ///< "guides.EB_mm <= 0.5 * joint.length_mm"
+  bool feasible = false;                 ///< only designs of which a pulley can be made
+
+  bool operator==(const Optimization&) const = default;
+};
+
 /// A joint that is not this mechanism, for calibration alone: θ = offset + α/ratio.
 struct RatioTransmission {
   double ratio = 0;
@@ -146,6 +160,7 @@ struct Mechanism {
   Body body;
   Material material;
   Cut cut;
+  Optimization optimize;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
 
   bool operator==(const Mechanism&) const = default;
