@@ -1,9 +1,11 @@
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <optional>
 #include <tuple>
-
-#include <toml++/toml.h>
 
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
@@ -129,8 +131,11 @@ void MechanismReader::parse(std::string_view text) {
   try {
     root_ = toml::parse(text, name_);
   } catch (const toml::parse_error& error) {
-    // What toml++ says may quote the file's bytes.
-    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_), "not TOML: " + as_shown(error.description()),
+    // "Error while parsing key-value pair: expected …" → "expected …". It may quote the file's bytes.
+    std::string_view what = error.description();
+    const std::size_t colon = what.find(": ");
+    if (what.substr(0, 5) == "Error" && colon != std::string_view::npos) what.remove_prefix(colon + 2);
+    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_), "not TOML: " + as_shown(what, k_longest_text),
                                 "strings stand in quotes, lists in [ ], one key = value a line"});
   }
 }

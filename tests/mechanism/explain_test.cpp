@@ -1,9 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
@@ -135,6 +133,11 @@ std::string key_table() {
             " | " + default_cell(field) + " |\n";
   }
   return text;
+}
+
+TEST(Readme, NamesEveryProfile) {
+  const std::string readme = read_file(k_profiles / "README.md", 1 << 20);
+  for (const Template& profile : templates()) EXPECT_THAT(readme, HasSubstr("| " + code(std::string(profile.name) + ".toml") + " |"));
 }
 
 TEST(Readme, ItsKeyTableIsThatOfTheFields) {
