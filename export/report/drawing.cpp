@@ -154,7 +154,7 @@ double scale_bar_length(double scale, double px) {
 }
 
 std::string scale_bar(const View& view, const Vec2& left_end) {
-  const double length = scale_bar_length(view.scale, 90);
+  const double length = scale_bar_length(view.scale, 80);
   const Vec2 right_end = left_end + Vec2(length * view.scale, 0);
   const Vec2 tick(0, 4);
   return svg_line("dimension", left_end, right_end) + svg_line("dimension", left_end - tick, left_end + tick) +
@@ -164,9 +164,9 @@ std::string scale_bar(const View& view, const Vec2& left_end) {
 
 // Mechanism -----------------------------------------------------------------------------------------------------------
 
-constexpr double k_panel_width = 340;
-constexpr double k_panel_height = 400;
-constexpr double k_detail_height = 270;
+constexpr double k_panel_width = 290;
+constexpr double k_panel_height = 345;
+constexpr double k_detail_height = 230;
 
 double pulley_reach(const SynthesisResult& synthesis) {
   double reach = 0;

@@ -27,12 +27,26 @@ constexpr PlainName k_plain_names[] = {
     {"free_span_#", "Tendon # has a free span between P# and its pin"},
     {"one_turn_P#", "P# fits into one turn (room for anchors and closing arc)"},
     {"closing_arc_P#", "P#’s closing arc has room to turn"},
+    // solid, export, pipeline: checks
+    {"facets", "Facets"},
+    {"vertices_not_finite", "Vertices that are not finite numbers"},
+    {"triangles", "As many triangles as in pulley.stl"},
+    {"deviation", "Distance to pulley.stl"},
+    {"ends_meet", "Ends of contours meet"},
+    {"nothing_outside", "Nothing outside the sheet"},
     // pipeline: what wound tendons give
     {"theta_error", "Joint angle as built against the declared θ(α)"},
     {"slack", "Slack or stretch of tendon 2 as built"},
     {"theta_error_reported", "Joint angle as built against the declared θ(α) (method “paper”: reported only)"},
     {"slack_reported", "Slack or stretch of tendon 2 as built (method “paper”: reported only)"},
 };
+
+/// Checks of one file among others.
+constexpr PlainName k_prefixes[] = {{"obj_", "pulley.obj"},
+                                    {"3mf_", "pulley.3mf"},
+                                    {"drc_", "pulley.drc"},
+                                    {"profile_dxf_", "profile.dxf"},
+                                    {"plates_dxf_", "plates.dxf"}};
 
 /// "2" for "convex_floor_P2" and "tendon_on_pin_D" when `pattern` is theirs; ' ' without a wildcard; 0: not theirs.
 char matched_side(std::string_view name, std::string_view pattern) {
@@ -71,6 +85,9 @@ std::string row_start(bool ok) { return ok ? "<tr><td class=\"state\">✓</td>" 
 }  // namespace
 
 std::string plain_name(std::string_view name) {
+  for (const PlainName& file : k_prefixes) {
+    if (name.substr(0, file.name.size()) == file.name) return std::string(file.words) + ": " + plain_name(name.substr(file.name.size()));
+  }
   for (const PlainName& known : k_plain_names) {
     if (const char side = matched_side(name, known.name)) return with_side(known.words, side);
   }

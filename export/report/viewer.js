@@ -3,7 +3,7 @@
   const stage = document.querySelector(".stage");
   if (!stage) return;
   const canvas = stage.querySelector("canvas"), missing = stage.querySelector(".missing");
-  const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+  const gl = canvas.getContext("webgl2", { antialias: true, stencil: true, preserveDrawingBuffer: true });
   if (!gl) { canvas.hidden = true; return; }
   missing.hidden = true;
   stage.querySelector(".buttons").hidden = false;
@@ -57,8 +57,8 @@
     return s;
   };
   const program = gl.createProgram();
-  gl.attachShader(program, shader(gl.VERTEX_SHADER, `layout(location=0) in vec3 p; layout(location=1) in vec3 n; uniform mat4 m; out vec3 at, normal;
-    void main(){ at = p; normal = n; gl_Position = m * vec4(p, 1.); }`));
+  gl.attachShader(program, shader(gl.VERTEX_SHADER, `layout(location=0) in vec3 p; layout(location=1) in vec3 n; uniform mat4 m; uniform bool line; out vec3 at, normal;
+    void main(){ at = p; normal = n; gl_Position = m * vec4(p, 1.); if (line) gl_Position.z -= 3e-4 * gl_Position.w; }`));
   gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `in vec3 at, normal; uniform vec3 eye, side, above, metal, ink1, ink2, cut, edge; uniform vec3 g1, g2; uniform bool line, half_; out vec4 colour;
     bool within(vec3 g){ return abs(at.z - g.x) < g.y && length(at.xy) > g.z; }
     void main(){
@@ -85,7 +85,7 @@
     return array;
   };
   const body = buffers(points, smooth), wires = buffers(new Float32Array(edges), null);
-  gl.enable(gl.DEPTH_TEST); gl.enable(gl.POLYGON_OFFSET_FILL); gl.polygonOffset(1, 1);
+  gl.enable(gl.DEPTH_TEST); gl.enable(gl.CULL_FACE); gl.enable(gl.STENCIL_TEST); gl.stencilOp(gl.KEEP, gl.KEEP, gl.REPLACE);
 
   const colour = name => { const h = getComputedStyle(stage).getPropertyValue(name).trim(); return [1, 3, 5].map(i => parseInt(h.slice(i, i + 2), 16) / 255); };
   const home = { turn: -65, lift: 32, zoom: 1, x: 0, y: 0, half: false };
@@ -106,14 +106,16 @@
     for (let k = 0; k < 3; k++) matrix.push(rows[0][k], rows[1][k], a * back[k], -back[k]);
     matrix.push(shift[0], shift[1], a * shift[2] + b, -shift[2]);
     gl.viewport(0, 0, w, h);
-    gl.clearColor(...colour("--stage"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clearColor(...colour("--stage"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.uniformMatrix4fv(uniform("m"), false, matrix);
     for (const [name, value] of Object.entries({ eye, side, above })) gl.uniform3fv(uniform(name), value);
     for (const [name, source] of Object.entries({ metal: "--metal", ink1: "--p1", ink2: "--p2", cut: "--cut", edge: "--edge" })) gl.uniform3fv(uniform(name), colour(source));
     gl.uniform3fv(uniform("g1"), data.groove1.split(" ").map(Number)); gl.uniform3fv(uniform("g2"), data.groove2.split(" ").map(Number));
     gl.uniform1i(uniform("half_"), view.half);
-    gl.uniform1i(uniform("line"), 0); gl.bindVertexArray(body); gl.drawArrays(gl.TRIANGLES, 0, corners);
-    gl.uniform1i(uniform("line"), 1); gl.bindVertexArray(wires); gl.drawArrays(gl.LINES, 0, edges.length / 3);
+    // The inside is seen only through the cut and looks like the cut itself; the stencil keeps edges that lie behind from being drawn on it.
+    gl.uniform1i(uniform("line"), 0); gl.bindVertexArray(body);
+    for (const [hidden, mark] of [[gl.FRONT, 1], [gl.BACK, 0]]) { gl.cullFace(hidden); gl.stencilFunc(gl.ALWAYS, mark, 1); gl.drawArrays(gl.TRIANGLES, 0, corners); }
+    gl.uniform1i(uniform("line"), 1); gl.bindVertexArray(wires); gl.stencilFunc(gl.EQUAL, 0, 1); gl.drawArrays(gl.LINES, 0, edges.length / 3);
   };
   let waiting = false;
   const redraw = () => { if (!waiting) { waiting = true; requestAnimationFrame(() => { waiting = false; draw(); }); } };

@@ -50,6 +50,9 @@ Product sample(Mechanism mechanism = testing::forearm()) {
   product.pulley.layout.groove_depth = 2;
   product.pulley.layout.bore.radius = 2.5;
   product.pulley.mesh = tube(60, 5);
+  const Outline& p1 = product.synthesis.p1;
+  const Vec2 exit = p1.points[p1.anchor_end()].position;
+  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit}};
   product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
   for (const TransmissionPoint& point : product.synthesis.stroke) {
     product.as_built.points.push_back({point.alpha, point.theta, point.theta + radians(0.004) * std::sin(point.alpha), 0.002});
@@ -139,6 +142,13 @@ TEST(Report, SaysWhatFailed) {
   ASSERT_EQ(failed.size(), 2u);
   EXPECT_THAT(words_of(failed[0].node()), HasSubstr("α = 12°"));
   EXPECT_THAT(words_of(failed[1].node()), HasSubstr("≥ 1.2"));
+}
+
+TEST(Report, SaysHowLongToCutTheTendon) {
+  const std::string words = words_of(parsed(report_html(sample())).select_node("//section[@id='making']").node());
+  EXPECT_THAT(words, HasSubstr("Tendon 1"));
+  EXPECT_THAT(words, Not(HasSubstr("Tendon 2 "))) << "it has no anchor here";
+  EXPECT_THAT(words, HasSubstr("Left on the pulley at full pay-out"));
 }
 
 TEST(Report, ShowsForcesOnlyUnderLoad) {
