@@ -1,8 +1,13 @@
 """ezdxf as a judge: each DXF must load and audit with no error and nothing to mend, hold only closed polylines where something is cut,
-in mm. Usage: judge_dxf.py FILE.dxf ...   Prints what is wrong; exit 1 when anything is."""
+in mm. Usage: judge_dxf.py FILE.dxf ...   Prints what is wrong; exit 1 when anything is,
+77 without ezdxf."""
 import sys
 
-import ezdxf
+try:
+    import ezdxf
+except ImportError:
+    print("ezdxf is not installed")
+    sys.exit(77)
 
 CONTOURS = {"P1_PITCH", "P2_PITCH", "P1_FLOOR", "P2_FLOOR", "BORE", "CUT_OUTER", "CUT_INNER", "CHECK_10MM", "SHEET"}
 
