@@ -12,11 +12,21 @@ std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '"': out += "\\\""; break;
-      case '\\': out += "\\\\"; break;
-      case '\n': out += "\\n"; break;
-      case '\r': out += "\\r"; break;
-      case '\t': out += "\\t"; break;
+      case '"':
+        out += "\\\"";
+        break;
+      case '\\':
+        out += "\\\\";
+        break;
+      case '\n':
+        out += "\\n";
+        break;
+      case '\r':
+        out += "\\r";
+        break;
+      case '\t':
+        out += "\\t";
+        break;
       default:
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
           out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
@@ -48,10 +58,14 @@ std::string allowed_text(const Field& field) {
     case FieldKind::number:
       if (field.least == field.most) return shortest(field.least);
       return shortest(field.least) + " to " + with_unit(field.most, field.unit);
-    case FieldKind::range: return "lowest <= 0 <= highest, both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
-    case FieldKind::choice: return choices_text(field.choices);
-    case FieldKind::text: return "any text of one line";
-    case FieldKind::boolean: return "true or false";
+    case FieldKind::range:
+      return "lowest <= 0 <= highest, both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
+    case FieldKind::choice:
+      return choices_text(field.choices);
+    case FieldKind::text:
+      return "any text of one line";
+    case FieldKind::boolean:
+      return "true or false";
   }
   return {};
 }
@@ -59,11 +73,16 @@ std::string allowed_text(const Field& field) {
 std::string kind_text(const Field& field) {
   const std::string in_unit = field.unit.empty() ? "" : " in " + std::string(field.unit);
   switch (field.kind) {
-    case FieldKind::number: return "a number" + in_unit;
-    case FieldKind::range: return "two numbers [lowest, highest]" + in_unit;
-    case FieldKind::choice: return choices_text(field.choices);
-    case FieldKind::text: return "a text in quotes";
-    case FieldKind::boolean: return "true or false";
+    case FieldKind::number:
+      return "a number" + in_unit;
+    case FieldKind::range:
+      return "two numbers [lowest, highest]" + in_unit;
+    case FieldKind::choice:
+      return choices_text(field.choices);
+    case FieldKind::text:
+      return "a text in quotes";
+    case FieldKind::boolean:
+      return "true or false";
   }
   return {};
 }
