@@ -30,6 +30,13 @@ std::string as_built_text(const RewindResult& as_built) {
   return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, slack within " + rounded(as_built.max_slack, 2) + " mm";
 }
 
+Json to_json(const RewindResult& as_built) {
+  return {{"max_theta_error_deg", degrees(as_built.max_theta_error)},
+          {"max_theta_error_at_alpha_deg", degrees(as_built.max_theta_error_at)},
+          {"max_slack_mm", as_built.max_slack},
+          {"max_slack_at_alpha_deg", degrees(as_built.max_slack_at)}};
+}
+
 std::string checks_table(const std::vector<Check>& checks) {
   std::vector<std::vector<std::string>> rows;
   for (const Check& check : checks) {

@@ -103,6 +103,15 @@ void check_parts(Workshop& shop) {
   }
 }
 
+/// Looks at what is staged. A file of ours that cannot be used is nobody's bad input.
+void check_written(Workshop& shop) {
+  try {
+    check_parts(shop);
+  } catch (const InputError& error) {
+    throw Bug(std::string("what was written cannot be used: ") + error.what());
+  }
+}
+
 void write_texts(Workshop& shop) {
   const Product& product = shop.result.product;
   shop.step("writing tables, report and manifest");
@@ -118,7 +127,7 @@ void work(Workshop& shop) {
     return;
   }
   write_parts(shop);
-  check_parts(shop);
+  check_written(shop);
   write_texts(shop);
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
