@@ -314,11 +314,23 @@ std::string anchors(const View& view, const Pulley& pulley, Side side) {
   return svg;
 }
 
+/// Of the largest circle about the axis within the outline.
+double clear_radius(const Polygon& outline) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2& from = outline[i];
+    const Vec2 edge = outline[(i + 1) % outline.size()] - from;
+    const double along = std::clamp(-from.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    radius = std::min(radius, (from + along * edge).norm());
+  }
+  return radius;
+}
+
 std::string bore(const View& view, const BodyLayout& layout) {
   std::string svg = curve("hole", view, layout.bore.outline, true);
   for (const Polygon& hole : layout.bore.screw_holes) svg += curve("hole", view, hole, true);
-  if (layout.bore.radius <= 0) return svg;
-  const std::string words = "⌀ " + readable_rounded(2 * layout.bore.radius);
+  if (layout.bore.outline.empty()) return svg;
+  const std::string words = "⌀ " + readable_rounded(2 * clear_radius(layout.bore.outline)) + " clear";
   return svg + svg_words("small halo middle", view({0, 0}) + Vec2(0, layout.bore.radius * view.scale + 17), words);
 }
 

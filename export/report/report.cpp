@@ -255,7 +255,7 @@ std::vector<Vec2> over_alpha(const SynthesisResult& synthesis, Value value) {
 }
 
 Plot radius_plot(const Product& product) {
-  Plot plot{"Pitch radii", k_alpha_axis, {"moment arm about the axis", "mm", {}, {}, 0.1}, {}, {}, {}};
+  Plot plot{"Pitch radii", k_alpha_axis, {"moment arm about G", "mm", {}, {}, 0.1}, {}, {}, {}};
   plot.series = {{"r1", Ink::p1, over_alpha(product.synthesis, [](const auto& p) { return p.t1.p; })},
                  {"r2", Ink::p2, over_alpha(product.synthesis, [](const auto& p) { return p.t2.p; })}};
   return plot;
@@ -433,10 +433,10 @@ std::string source_words(const MechanismFile& file) {
   return words;
 }
 
-std::vector<Condition> all_conditions(const Product& product) {
-  std::vector<Condition> all = product.synthesis.conditions;
-  all.insert(all.end(), product.pulley.conditions.begin(), product.pulley.conditions.end());
-  return all;
+std::string conditions(const Product& product) {
+  std::string html = "<h3>Over the stroke</h3>" + conditions_table(product.synthesis.conditions, true);
+  if (!product.pulley.conditions.empty()) html += "<h3>Of the body</h3>" + conditions_table(product.pulley.conditions, false);
+  return html;
 }
 
 std::string profiles(const Product& product) {
@@ -473,7 +473,7 @@ std::string report_html(const Product& product) {
                                          {"forces", forces_section(product)},
                                          {"profiles", profiles(product)},
                                          {"checks", checks_table(product.checks)},
-                                         {"conditions", conditions_table(all_conditions(product))},
+                                         {"conditions", conditions(product)},
                                          {"making", making(product)},
                                          {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},
                                      });

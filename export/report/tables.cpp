@@ -27,6 +27,19 @@ constexpr PlainName k_plain_names[] = {
     {"free_span_#", "Tendon # has a free span between P# and its pin"},
     {"one_turn_P#", "P# fits into one turn (room for anchors and closing arc)"},
     {"closing_arc_P#", "P#’s closing arc has room to turn"},
+    // solid: conditions of the body
+    {"groove_depth", "Depth of the grooves"},
+    {"flange_thickness", "Thickness of the flanges"},
+    {"elephant_foot", "Chamfer at the bed"},
+    {"bore_wall_P#", "Wall between the bore and P#’s groove floor"},
+    {"hub_wall", "Wall between the bore and the hub’s side"},
+    {"hub_on_flange", "Radius of the hub, on the upper flange"},
+    {"anchor_P#", "Room for the anchors of P#"},
+    {"channel_width", "Width of the tie-off channels"},
+    {"channel_height", "Material above the tie-off channels"},
+    {"pin_clear_@", "Gap between the flanges and pin @"},
+    {"horn_recess", "Depth of the horn’s recess"},
+    {"horn_holes", "Web between the horn’s holes"},
     // solid, export, pipeline: checks
     {"facets", "Facets"},
     {"vertices_not_finite", "Vertices that are not finite numbers"},
@@ -67,11 +80,15 @@ std::string cell(std::string_view classes, const std::string& html) {
   return (classes.empty() ? std::string("<td>") : "<td class=\"" + std::string(classes) + "\">") + html + "</td>";
 }
 
-/// What was asked of the value. A Check does not say; its value, its limit and its outcome together do.
-std::string_view relation(const Check& check) {
-  if (check.value == check.limit || !std::isfinite(check.value)) return "";
-  if (!check.ok && check.unit == "1") return "";
-  return (check.value < check.limit) == check.ok ? "≤ " : "≥ ";
+/// What was asked of the value. Neither a Check nor a Condition says; its value, its limit and its outcome together do.
+std::string_view relation(double value, double limit, bool ok, std::string_view unit) {
+  if (value == limit || !std::isfinite(value)) return "";
+  if (!ok && unit == "1") return "";
+  return (value < limit) == ok ? "≤ " : "≥ ";
+}
+
+std::string limit_words(double value, double limit, bool ok, std::string_view unit) {
+  return std::string(relation(value, limit, ok, unit)) + safe_text(with_unit(limit, unit));
 }
 
 std::string name_cell(std::string_view name, const std::string& remark) {
@@ -117,21 +134,24 @@ std::string checks_table(const std::vector<Check>& checks) {
   std::stable_partition(sorted.begin(), sorted.end(), [](const Check& check) { return !check.ok; });
   for (const Check& check : sorted) {
     html += row_start(check.ok) + name_cell(check.name, check.where) + cell("number", safe_text(with_unit(check.value, check.unit))) +
-            cell("number", std::string(relation(check)) + safe_text(with_unit(check.limit, check.unit))) + "</tr>";
+            cell("number", limit_words(check.value, check.limit, check.ok, check.unit)) + "</tr>";
   }
   return html + "</tbody></table></div>";
 }
 
-std::string conditions_table(const std::vector<Condition>& conditions) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Condition</th><th class=\"number\">Tightest at α</th>"
-                     "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th class=\"number\">Margin</th></tr></thead><tbody>";
+std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke) {
+  std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Condition</th>";
+  if (over_stroke) html += "<th class=\"number\">Tightest at α</th>";
+  html += "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th class=\"number\">Margin</th></tr></thead><tbody>";
   for (const Condition& condition : conditions) {
-    const double margin = condition.ok ? std::abs(condition.value - condition.limit) : -std::abs(condition.value - condition.limit);
-    html += row_start(condition.ok) + name_cell(condition.name, condition.ok ? "" : condition.message) +
-            cell("number", readable(degrees(condition.alpha), 1) + "°") +
-            cell("number", safe_text(with_unit(condition.value, condition.unit, 4))) +
-            cell("number", safe_text(with_unit(condition.limit, condition.unit, 4))) +
-            cell("number", safe_text(with_unit(margin, condition.unit))) + "</tr>";
+    // A condition without numbers: there is a dead centre or there is none.
+    const bool plain = condition.value == condition.limit;
+    const double distance = std::abs(condition.value - condition.limit);
+    html += row_start(condition.ok) + name_cell(condition.name, condition.ok ? "" : condition.message);
+    if (over_stroke) html += cell("number", plain && condition.ok ? "" : readable(degrees(condition.alpha), 1) + "°");
+    html += cell("number", plain ? "" : safe_text(with_unit(condition.value, condition.unit, 4))) +
+            cell("number", plain ? "" : limit_words(condition.value, condition.limit, condition.ok, condition.unit)) +
+            cell("number", plain ? "" : safe_text(with_unit(condition.ok ? distance : -distance, condition.unit))) + "</tr>";
   }
   return html + "</tbody></table></div>";
 }

@@ -19,6 +19,7 @@ std::string shown_unit(std::string_view unit);
 std::string with_unit(double value, std::string_view unit, int digits = 3);
 
 std::string checks_table(const std::vector<Check>& checks);
-std::string conditions_table(const std::vector<Condition>& conditions);
+/// `over_stroke`: with a column for the α at which each is tightest.
+std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke);
 
 }  // namespace fusee
