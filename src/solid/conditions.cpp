@@ -22,17 +22,6 @@ constexpr double k_pin_gap = 0.5;
 double rounded_down(double value) { return 0.1 * std::floor(value / 0.1 + 1e-9); }
 double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
 
-Condition condition(std::string name, double value, double limit, bool ok, std::string message) {
-  Condition result;
-  result.name = std::move(name);
-  result.ok = ok;
-  result.value = value;
-  result.limit = limit;
-  result.unit = "mm";
-  result.message = std::move(message);
-  return result;
-}
-
 const char* name_of(Side side) { return side == Side::left ? "P1" : "P2"; }
 
 class Conditions {
@@ -61,25 +50,38 @@ class Conditions {
   }
 
  private:
-  void add(std::string name, double value, double limit, bool ok, std::string message) {
-    result_.push_back(condition(std::move(name), value, limit, ok, std::move(message)));
+  // What stands after the fact, the numbers to change, is said only where it is needed.
+  void add(std::string name, double value, double limit, bool ok, std::string fact, const std::string& advice) {
+    if (!ok && !advice.empty()) fact += ": " + advice;
+    Condition condition;
+    condition.name = std::move(name);
+    condition.ok = ok;
+    condition.value = value;
+    condition.limit = limit;
+    condition.unit = "mm";
+    condition.message = std::move(fact);
+    result_.push_back(std::move(condition));
+  }
+  void add_least(std::string name, double value, double least, std::string fact, const std::string& advice) {
+    add(std::move(name), value, least, value >= least, std::move(fact), advice);
+  }
+  void add_most(std::string name, double value, double most, std::string fact, const std::string& advice) {
+    add(std::move(name), value, most, value <= most, std::move(fact), advice);
   }
 
   void add_groove() {
-    add("groove_depth", layout_.groove_depth, d_, layout_.groove_depth >= d_,
-        fmt::format(
-            "the groove is {} mm deep, the tendon {} mm thick: make body.groove_depth_mm ≥ {}, or 0 (automatic)",
-            rounded(layout_.groove_depth), rounded(d_), rounded(d_)));
-    const double least = layout_.elephant_foot + 0.2;
-    add("flange_thickness", layout_.flange_thickness, least, layout_.flange_thickness >= least,
-        fmt::format("the lower flange, {} mm thick, is lost in the chamfer at the bed: make body.flange_thickness_mm ≥ "
-                    "{}, or material.elephant_foot_mm ≤ {}",
-                    rounded(layout_.flange_thickness), rounded(least),
-                    rounded(std::max(0.0, layout_.flange_thickness - 0.2))));
+    add_least("groove_depth", layout_.groove_depth, d_,
+              fmt::format("the groove is {} mm deep for a tendon of {} mm", rounded(layout_.groove_depth), rounded(d_)),
+              fmt::format("make body.groove_depth_mm ≥ {}, or 0 (automatic)", rounded(d_)));
+    const double foot = layout_.elephant_foot, flange = layout_.flange_thickness;
+    add_least("flange_thickness", flange, foot + 0.2,
+              fmt::format("the lower flange is {} mm thick, the chamfer at the bed takes {} mm of it", rounded(flange),
+                          rounded(foot)),
+              fmt::format("make body.flange_thickness_mm ≥ {}, or material.elephant_foot_mm ≤ {}", rounded(foot + 0.2),
+                          rounded(std::max(0.0, flange - 0.2))));
     const double deepest = layout_.groove_depth - 0.1;
-    add("elephant_foot", layout_.elephant_foot, deepest, layout_.elephant_foot <= deepest,
-        fmt::format("the chamfer at the bed reaches the groove's floor: make material.elephant_foot_mm ≤ {}",
-                    rounded(deepest)));
+    add_most("elephant_foot", foot, deepest, fmt::format("the chamfer at the bed is {} mm wide", rounded(foot)),
+             fmt::format("make material.elephant_foot_mm ≤ {}, or the groove deeper", rounded(deepest)));
   }
 
   Polygon floor(const Outline& outline) const { return parallel(outline, -0.5 * d_); }
@@ -107,11 +109,10 @@ class Conditions {
   void add_bore_wall(const Outline& outline) {
     const Polygon floor_polygon = floor(outline);
     const Wall wall = wall_to(floor_polygon, layout_.bore);
-    const bool ok = wall.thickness >= body_.min_wall;
-    std::string message = fmt::format("the bore leaves a wall of {} mm to {}'s floor at {:.0f}°",
-                                      rounded(wall.thickness, 3), name_of(outline.side), degrees(wall.angle));
-    if (!ok) message += ": " + fmt::format("{}", fmt::join(bore_advice(floor_polygon, wall), ", or "));
-    add(fmt::format("bore_wall_{}", name_of(outline.side)), wall.thickness, body_.min_wall, ok, std::move(message));
+    add_least(fmt::format("bore_wall_{}", name_of(outline.side)), wall.thickness, body_.min_wall,
+              fmt::format("the bore leaves a wall of {} mm to {}'s floor at {:.0f}°", rounded(wall.thickness, 3),
+                          name_of(outline.side), degrees(wall.angle)),
+              fmt::format("{}", fmt::join(bore_advice(floor_polygon, wall), ", or ")));
   }
 
   std::vector<std::string> bore_advice(const Polygon& floor_polygon, const Wall& wall) const {
@@ -134,13 +135,14 @@ class Conditions {
   void add_horn() {
     if (body_.bore != Bore::horn) return;
     const double deepest = layout_.z_hub - body_.min_wall;
-    add("horn_recess", layout_.bore.horn_recess, deepest, layout_.bore.horn_recess <= deepest,
-        fmt::format("the recess of horn {} is {} mm deep, the pulley only {} mm high: make body.hub_height_mm larger, "
-                    "or body.flange_thickness_mm",
-                    body_.horn, rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)));
+    add_most("horn_recess", layout_.bore.horn_recess, deepest,
+             fmt::format("the recess of horn {} is {} mm deep, the pulley {} mm high", body_.horn,
+                         rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)),
+             "make body.flange_thickness_mm or body.groove_depth_mm larger");
     const double gap = horn_gap();
-    add("horn_holes", gap, 0.2, gap >= 0.2,
-        fmt::format("the holes of horn {} leave {} mm between them", body_.horn, rounded(gap, 3)));
+    add_least("horn_holes", gap, 0.2,
+              fmt::format("the holes of horn {} leave {} mm between them", body_.horn, rounded(gap, 3)),
+              "make material.hole_compensation_mm smaller, or take another body.horn");
   }
 
   // The thinnest web between a horn's holes, as circles.
@@ -170,41 +172,41 @@ class Conditions {
 
   void add_hub() {
     if (layout_.hub_radius <= 0) return;
-    const double wall = layout_.hub_radius - layout_.bore.radius;
-    const double needed = 2.0 * (layout_.bore.radius + body_.min_wall);
-    add("hub_wall", wall, body_.min_wall, wall >= body_.min_wall,
-        fmt::format("a hub of {} mm leaves a wall of {} mm about the bore: make body.hub_diameter_mm ≥ {:.1f}, or 0 "
-                    "(automatic)",
-                    rounded(2.0 * layout_.hub_radius), rounded(wall, 3), rounded_up(needed)));
-    const double limit = inradius(rims_.upper) - k_hub_margin;
-    add("hub_on_flange", layout_.hub_radius, limit, layout_.hub_radius <= limit,
-        fmt::format(
-            "a hub of {} mm stands out over the upper flange: make body.hub_diameter_mm ≤ {:.1f}, or 0 (automatic)",
-            rounded(2.0 * layout_.hub_radius), rounded_down(2.0 * limit)));
+    const double diameter = 2.0 * layout_.hub_radius, wall = layout_.hub_radius - layout_.bore.radius;
+    add_least("hub_wall", wall, body_.min_wall,
+              fmt::format("a hub of {} mm leaves a wall of {} mm about the bore", rounded(diameter), rounded(wall, 3)),
+              fmt::format("make body.hub_diameter_mm ≥ {:.1f}, or 0 (automatic)",
+                          rounded_up(2.0 * (layout_.bore.radius + body_.min_wall))));
+    const double limit = 2.0 * (inradius(rims_.upper) - k_hub_margin);
+    add_most("hub_on_flange", diameter, limit,
+             fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm", rounded(limit),
+                         rounded(diameter)),
+             fmt::format("make body.hub_diameter_mm ≤ {:.1f}, or 0 (automatic)", rounded_down(limit)));
   }
 
   // Only a set screw that was asked for by name can be impossible.
   void add_set_screw() {
     if (body_.set_screw == "auto" || body_.set_screw == "none" || body_.bore == Bore::horn) return;
+    const double diameter = 2.0 * layout_.hub_radius, needed = 2.0 * hub_radius_for_named_screw();
     if (!layout_.set_screw.present) {
-      const double radius = hub_radius_for_named_screw();
-      add("set_screw", layout_.hub_radius, radius, false,
-          fmt::format("there is no hub for set screw {}, which needs one of {:.1f} mm: make body.hub_height_mm ≥ 8 on "
-                      "a larger pulley, or body.set_screw "
-                      "\"auto\" or smaller",
-                      body_.set_screw, rounded_up(2.0 * radius)));
+      add("set_screw_wall", diameter, needed, false,
+          fmt::format("there is no place for set screw {}, which needs a hub of {:.1f} mm and a side of it without a "
+                      "knot pocket",
+                      body_.set_screw, rounded_up(needed)),
+          "make body.set_screw \"auto\" or a smaller one, body.hub_height_mm ≥ 8, or pulley.r1_mm larger");
       return;
     }
-    const double needed = hub_radius_for(layout_.set_screw, layout_.bore.radius, body_.min_wall);
-    add("set_screw_wall", layout_.hub_radius, needed, layout_.hub_radius >= needed,
-        fmt::format("a hub of {} mm is too thin for set screw {}: make body.hub_diameter_mm ≥ {:.1f}, or 0 "
-                    "(automatic), or body.nut_trap false",
-                    rounded(2.0 * layout_.hub_radius), body_.set_screw, rounded_up(2.0 * needed)));
+    add_least("set_screw_wall", diameter, needed,
+              fmt::format("set screw {} needs a hub of {:.1f} mm, this one has {} mm", body_.set_screw,
+                          rounded_up(needed), rounded(diameter)),
+              fmt::format("make body.hub_diameter_mm ≥ {:.1f}, or 0 (automatic), or body.nut_trap false",
+                          rounded_up(needed)));
     const double spare = height_to_spare(layout_.set_screw, layout_, body_.min_wall);
-    add("set_screw_height", spare, 0.0, spare >= 0.0,
-        fmt::format("a hub {} mm high is too low for set screw {}: make body.hub_height_mm ≥ {:.1f}",
-                    rounded(body_.hub_height), body_.set_screw,
-                    rounded_up(body_.hub_height - 2.0 * std::min(0.0, spare))));
+    add_least(
+        "set_screw_height", spare, 0.0,
+        fmt::format("a hub {} mm high has {} mm of height to spare about set screw {}", rounded(body_.hub_height),
+                    rounded(spare, 3), body_.set_screw),
+        fmt::format("make body.hub_height_mm ≥ {:.1f}", rounded_up(body_.hub_height - 2.0 * std::min(0.0, spare))));
   }
 
   double hub_radius_for_named_screw() const {
@@ -216,34 +218,34 @@ class Conditions {
   }
 
   void add_anchor(const AnchorRoom& room) {
-    const bool ok = room.room >= room.least;
-    std::string message = fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed",
-                                      name_of(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3));
     std::vector<std::string> advice;
     if (room.bore_that_fits > 0)
       advice.push_back(fmt::format("make body.bore_diameter_mm ≤ {:.1f}", room.bore_that_fits));
     if (room.min_wall_that_fits > 0)
       advice.push_back(fmt::format("make body.min_wall_mm ≤ {:.2f}", room.min_wall_that_fits));
-    if (body_.knot_pocket > 0 && room.room > 0)
+    if (body_.knot_pocket > 0 && room.room > 0) {
       advice.push_back(
           fmt::format("make body.knot_pocket_mm ≤ {:.1f}, or 0 (automatic)", rounded_down(2.0 * room.room)));
+    }
     if (advice.empty())
-      advice.push_back("make the pulley larger (pulley.r1_mm) or the tendon thinner (tendon.diameter_mm)");
-    if (!ok) message += fmt::format(": {}", fmt::join(advice, ", or "));
-    add(fmt::format("anchor_{}", name_of(room.side)), 2.0 * room.room, 2.0 * room.least, ok, std::move(message));
+      advice.emplace_back("make the pulley larger (pulley.r1_mm) or the tendon thinner (tendon.diameter_mm)");
+    add_least(fmt::format("anchor_{}", name_of(room.side)), 2.0 * room.room, 2.0 * room.least,
+              fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed",
+                          name_of(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3)),
+              fmt::format("{}", fmt::join(advice, ", or ")));
   }
 
   void add_channel() {
-    add("channel_width", layout_.channel_width, d_, layout_.channel_width >= d_,
-        fmt::format("a tie-off channel of {} mm does not pass a tendon of {} mm: make body.anchor_hole_mm ≥ {}, or 0 "
-                    "(automatic)",
-                    rounded(layout_.channel_width), rounded(d_), rounded(d_ + 0.2)));
-    const double roof = layout_.z_p1 - 0.5 * layout_.channel_width;
-    const double least = 0.4;
-    add("channel_height", roof, least, roof >= least,
-        fmt::format(
-            "a tie-off channel of {} mm breaks through the flange: make body.anchor_hole_mm ≤ {:.1f}, or 0 (automatic)",
-            rounded(layout_.channel_width), rounded_down(2.0 * (layout_.z_p1 - least))));
+    const double width = layout_.channel_width;
+    add_least("channel_width", width, d_,
+              fmt::format("the tie-off channels are {} mm wide for a tendon of {} mm", rounded(width), rounded(d_)),
+              fmt::format("make body.anchor_hole_mm ≥ {}, or 0 (automatic)", rounded(d_ + 0.2)));
+    constexpr double least = 0.4;
+    const double below = layout_.z_p1 - 0.5 * width;
+    add_least(
+        "channel_floor", below, least,
+        fmt::format("the tie-off channels leave {} mm of the lower flange", rounded(below, 3)),
+        fmt::format("make body.anchor_hole_mm ≤ {:.1f}, or 0 (automatic)", rounded_down(2.0 * (layout_.z_p1 - least))));
   }
 
   // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.
@@ -264,15 +266,14 @@ class Conditions {
   }
 
   void add_pin(const char* condition_name, const char* pin_name, const Vec2& pin, const char* key) {
-    const double gap = pin.norm() - mechanism_.guides.radius - reach_towards(pin);
-    const double needed = pin.norm() + k_pin_gap - gap;
-    const double ef = std::sqrt(std::max(0.0, needed * needed - pin.x() * pin.x()));
-    const double across = std::sqrt(std::max(0.0, needed * needed - pin.y() * pin.y()));
-    add(condition_name, gap, k_pin_gap, gap >= k_pin_gap,
-        fmt::format("pin {} comes within {} mm of the flanges: make pulley.EF_mm ≥ {:.1f}, or {} ≥ {:.1f}, or "
-                    "body.groove_depth_mm ≤ {:.1f}",
-                    pin_name, rounded(gap, 3), rounded_up(ef), key, rounded_up(across),
-                    rounded_down(layout_.groove_depth - (k_pin_gap - gap))));
+    const double clear = pin.norm() - mechanism_.guides.radius - reach_towards(pin);
+    const double needed = pin.norm() + k_pin_gap - clear;
+    const auto leg = [needed](double other) { return std::sqrt(std::max(0.0, needed * needed - other * other)); };
+    add_least(condition_name, clear, k_pin_gap,
+              fmt::format("pin {} comes within {} mm of the flanges", pin_name, rounded(clear, 3)),
+              fmt::format("make pulley.EF_mm ≥ {:.1f}, or {} ≥ {:.1f}, or body.groove_depth_mm ≤ {:.1f}",
+                          rounded_up(leg(pin.x())), key, rounded_up(leg(pin.y())),
+                          rounded_down(layout_.groove_depth - (k_pin_gap - clear))));
   }
 
   const Mechanism& mechanism_;
