@@ -176,6 +176,9 @@ std::string hidden_numbers(const Product& product) {
   const double bore_top = std::max_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); })->y();
   const SetScrewLayout& screw = layout.set_screw;
   const double middle = 0.5 * (layout.z_top + layout.z_hub);
+  const double bore_edge = 0.5 * (shaft_diameter(bore, mechanism.material.hole_compensation) + mechanism.material.hole_compensation);
+  const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
+  const double hub_wall = std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5);
   std::string text = fmt::format(R"(/* [Hidden] */
 tendon = {};          // its diameter
 seat_ratio = {};      // seat radius of a u groove per tendon diameter
@@ -192,13 +195,14 @@ screw_lift = {};      // above the middle of the hub
 nut_width = {};       // across flats
 nut_thickness = {};
 nut_from_bore = {};   // from the bore's edge to the middle of the nut
+hub_wall = {};        // the hub grows with the bore so that this is left outside of it and of the nut
 print_scale = {};     // a print shrinks by as much
 
 )",
                                  decimal(d), decimal(mechanism.body.seat_ratio), mechanism.body.flange == Flange::follow ? "follow" : "round", decimal(margins.lower),
                                  decimal(margins.middle), decimal(margins.upper), name_of(bore.kind), decimal(bore_top), decimal(bore.kind == Bore::keyway ? 2 * bore.outline.back().cwiseAbs().x() : 0),
                                  decimal(screw.hole_diameter), decimal(degrees(screw.angle)), decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width),
-                                 decimal(screw.nut_thickness), decimal(screw.nut_trap ? screw.nut_distance - bore.radius : 0), fixed(layout.scale, 9));
+                                 decimal(screw.nut_thickness), decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
   text += "horn_recess = " + decimal(bore.horn_recess) + ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
   text += "horn_holes = [";
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) text += (k == 0 ? "" : ",\n  ") + points_text(bore.screw_holes[k]);
@@ -243,6 +247,9 @@ z_p1 = flange_thickness + half_width;
 z_p2 = z_p1 + 2 * half_width + flange_thickness;
 z_top = z_p2 + half_width + flange_thickness;
 has_hub = hub_diameter > 0 && hub_height > 0;
+bore_edge = (bore + hole_compensation) / 2;
+nut_room = set_screw && nut_trap ? nut_from_bore + nut_thickness / 2 : 0;
+hub_radius = max(hub_diameter / 2, bore_edge + nut_room + hub_wall);
 z_hub = z_top + (has_hub ? hub_height : 0);
 
 // ---- outlines: curves parallel to a floor, circles, and the middle flange around both grooves ----
@@ -282,7 +289,7 @@ rings = concat(
   groove_rings(P2, z_p2),
   is_round ? [[z_p2 + half_width, upper]] : [],
   [[z_top, upper]],
-  has_hub ? [[z_top, circle_like(hub_diameter / 2)], [z_hub, circle_like(hub_diameter / 2)]] : []);
+  has_hub ? [[z_top, circle_like(hub_radius)], [z_hub, circle_like(hub_radius)]] : []);
 
 module skin(rings) {
   count = len(rings);
@@ -325,10 +332,8 @@ module tie_off(t) {
 
 // Round below, a roof above: it prints lying down without support.
 module screw_hole() {
-  reach = max(hub_diameter / 2, bore) + 1;
   z = (z_top + z_hub) / 2 + screw_lift;
-  bore_edge = (bore + hole_compensation) / 2;
-  translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90]) linear_extrude(reach) {
+  translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90]) linear_extrude(hub_radius + 1) {
     circle(d = screw_hole, $fn = facets);
     rotate(45) square(screw_hole / 2);
   }

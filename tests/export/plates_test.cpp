@@ -36,6 +36,7 @@ Product egg_with_anchor() {
   Product product = egg();
   Anchor anchor;
   anchor.side = Side::left;
+  anchor.exit = Vec2::Zero();
   anchor.pocket = {-8, -8};
   anchor.channel = {{-8.7, -8}, {-8.7, -17}, {-7.3, -17}, {-7.3, -8}};
   product.pulley.anchors = {anchor};
