@@ -87,7 +87,7 @@ struct Body {
   Flange flange = Flange::follow;
   double flange_thickness = 0;  ///< at the lip
   double hub_diameter = 0;      ///< 0: from the bore and the set screw
-  double hub_height = 0;        ///< above the top flange; 0: no hub. Where there is no room for one it is left out, with a note
+  double hub_height = 0;        ///< above the top flange; 0: no hub. Without room for one it is left out
   Bore bore = Bore::round;
   double bore_diameter = 0;     ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
   double bore_flat = 0;         ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
