@@ -13,8 +13,8 @@ std::string with_unit(double value, const std::string& unit) { return rounded(va
 
 const std::vector<Option>& limit_options() {
   static const std::vector<Option> options = {
-      {"--max-theta-error-deg", "DEG", "largest error of the joint angle as built (default 0.05)"},
-      {"--max-slack-mm", "MM", "largest slack of a tendon as built (default 0.05)"},
+      {"--max-theta-error-deg", "DEG", "largest error of the joint angle (default 0.05)"},
+      {"--max-slack-mm", "MM", "largest slack of a tendon (default 0.05)"},
   };
   return options;
 }

@@ -139,7 +139,7 @@ void add_warnings(const Product& product, Reply& reply) {
     for (const std::string& text : texts) reply.diagnostics.push_back(about_file(severity, product.file.path, text));
   };
   add(Severity::warning, product.synthesis.warnings);
-  add(Severity::note, product.pulley.layout.notes);
+  if (product.pulley.made()) add(Severity::note, product.pulley.layout.notes);
 }
 
 DxfVersion dxf_version(const Arguments& arguments) {
