@@ -472,7 +472,7 @@ std::string report_html(const Product& product) {
                                          {"as_built_plots", as_built_plots(product)},
                                          {"forces", forces_section(product)},
                                          {"profiles", profiles(product)},
-                                         {"checks", checks_table(product.checks)},
+                                         {"checks", checks_tables(product.checks)},
                                          {"conditions", conditions(product)},
                                          {"making", making(product)},
                                          {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},

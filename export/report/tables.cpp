@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "export/report/svg.h"
 #include "fusee/base/units.h"
@@ -37,16 +38,32 @@ constexpr PlainName k_plain_names[] = {
     {"anchor_P#", "Room for the anchors of P#"},
     {"channel_width", "Width of the tie-off channels"},
     {"channel_height", "Material above the tie-off channels"},
+    {"channel_floor", "Material below the tie-off channels"},
+    {"set_screw", "Room for the set screw"},
+    {"set_screw_wall", "Wall around the set screw’s nut"},
+    {"set_screw_height", "Height for the set screw in the hub"},
     {"pin_clear_@", "Gap between the flanges and pin @"},
     {"horn_recess", "Depth of the horn’s recess"},
     {"horn_holes", "Web between the horn’s holes"},
     // solid, export, pipeline: checks
     {"facets", "Facets"},
+    {"indices_out_of_range", "Facets that name a missing vertex"},
     {"vertices_not_finite", "Vertices that are not finite numbers"},
+    {"self_intersections", "Self-intersections"},
+    {"euler_number", "Euler number (as many through holes as planned)"},
+    {"volume_deviation", "Volume against the exact one, relative"},
+    {"floor_deviation_P#", "P#’s groove floor against the exact curve"},
+    {"wall_P#", "Thinnest wall in the plane of P#’s groove"},
+    {"groove_depth_P#", "Depth of P#’s groove"},
+    {"groove_width_P#", "Width of P#’s groove"},
     {"triangles", "As many triangles as in pulley.stl"},
     {"deviation", "Distance to pulley.stl"},
-    {"ends_meet", "Ends of contours meet"},
-    {"nothing_outside", "Nothing outside the sheet"},
+    {"contours_closed", "Contours left open"},
+    {"ends_meet", "Gap between ends that should meet"},
+    {"no_duplicate_lines", "Duplicate lines"},
+    {"no_self_crossing", "Contours that cross themselves"},
+    {"no_crossing_contours", "Contours that cross each other"},
+    {"nothing_outside", "Contours outside the part or the sheet"},
     // pipeline: what wound tendons give
     {"theta_error", "Joint angle as built against the declared θ(α)"},
     {"slack", "Slack or stretch of tendon 2 as built"},
@@ -70,6 +87,15 @@ char matched_side(std::string_view name, std::string_view pattern) {
   return found == std::string_view::npos ? '\0' : "12"[found];
 }
 
+/// Of the file that a check is about, in k_prefixes; its size when about none of them.
+std::size_t file_index(std::string_view name) {
+  const auto found = std::find_if(std::begin(k_prefixes), std::end(k_prefixes),
+                                  [&](const PlainName& file) { return name.substr(0, file.name.size()) == file.name; });
+  return static_cast<std::size_t>(found - std::begin(k_prefixes));
+}
+
+std::string_view without_file(std::string_view name) { return name.substr(k_prefixes[file_index(name)].name.size()); }
+
 std::string with_side(std::string_view words, char side) {
   std::string text;
   for (const char c : words) text += c == '#' ? side : c == '@' ? (side == '1' ? 'B' : 'D') : c;
@@ -91,19 +117,36 @@ std::string limit_words(double value, double limit, bool ok, std::string_view un
   return std::string(relation(value, limit, ok, unit)) + safe_text(with_unit(limit, unit));
 }
 
-std::string name_cell(std::string_view name, const std::string& remark) {
-  std::string html = safe_text(plain_name(name));
+std::string name_cell(const std::string& words, const std::string& remark) {
+  std::string html = safe_text(words);
   if (!remark.empty()) html += " <span class=\"where\">" + safe_text(remark) + "</span>";
   return cell("", html);
 }
 
+/// Checks under one heading, their names plain already.
+struct CheckGroup {
+  std::string title;
+  std::vector<Check> checks;
+};
+
 std::string row_start(bool ok) { return ok ? "<tr><td class=\"state\">✓</td>" : "<tr class=\"failed\"><td class=\"state\">✕</td>"; }
+
+std::string group_table(const CheckGroup& group) {
+  std::string html = "<div><h3>" + safe_text(group.title) + "</h3><div class=\"scroll\"><table><thead><tr><th></th><th></th>"
+                     "<th class=\"number\">Value</th><th class=\"number\">Limit</th></tr></thead><tbody>";
+  for (const Check& check : group.checks) {
+    html += row_start(check.ok) + name_cell(check.name, check.ok ? "" : check.where) +
+            cell("number", safe_text(with_unit(check.value, check.unit))) +
+            cell("number", limit_words(check.value, check.limit, check.ok, check.unit)) + "</tr>";
+  }
+  return html + "</tbody></table></div></div>";
+}
 
 }  // namespace
 
 std::string plain_name(std::string_view name) {
-  for (const PlainName& file : k_prefixes) {
-    if (name.substr(0, file.name.size()) == file.name) return std::string(file.words) + ": " + plain_name(name.substr(file.name.size()));
+  if (const std::size_t file = file_index(name); file < std::size(k_prefixes)) {
+    return std::string(k_prefixes[file].words) + ": " + plain_name(without_file(name));
   }
   for (const PlainName& known : k_plain_names) {
     if (const char side = matched_side(name, known.name)) return with_side(known.words, side);
@@ -126,17 +169,22 @@ std::string with_unit(double value, std::string_view unit, int digits) {
   return readable_rounded(value, digits) + (shown.empty() || shown == "°" ? "" : "\u00a0") + shown;
 }
 
-std::string checks_table(const std::vector<Check>& checks) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Check</th><th class=\"number\">Value</th>"
-                     "<th class=\"number\">Limit</th></tr></thead><tbody>";
+std::string checks_tables(const std::vector<Check>& checks) {
   // What failed comes first: nobody should have to look for it.
-  std::vector<Check> sorted = checks;
-  std::stable_partition(sorted.begin(), sorted.end(), [](const Check& check) { return !check.ok; });
-  for (const Check& check : sorted) {
-    html += row_start(check.ok) + name_cell(check.name, check.where) + cell("number", safe_text(with_unit(check.value, check.unit))) +
-            cell("number", limit_words(check.value, check.limit, check.ok, check.unit)) + "</tr>";
+  std::vector<CheckGroup> groups{{"Failed", {}}, {"As built", {}}, {"The part, in pulley.stl", {}}};
+  for (const PlainName& file : k_prefixes) groups.push_back({std::string(file.words), {}});
+  for (const Check& check : checks) {
+    const std::size_t file = file_index(check.name);
+    Check named = check;
+    named.name = plain_name(check.ok && file < std::size(k_prefixes) ? without_file(check.name) : check.name);
+    const bool as_built = check.name.rfind("theta_error", 0) == 0 || check.name.rfind("slack", 0) == 0;
+    groups[!check.ok ? 0 : as_built ? 1 : file < std::size(k_prefixes) ? 3 + file : 2].checks.push_back(named);
   }
-  return html + "</tbody></table></div>";
+  std::string html = "<div class=\"groups\">";
+  for (const CheckGroup& group : groups) {
+    if (!group.checks.empty()) html += group_table(group);
+  }
+  return html + "</div>";
 }
 
 std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke) {
@@ -147,7 +195,7 @@ std::string conditions_table(const std::vector<Condition>& conditions, bool over
     // A condition without numbers: there is a dead centre or there is none.
     const bool plain = condition.value == condition.limit;
     const double distance = std::abs(condition.value - condition.limit);
-    html += row_start(condition.ok) + name_cell(condition.name, condition.ok ? "" : condition.message);
+    html += row_start(condition.ok) + name_cell(plain_name(condition.name), condition.ok ? "" : condition.message);
     if (over_stroke) html += cell("number", plain && condition.ok ? "" : readable(degrees(condition.alpha), 1) + "°");
     html += cell("number", plain ? "" : safe_text(with_unit(condition.value, condition.unit, 4))) +
             cell("number", plain ? "" : limit_words(condition.value, condition.limit, condition.ok, condition.unit)) +

@@ -60,7 +60,7 @@ Product sample(Mechanism mechanism = testing::forearm()) {
   product.as_built.max_theta_error = radians(0.004);
   product.as_built.max_slack = 0.002;
   product.checks = {exactly("open_edges", 0, 0, "1"), at_most("theta_error", 0.004, 0.05, "deg"), at_most("slack", 0.002, 0.05, "mm"),
-                    at_least("wall", 1.9, 1.2, "mm")};
+                    at_least("wall", 1.9, 1.2, "mm"), at_most("obj_deviation", 0, 0.01, "mm")};
   return product;
 }
 
@@ -115,7 +115,11 @@ TEST(Report, NamesEveryCheckAndCondition) {
   const Product product = sample();
   const auto document = parsed(report_html(product));
   const std::string checks = words_of(document.select_node("//section[@id='checks']").node());
-  for (const Check& check : product.checks) EXPECT_THAT(checks, HasSubstr(plain_name(check.name)));
+  for (const Check& check : product.checks) {
+    const bool in_other_file = check.name == "obj_deviation";
+    EXPECT_THAT(checks, HasSubstr(in_other_file ? "Distance to pulley.stl" : plain_name(check.name)));
+  }
+  EXPECT_THAT(checks, HasSubstr("pulley.obj"));
   const std::string conditions = words_of(document.select_node("//section[@id='feasibility']").node());
   for (const Condition& condition : product.synthesis.conditions) EXPECT_THAT(conditions, HasSubstr(plain_name(condition.name)));
   EXPECT_THAT(conditions, HasSubstr("Wall to bore"));
@@ -126,22 +130,24 @@ TEST(Report, SaysThatAllIsWell) {
   const auto verdict = document.select_node("//section[contains(@class, 'verdict')]").node();
   EXPECT_STREQ(verdict.attribute("class").as_string(), "verdict good");
   EXPECT_THAT(words_of(verdict), HasSubstr("within 0.004° (limit 0.05°)"));
-  EXPECT_THAT(words_of(verdict), HasSubstr("All 4 checks hold"));
+  EXPECT_THAT(words_of(verdict), HasSubstr("All 5 checks hold"));
 }
 
 TEST(Report, SaysWhatFailed) {
   Product product = sample();
   product.checks.push_back(at_most("theta_error", 0.31, 0.05, "deg", "α = 12°"));
-  product.checks.push_back(at_least("wall", 0.4, 1.2, "mm"));
+  product.checks.push_back(at_least("drc_wall", 0.4, 1.2, "mm"));
   const auto document = parsed(report_html(product));
   const auto verdict = document.select_node("//section[contains(@class, 'verdict')]").node();
   EXPECT_STREQ(verdict.attribute("class").as_string(), "verdict bad");
-  EXPECT_THAT(words_of(verdict), HasSubstr("2 of 6 checks failed"));
+  EXPECT_THAT(words_of(verdict), HasSubstr("2 of 7 checks failed"));
   EXPECT_THAT(words_of(verdict), HasSubstr("0.31°, limit 0.05°"));
   const auto failed = document.select_nodes("//section[@id='checks']//tr[@class='failed']");
   ASSERT_EQ(failed.size(), 2u);
   EXPECT_THAT(words_of(failed[0].node()), HasSubstr("α = 12°"));
+  EXPECT_THAT(words_of(failed[1].node()), HasSubstr("pulley.drc: Wall"));
   EXPECT_THAT(words_of(failed[1].node()), HasSubstr("≥ 1.2"));
+  EXPECT_STREQ(document.select_node("//section[@id='checks']//h3").node().text().as_string(), "Failed");
 }
 
 TEST(Report, SaysHowLongToCutTheTendon) {
@@ -207,6 +213,7 @@ TEST(Report, APartThatWasNotMadeHasAReportToo) {
 TEST(PlainNames, SidesAreFilledIn) {
   EXPECT_THAT(plain_name("tendon_on_pin_D"), HasSubstr("Tendon 2 stays on pin D"));
   EXPECT_THAT(plain_name("convex_floor_P1"), HasSubstr("P1’s"));
+  EXPECT_EQ(plain_name("3mf_deviation"), "pulley.3mf: Distance to pulley.stl");
   EXPECT_EQ(plain_name("something_new_P3"), "Something new P3");
   EXPECT_EQ(plain_name(""), "");
 }
