@@ -99,7 +99,7 @@ void place_dowels(Plates& plates, const Stock& stock) {
   const Material2d material = common_material(stock);
   for (const double share : {1.0, 0.85, 0.7, 0.5, 0.35}) {
     const double diameter = share * wanted;
-    if (diameter < k_least_feature && share < 1) break;
+    if (diameter - stock.mechanism.cut.kerf < k_least_feature && share < 1) break;  // the cutter's path would be narrower than it can cut
     const auto places = dowel_places(stock, material, diameter);
     if (!places) continue;
     plates.dowels = {places->first, places->second};
@@ -233,19 +233,23 @@ std::optional<Vec2> label_place(const PlateLayer& layer, const Material2d& mater
   return std::nullopt;
 }
 
+std::string label_text(const PlateLayer& layer, LabelKind kind, int number, int total) {
+  if (kind == LabelKind::number) return std::to_string(number);
+  return fmt::format("{}/{}{}", number, total, kind == LabelKind::name ? " " + layer.name : "");
+}
+
 void engrave(Plates& plates, std::size_t index, int total) {
   PlateLayer& layer = plates.layers[index];
   const Material2d material = material_of(layer);
   engrave_home(layer, material);
-  const std::string number = fmt::format("{0}/{0}", total);
-  for (const bool with_name : {true, false}) {
-    const std::string widest = with_name ? number + " " + layer.name : number;
+  for (const LabelKind kind : {LabelKind::name, LabelKind::count, LabelKind::number}) {
+    const std::string widest = label_text(layer, kind, total, total);
     for (const double height : {3.0, 2.2, 1.6}) {
       const auto place = label_place(layer, material, {stroke_text_width(widest, height), height});
       if (!place) continue;
       layer.label = *place;
       layer.label_height = height;
-      layer.label_has_name = with_name;
+      layer.label_kind = kind;
       return;
     }
   }
@@ -317,8 +321,7 @@ int plates_for(double height, double plate) { return std::max(1, static_cast<int
 
 std::string plate_label(const Plates& plates, const PlacedPlate& plate) {
   const PlateLayer& layer = plates.layers[plate.layer];
-  const std::string number = fmt::format("{}/{}", plate.number, plates.placed.size());
-  return layer.label_has_name ? number + " " + layer.name : number;
+  return label_text(layer, layer.label_kind, plate.number, static_cast<int>(plates.placed.size()));
 }
 
 Plates make_plates(const Product& product) {

@@ -9,6 +9,9 @@
 
 namespace fusee {
 
+/// What is engraved, by the room there is: "3/8 P1 CORE", "3/8", "3".
+enum class LabelKind { name, count, number };
+
 /// Plates of one shape, one upon another. Outlines are about the axis, outer ones counter-clockwise.
 struct PlateLayer {
   std::string name;                ///< "FLANGE 1", "P1 CORE" …
@@ -20,7 +23,7 @@ struct PlateLayer {
   std::vector<Polygon> engraving;  ///< the home mark: open strokes
   Vec2 label = Vec2::Zero();       ///< lower left corner of the number and name
   double label_height = 0;         ///< 0: there is no room for it
-  bool label_has_name = true;
+  LabelKind label_kind = LabelKind::name;
 };
 
 struct PlacedPlate {
@@ -45,7 +48,7 @@ int plates_for(double height, double plate);
 
 Plates make_plates(const Product& product);
 
-/// "3/8 P1 CORE"
+/// What is engraved on a plate.
 std::string plate_label(const Plates& plates, const PlacedPlate& plate);
 
 }  // namespace fusee

@@ -182,6 +182,20 @@ TEST(PlatesDxf, EveryPlateCarriesItsNumber) {
   }
 }
 
+TEST(PlatesDxf, SmallPlatesCarryWhatFits) {
+  Product product = product_of(testing::circle(6), testing::circle(6));
+  product.file.mechanism.body.bore_diameter = 2;
+  product.file.mechanism.body.hub_height = 0;
+  const Plates plates = make_plates(product);
+  for (const PlacedPlate& plate : plates.placed) {
+    const PlateLayer& layer = plates.layers[plate.layer];
+    ASSERT_GT(layer.label_height, 0) << layer.name;
+    EXPECT_THAT(plate_label(plates, plate), HasSubstr(std::to_string(plate.number)));
+  }
+  // A dowel's path is what the cutter must be able to cut.
+  EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
+}
+
 TEST(Nesting, PacksWithoutOverlapAndInOneWay) {
   std::vector<Vec2> sizes;
   for (int i = 0; i < 60; ++i) sizes.emplace_back(5 + (i * 7) % 23, 5 + (i * 11) % 19);
