@@ -18,12 +18,26 @@ using Json = nlohmann::ordered_json;
 /// JSON knows no NaN and no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// Degrees and per cents come of a multiplication: without its last digits 30° is 30, as it was written.
+Json as_written(double value) {
+  constexpr int k_digits = 12;
+  double rounded_value = value;
+  if (value != 0 && std::isfinite(value)) {
+    const double scale = std::pow(10.0, k_digits - 1 - std::floor(std::log10(std::abs(value))));
+    rounded_value = std::round(value * scale) / scale;
+  }
+  return number(rounded_value);
+}
+
+/// For a ruler.
+Json to_micrometre(double millimetres) { return number(std::round(1000.0 * millimetres) / 1000.0); }
+
 Json field_value(const Field& field, const Mechanism& mechanism) {
   switch (field.kind) {
     case FieldKind::number:
       return number(field.get(mechanism, 0));
     case FieldKind::range:
-      return {number(field.get(mechanism, 0)), number(field.get(mechanism, 1))};
+      return {as_written(field.get(mechanism, 0)), as_written(field.get(mechanism, 1))};
     case FieldKind::choice:
     case FieldKind::text:
       return field.get_text(mechanism);
@@ -37,7 +51,7 @@ Json field_value(const Field& field, const Mechanism& mechanism) {
 Json mechanism_json(const Mechanism& mechanism) {
   Json tables = Json::object();
   for (const Field& field : fields()) {
-    if (!is_used(field, mechanism)) continue;
+    if (!is_used(field, mechanism) || field.table == "transmission") continue;
     Json& table = field.table.empty() ? tables : tables[std::string(field.table)];
     table[std::string(field.key)] = field_value(field, mechanism);
   }
@@ -79,11 +93,12 @@ Json tendons_json(const Product& product) {
     const bool left = tendon.side == Side::left;
     list.push_back({{"tendon", left ? 1 : 2},
                     {"pulley", left ? "P1" : "P2"},
-                    {"between_knots_mm", number(tendon.between_knots)},
+                    {"between_knots_mm", to_micrometre(tendon.between_knots)},
                     {"cut_length_mm", number(std::ceil(tendon.between_knots + 2 * k_tail))},
-                    {"joint_knot_mm", {number(tendon.joint_knot.x()), number(tendon.joint_knot.y())}},
+                    {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
                     {"pulley_knot_mm",
-                     {number(tendon.pulley_knot.x()), number(tendon.pulley_knot.y()), number(tendon.pulley_knot.z())}},
+                     {to_micrometre(tendon.pulley_knot.x()), to_micrometre(tendon.pulley_knot.y()),
+                      to_micrometre(tendon.pulley_knot.z())}},
                     {"spare_wrap_turns", number(tendon.spare_lap / k_two_pi)}});
   }
   return list;
