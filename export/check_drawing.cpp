@@ -14,6 +14,7 @@
 #include <set>
 #include <utility>
 
+#include "export/cut_shapes.h"
 #include "export/dxf_writer.h"
 #include "export/end_points.h"
 #include "export/polygon_cgal.h"
@@ -311,16 +312,6 @@ Check check_smallest_feature(const Paths& contours) {
 }
 
 // Inside ---------------------------------------------------------------------------------------------------------------
-
-bool contains(const Polygon& polygon, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2& a = polygon[i];
-    const Vec2& b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
 
 struct Framed {
   const DrawingPath* path;

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "export/mesh_formats.h"
 #include "fusee/export/export.h"
@@ -21,27 +21,47 @@ namespace {
 
 // Writing ------------------------------------------------------------------------------------------------------------
 
-/// The smallest altitude of all faces that have one; infinite without any.
-double smallest_altitude(const TriangleMesh& mesh) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const auto& t : mesh.triangles) {
-    const Vec3 ab = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-    const Vec3 ac = mesh.vertices[t[2]] - mesh.vertices[t[0]];
-    const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
-    const double altitude = ab.cross(ac).norm() / longest;
-    if (altitude > 0) smallest = std::min(smallest, altitude);
+/// A float holds 24 bits: a finer grid would show nothing more, and Draco's tables grow with the grid.
+constexpr int k_most_bits = 24;
+
+/// Draco's grid: 2^bits − 1 steps along the longest side of the bounding box.
+struct Grid {
+  Vec3 origin = Vec3::Zero();
+  double range = 0;
+  int bits = 1;
+
+  double step() const { return range / (std::ldexp(1.0, bits) - 1.0); }
+  /// Half the diagonal of a cell: no vertex moves by more.
+  double reach() const { return 0.5 * std::numbers::sqrt3 * step(); }
+  Vec3 snapped(const Vec3& v) const {
+    return origin + step() * ((v - origin) / step() + Vec3::Constant(0.5)).array().floor().matrix();
   }
-  return smallest;
+};
+
+/// Does every face still look to its side? Thin ones collapse or turn over on a grid that is fine enough for the
+/// tolerance.
+bool keeps_faces(const TriangleMesh& mesh, const Grid& grid) {
+  constexpr double k_least_share = 0.1;  // of its area
+  std::vector<Vec3> snapped;
+  snapped.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) snapped.push_back(grid.snapped(vertex));
+  const auto area_vector = [](const std::vector<Vec3>& v, const std::array<std::uint32_t, 3>& t) {
+    return Vec3((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]));
+  };
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
+    const Vec3 before = area_vector(mesh.vertices, triangle);
+    const double size = before.squaredNorm();
+    return size == 0 || before.dot(area_vector(snapped, triangle)) > k_least_share * size;
+  });
 }
 
-/// Fewest bits with which no vertex leaves its place by more than `reach`: half the diagonal of a cell,
-/// (√3/2)·range/(2^q − 1).
-int bits_for(double range, double reach) {
-  constexpr int k_most_bits = 30;
-  const double steps = 0.5 * std::numbers::sqrt3 * range / reach + 1.0;
-  int bits = 1;
-  while (bits < k_most_bits && std::ldexp(1.0, bits) < steps) ++bits;
-  return bits;
+/// The coarsest grid that is within the tolerance and leaves every face its side.
+Grid grid_for(const TriangleMesh& mesh, double tolerance) {
+  const Bounds box = bounds(mesh);
+  Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
+  while (grid.bits < k_most_bits && grid.reach() > tolerance) ++grid.bits;
+  while (grid.bits < k_most_bits && !keeps_faces(mesh, grid)) ++grid.bits;
+  return grid;
 }
 
 void fill(draco::Mesh& to, const TriangleMesh& mesh) {
@@ -182,12 +202,8 @@ TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
 
 }  // namespace
 
-/// The tolerance alone would let thin faces collapse or turn over: a corner and the side opposite it may move towards
-/// each other by twice the reach. A quarter of the smallest altitude leaves every face at least half of its own.
 std::string draco_bytes(const TriangleMesh& mesh, double tolerance) {
-  const Bounds box = bounds(mesh);
-  const double range = (box.high - box.low).maxCoeff();
-  const int bits = bits_for(range, std::min(tolerance, 0.25 * smallest_altitude(mesh)));
+  const int bits = grid_for(mesh, tolerance).bits;
   draco::Mesh to;
   fill(to, mesh);
   draco::Encoder encoder;

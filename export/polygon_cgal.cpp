@@ -18,9 +18,14 @@ namespace {
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactPolygon = CGAL::Polygon_2<Exact>;
 
-ExactPolygon exact(const Polygon& polygon) {
+ExactPolygon points_of(const Polygon& polygon) {
   ExactPolygon result;
   for (const Vec2& p : polygon) result.push_back({p.x(), p.y()});
+  return result;
+}
+
+ExactPolygon exact(const Polygon& polygon) {
+  ExactPolygon result = points_of(polygon);
   demand(result.is_simple(), "a plate's outline of " + std::to_string(polygon.size()) + " points crosses itself");
   if (result.is_clockwise_oriented()) result.reverse_orientation();
   return result;
@@ -43,6 +48,10 @@ Polygon rounded_points(const ExactPolygon& polygon) {
 int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
   return static_cast<int>(CGAL::orientation(Point(a.x(), a.y()), Point(b.x(), b.y()), Point(c.x(), c.y())));
+}
+
+bool is_simple(const Polygon& polygon) {
+  return polygon.size() >= 3 && points_of(polygon).is_simple();
 }
 
 std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>& cutters) {

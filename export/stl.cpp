@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cstring>
-#include <vector>
 
 #include "export/mesh_formats.h"
 #include "export/text_scanner.h"
@@ -43,12 +43,23 @@ char* put_facet(char* to, const TriangleMesh& mesh, const std::array<std::uint32
   return to + k_facet_size;
 }
 
-/// admesh and PrusaSlicer take a binary STL for ASCII unless a byte > 127 stands within 128 bytes after the header. The
-/// sign bit of a normal that looks down is such a byte, so a facet of that kind goes first.
-std::size_t first_facet_looking_down(const TriangleMesh& mesh) {
-  const auto found = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),
-                                  [&](const auto& triangle) { return facet_normal(mesh, triangle).z() < -0.5; });
-  return found == mesh.triangles.end() ? 0 : static_cast<std::size_t>(found - mesh.triangles.begin());
+bool has_high_byte(std::string_view bytes) {
+  return std::any_of(bytes.begin(), bytes.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
+}
+
+/// admesh and PrusaSlicer take a binary STL for ASCII unless a byte > 127 stands within 128 bytes after the header.
+/// Almost every facet has one, those that look down always (the sign of their normal). Where the first facets have
+/// none, one that has changes places with the first.
+void tell_from_ascii(std::string& bytes) {
+  constexpr std::size_t k_looked_at = 128;
+  const std::string_view facets = std::string_view(bytes).substr(k_facets_start);
+  if (has_high_byte(facets.substr(0, k_looked_at))) return;
+  for (std::size_t at = 0; at < facets.size(); at += k_facet_size) {
+    if (!has_high_byte(facets.substr(at, k_facet_size))) continue;
+    char* first = bytes.data() + k_facets_start;
+    std::swap_ranges(first, first + k_facet_size, first + at);
+    return;
+  }
 }
 
 TriangleMesh read_binary_stl(std::string_view bytes) {
@@ -137,11 +148,8 @@ std::string stl_bytes(const TriangleMesh& mesh, const std::string& name) {
   std::memcpy(bytes.data() + k_header_size, &count, sizeof count);
 
   char* to = bytes.data() + k_facets_start;
-  const std::size_t first = first_facet_looking_down(mesh);
-  if (first < mesh.triangles.size()) to = put_facet(to, mesh, mesh.triangles[first]);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (i != first) to = put_facet(to, mesh, mesh.triangles[i]);
-  }
+  for (const auto& triangle : mesh.triangles) to = put_facet(to, mesh, triangle);
+  tell_from_ascii(bytes);
   return bytes;
 }
 

@@ -61,6 +61,8 @@ constexpr auto k_glyphs = std::to_array<std::pair<char, std::string_view>>({
     {'<', "450341"},
     {'>', "054301"},
     {'_', "0040"},
+    {';', "2110 2425"},
+    {'\'', "2624"},
 });
 
 std::string_view glyph(char c) {

@@ -84,7 +84,8 @@ void add_part(zip_t* archive, const char* path, std::string_view text) {
   const auto entry = static_cast<zip_uint64_t>(index);
   // A date of its own, in DOS fields: zip_file_set_mtime() would go through the local time zone.
   demand_zip(zip_file_set_dostime(archive, entry, k_midnight, k_first_of_1980, 0) == 0, archive, path);
-  demand_zip(zip_set_file_compression(archive, entry, ZIP_CM_DEFLATE, 6) == 0, archive, path);
+  constexpr zip_uint32_t k_quick = 3;  // twice as fast as the usual 6, and a fifth larger
+  demand_zip(zip_set_file_compression(archive, entry, ZIP_CM_DEFLATE, k_quick) == 0, archive, path);
 }
 
 std::string source_bytes(zip_source_t* source) {

@@ -154,7 +154,7 @@ double scale_bar_length(double scale, double px) {
 }
 
 std::string scale_bar(const View& view, const Vec2& left_end) {
-  const double length = scale_bar_length(view.scale, 90);
+  const double length = scale_bar_length(view.scale, 80);
   const Vec2 right_end = left_end + Vec2(length * view.scale, 0);
   const Vec2 tick(0, 4);
   return svg_line("dimension", left_end, right_end) + svg_line("dimension", left_end - tick, left_end + tick) +
@@ -164,9 +164,9 @@ std::string scale_bar(const View& view, const Vec2& left_end) {
 
 // Mechanism -----------------------------------------------------------------------------------------------------------
 
-constexpr double k_panel_width = 340;
-constexpr double k_panel_height = 400;
-constexpr double k_detail_height = 270;
+constexpr double k_panel_width = 290;
+constexpr double k_panel_height = 345;
+constexpr double k_detail_height = 230;
 
 double pulley_reach(const SynthesisResult& synthesis) {
   double reach = 0;
@@ -314,11 +314,23 @@ std::string anchors(const View& view, const Pulley& pulley, Side side) {
   return svg;
 }
 
+/// Of the largest circle about the axis within the outline.
+double clear_radius(const Polygon& outline) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2& from = outline[i];
+    const Vec2 edge = outline[(i + 1) % outline.size()] - from;
+    const double along = std::clamp(-from.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    radius = std::min(radius, (from + along * edge).norm());
+  }
+  return radius;
+}
+
 std::string bore(const View& view, const BodyLayout& layout) {
   std::string svg = curve("hole", view, layout.bore.outline, true);
   for (const Polygon& hole : layout.bore.screw_holes) svg += curve("hole", view, hole, true);
-  if (layout.bore.radius <= 0) return svg;
-  const std::string words = "⌀ " + readable_rounded(2 * layout.bore.radius);
+  if (layout.bore.outline.empty()) return svg;
+  const std::string words = "⌀ " + readable_rounded(2 * clear_radius(layout.bore.outline)) + " clear";
   return svg + svg_words("small halo middle", view({0, 0}) + Vec2(0, layout.bore.radius * view.scale + 17), words);
 }
 

@@ -14,7 +14,7 @@ for (const svg of document.querySelectorAll("svg[data-plot]")) {
       }
     return NaN;
   };
-  const figures = v => String(Number(v.toPrecision(4))).replace("-", "\u2212");
+  const shown = (v, unit) => String(Number(v.toPrecision(4))).replace("-", "\u2212") + (unit && unit !== "°" ? " " : "") + unit;
   const box = document.createElement("div"), cursor = document.createElementNS(svg.namespaceURI, "path");
   box.className = "readout"; box.hidden = true;
   cursor.setAttribute("class", "cursor");
@@ -27,10 +27,10 @@ for (const svg of document.querySelectorAll("svg[data-plot]")) {
     cursor.setAttribute("d", `M${x} ${top}V${top + height}`);
     box.replaceChildren();
     const line = words => { const row = document.createElement("div"); row.textContent = words; box.append(row); };
-    line(figures(xLow + (x - left) / width * (xHigh - xLow)) + " " + svg.dataset.x);
+    line(shown(xLow + (x - left) / width * (xHigh - xLow), svg.dataset.x));
     for (const curve of curves) {
       const py = at(curve, x);
-      if (!Number.isNaN(py)) line(curve.name + ": " + figures(yHigh - (py - top) / height * (yHigh - yLow)) + " " + svg.dataset.y);
+      if (!Number.isNaN(py)) line(curve.name + ": " + shown(yHigh - (py - top) / height * (yHigh - yLow), svg.dataset.y));
     }
     box.hidden = false;
     const place = x / scale + 14;

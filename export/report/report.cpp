@@ -12,6 +12,7 @@
 #include "export/report/mesh_code.h"
 #include "export/report/plot.h"
 #include "export/report/tables.h"
+#include "export/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/export/export.h"
@@ -54,11 +55,9 @@ std::string list(std::string_view tag, const std::vector<std::string>& items) {
 
 // Verdict -------------------------------------------------------------------------------------------------------------
 
-const Check* find_check(const Product& product, std::string_view name_part) {
-  for (const Check& check : product.checks) {
-    if (check.name.find(name_part) != std::string::npos) return &check;
-  }
-  return nullptr;
+const Check* find_check(const Product& product, std::string_view name) {
+  const auto found = std::find_if(product.checks.begin(), product.checks.end(), [&](const Check& check) { return check.name == name; });
+  return found == product.checks.end() ? nullptr : &*found;
 }
 
 std::string limit_words(const Check* check) { return check ? " (limit " + with_unit(check->limit, check->unit) + ")" : ""; }
@@ -85,7 +84,9 @@ std::string verdict_words(const Product& product) {
   if (failed.empty()) {
     return "Checked: the pulley as built follows θ(α) within " + with_unit(degrees(product.as_built.max_theta_error), "deg") +
            limit_words(find_check(product, "theta_error")) + " and keeps the tendon’s length within " +
-           with_unit(product.as_built.max_slack, "mm") + limit_words(find_check(product, "slack")) + ". All " + count + " checks hold.";
+           with_unit(product.as_built.max_slack, "mm") + limit_words(find_check(product, "slack")) +
+           (product.file.mechanism.pulley.method == Method::paper ? " (method “paper”: reported, not judged)" : "") + ". All " + count +
+           " checks hold.";
   }
   std::string words = "Not to be made as it is: " + std::to_string(failed.size()) + " of " + count + " checks failed. ";
   for (std::size_t i = 0; i < failed.size(); ++i) words += (i ? "; " : "") + failed[i];
@@ -254,7 +255,7 @@ std::vector<Vec2> over_alpha(const SynthesisResult& synthesis, Value value) {
 }
 
 Plot radius_plot(const Product& product) {
-  Plot plot{"Pitch radii", k_alpha_axis, {"moment arm about the axis", "mm", {}, {}, 0.1}, {}, {}, {}};
+  Plot plot{"Pitch radii", k_alpha_axis, {"moment arm about G", "mm", {}, {}, 0.1}, {}, {}, {}};
   plot.series = {{"r1", Ink::p1, over_alpha(product.synthesis, [](const auto& p) { return p.t1.p; })},
                  {"r2", Ink::p2, over_alpha(product.synthesis, [](const auto& p) { return p.t2.p; })}};
   return plot;
@@ -365,44 +366,24 @@ std::string forces_section(const Product& product) {
 
 // Making --------------------------------------------------------------------------------------------------------------
 
-/// Along the groove from the end of the active arc to the tie-off, then to the knot's pocket. mm
-double lap_to_anchor(const Outline& outline, const Anchor& anchor) {
-  const std::size_t n = outline.points.size();
-  const auto exit = std::min_element(outline.points.begin(), outline.points.end(), [&](const auto& a, const auto& b) {
-    return (a.position - anchor.exit).squaredNorm() < (b.position - anchor.exit).squaredNorm();
-  });
-  const auto last = static_cast<std::size_t>(exit - outline.points.begin());
-  const std::size_t step = outline.side == Side::left ? 1 : n - 1;
-  double length = 0;
-  for (std::size_t i = outline.anchor_end(); i != last; i = (i + step) % n) {
-    length += (outline.points[(i + step) % n].position - outline.points[i].position).norm();
-  }
-  return length + (anchor.pocket - anchor.exit).norm();
-}
-
-std::string tendon_row(const Product& product, const Outline& outline) {
-  constexpr double k_knot_allowance = 60;  // mm at each end: a bowline or a double fisherman's with something to hold
-  const auto trace = trace_tendon(product.file.mechanism, outline, 0, 0);
-  if (!trace) return "";
-  double lap = 0;
-  for (const Anchor& anchor : product.pulley.anchors) {
-    if (anchor.side == outline.side && anchor.wound_end) lap = lap_to_anchor(outline, anchor);
-  }
-  const double taut = trace->free_length + trace->wound_length + lap;
-  const bool left = outline.side == Side::left;
-  return "<tr><td>" + std::string(left ? "Tendon 1" : "Tendon 2") + "</td><td>" + (left ? "C → pin B → P1, lower groove" : "C → pin D → P2, upper groove") +
-         "</td><td class=\"number\">" + readable(trace->free_length, 1) + " mm</td><td class=\"number\">" +
-         readable(trace->wound_length + lap, 1) + " mm</td><td class=\"number\">" + readable(taut, 1) + " mm</td><td class=\"number\">" +
-         readable(std::ceil((taut + 2 * k_knot_allowance) / 5) * 5, 0) + " mm</td></tr>";
+std::string tendon_row(const TendonLength& tendon) {
+  constexpr double k_knot_allowance = 60;  // mm at each end: a bowline with something to hold
+  const bool left = tendon.side == Side::left;
+  const double cut = std::ceil((tendon.between_knots + 2 * k_knot_allowance) / 5) * 5;
+  return "<tr><td>" + std::string(left ? "Tendon 1" : "Tendon 2") + "</td><td>" +
+         (left ? "C → pin B → P1, lower groove" : "C → pin D → P2, upper groove") + "</td><td class=\"number\">" +
+         readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" + readable(cut, 0) + " mm</td><td class=\"number\">" +
+         readable(degrees(tendon.spare_lap), 0) + "°</td></tr>";
 }
 
 std::string tendon_table(const Product& product) {
-  const std::string rows = tendon_row(product, product.synthesis.p1) + tendon_row(product, product.synthesis.p2);
+  std::string rows;
+  for (const TendonLength& tendon : tendon_lengths(product)) rows += tendon_row(tendon);
   if (rows.empty()) return "";
-  return "<h3>Tendons</h3><div class=\"scroll\"><table><thead><tr><th></th><th>Path</th><th class=\"number\">Free at home</th>"
-         "<th class=\"number\">In the groove, to the knot</th><th class=\"number\">C to knot</th>"
-         "<th class=\"number\">Cut at</th></tr></thead><tbody>" +
-         rows + "</tbody></table></div><p class=\"hint\">At the centre line, taut at home. The cut leaves 60 mm at each end for knots.</p>";
+  return "<h3>Tendons</h3><div class=\"scroll\"><table><thead><tr><th></th><th>Path</th><th class=\"number\">Knot to knot</th>"
+         "<th class=\"number\">Cut at</th><th class=\"number\">Left on the pulley at full pay-out</th></tr></thead><tbody>" +
+         rows + "</tbody></table></div><p class=\"hint\">From C to the knot’s pocket, taut, with the joint and the pulley at home. The cut leaves "
+         "60 mm at each end for knots.</p>";
 }
 
 std::vector<std::string> steps(const Product& product) {
@@ -452,10 +433,10 @@ std::string source_words(const MechanismFile& file) {
   return words;
 }
 
-std::vector<Condition> all_conditions(const Product& product) {
-  std::vector<Condition> all = product.synthesis.conditions;
-  all.insert(all.end(), product.pulley.conditions.begin(), product.pulley.conditions.end());
-  return all;
+std::string conditions(const Product& product) {
+  std::string html = "<h3>Over the stroke</h3>" + conditions_table(product.synthesis.conditions, true);
+  if (!product.pulley.conditions.empty()) html += "<h3>Of the body</h3>" + conditions_table(product.pulley.conditions, false);
+  return html;
 }
 
 std::string profiles(const Product& product) {
@@ -491,8 +472,8 @@ std::string report_html(const Product& product) {
                                          {"as_built_plots", as_built_plots(product)},
                                          {"forces", forces_section(product)},
                                          {"profiles", profiles(product)},
-                                         {"checks", checks_table(product.checks)},
-                                         {"conditions", conditions_table(all_conditions(product))},
+                                         {"checks", checks_tables(product.checks)},
+                                         {"conditions", conditions(product)},
                                          {"making", making(product)},
                                          {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},
                                      });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "export/report/svg.h"
 #include "fusee/base/units.h"
@@ -27,12 +28,55 @@ constexpr PlainName k_plain_names[] = {
     {"free_span_#", "Tendon # has a free span between P# and its pin"},
     {"one_turn_P#", "P# fits into one turn (room for anchors and closing arc)"},
     {"closing_arc_P#", "P#’s closing arc has room to turn"},
+    // solid: conditions of the body
+    {"groove_depth", "Depth of the grooves"},
+    {"flange_thickness", "Thickness of the flanges"},
+    {"elephant_foot", "Chamfer at the bed"},
+    {"bore_wall_P#", "Wall between the bore and P#’s groove floor"},
+    {"hub_wall", "Wall between the bore and the hub’s side"},
+    {"hub_on_flange", "Radius of the hub, on the upper flange"},
+    {"anchor_P#", "Room for the anchors of P#"},
+    {"channel_width", "Width of the tie-off channels"},
+    {"channel_height", "Material above the tie-off channels"},
+    {"channel_floor", "Material below the tie-off channels"},
+    {"set_screw", "Room for the set screw"},
+    {"set_screw_wall", "Wall around the set screw’s nut"},
+    {"set_screw_height", "Height for the set screw in the hub"},
+    {"pin_clear_@", "Gap between the flanges and pin @"},
+    {"horn_recess", "Depth of the horn’s recess"},
+    {"horn_holes", "Web between the horn’s holes"},
+    // solid, export, pipeline: checks
+    {"facets", "Facets"},
+    {"indices_out_of_range", "Facets that name a missing vertex"},
+    {"vertices_not_finite", "Vertices that are not finite numbers"},
+    {"self_intersections", "Self-intersections"},
+    {"euler_number", "Euler number (as many through holes as planned)"},
+    {"volume_deviation", "Volume against the exact one, relative"},
+    {"floor_deviation_P#", "P#’s groove floor against the exact curve"},
+    {"wall_P#", "Thinnest wall in the plane of P#’s groove"},
+    {"groove_depth_P#", "Depth of P#’s groove"},
+    {"groove_width_P#", "Width of P#’s groove"},
+    {"triangles", "As many triangles as in pulley.stl"},
+    {"deviation", "Distance to pulley.stl"},
+    {"contours_closed", "Contours left open"},
+    {"ends_meet", "Gap between ends that should meet"},
+    {"no_duplicate_lines", "Duplicate lines"},
+    {"no_self_crossing", "Contours that cross themselves"},
+    {"no_crossing_contours", "Contours that cross each other"},
+    {"nothing_outside", "Contours outside the part or the sheet"},
     // pipeline: what wound tendons give
     {"theta_error", "Joint angle as built against the declared θ(α)"},
     {"slack", "Slack or stretch of tendon 2 as built"},
     {"theta_error_reported", "Joint angle as built against the declared θ(α) (method “paper”: reported only)"},
     {"slack_reported", "Slack or stretch of tendon 2 as built (method “paper”: reported only)"},
 };
+
+/// Checks of one file among others.
+constexpr PlainName k_prefixes[] = {{"obj_", "pulley.obj"},
+                                    {"3mf_", "pulley.3mf"},
+                                    {"drc_", "pulley.drc"},
+                                    {"profile_dxf_", "profile.dxf"},
+                                    {"plates_dxf_", "plates.dxf"}};
 
 /// "2" for "convex_floor_P2" and "tendon_on_pin_D" when `pattern` is theirs; ' ' without a wildcard; 0: not theirs.
 char matched_side(std::string_view name, std::string_view pattern) {
@@ -42,6 +86,15 @@ char matched_side(std::string_view name, std::string_view pattern) {
   const std::size_t found = allowed.find(name.back());
   return found == std::string_view::npos ? '\0' : "12"[found];
 }
+
+/// Of the file that a check is about, in k_prefixes; its size when about none of them.
+std::size_t file_index(std::string_view name) {
+  const auto found = std::find_if(std::begin(k_prefixes), std::end(k_prefixes),
+                                  [&](const PlainName& file) { return name.substr(0, file.name.size()) == file.name; });
+  return static_cast<std::size_t>(found - std::begin(k_prefixes));
+}
+
+std::string_view without_file(std::string_view name) { return name.substr(k_prefixes[file_index(name)].name.size()); }
 
 std::string with_side(std::string_view words, char side) {
   std::string text;
@@ -53,24 +106,48 @@ std::string cell(std::string_view classes, const std::string& html) {
   return (classes.empty() ? std::string("<td>") : "<td class=\"" + std::string(classes) + "\">") + html + "</td>";
 }
 
-/// What was asked of the value. A Check does not say; its value, its limit and its outcome together do.
-std::string_view relation(const Check& check) {
-  if (check.value == check.limit || !std::isfinite(check.value)) return "";
-  if (!check.ok && check.unit == "1") return "";
-  return (check.value < check.limit) == check.ok ? "≤ " : "≥ ";
+/// What was asked of the value. Neither a Check nor a Condition says; its value, its limit and its outcome together do.
+std::string_view relation(double value, double limit, bool ok, std::string_view unit) {
+  if (value == limit || !std::isfinite(value)) return "";
+  if (!ok && unit == "1") return "";
+  return (value < limit) == ok ? "≤ " : "≥ ";
 }
 
-std::string name_cell(std::string_view name, const std::string& remark) {
-  std::string html = safe_text(plain_name(name));
+std::string limit_words(double value, double limit, bool ok, std::string_view unit) {
+  return std::string(relation(value, limit, ok, unit)) + safe_text(with_unit(limit, unit));
+}
+
+std::string name_cell(const std::string& words, const std::string& remark) {
+  std::string html = safe_text(words);
   if (!remark.empty()) html += " <span class=\"where\">" + safe_text(remark) + "</span>";
   return cell("", html);
 }
 
+/// Checks under one heading, their names plain already.
+struct CheckGroup {
+  std::string title;
+  std::vector<Check> checks;
+};
+
 std::string row_start(bool ok) { return ok ? "<tr><td class=\"state\">✓</td>" : "<tr class=\"failed\"><td class=\"state\">✕</td>"; }
+
+std::string group_table(const CheckGroup& group) {
+  std::string html = "<div><h3>" + safe_text(group.title) + "</h3><div class=\"scroll\"><table><thead><tr><th></th><th></th>"
+                     "<th class=\"number\">Value</th><th class=\"number\">Limit</th></tr></thead><tbody>";
+  for (const Check& check : group.checks) {
+    html += row_start(check.ok) + name_cell(check.name, check.ok ? "" : check.where) +
+            cell("number", safe_text(with_unit(check.value, check.unit))) +
+            cell("number", limit_words(check.value, check.limit, check.ok, check.unit)) + "</tr>";
+  }
+  return html + "</tbody></table></div></div>";
+}
 
 }  // namespace
 
 std::string plain_name(std::string_view name) {
+  if (const std::size_t file = file_index(name); file < std::size(k_prefixes)) {
+    return std::string(k_prefixes[file].words) + ": " + plain_name(without_file(name));
+  }
   for (const PlainName& known : k_plain_names) {
     if (const char side = matched_side(name, known.name)) return with_side(known.words, side);
   }
@@ -92,29 +169,37 @@ std::string with_unit(double value, std::string_view unit, int digits) {
   return readable_rounded(value, digits) + (shown.empty() || shown == "°" ? "" : "\u00a0") + shown;
 }
 
-std::string checks_table(const std::vector<Check>& checks) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Check</th><th class=\"number\">Value</th>"
-                     "<th class=\"number\">Limit</th></tr></thead><tbody>";
+std::string checks_tables(const std::vector<Check>& checks) {
   // What failed comes first: nobody should have to look for it.
-  std::vector<Check> sorted = checks;
-  std::stable_partition(sorted.begin(), sorted.end(), [](const Check& check) { return !check.ok; });
-  for (const Check& check : sorted) {
-    html += row_start(check.ok) + name_cell(check.name, check.where) + cell("number", safe_text(with_unit(check.value, check.unit))) +
-            cell("number", std::string(relation(check)) + safe_text(with_unit(check.limit, check.unit))) + "</tr>";
+  std::vector<CheckGroup> groups{{"Failed", {}}, {"As built", {}}, {"The part, in pulley.stl", {}}};
+  for (const PlainName& file : k_prefixes) groups.push_back({std::string(file.words), {}});
+  for (const Check& check : checks) {
+    const std::size_t file = file_index(check.name);
+    Check named = check;
+    named.name = plain_name(check.ok && file < std::size(k_prefixes) ? without_file(check.name) : check.name);
+    const bool as_built = check.name.rfind("theta_error", 0) == 0 || check.name.rfind("slack", 0) == 0;
+    groups[!check.ok ? 0 : as_built ? 1 : file < std::size(k_prefixes) ? 3 + file : 2].checks.push_back(named);
   }
-  return html + "</tbody></table></div>";
+  std::string html = "<div class=\"groups\">";
+  for (const CheckGroup& group : groups) {
+    if (!group.checks.empty()) html += group_table(group);
+  }
+  return html + "</div>";
 }
 
-std::string conditions_table(const std::vector<Condition>& conditions) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Condition</th><th class=\"number\">Tightest at α</th>"
-                     "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th class=\"number\">Margin</th></tr></thead><tbody>";
+std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke) {
+  std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Condition</th>";
+  if (over_stroke) html += "<th class=\"number\">Tightest at α</th>";
+  html += "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th class=\"number\">Margin</th></tr></thead><tbody>";
   for (const Condition& condition : conditions) {
-    const double margin = condition.ok ? std::abs(condition.value - condition.limit) : -std::abs(condition.value - condition.limit);
-    html += row_start(condition.ok) + name_cell(condition.name, condition.ok ? "" : condition.message) +
-            cell("number", readable(degrees(condition.alpha), 1) + "°") +
-            cell("number", safe_text(with_unit(condition.value, condition.unit, 4))) +
-            cell("number", safe_text(with_unit(condition.limit, condition.unit, 4))) +
-            cell("number", safe_text(with_unit(margin, condition.unit))) + "</tr>";
+    // A condition without numbers: there is a dead centre or there is none.
+    const bool plain = condition.value == condition.limit;
+    const double distance = std::abs(condition.value - condition.limit);
+    html += row_start(condition.ok) + name_cell(plain_name(condition.name), condition.ok ? "" : condition.message);
+    if (over_stroke) html += cell("number", plain && condition.ok ? "" : readable(degrees(condition.alpha), 1) + "°");
+    html += cell("number", plain ? "" : safe_text(with_unit(condition.value, condition.unit, 4))) +
+            cell("number", plain ? "" : limit_words(condition.value, condition.limit, condition.ok, condition.unit)) +
+            cell("number", plain ? "" : safe_text(with_unit(condition.ok ? distance : -distance, condition.unit))) + "</tr>";
   }
   return html + "</tbody></table></div>";
 }

@@ -18,7 +18,9 @@ std::string shown_unit(std::string_view unit);
 /// Value and unit, "0.004°", "0.003 mm", "12".
 std::string with_unit(double value, std::string_view unit, int digits = 3);
 
-std::string checks_table(const std::vector<Check>& checks);
-std::string conditions_table(const std::vector<Condition>& conditions);
+/// Grouped by the file that they are about; what failed in a group of its own, first.
+std::string checks_tables(const std::vector<Check>& checks);
+/// `over_stroke`: with a column for the α at which each is tightest.
+std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke);
 
 }  // namespace fusee

@@ -3,7 +3,7 @@
   const stage = document.querySelector(".stage");
   if (!stage) return;
   const canvas = stage.querySelector("canvas"), missing = stage.querySelector(".missing");
-  const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+  const gl = canvas.getContext("webgl2", { antialias: true, stencil: true, preserveDrawingBuffer: true });
   if (!gl) { canvas.hidden = true; return; }
   missing.hidden = true;
   stage.querySelector(".buttons").hidden = false;
@@ -57,14 +57,13 @@
     return s;
   };
   const program = gl.createProgram();
-  gl.attachShader(program, shader(gl.VERTEX_SHADER, `layout(location=0) in vec3 p; layout(location=1) in vec3 n; uniform mat4 m; out vec3 at, normal;
-    void main(){ at = p; normal = n; gl_Position = m * vec4(p, 1.); }`));
-  gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `in vec3 at, normal; uniform vec3 eye, side, above, metal, ink1, ink2, cut, edge; uniform vec3 g1, g2; uniform bool line, half_; out vec4 colour;
+  gl.attachShader(program, shader(gl.VERTEX_SHADER, `layout(location=0) in vec3 p; layout(location=1) in vec3 n; uniform mat4 m; uniform float lift; out vec3 at, normal;
+    void main(){ at = p; normal = n; gl_Position = m * vec4(p, 1.); gl_Position.z -= lift * gl_Position.w; }`));
+  gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `in vec3 at, normal; uniform vec3 eye, side, above, metal, ink1, ink2, tint, g1, g2; uniform bool plain, half_; out vec4 colour;
     bool within(vec3 g){ return abs(at.z - g.x) < g.y && length(at.xy) > g.z; }
     void main(){
       if (half_ && at.y < 0.) discard;
-      if (line) { colour = vec4(edge, 1.); return; }
-      if (!gl_FrontFacing) { colour = vec4(cut, 1.); return; }
+      if (plain) { colour = vec4(tint, 1.); return; }
       vec3 n = normalize(normal), v = normalize(eye - at), base = within(g1) ? mix(metal, ink1, .55) : within(g2) ? mix(metal, ink2, .55) : metal;
       vec3 key = normalize(.8 * v - .45 * side + .6 * above), fill = normalize(.7 * v + .8 * side - .25 * above);
       float light = .40 + .08 * dot(n, above) + .44 * max(dot(n, key), 0.) + .24 * max(dot(n, fill), 0.);
@@ -85,7 +84,8 @@
     return array;
   };
   const body = buffers(points, smooth), wires = buffers(new Float32Array(edges), null);
-  gl.enable(gl.DEPTH_TEST); gl.enable(gl.POLYGON_OFFSET_FILL); gl.polygonOffset(1, 1);
+  const y = 1e-5 * radius, plane = buffers(new Float32Array([low3[0], y, low3[2], top3[0], y, low3[2], low3[0], y, top3[2], top3[0], y, top3[2]]), null);
+  gl.enable(gl.DEPTH_TEST); gl.enable(gl.CULL_FACE);
 
   const colour = name => { const h = getComputedStyle(stage).getPropertyValue(name).trim(); return [1, 3, 5].map(i => parseInt(h.slice(i, i + 2), 16) / 255); };
   const home = { turn: -65, lift: 32, zoom: 1, x: 0, y: 0, half: false };
@@ -106,14 +106,26 @@
     for (let k = 0; k < 3; k++) matrix.push(rows[0][k], rows[1][k], a * back[k], -back[k]);
     matrix.push(shift[0], shift[1], a * shift[2] + b, -shift[2]);
     gl.viewport(0, 0, w, h);
-    gl.clearColor(...colour("--stage"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clearColor(...colour("--stage"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.uniformMatrix4fv(uniform("m"), false, matrix);
     for (const [name, value] of Object.entries({ eye, side, above })) gl.uniform3fv(uniform(name), value);
-    for (const [name, source] of Object.entries({ metal: "--metal", ink1: "--p1", ink2: "--p2", cut: "--cut", edge: "--edge" })) gl.uniform3fv(uniform(name), colour(source));
+    for (const [name, source] of Object.entries({ metal: "--metal", ink1: "--p1", ink2: "--p2" })) gl.uniform3fv(uniform(name), colour(source));
     gl.uniform3fv(uniform("g1"), data.groove1.split(" ").map(Number)); gl.uniform3fv(uniform("g2"), data.groove2.split(" ").map(Number));
     gl.uniform1i(uniform("half_"), view.half);
-    gl.uniform1i(uniform("line"), 0); gl.bindVertexArray(body); gl.drawArrays(gl.TRIANGLES, 0, corners);
-    gl.uniform1i(uniform("line"), 1); gl.bindVertexArray(wires); gl.drawArrays(gl.LINES, 0, edges.length / 3);
+    gl.uniform1i(uniform("plain"), 0); gl.uniform1f(uniform("lift"), 0);
+    const paint = (shape, kind, n) => { gl.bindVertexArray(shape); gl.drawArrays(kind, 0, n); };
+    const plain = name => { gl.uniform1i(uniform("plain"), 1); gl.uniform3fv(uniform("tint"), colour(name)); };
+    if (view.half) {  // The face of the cut: where a ray meets more faces that look away than towards us, the plane lies inside the part.
+      gl.enable(gl.STENCIL_TEST); gl.disable(gl.CULL_FACE); gl.disable(gl.DEPTH_TEST); gl.colorMask(false, false, false, false);
+      gl.stencilFunc(gl.ALWAYS, 0, 255); gl.stencilOpSeparate(gl.FRONT, gl.KEEP, gl.KEEP, gl.DECR_WRAP); gl.stencilOpSeparate(gl.BACK, gl.KEEP, gl.KEEP, gl.INCR_WRAP);
+      paint(body, gl.TRIANGLES, corners);
+      gl.enable(gl.DEPTH_TEST); gl.colorMask(true, true, true, true); gl.stencilFunc(gl.NOTEQUAL, 0, 255); gl.stencilOp(gl.KEEP, gl.KEEP, gl.KEEP);
+      plain("--cut"); paint(plane, gl.TRIANGLE_STRIP, 4); gl.uniform1i(uniform("plain"), 0);
+      gl.disable(gl.STENCIL_TEST); gl.enable(gl.CULL_FACE);
+    }
+    paint(body, gl.TRIANGLES, corners);
+    gl.uniform1f(uniform("lift"), 8e-5);  // edges lie on faces: a hair towards the eye, so that they are seen
+    plain("--edge"); paint(wires, gl.LINES, edges.length / 3);
   };
   let waiting = false;
   const redraw = () => { if (!waiting) { waiting = true; requestAnimationFrame(() => { waiting = false; draw(); }); } };

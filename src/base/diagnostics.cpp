@@ -75,7 +75,8 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   // Long input is no misspelling, and the table below would be large.
   if (word.size() > 100) return {};
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const bool unit_left_out = candidate.rfind(std::string(word) + "_", 0) == 0;  // "r1" for "r1_mm"
+    const std::size_t distance = unit_left_out ? 1 : edit_distance(word, candidate);
     if (distance <= reach && (best == nullptr || distance < best_distance)) {
       best = &candidate;
       best_distance = distance;

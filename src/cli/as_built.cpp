@@ -13,8 +13,8 @@ std::string with_unit(double value, const std::string& unit) { return rounded(va
 
 const std::vector<Option>& limit_options() {
   static const std::vector<Option> options = {
-      {"--max-theta-error-deg", "DEG", "largest error of the joint angle as built (default 0.05)"},
-      {"--max-slack-mm", "MM", "largest slack of a tendon as built (default 0.05)"},
+      {"--max-theta-error-deg", "DEG", "largest error of the joint angle (default 0.05)"},
+      {"--max-slack-mm", "MM", "largest slack of a tendon (default 0.05)"},
   };
   return options;
 }
@@ -28,6 +28,13 @@ AsBuiltLimits limits_from(const Arguments& arguments) {
 
 std::string as_built_text(const RewindResult& as_built) {
   return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, slack within " + rounded(as_built.max_slack, 2) + " mm";
+}
+
+Json to_json(const RewindResult& as_built) {
+  return {{"max_theta_error_deg", degrees(as_built.max_theta_error)},
+          {"max_theta_error_at_alpha_deg", degrees(as_built.max_theta_error_at)},
+          {"max_slack_mm", as_built.max_slack},
+          {"max_slack_at_alpha_deg", degrees(as_built.max_slack_at)}};
 }
 
 std::string checks_table(const std::vector<Check>& checks) {

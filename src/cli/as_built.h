@@ -17,6 +17,8 @@ AsBuiltLimits limits_from(const Arguments& arguments);
 
 /// "theta within 0.0012 deg, slack within 0.003 mm"
 std::string as_built_text(const RewindResult& as_built);
+/// As in the manifest.
+Json to_json(const RewindResult& as_built);
 std::string checks_table(const std::vector<Check>& checks);
 /// An error for each failed check.
 void add_failures(const std::vector<Check>& checks, Reply& reply);

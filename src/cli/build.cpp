@@ -94,7 +94,7 @@ Json product_json(const BuildResult& built, const BuildOptions& options) {
   json["theta_deg"] = range_json(ranges.theta);
   json["r1_mm"] = range_json(ranges.r1);
   json["r2_mm"] = range_json(ranges.r2);
-  json["as_built"] = {{"max_theta_error_deg", degrees(product.as_built.max_theta_error)}, {"max_slack_mm", product.as_built.max_slack}};
+  json["as_built"] = to_json(product.as_built);
   json["checks"] = to_json(product.checks);
   json["outputs"] = Json::array();
   for (const OutputFile& file : built.outputs) {
@@ -139,7 +139,7 @@ void add_warnings(const Product& product, Reply& reply) {
     for (const std::string& text : texts) reply.diagnostics.push_back(about_file(severity, product.file.path, text));
   };
   add(Severity::warning, product.synthesis.warnings);
-  add(Severity::note, product.pulley.layout.notes);
+  if (product.pulley.made()) add(Severity::note, product.pulley.layout.notes);
 }
 
 DxfVersion dxf_version(const Arguments& arguments) {

@@ -38,9 +38,9 @@ Command check_command() {
   return {"check",
           "FILE",
           "a mesh or drawing: valid, or what is wrong and where",
-          "Checks a mesh (stl, obj, 3mf, off, ply, drc) or a drawing (dxf) from anywhere: is it\n"
-          "a closed, sound solid, or closed, clean contours? Each check is shown with its value\n"
-          "and its limit, and a failed one with the place of the fault.",
+          "Checks a mesh (stl, obj, 3mf, off, ply, drc) or a drawing (dxf) from anywhere:\n"
+          "is it a closed, sound solid, or closed, clean contours? Each check is shown with\n"
+          "its value and its limit, and a failed one with the place of the fault.",
           {},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},
            {"fusee check out/arm/plates.dxf", "are all contours closed and free of crossings?"},

@@ -24,9 +24,9 @@ Command explain_command() {
   return {"explain",
           "[KEY]",
           "what a key of the mechanism file means",
-          "Says what a key of the mechanism file means, its unit, its range and its default.\n"
-          "KEY is a key (r1_mm), a key with its table (pulley.r1_mm) or a table (pulley).\n"
-          "Without KEY it lists them all.",
+          "Says what a key of the mechanism file means, its unit, its range and its\n"
+          "default. KEY is a key (r1_mm), a key with its table (pulley.r1_mm) or a table\n"
+          "(pulley). Without KEY it lists them all.",
           {{"--schema", "", "the JSON schema of the mechanism file, for editors"}},
           {{"fusee explain", "list every key"},
            {"fusee explain pulley.r1_mm", "one key"},

@@ -29,8 +29,8 @@ std::string option_lines(const std::vector<Option>& options) {
 
 std::string main_help() {
   std::string text =
-      "fusee: from a tendon-driven joint to the pulley that drives it, checked and ready\n"
-      "to print or cut.\n"
+      "fusee: from a tendon-driven joint to the pulley that drives it, checked and\n"
+      "ready to print or cut.\n"
       "\n"
       "usage: fusee COMMAND [ARGUMENTS] [OPTIONS]\n"
       "\n"
@@ -48,9 +48,9 @@ std::string main_help() {
       "  fusee build arm.toml                 the pulley and its report, in out/arm\n"
       "  fusee explain pulley.r1_mm           what a key of that file means\n"
       "\n"
-      "exit codes: 0 done, 1 a bug in fusee, 2 wrong usage, 3 bad input, 4 no such pulley\n"
-      "can be made, 5 made but a check failed, 6 an output exists or cannot be written,\n"
-      "130 interrupted. 'fusee COMMAND --help' says more about a command.\n";
+      "exit codes: 0 done, 1 a bug in fusee, 2 wrong usage, 3 bad input, 4 no such\n"
+      "pulley can be made, 5 made but a check failed, 6 an output exists or cannot be\n"
+      "written, 130 interrupted. 'fusee COMMAND --help' says more about a command.\n";
   return text;
 }
 

@@ -37,21 +37,31 @@ Json points_json(const std::vector<RewindPoint>& points) {
   return list;
 }
 
+/// What is wrong with the part is said of its file.
+RewindResult rewind_file(const Mechanism& mechanism, const std::string& file, Console& console) {
+  console.progress("reading the part");
+  const Part part = read_part(file);
+  console.progress("winding tendons on it");
+  try {
+    return rewind_part(mechanism, part);
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    for (Diagnostic& diagnostic : diagnostics) diagnostic.place.file = file;
+    throw InputError(std::move(diagnostics));
+  }
+}
+
 Reply run_rewind(const Arguments& arguments, Console& console) {
   const AsBuiltLimits limits = limits_from(arguments);
   const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings());
   const std::string& file = arguments.positionals()[1];
-  console.progress("reading the part");
-  const Part part = read_part(file);
-  console.progress("winding tendons on it");
-  const RewindResult as_built = rewind_part(spec.mechanism, part);
+  const RewindResult as_built = rewind_file(spec.mechanism, file, console);
   const std::vector<Check> checks = as_built_checks(spec.mechanism, as_built, limits);
   Reply reply;
   reply.diagnostics = spec.warnings;
   reply.text = file + ": " + as_built_text(as_built) + "\n\n" + points_table(as_built.points, console.verbose()) + "\n" + checks_table(checks);
   reply.fields["file"] = file;
-  reply.fields["max_theta_error_deg"] = degrees(as_built.max_theta_error);
-  reply.fields["max_slack_mm"] = as_built.max_slack;
+  reply.fields["as_built"] = to_json(as_built);
   reply.fields["checks"] = to_json(checks);
   reply.fields["points"] = points_json(as_built.points);
   if (!all_ok(checks)) {
@@ -67,9 +77,10 @@ Command rewind_command() {
   return {"rewind",
           "SPEC FILE",
           "the joint angle that a made part gives",
-          "Winds two tendons on the grooves of a made part (any mesh that 'fusee check' reads,\n"
-          "or a dxf with the layers P1_FLOOR and P2_FLOOR), also one that was edited by hand, and\n"
-          "compares the joint angle that they give with the mechanism file SPEC.",
+          "Winds two tendons on the grooves of a made part (any mesh that 'fusee check'\n"
+          "reads, or a dxf with the layers P1_FLOOR and P2_FLOOR), also one that was edited\n"
+          "by hand, and compares the joint angle that they give with that of the mechanism\n"
+          "file SPEC.",
           limit_options(),
           {{"fusee rewind arm.toml out/arm/pulley.stl", "is the printed part right?"},
            {"fusee rewind arm.toml out/arm/profile.dxf", "is the drawing right?"},

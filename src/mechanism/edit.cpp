@@ -20,7 +20,8 @@ struct Replacement {
 /// toml++ counts lines from 1 and columns in code points from 1.
 std::size_t offset_of(std::string_view text, const toml::source_position& position) {
   std::size_t at = 0;
-  for (toml::source_index line = 1; line < position.line; ++line) at = std::min(text.find('\n', at), text.size() - 1) + 1;
+  for (toml::source_index line = 1; line < position.line; ++line)
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
   if (at == 0 && text.substr(0, 3) == "\xEF\xBB\xBF") at = 3;
   for (toml::source_index column = 1; column < position.column && at < text.size(); ++column) {
     do ++at;
@@ -40,7 +41,8 @@ const toml::node* written_node(const toml::table& root, const NumberKey& key) {
 }
 
 /// A line for a key that its table does not hold yet.
-Replacement new_line(std::string_view text, const toml::table& root, const Field& field, double value, std::vector<std::string>& new_tables) {
+Replacement new_line(std::string_view text, const toml::table& root, const Field& field, double value,
+                     std::vector<std::string>& new_tables) {
   const std::string line = std::string(field.key) + " = " + number_text(value);
   const std::string table_name(field.table);
   if (const toml::table* table = root[table_name].as_table()) {
@@ -72,12 +74,14 @@ std::string edit_values(std::string_view text, const std::vector<ValueEdit>& edi
     const auto key = find_number_key(edit.key);
     demand(key.has_value(), "edit of " + edit.key);
     if (const toml::node* node = written_node(root, *key)) {
-      replacements.push_back({offset_of(text, node->source().begin), offset_of(text, node->source().end), number_text(edit.value)});
+      replacements.push_back(
+          {offset_of(text, node->source().begin), offset_of(text, node->source().end), number_text(edit.value)});
     } else {
       replacements.push_back(new_line(text, root, *key->field, edit.value, new_tables));
     }
   }
-  std::stable_sort(replacements.begin(), replacements.end(), [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; });
+  std::stable_sort(replacements.begin(), replacements.end(),
+                   [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; });
   std::string edited;
   std::size_t from = 0;
   for (const Replacement& replacement : replacements) {

@@ -19,7 +19,8 @@ std::vector<const Field*> meant(std::string_view word) {
   const bool is_table = !word.empty() && std::find(tables.begin(), tables.end(), word) != tables.end();
   std::vector<std::string> names = tables;
   for (const Field& field : fields()) {
-    if (word.empty() || (is_table ? field.table == word : field.name() == word || field.key == word)) found.push_back(&field);
+    if (word.empty() || (is_table ? field.table == word : field.name() == word || field.key == word))
+      found.push_back(&field);
     names.push_back(field.name());
     names.emplace_back(field.key);
   }
@@ -41,9 +42,9 @@ std::string horn_list() {
 std::string tendon_list() {
   std::string text = "  Known tendons (profiles/catalogue/tendons.toml):\n";
   for (const TendonType& type : tendon_types()) {
-    text += "    " + type.name + ": diameter_mm = " + shortest(type.diameter) + ", modulus_MPa = " + shortest(type.modulus) +
-            ", bend_ratio = " + shortest(type.bend_ratio) + "; breaks at " + shortest(type.breaking_strength) + " N. " +
-            type.description + ". " + type.source + "\n";
+    text += "    " + type.name + ": diameter_mm = " + shortest(type.diameter) +
+            ", modulus_MPa = " + shortest(type.modulus) + ", bend_ratio = " + shortest(type.bend_ratio) +
+            "; breaks at " + shortest(type.breaking_strength) + " N. " + type.description + ". " + type.source + "\n";
   }
   return text;
 }
@@ -51,8 +52,9 @@ std::string tendon_list() {
 std::string material_list() {
   std::string text = "  Known materials (profiles/catalogue/materials.toml):\n";
   for (const MaterialType& type : material_types()) {
-    text += "    " + type.name + ": shrinks " + shortest(type.shrinkage_least) + " to " + shortest(type.shrinkage_most) + " %, mostly " +
-            shortest(type.shrinkage_typical) + " %. " + type.description + ". " + type.source + "\n";
+    text += "    " + type.name + ": shrinks " + shortest(type.shrinkage_least) + " to " +
+            shortest(type.shrinkage_most) + " %, mostly " + shortest(type.shrinkage_typical) + " %. " +
+            type.description + ". " + type.source + "\n";
   }
   return text;
 }
@@ -69,7 +71,8 @@ std::string field_text(const Field& field) {
   std::string text = field.name();
   if (!field.symbol.empty()) text += "  (" + std::string(field.symbol) + ")";
   text += "\n  " + std::string(field.meaning) + "\n  is       " + kind_text(field) + "\n";
-  if (field.kind != FieldKind::choice && field.kind != FieldKind::boolean) text += "  allowed  " + allowed_text(field) + "\n";
+  if (field.kind != FieldKind::choice && field.kind != FieldKind::boolean)
+    text += "  allowed  " + allowed_text(field) + "\n";
   return text + "  " + default_text(field) + "\n";
 }
 
@@ -85,8 +88,8 @@ std::string list_text(const std::vector<const Field*>& list) {
       text += (text.empty() ? "" : "\n") + head + "  " + std::string(table_meaning(field->table)) + "\n";
       table = field->table;
     }
-    text += "  " + std::string(field->key) + std::string(width - field->key.size() + 2, ' ') + std::string(field->meaning) + " (" +
-            default_text(*field) + ")\n";
+    text += "  " + std::string(field->key) + std::string(width - field->key.size() + 2, ' ') +
+            std::string(field->meaning) + " (" + default_text(*field) + ")\n";
   }
   return text;
 }
@@ -115,18 +118,29 @@ Json field_json(const Field& field) {
 Json catalogue_json() {
   Json json;
   for (const Horn& horn : horns()) {
-    json["horns"].push_back({{"name", horn.name}, {"description", horn.description}, {"source", horn.source},
-                             {"hub_diameter_mm", horn.hub_diameter}, {"recess_depth_mm", horn.recess_depth},
-                             {"centre_hole_mm", horn.centre_hole}, {"hole_count", horn.hole_count},
-                             {"hole_circle_mm", horn.hole_circle}, {"hole_diameter_mm", horn.hole_diameter}});
+    json["horns"].push_back({{"name", horn.name},
+                             {"description", horn.description},
+                             {"source", horn.source},
+                             {"hub_diameter_mm", horn.hub_diameter},
+                             {"recess_depth_mm", horn.recess_depth},
+                             {"centre_hole_mm", horn.centre_hole},
+                             {"hole_count", horn.hole_count},
+                             {"hole_circle_mm", horn.hole_circle},
+                             {"hole_diameter_mm", horn.hole_diameter}});
   }
   for (const TendonType& type : tendon_types()) {
-    json["tendons"].push_back({{"name", type.name}, {"description", type.description}, {"source", type.source},
-                               {"diameter_mm", type.diameter}, {"modulus_MPa", type.modulus},
-                               {"breaking_strength_N", type.breaking_strength}, {"bend_ratio", type.bend_ratio}});
+    json["tendons"].push_back({{"name", type.name},
+                               {"description", type.description},
+                               {"source", type.source},
+                               {"diameter_mm", type.diameter},
+                               {"modulus_MPa", type.modulus},
+                               {"breaking_strength_N", type.breaking_strength},
+                               {"bend_ratio", type.bend_ratio}});
   }
   for (const MaterialType& type : material_types()) {
-    json["materials"].push_back({{"name", type.name}, {"description", type.description}, {"source", type.source},
+    json["materials"].push_back({{"name", type.name},
+                                 {"description", type.description},
+                                 {"source", type.source},
                                  {"shrinkage_least_percent", type.shrinkage_least},
                                  {"shrinkage_typical_percent", type.shrinkage_typical},
                                  {"shrinkage_most_percent", type.shrinkage_most}});

@@ -5,6 +5,40 @@
 #include "fusee/base/text.h"
 
 namespace fusee {
+namespace {
+
+/// Control characters, quotes and backslashes as TOML escapes them.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '"':
+        out += "\\\"";
+        break;
+      case '\\':
+        out += "\\\\";
+        break;
+      case '\n':
+        out += "\\n";
+        break;
+      case '\r':
+        out += "\\r";
+        break;
+      case '\t':
+        out += "\\t";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+          out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+        } else {
+          out += c;
+        }
+    }
+  }
+  return out;
+}
+
+}  // namespace
 
 std::string with_unit(double value, std::string_view unit) {
   return unit.empty() ? shortest(value) : shortest(value) + " " + std::string(unit);
@@ -24,12 +58,18 @@ std::string allowed_text(const Field& field) {
     case FieldKind::number:
       if (field.least == field.most) return shortest(field.least);
       return shortest(field.least) + " to " + with_unit(field.most, field.unit);
-    case FieldKind::range: return "lowest <= 0 <= highest, both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
-    case FieldKind::choice: return choices_text(field.choices);
-    case FieldKind::text: return "any text of one line";
-    case FieldKind::boolean: return "true or false";
-    case FieldKind::numbers: return shortest(field.least) + " to " + shortest(field.most) + " each";
-    case FieldKind::texts: return field.choices.empty() ? "texts of one line" : choices_text(field.choices);
+    case FieldKind::range:
+      return "lowest <= 0 <= highest, both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
+    case FieldKind::choice:
+      return choices_text(field.choices);
+    case FieldKind::text:
+      return "any text of one line";
+    case FieldKind::boolean:
+      return "true or false";
+    case FieldKind::numbers:
+      return shortest(field.least) + " to " + shortest(field.most) + " each";
+    case FieldKind::texts:
+      return field.choices.empty() ? "texts of one line" : choices_text(field.choices);
   }
   return {};
 }
@@ -37,49 +77,34 @@ std::string allowed_text(const Field& field) {
 std::string kind_text(const Field& field) {
   const std::string in_unit = field.unit.empty() ? "" : " in " + std::string(field.unit);
   switch (field.kind) {
-    case FieldKind::number: return "a number" + in_unit;
-    case FieldKind::range: return "two numbers [lowest, highest]" + in_unit;
-    case FieldKind::choice: return choices_text(field.choices);
-    case FieldKind::text: return "a text in quotes";
-    case FieldKind::boolean: return "true or false";
-    case FieldKind::numbers: return "a list of numbers";
-    case FieldKind::texts: return field.choices.empty() ? "a list of texts in quotes" : "one or a list of " + choices_text(field.choices);
+    case FieldKind::number:
+      return "a number" + in_unit;
+    case FieldKind::range:
+      return "two numbers [lowest, highest]" + in_unit;
+    case FieldKind::choice:
+      return choices_text(field.choices);
+    case FieldKind::text:
+      return "a text in quotes";
+    case FieldKind::boolean:
+      return "true or false";
+    case FieldKind::numbers:
+      return "a list of numbers";
+    case FieldKind::texts:
+      return field.choices.empty() ? "a list of texts in quotes" : "one or a list of " + choices_text(field.choices);
   }
   return {};
 }
 
-std::string toml_string(std::string_view text) {
-  std::string escaped = "\"";
-  for (const char c : text) {
-    switch (c) {
-      case '"': escaped += "\\\""; break;
-      case '\\': escaped += "\\\\"; break;
-      case '\n': escaped += "\\n"; break;
-      case '\r': escaped += "\\r"; break;
-      case '\t': escaped += "\\t"; break;
-      default:
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-          escaped += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
-        } else {
-          escaped += c;
-        }
-    }
-  }
-  return escaped + "\"";
-}
+std::string toml_string(std::string_view text) { return "\"" + escaped(text) + "\""; }
 
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t k_longest = 60;
-  if (text.size() <= k_longest) return toml_string(text);
-  std::size_t end = k_longest;
+std::string as_shown(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return escaped(text);
+  std::size_t end = longest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a UTF-8 character
-  return toml_string(std::string(text.substr(0, end)) + "...");
+  return escaped(text.substr(0, end)) + "...";
 }
 
-std::string as_shown(std::string_view text) {
-  const std::string quoted = in_quotes(text);
-  return quoted.substr(1, quoted.size() - 2);
-}
+std::string in_quotes(std::string_view text) { return "\"" + as_shown(text) + "\""; }
 
 std::string condition_text(const Field& field) {
   const std::size_t equals = field.only_when.find('=');

@@ -16,8 +16,8 @@ std::string with_unit(double value, std::string_view unit);
 std::string allowed_text(const Field& field);
 /// What it is: "a number in mm", "two angles [lowest, highest] in deg" …
 std::string kind_text(const Field& field);
-/// The text a person typed, safe and short enough to be shown: control characters escaped, cut after 60 bytes.
-std::string as_shown(std::string_view text);
+/// The text a person typed, safe and short enough to be shown: control characters escaped, cut after `longest` bytes.
+std::string as_shown(std::string_view text, std::size_t longest = 60);
 /// The same in quotes.
 std::string in_quotes(std::string_view text);
 /// `"exact" or "paper"`.

@@ -154,24 +154,29 @@ Field schema_field() {
 }
 
 Field name_field() {
-  Field field = base_field({"name", "", "\"joint\"", "what the joint is called; stands in the files that are made"}, FieldKind::text);
+  Field field = base_field({"name", "", "\"joint\"", "what the joint is called; stands in the files that are made"},
+                           FieldKind::text);
   field.get_text = [](const Mechanism& mechanism) { return mechanism.name; };
   field.set_text = [](Mechanism& mechanism, std::string_view value) { mechanism.name = value; };
   return field;
 }
 
 Field range_field() {
-  Field field = base_field({"joint.range_deg", "theta", "", "the joint's lowest and highest angle; home (0) lies within"}, FieldKind::range);
+  Field field = base_field(
+      {"joint.range_deg", "theta", "", "the joint's lowest and highest angle; home (0) lies within"}, FieldKind::range);
   field.unit = "deg";
   field.least = -175;
   field.most = 175;
   field.get = [](const Mechanism& m, int end) { return degrees(end == 0 ? m.joint.theta_min : m.joint.theta_max); };
-  field.set = [](Mechanism& m, int end, double value) { (end == 0 ? m.joint.theta_min : m.joint.theta_max) = radians(value); };
+  field.set = [](Mechanism& m, int end, double value) {
+    (end == 0 ? m.joint.theta_min : m.joint.theta_max) = radians(value);
+  };
   return field;
 }
 
 Field transmission_kind_field() {
-  Field field = base_field({"transmission.kind", "", "", "a joint that is not this mechanism, for calibrate alone"}, FieldKind::choice);
+  Field field = base_field({"transmission.kind", "", "", "a joint that is not this mechanism, for calibrate alone"},
+                           FieldKind::choice);
   field.choices = {"ratio"};
   field.get_text = [](const Mechanism& m) { return std::string(m.transmission ? "ratio" : ""); };
   field.set_text = [](Mechanism& m, std::string_view) {
@@ -181,7 +186,8 @@ Field transmission_kind_field() {
 }
 
 Field transmission_ratio_field() {
-  Field field = base_field({"transmission.ratio", "", "", "theta = offset + alpha/ratio; either sign, not 0"}, FieldKind::number);
+  Field field =
+      base_field({"transmission.ratio", "", "", "theta = offset + alpha/ratio; either sign, not 0"}, FieldKind::number);
   field.least = -10000;
   field.most = 10000;
   field.get = [](const Mechanism& m, int) { return m.transmission ? m.transmission->ratio : 0.0; };
@@ -198,11 +204,19 @@ Field transmission_ratio_field() {
 
 void add_load(std::vector<Field>& table) {
   constexpr auto load = &Mechanism::load;
-  table.push_back(number<load, &Load::tip_force>({"load.tip_force_N", "F_c", "0", "force across OC at C, positive against +theta"}, "N", -100000, 100000));
-  table.push_back(number<load, &Load::torque>({"load.torque_Nmm", "", "0", "torque on the joint, positive against +theta"}, "Nmm", -10000000, 10000000));
-  table.push_back(number<load, &Load::mass>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
-  table.push_back(number<load, &Load::lever>({"load.lever_mm", "", "0", "from the joint axis along OC to the centre of that mass"}, "mm", -10000, 10000));
-  table.push_back(number<load, &Load::tilt, degrees, radians>({"load.tilt_deg", "", "0", "the joint angle at which OC points straight up: 0 at home, 90: level at home, the weight loads tendon 2; 180: it hangs down at home"}, "deg", -360, 360));
+  table.push_back(number<load, &Load::tip_force>(
+      {"load.tip_force_N", "F_c", "0", "force across OC at C, positive against +theta"}, "N", -100000, 100000));
+  table.push_back(number<load, &Load::torque>(
+      {"load.torque_Nmm", "", "0", "torque on the joint, positive against +theta"}, "Nmm", -10000000, 10000000));
+  table.push_back(
+      number<load, &Load::mass>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
+  table.push_back(number<load, &Load::lever>(
+      {"load.lever_mm", "", "0", "from the joint axis along OC to the centre of that mass"}, "mm", -10000, 10000));
+  table.push_back(number<load, &Load::tilt, degrees, radians>(
+      {"load.tilt_deg", "", "0",
+       "the joint angle at which OC points straight up: 0 at home, 90: level at home, the weight loads tendon 2; 180: "
+       "it hangs down at home"},
+      "deg", -360, 360));
 }
 
 void add_mechanism(std::vector<Field>& table) {
@@ -210,75 +224,152 @@ void add_mechanism(std::vector<Field>& table) {
   constexpr auto guides = &Mechanism::guides;
   constexpr auto pulley = &Mechanism::pulley;
   constexpr auto tendon = &Mechanism::tendon;
-  table.push_back(number<joint, &Joint::R>({"joint.length_mm", "R", "", "from the joint axis O to the tendons' attachment C"}, "mm", 1, 10000));
+  table.push_back(number<joint, &Joint::R>(
+      {"joint.length_mm", "R", "", "from the joint axis O to the tendons' attachment C"}, "mm", 1, 10000));
   table.push_back(range_field());
-  table.push_back(number<guides, &Guides::EB>({"guides.EB_mm", "EB", "", "guide pin B stands this far to the left of the line of the axes"}, "mm", 0.1, 10000));
-  table.push_back(number<guides, &Guides::ED>({"guides.ED_mm", "ED", "", "guide pin D stands this far to the right of the line of the axes"}, "mm", 0.1, 10000));
-  table.push_back(number<guides, &Guides::OE>({"guides.OE_mm", "OE", "", "from the joint axis to the line of the pins; positive: the pins are below the joint, away from C"}, "mm", -10000, 10000));
-  table.push_back(number<guides, &Guides::radius>({"guides.radius_mm", "", "2", "radius of the guide pins themselves; 0 is a point"}, "mm", 0, 500));
-  table.push_back(number<guides, &Guides::mu>({"guides.friction", "mu", "0.12", "capstan coefficient of friction at the pins"}, "", 0, 2));
-  table.push_back(number<pulley, &PulleyDrive::EF>({"pulley.EF_mm", "EF", "", "from the line of the pins down to the pulley's axis"}, "mm", 1, 10000));
-  table.push_back(number<pulley, &PulleyDrive::r1>({"pulley.r1_mm", "r1", "", "radius of the round pulley P1, to the tendon's centre line", "pulley.law=compensate"}, "mm", 0.1, 1000));
-  table.push_back(choice<pulley, &PulleyDrive::law>({"pulley.law", "", "\"compensate\"", "compensate: P1 round, P2 keeps both tendons taut; linear: theta = alpha/ratio; table: theta(alpha) from a CSV"}));
-  table.push_back(number<pulley, &PulleyDrive::ratio>({"pulley.ratio", "", "", "alpha per theta", "pulley.law=linear"}, "", 0.01, 1000));
-  table.push_back(text<pulley, &PulleyDrive::table>({"pulley.table", "", "", "CSV file with columns alpha_deg, theta_deg; its place is relative to this file", "pulley.law=table"}));
-  table.push_back(choice<pulley, &PulleyDrive::method>({"pulley.method", "", "\"exact\"", "exact: the envelope of the tendon lines over the real pins; paper: point pins, r2 drawn in polar coordinates"}));
-  table.push_back(number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));
-  table.push_back(number<tendon, &Tendon::modulus>({"tendon.modulus_MPa", "E", "40000", "Young's modulus over the full section of the diameter"}, "MPa", 1, 1000000));
-  table.push_back(number<tendon, &Tendon::pretension>({"tendon.pretension_N", "", "5", "pretension of tendon 1 at home"}, "N", 0, 100000));
-  table.push_back(number<tendon, &Tendon::bend_ratio>({"tendon.bend_ratio", "D/d", "8", "smallest bend diameter per tendon diameter before a warning"}, "", 1, 1000));
-  table.push_back(number<tendon, &Tendon::strength>({"tendon.strength_N", "", "0", "the tension at which a tendon breaks, knots included; 0: not known"}, "N", 0, 1000000));
+  table.push_back(number<guides, &Guides::EB>(
+      {"guides.EB_mm", "EB", "", "guide pin B stands this far to the left of the line of the axes"}, "mm", 0.1, 10000));
+  table.push_back(number<guides, &Guides::ED>(
+      {"guides.ED_mm", "ED", "", "guide pin D stands this far to the right of the line of the axes"}, "mm", 0.1,
+      10000));
+  table.push_back(number<guides, &Guides::OE>(
+      {"guides.OE_mm", "OE", "",
+       "from the joint axis to the line of the pins; positive: the pins are below the joint, away from C"},
+      "mm", -10000, 10000));
+  table.push_back(number<guides, &Guides::radius>(
+      {"guides.radius_mm", "", "2", "radius of the guide pins themselves; 0 is a point"}, "mm", 0, 500));
+  table.push_back(number<guides, &Guides::mu>(
+      {"guides.friction", "mu", "0.12", "capstan coefficient of friction at the pins"}, "", 0, 2));
+  table.push_back(number<pulley, &PulleyDrive::EF>(
+      {"pulley.EF_mm", "EF", "", "from the line of the pins down to the pulley's axis"}, "mm", 1, 10000));
+  table.push_back(number<pulley, &PulleyDrive::r1>(
+      {"pulley.r1_mm", "r1", "", "radius of the round pulley P1, to the tendon's centre line", "pulley.law=compensate"},
+      "mm", 0.1, 1000));
+  table.push_back(choice<pulley, &PulleyDrive::law>({"pulley.law", "", "\"compensate\"",
+                                                     "compensate: P1 round, P2 keeps both tendons taut; linear: theta "
+                                                     "= alpha/ratio; table: theta(alpha) from a CSV"}));
+  table.push_back(number<pulley, &PulleyDrive::ratio>({"pulley.ratio", "", "", "alpha per theta", "pulley.law=linear"},
+                                                      "", 0.01, 1000));
+  table.push_back(text<pulley, &PulleyDrive::table>(
+      {"pulley.table", "", "", "CSV file with columns alpha_deg, theta_deg; its place is relative to this file",
+       "pulley.law=table"}));
+  table.push_back(choice<pulley, &PulleyDrive::method>({"pulley.method", "", "\"exact\"",
+                                                        "exact: the envelope of the tendon lines over the real pins; "
+                                                        "paper: point pins, r2 drawn in polar coordinates"}));
+  table.push_back(
+      number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));
+  table.push_back(number<tendon, &Tendon::modulus>(
+      {"tendon.modulus_MPa", "E", "40000", "Young's modulus over the full section of the diameter"}, "MPa", 1,
+      1000000));
+  table.push_back(number<tendon, &Tendon::pretension>(
+      {"tendon.pretension_N", "", "5", "pretension of tendon 1 at home"}, "N", 0, 100000));
+  table.push_back(number<tendon, &Tendon::bend_ratio>(
+      {"tendon.bend_ratio", "D/d", "8", "smallest bend diameter per tendon diameter before a warning"}, "", 1, 1000));
+  table.push_back(number<tendon, &Tendon::strength>(
+      {"tendon.strength_N", "", "0", "the tension at which a tendon breaks, knots included; 0: not known"}, "N", 0,
+      1000000));
   add_load(table);
 }
 
 void add_body(std::vector<Field>& table) {
   constexpr auto body = &Mechanism::body;
-  table.push_back(choice<body, &Body::groove>({"body.groove", "", "\"u\"", "section of the grooves: u has a round seat, v sloping walls only, flat a flat floor"}));
-  table.push_back(number<body, &Body::groove_angle, degrees, radians>({"body.groove_angle_deg", "", "50", "full angle between the walls of a groove"}, "deg", 0, 120));
-  table.push_back(number<body, &Body::groove_depth>({"body.groove_depth_mm", "", "0", "from a groove's floor to its lip; 0: twice the tendon's diameter"}, "mm", 0, 50));
-  table.push_back(number<body, &Body::seat_ratio>({"body.seat_ratio", "", "0.55", "seat radius of a u groove per tendon diameter"}, "", 0.5, 2));
-  table.push_back(choice<body, &Body::flange>({"body.flange", "", "\"follow\"", "follow: flanges are parallel to the groove's outline; round: circles"}));
-  table.push_back(number<body, &Body::flange_thickness>({"body.flange_thickness_mm", "", "1.2", "thickness of the flanges at the lip"}, "mm", 0.2, 50));
-  table.push_back(number<body, &Body::hub_diameter>({"body.hub_diameter_mm", "", "0", "diameter of the hub; 0: from the bore and the set screw"}, "mm", 0, 1000));
-  table.push_back(number<body, &Body::hub_height>({"body.hub_height_mm", "", "8", "height of the hub above the top flange; 0: no hub; left out, with a note, where there is no room for one"}, "mm", 0, 500));
-  table.push_back(choice<body, &Body::bore>({"body.bore", "", "\"round\"", "shape of the bore; horn: a servo horn is screwed on"}));
-  table.push_back(number<body, &Body::bore_diameter>({"body.bore_diameter_mm", "", "0", "diameter of the shaft, across flats for hex and square; 0: 5 mm, or what there is room for"}, "mm", 0, 500));
-  table.push_back(number<body, &Body::bore_flat>({"body.bore_flat_mm", "", "0", "from the flat of a D shaft to its far side; 0: 0.9 times the diameter", "body.bore=d"}, "mm", 0, 500));
+  table.push_back(choice<body, &Body::groove>(
+      {"body.groove", "", "\"u\"",
+       "section of the grooves: u has a round seat, v sloping walls only, flat a flat floor"}));
+  table.push_back(number<body, &Body::groove_angle, degrees, radians>(
+      {"body.groove_angle_deg", "", "50", "full angle between the walls of a groove"}, "deg", 0, 120));
+  table.push_back(number<body, &Body::groove_depth>(
+      {"body.groove_depth_mm", "", "0", "from a groove's floor to its lip; 0: twice the tendon's diameter"}, "mm", 0,
+      50));
+  table.push_back(number<body, &Body::seat_ratio>(
+      {"body.seat_ratio", "", "0.55", "seat radius of a u groove per tendon diameter"}, "", 0.5, 2));
+  table.push_back(choice<body, &Body::flange>(
+      {"body.flange", "", "\"follow\"", "follow: flanges are parallel to the groove's outline; round: circles"}));
+  table.push_back(number<body, &Body::flange_thickness>(
+      {"body.flange_thickness_mm", "", "1.2", "thickness of the flanges at the lip"}, "mm", 0.2, 50));
+  table.push_back(number<body, &Body::hub_diameter>(
+      {"body.hub_diameter_mm", "", "0", "diameter of the hub; 0: from the bore and the set screw"}, "mm", 0, 1000));
+  table.push_back(number<body, &Body::hub_height>(
+      {"body.hub_height_mm", "", "8",
+       "height of the hub above the top flange; 0: no hub; left out, with a note, where there is no room for one"},
+      "mm", 0, 500));
+  table.push_back(
+      choice<body, &Body::bore>({"body.bore", "", "\"round\"", "shape of the bore; horn: a servo horn is screwed on"}));
+  table.push_back(number<body, &Body::bore_diameter>(
+      {"body.bore_diameter_mm", "", "0",
+       "diameter of the shaft, across flats for hex and square; 0: 5 mm, or what there is room for"},
+      "mm", 0, 500));
+  table.push_back(number<body, &Body::bore_flat>(
+      {"body.bore_flat_mm", "", "0", "from the flat of a D shaft to its far side; 0: 0.9 times the diameter",
+       "body.bore=d"},
+      "mm", 0, 500));
   table.push_back(text<body, &Body::horn>({"body.horn", "", "", "which servo horn is screwed on", "body.bore=horn"}));
-  table.push_back(text<body, &Body::set_screw>({"body.set_screw", "", "\"auto\"", "screw through the hub onto the shaft; auto: M3 where the hub has room for it, else none"}, {"auto", "none", "M2", "M2.5", "M3", "M4", "M5", "M6"}));
-  table.push_back(boolean<body, &Body::nut_trap>({"body.nut_trap", "", "true", "the set screw goes through a nut that is slid into the hub; false: its thread is cut into the hub"}));
-  table.push_back(number<body, &Body::anchor_hole>({"body.anchor_hole_mm", "", "0", "width of the channel to a tendon's knot; 0: tendon diameter + 0.3 mm"}, "mm", 0, 50));
-  table.push_back(number<body, &Body::knot_pocket>({"body.knot_pocket_mm", "", "0", "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, or what there is room for"}, "mm", 0, 100));
-  table.push_back(choice<body, &Body::marks>({"body.marks", "", "\"engraved\"", "home mark, clocking mark and labels on the faces"}));
-  table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"}, "mm", 0.05, 5));
-  table.push_back(number<body, &Body::min_wall>({"body.min_wall_mm", "", "1.2", "no wall of the part may be thinner"}, "mm", 0.1, 50));
+  table.push_back(text<body, &Body::set_screw>(
+      {"body.set_screw", "", "\"auto\"",
+       "screw through the hub onto the shaft; auto: M3 where the hub has room for it, else none"},
+      {"auto", "none", "M2", "M2.5", "M3", "M4", "M5", "M6"}));
+  table.push_back(boolean<body, &Body::nut_trap>(
+      {"body.nut_trap", "", "true",
+       "the set screw goes through a nut that is slid into the hub; false: its thread is cut into the hub"}));
+  table.push_back(number<body, &Body::anchor_hole>(
+      {"body.anchor_hole_mm", "", "0", "width of the channel to a tendon's knot; 0: tendon diameter + 0.3 mm"}, "mm", 0,
+      50));
+  table.push_back(number<body, &Body::knot_pocket>(
+      {"body.knot_pocket_mm", "", "0",
+       "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, or what there is room for"},
+      "mm", 0, 100));
+  table.push_back(choice<body, &Body::marks>(
+      {"body.marks", "", "\"engraved\"", "home mark, clocking mark and labels on the faces"}));
+  table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"},
+                                                  "mm", 0.05, 5));
+  table.push_back(number<body, &Body::min_wall>({"body.min_wall_mm", "", "1.2", "no wall of the part may be thinner"},
+                                                "mm", 0.1, 50));
 }
 
 void add_making(std::vector<Field>& table) {
   constexpr auto material = &Mechanism::material;
   constexpr auto cut = &Mechanism::cut;
-  table.push_back(text<material, &Material::name>({"material.name", "", "\"PLA\"", "what the part is made of; stands in the report"}));
-  table.push_back(number<material, &Material::shrinkage, percent, fraction>({"material.shrinkage_percent", "", "0", "by how much a print comes out smaller; the mesh is made larger by it"}, "%", -5, 10));
-  table.push_back(number<material, &Material::hole_compensation>({"material.hole_compensation_mm", "", "0.2", "added to the diameter of holes and the bore"}, "mm", -1, 2));
-  table.push_back(number<material, &Material::elephant_foot>({"material.elephant_foot_mm", "", "0.4", "chamfer at the edge that lies on the printer's bed; 0: none"}, "mm", 0, 3));
-  table.push_back(number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
-  table.push_back(number<cut, &Cut::plate>({"cut.plate_mm", "", "3", "thickness of the plates that the part is stacked of"}, "mm", 0.1, 100));
-  table.push_back(number<cut, &Cut::sheet_width>({"cut.sheet_width_mm", "", "300", "width of the sheet that plates are cut from"}, "mm", 10, 10000));
-  table.push_back(number<cut, &Cut::sheet_height>({"cut.sheet_height_mm", "", "200", "height of that sheet"}, "mm", 10, 10000));
-  table.push_back(number<cut, &Cut::dowel>({"cut.dowel_mm", "", "3", "diameter of the dowels that align the plates; 0: none"}, "mm", 0, 50));
+  table.push_back(text<material, &Material::name>(
+      {"material.name", "", "\"PLA\"", "what the part is made of; stands in the report"}));
+  table.push_back(number<material, &Material::shrinkage, percent, fraction>(
+      {"material.shrinkage_percent", "", "0", "by how much a print comes out smaller; the mesh is made larger by it"},
+      "%", -5, 10));
+  table.push_back(number<material, &Material::hole_compensation>(
+      {"material.hole_compensation_mm", "", "0.2", "added to the diameter of holes and the bore"}, "mm", -1, 2));
+  table.push_back(number<material, &Material::elephant_foot>(
+      {"material.elephant_foot_mm", "", "0.4", "chamfer at the edge that lies on the printer's bed; 0: none"}, "mm", 0,
+      3));
+  table.push_back(
+      number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
+  table.push_back(number<cut, &Cut::plate>(
+      {"cut.plate_mm", "", "3", "thickness of the plates that the part is stacked of"}, "mm", 0.1, 100));
+  table.push_back(number<cut, &Cut::sheet_width>(
+      {"cut.sheet_width_mm", "", "300", "width of the sheet that plates are cut from"}, "mm", 10, 10000));
+  table.push_back(
+      number<cut, &Cut::sheet_height>({"cut.sheet_height_mm", "", "200", "height of that sheet"}, "mm", 10, 10000));
+  table.push_back(number<cut, &Cut::dowel>(
+      {"cut.dowel_mm", "", "3", "diameter of the dowels that align the plates; 0: none"}, "mm", 0, 50));
   table.push_back(transmission_kind_field());
   table.push_back(transmission_ratio_field());
 }
 
 void add_optimize(std::vector<Field>& table) {
   constexpr auto optimize = &Mechanism::optimize;
-  table.push_back(texts<optimize, &Optimization::objectives>({"optimize.objective", "", "[\"max_tension\"]", "what is made small (min_bend: large); two or three for a front"}, {"max_tension", "max_error", "footprint", "motor_torque", "min_bend"}));
-  table.push_back(texts<optimize, &Optimization::variables>({"optimize.variables", "", "[]", "keys of this file that may change"}));
-  table.push_back(numbers<optimize, &Optimization::lower>({"optimize.lower", "", "[]", "least value of each variable, in its own unit"}, -1e6, 1e6));
-  table.push_back(numbers<optimize, &Optimization::upper>({"optimize.upper", "", "[]", "largest value of each variable, in its own unit"}, -1e6, 1e6));
-  table.push_back(texts<optimize, &Optimization::tied>({"optimize.tied", "", "[]", "keys that follow others: \"guides.EB_mm = guides.ED_mm\""}));
-  table.push_back(texts<optimize, &Optimization::constraints>({"optimize.constraints", "", "[]", "linear conditions on keys: \"guides.EB_mm <= 0.5 * joint.length_mm\""}));
-  table.push_back(boolean<optimize, &Optimization::feasible>({"optimize.feasible", "", "false", "only designs of which a pulley can be made"}));
+  table.push_back(texts<optimize, &Optimization::objectives>(
+      {"optimize.objective", "", "[\"max_tension\"]", "what is made small (min_bend: large); two or three for a front"},
+      {"max_tension", "max_error", "footprint", "motor_torque", "min_bend"}));
+  table.push_back(
+      texts<optimize, &Optimization::variables>({"optimize.variables", "", "[]", "keys of this file that may change"}));
+  table.push_back(numbers<optimize, &Optimization::lower>(
+      {"optimize.lower", "", "[]", "least value of each variable, in its own unit"}, -1e6, 1e6));
+  table.push_back(numbers<optimize, &Optimization::upper>(
+      {"optimize.upper", "", "[]", "largest value of each variable, in its own unit"}, -1e6, 1e6));
+  table.push_back(texts<optimize, &Optimization::tied>(
+      {"optimize.tied", "", "[]", "keys that follow others: \"guides.EB_mm = guides.ED_mm\""}));
+  table.push_back(texts<optimize, &Optimization::constraints>(
+      {"optimize.constraints", "", "[]", "linear conditions on keys: \"guides.EB_mm <= 0.5 * joint.length_mm\""}));
+  table.push_back(boolean<optimize, &Optimization::feasible>(
+      {"optimize.feasible", "", "false", "only designs of which a pulley can be made"}));
 }
 
 std::vector<Field> make_table() {
@@ -313,7 +404,9 @@ void set_fallback(const Field& field, Mechanism& mechanism) {
 
 }  // namespace
 
-std::string Field::name() const { return table.empty() ? std::string(key) : std::string(table) + "." + std::string(key); }
+std::string Field::name() const {
+  return table.empty() ? std::string(key) : std::string(table) + "." + std::string(key);
+}
 
 std::span<const Field> fields() {
   static const std::vector<Field> table = make_table();
@@ -367,7 +460,8 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "material") return "what it is printed of";
   if (table == "cut") return "cutting it as a stack of plates";
   if (table == "optimize") return "what fusee optimize may change, and what it is after";
-  if (table == "transmission") return "in place of joint, guides and pulley: a joint of another kind, for calibrate alone";
+  if (table == "transmission")
+    return "in place of joint, guides and pulley: a joint of another kind, for calibrate alone";
   return "the file";
 }
 

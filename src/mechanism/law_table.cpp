@@ -52,7 +52,9 @@ class LawTableReader {
     if (!problems_.empty()) return;
     if (!header_read_) return fail(0, "the table is empty", k_format_hint);
     if (rows_.size() < k_fewest_rows) {
-      return fail(0, "the table has " + std::to_string(rows_.size()) + " rows; a law needs at least " + std::to_string(k_fewest_rows),
+      return fail(0,
+                  "the table has " + std::to_string(rows_.size()) + " rows; a law needs at least " +
+                      std::to_string(k_fewest_rows),
                   k_format_hint);
     }
     check_cover(joint);
@@ -67,7 +69,8 @@ class LawTableReader {
   }
 
  private:
-  static constexpr const char* k_format_hint = "first a line alpha_deg,theta_deg, then one pair of angles a line, both increasing";
+  static constexpr const char* k_format_hint =
+      "first a line alpha_deg,theta_deg, then one pair of angles a line, both increasing";
 
   void fail(int line, std::string message, std::string hint) {
     problems_.push_back({Severity::error, {file_, line, line > 0 ? 1 : 0}, std::move(message), std::move(hint)});
@@ -76,7 +79,8 @@ class LawTableReader {
   void read_line(int line, std::string_view text) {
     const std::size_t comma = text.find(',');
     const std::string_view first = trimmed(text.substr(0, comma));
-    const std::string_view second = comma == std::string_view::npos ? std::string_view() : trimmed(text.substr(comma + 1));
+    const std::string_view second =
+        comma == std::string_view::npos ? std::string_view() : trimmed(text.substr(comma + 1));
     if (!header_read_) {
       header_read_ = true;
       if (first == "alpha_deg" && second == "theta_deg") return;
@@ -92,10 +96,12 @@ class LawTableReader {
   void add(const CsvRow& row) {
     constexpr double k_largest_deg = 3600;
     if (std::abs(row.alpha) > k_largest_deg || std::abs(row.theta) > 360) {
-      return fail(row.line, "an angle is too large: alpha " + rounded(row.alpha) + " deg, theta " + rounded(row.theta) + " deg",
+      return fail(row.line,
+                  "an angle is too large: alpha " + rounded(row.alpha) + " deg, theta " + rounded(row.theta) + " deg",
                   "angles are in degrees; alpha within +-3600, theta within +-360");
     }
-    if (rows_.size() == k_most_rows) return fail(row.line, "the table has more than " + std::to_string(k_most_rows) + " rows", "leave rows out");
+    if (rows_.size() == k_most_rows)
+      return fail(row.line, "the table has more than " + std::to_string(k_most_rows) + " rows", "leave rows out");
     if (!rows_.empty()) check_increasing("alpha_deg", rows_.back().alpha, row.alpha, row.line);
     if (!rows_.empty()) check_increasing("theta_deg", rows_.back().theta, row.theta, row.line);
     rows_.push_back(row);
@@ -103,7 +109,8 @@ class LawTableReader {
 
   void check_increasing(const char* column, double before, double here, int line) {
     if (here > before) return;
-    fail(line, std::string(column) + " does not increase: " + shortest(here) + " deg after " + shortest(before) + " deg",
+    fail(line,
+         std::string(column) + " does not increase: " + shortest(here) + " deg after " + shortest(before) + " deg",
          "theta must grow with alpha, row by row");
   }
 
@@ -112,11 +119,14 @@ class LawTableReader {
     constexpr double k_rounding_deg = 5e-7;
     const double least = degrees(joint.theta_min), most = degrees(joint.theta_max);
     if (rows_.front().theta > least + k_rounding_deg) {
-      fail(rows_.front().line, "theta begins at " + rounded(rows_.front().theta) + " deg, above joint.range_deg's " + rounded(least) + " deg",
+      fail(rows_.front().line,
+           "theta begins at " + rounded(rows_.front().theta) + " deg, above joint.range_deg's " + rounded(least) +
+               " deg",
            "add rows below, or raise the range's lower end");
     }
     if (rows_.back().theta < most - k_rounding_deg) {
-      fail(rows_.back().line, "theta ends at " + rounded(rows_.back().theta) + " deg, below joint.range_deg's " + rounded(most) + " deg",
+      fail(rows_.back().line,
+           "theta ends at " + rounded(rows_.back().theta) + " deg, below joint.range_deg's " + rounded(most) + " deg",
            "add rows above, or lower the range's upper end");
     }
   }

@@ -10,9 +10,9 @@
 
 namespace fusee {
 
-/// Rows of `alpha_deg, theta_deg`: '#' comments, blank lines, CRLF and a byte order mark are passed over. Everything wrong is
-/// added to `problems` with file and line: columns, numbers, at least 4 rows, both columns increasing, the joint's range covered,
-/// home kept (θ(0) = 0 within 0.01°).
+/// Rows of `alpha_deg, theta_deg`: '#' comments, blank lines, CRLF and a byte order mark are passed over. Everything
+/// wrong is added to `problems` with file and line: columns, numbers, at least 4 rows, both columns increasing, the
+/// joint's range covered, home kept (θ(0) = 0 within 0.01°).
 std::vector<LawRow> parse_law_table(std::string_view csv, const std::string& file, const Joint& joint,
                                     std::vector<Diagnostic>& problems);
 

@@ -18,7 +18,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_key_part(char c) { return is_key_start(c) || is_digit(c) || c == '.' || c == '[' || c == ']'; }
 
 void add_term(LinearExpression& expression, const LinearTerm& term, double factor) {
-  auto same = std::find_if(expression.terms.begin(), expression.terms.end(), [&](const LinearTerm& t) { return t.key == term.key; });
+  auto same = std::find_if(expression.terms.begin(), expression.terms.end(),
+                           [&](const LinearTerm& t) { return t.key == term.key; });
   if (same == expression.terms.end()) same = expression.terms.insert(same, {term.key, 0.0});
   same->factor += factor * term.factor;
   if (same->factor == 0) expression.terms.erase(same);
@@ -35,8 +36,8 @@ LinearExpression scaled(const LinearExpression& expression, double factor) {
   return product;
 }
 
-/// Recursive descent: sum → product {+− product}; product → factor {*/ factor}; factor → number | key | (sum) | −factor.
-/// After a fault every function returns at once; the first fault is kept.
+/// Recursive descent: sum → product {+− product}; product → factor {*/ factor}; factor → number | key | (sum) |
+/// −factor. After a fault every function returns at once; the first fault is kept.
 class RelationParser {
  public:
   explicit RelationParser(std::string_view text) : text_(text) {}
@@ -47,7 +48,8 @@ class RelationParser {
     const std::string sign = relation_sign();
     LinearExpression right = sum();
     skip_blanks();
-    if (!fault_ && at_ < text_.size()) fail(at_, "unexpected " + in_quotes(text_.substr(at_, 1)), "one relation of two sums, such as a <= 0.5 * b + 10");
+    if (!fault_ && at_ < text_.size())
+      fail(at_, "unexpected " + in_quotes(text_.substr(at_, 1)), "one relation of two sums, such as a <= 0.5 * b + 10");
     if (!fault_ && left.terms.empty() && right.terms.empty()) fail(0, "names no key", "fusee explain lists the keys");
     if (sign == ">=") std::swap(left, right);
     parsed.relation = {sign == "=" ? Relation::equal : Relation::at_most, std::move(left), std::move(right)};
@@ -80,8 +82,10 @@ class RelationParser {
       ++at_;
       return "=";
     }
-    fail(begin, c == '\0' ? "ends before its =, <= or >=" : "expected =, <= or >=, not " + in_quotes(text_.substr(begin, 1)),
-         c == '<' || c == '>' ? "write <= or >=: a border belongs to what it bounds" : "one relation of two sums, such as a <= 0.5 * b + 10");
+    fail(begin,
+         c == '\0' ? "ends before its =, <= or >=" : "expected =, <= or >=, not " + in_quotes(text_.substr(begin, 1)),
+         c == '<' || c == '>' ? "write <= or >=: a border belongs to what it bounds"
+                              : "one relation of two sums, such as a <= 0.5 * b + 10");
     return {};
   }
 
@@ -101,7 +105,8 @@ class RelationParser {
       const LinearExpression other = factor();
       if (fault_) break;
       if (c == '/') {
-        if (!other.terms.empty() || other.constant == 0) fail(begin, "divides by something that is no number other than 0", "constraints are linear in the keys");
+        if (!other.terms.empty() || other.constant == 0)
+          fail(begin, "divides by something that is no number other than 0", "constraints are linear in the keys");
         total = scaled(total, 1.0 / other.constant);
       } else if (!total.terms.empty() && !other.terms.empty()) {
         fail(begin, "multiplies keys with each other", "constraints are linear: a number times a key");
@@ -129,7 +134,9 @@ class RelationParser {
     }
     if (is_digit(c) || c == '.') return number();
     if (is_key_start(c)) return key();
-    fail(begin, c == '\0' ? "ends where a number or a key should stand" : "expected a number or a key, not " + in_quotes(text_.substr(begin, 1)),
+    fail(begin,
+         c == '\0' ? "ends where a number or a key should stand"
+                   : "expected a number or a key, not " + in_quotes(text_.substr(begin, 1)),
          "one relation of two sums, such as a <= 0.5 * b + 10");
     return {};
   }
@@ -138,7 +145,8 @@ class RelationParser {
     LinearExpression expression;
     const char* begin = text_.data() + at_;
     const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), expression.constant);
-    if (error != std::errc() || !std::isfinite(expression.constant)) fail(at_, "is not a number that can be used", "such as 0.5 or 2e3");
+    if (error != std::errc() || !std::isfinite(expression.constant))
+      fail(at_, "is not a number that can be used", "such as 0.5 or 2e3");
     at_ += static_cast<std::size_t>(end - begin);
     return expression;
   }

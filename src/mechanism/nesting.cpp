@@ -6,7 +6,8 @@ namespace {
 constexpr int k_deepest_brackets = 16;
 constexpr int k_most_dots = 16;
 
-/// Index just behind the string that starts at `begin`, or the end of the text. TOML has four kinds: "…" and '…' on one line,
+/// Index just behind the string that starts at `begin`, or the end of the text. TOML has four kinds: "…" and '…' on one
+/// line,
 /// """…""" and '''…''' over several; a backslash escapes in the " kinds only.
 std::size_t behind_string(std::string_view text, std::size_t begin) {
   const char quote = text[begin];

@@ -9,7 +9,8 @@
 
 namespace fusee {
 
-/// Where brackets or a dotted key nest deeper than any mechanism file does, or null. Strings and comments are passed over.
+/// Where brackets or a dotted key nest deeper than any mechanism file does, or null. Strings and comments are passed
+/// over.
 std::optional<Place> too_deep_place(std::string_view toml, const std::string& file);
 
 }  // namespace fusee

@@ -16,7 +16,8 @@ constexpr std::size_t k_most_objectives = 3;
 class OptimizeTableCheck {
  public:
   OptimizeTableCheck(const Optimization& table, const std::function<bool(const std::string&)>& is_good,
-                     const std::function<Place(const std::string&, std::size_t)>& item_place, std::vector<Diagnostic>& errors)
+                     const std::function<Place(const std::string&, std::size_t)>& item_place,
+                     std::vector<Diagnostic>& errors)
       : table_(table), is_good_(is_good), item_place_(item_place), errors_(errors) {}
 
   void run() {
@@ -32,16 +33,23 @@ class OptimizeTableCheck {
   }
 
   void check_objectives() {
-    if (table_.objectives.empty()) fail(item_place_("objective", 0), "optimize.objective is empty", "name one, for example objective = \"max_tension\"");
+    if (table_.objectives.empty())
+      fail(item_place_("objective", 0), "optimize.objective is empty",
+           "name one, for example objective = \"max_tension\"");
     if (table_.objectives.size() > k_most_objectives) {
-      fail(item_place_("objective", k_most_objectives), "optimize.objective names more than three", "a front has two or three objectives");
+      fail(item_place_("objective", k_most_objectives), "optimize.objective names more than three",
+           "a front has two or three objectives");
     }
   }
 
   void check_variables() {
     const auto& variables = table_.variables;
-    if (variables.empty()) fail(item_place_("variables", 0), "optimize.variables names no key", "for example variables = [\"joint.length_mm\"]");
-    if (variables.size() > k_most_variables) fail(item_place_("variables", k_most_variables), "optimize.variables names more than eight keys", "leave some out");
+    if (variables.empty())
+      fail(item_place_("variables", 0), "optimize.variables names no key",
+           "for example variables = [\"joint.length_mm\"]");
+    if (variables.size() > k_most_variables)
+      fail(item_place_("variables", k_most_variables), "optimize.variables names more than eight keys",
+           "leave some out");
     for (std::size_t i = 0; i < variables.size(); ++i) {
       const Place place = item_place_("variables", i);
       if (!find_number_key(variables[i])) {
@@ -60,7 +68,9 @@ class OptimizeTableCheck {
     const std::size_t count = table_.variables.size();
     for (const auto& [key, values] : {std::pair{"lower", &table_.lower}, std::pair{"upper", &table_.upper}}) {
       if (values->size() == count) continue;
-      fail(item_place_(key, count), "optimize." + std::string(key) + " holds " + std::to_string(values->size()) + " numbers for " + std::to_string(count) + " variables",
+      fail(item_place_(key, count),
+           "optimize." + std::string(key) + " holds " + std::to_string(values->size()) + " numbers for " +
+               std::to_string(count) + " variables",
            "one number for each variable, in their order");
     }
     if (table_.lower.size() != count || table_.upper.size() != count) return;
@@ -74,11 +84,15 @@ class OptimizeTableCheck {
     const double lower = table_.lower[i], upper = table_.upper[i];
     for (const auto& [name, value] : {std::pair{"lower", lower}, std::pair{"upper", upper}}) {
       if (value >= field.least && value <= field.most) continue;
-      fail(item_place_(name, i), "optimize." + std::string(name) + " of " + table_.variables[i] + " = " + with_unit(value, field.unit) + " is out of range",
+      fail(item_place_(name, i),
+           "optimize." + std::string(name) + " of " + table_.variables[i] + " = " + with_unit(value, field.unit) +
+               " is out of range",
            "allowed: " + shortest(field.least) + " to " + with_unit(field.most, field.unit));
     }
     if (lower > upper) {
-      fail(item_place_("lower", i), "the bounds of " + table_.variables[i] + " are crossed: lower " + with_unit(lower, field.unit) + " is above upper " + with_unit(upper, field.unit),
+      fail(item_place_("lower", i),
+           "the bounds of " + table_.variables[i] + " are crossed: lower " + with_unit(lower, field.unit) +
+               " is above upper " + with_unit(upper, field.unit),
            "exchange them");
     }
   }
@@ -90,7 +104,10 @@ class OptimizeTableCheck {
     Place place = item_place_(key, item);
     // The opening quote stands before the text. With escapes in it the column is that of the text's own bytes.
     if (place.line > 0) place.column += 1 + static_cast<int>(parsed.fault->at);
-    fail(place, "optimize." + key + ": " + in_quotes(text) + ": " + parsed.fault->message + " (character " + std::to_string(parsed.fault->at + 1) + ")", parsed.fault->hint);
+    fail(place,
+         "optimize." + key + ": " + in_quotes(text) + ": " + parsed.fault->message + " (character " +
+             std::to_string(parsed.fault->at + 1) + ")",
+         parsed.fault->hint);
     return std::nullopt;
   }
 
@@ -101,8 +118,10 @@ class OptimizeTableCheck {
       if (!tie) continue;
       const Place place = item_place_("tied", i);
       const auto& left = tie->left;
-      if (tie->relation != Relation::equal || left.terms.size() != 1 || left.terms.front().factor != 1 || left.constant != 0) {
-        fail(place, "optimize.tied: " + in_quotes(table_.tied[i]) + " does not say what one key is", "write key = sum of other keys");
+      if (tie->relation != Relation::equal || left.terms.size() != 1 || left.terms.front().factor != 1 ||
+          left.constant != 0) {
+        fail(place, "optimize.tied: " + in_quotes(table_.tied[i]) + " does not say what one key is",
+             "write key = sum of other keys");
         continue;
       }
       const std::string& key = left.terms.front().key;
@@ -113,7 +132,8 @@ class OptimizeTableCheck {
       if (std::find(table_.variables.begin(), table_.variables.end(), key) != table_.variables.end()) {
         fail(place, key + " is tied, and a variable as well", "leave it out of the variables");
       }
-      if (std::find(earlier.begin(), earlier.end(), key) != earlier.end()) fail(place, key + " is tied twice, or used before it is tied", "one tie a key, in the order of use");
+      if (std::find(earlier.begin(), earlier.end(), key) != earlier.end())
+        fail(place, key + " is tied twice, or used before it is tied", "one tie a key, in the order of use");
       earlier.push_back(key);
       for (const LinearTerm& term : tie->right.terms) earlier.push_back(term.key);
     }

@@ -11,7 +11,8 @@
 
 namespace fusee {
 
-/// `is_good(key)`: the key was read without an error. `item_place(key, i)`: where item i of its list stands; its line is 0 for --set.
+/// `is_good(key)`: the key was read without an error. `item_place(key, i)`: where item i of its list stands; its line
+/// is 0 for --set.
 void check_optimize_table(const Optimization& table, const std::function<bool(const std::string& key)>& is_good,
                           const std::function<Place(const std::string& key, std::size_t item)>& item_place,
                           std::vector<Diagnostic>& errors);

@@ -1,9 +1,11 @@
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <optional>
 #include <tuple>
-
-#include <toml++/toml.h>
 
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
@@ -15,7 +17,8 @@
 #include "mechanism/nesting.h"
 #include "mechanism/optimize_table.h"
 
-// From bytes to a Mechanism in four steps, each of which goes on after an error so that all errors of a file come at once:
+// From bytes to a Mechanism in four steps, each of which goes on after an error so that all errors of a file come at
+// once:
 //   1. toml++ reads the text (a syntax error is the only one that ends the reading at once);
 //   2. the tree is flattened to "table.key" → node with its place, and --set values replace or supply entries;
 //   3. each entry is held against its row of the field table, and what is required and absent is named;
@@ -43,13 +46,20 @@ struct Entry {
 /// What messages call a value: `the string "abc"`, "a table", "4".
 std::string described(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::string: return "the string " + in_quotes(**node.as_string());
-    case toml::node_type::integer: return "the number " + std::to_string(**node.as_integer());
-    case toml::node_type::floating_point: return "the number " + shortest(**node.as_floating_point());
-    case toml::node_type::boolean: return **node.as_boolean() ? "true" : "false";
-    case toml::node_type::array: return "a list of " + std::to_string(node.as_array()->size());
-    case toml::node_type::table: return "a table";
-    default: return "a date or time";
+    case toml::node_type::string:
+      return "the string " + in_quotes(**node.as_string());
+    case toml::node_type::integer:
+      return "the number " + std::to_string(**node.as_integer());
+    case toml::node_type::floating_point:
+      return "the number " + shortest(**node.as_floating_point());
+    case toml::node_type::boolean:
+      return **node.as_boolean() ? "true" : "false";
+    case toml::node_type::array:
+      return "a list of " + std::to_string(node.as_array()->size());
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
   }
 }
 
@@ -126,16 +136,23 @@ Place MechanismReader::table_place(std::string_view table) const {
 
 void MechanismReader::parse(std::string_view text) {
   if (text.size() > k_largest_file) throw InputError(name_, "is larger than 1 MB: this is no mechanism file");
-  if (text.find('\0') != std::string_view::npos) throw InputError(name_, "is a binary file", "a mechanism file is TOML, a text; see fusee new");
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw InputError(name_, "is empty", "fusee new prints a file to start from");
+  if (text.find('\0') != std::string_view::npos)
+    throw InputError(name_, "is a binary file", "a mechanism file is TOML, a text; see fusee new");
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+    throw InputError(name_, "is empty", "fusee new prints a file to start from");
   if (const auto place = too_deep_place(text, name_)) {
-    throw InputError(Diagnostic{Severity::error, *place, "tables or lists nest too deep", "a mechanism file has tables of plain keys only"});
+    throw InputError(Diagnostic{Severity::error, *place, "tables or lists nest too deep",
+                                "a mechanism file has tables of plain keys only"});
   }
   try {
     root_ = toml::parse(text, name_);
   } catch (const toml::parse_error& error) {
-    // What toml++ says may quote the file's bytes.
-    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_), "not TOML: " + as_shown(error.description()),
+    // "Error while parsing key-value pair: expected …" → "expected …". It may quote the file's bytes.
+    std::string_view what = error.description();
+    const std::size_t colon = what.find(": ");
+    if (what.substr(0, 5) == "Error" && colon != std::string_view::npos) what.remove_prefix(colon + 2);
+    throw InputError(Diagnostic{Severity::error, place_of(error.source(), name_),
+                                "not TOML: " + as_shown(what, k_longest_text),
                                 "strings stand in quotes, lists in [ ], one key = value a line"});
   }
 }
@@ -159,7 +176,8 @@ void MechanismReader::fail_unknown(const Place& place, const std::string& table,
   for (const Field& field : fields()) {
     if (field.key == nearest) return fail(place, "unknown key " + shown, "did you mean " + field.name() + "?");
   }
-  fail(place, "unknown key " + shown, table.empty() ? "" : "fusee explain " + table + " lists the keys of [" + table + "]");
+  fail(place, "unknown key " + shown,
+       table.empty() ? "" : "fusee explain " + table + " lists the keys of [" + table + "]");
 }
 
 void MechanismReader::flatten_table(const std::string& table, const toml::table& node) {
@@ -183,7 +201,8 @@ void MechanismReader::flatten() {
       if (value.is_table()) {
         flatten_table(name, *value.as_table());
       } else {
-        fail(place, name + " is a table, not " + described(value), "write [" + name + "] on a line of its own and its keys below");
+        fail(place, name + " is a table, not " + described(value),
+             "write [" + name + "] on a line of its own and its keys below");
       }
     } else if (value.is_table() || value.is_array_of_tables()) {
       const std::string nearest = nearest_word(name, tables);
@@ -210,7 +229,8 @@ toml::table MechanismReader::setting_value(const Setting& setting, const std::st
   }
   toml::table table;
   if (!one_line || setting.value.empty() || setting.value.find_first_of("\"'[]{}=") != std::string::npos) {
-    fail({file, 0, 0}, in_quotes(setting.value) + " is not a value", "a number, [lowest, highest], true, false or a word");
+    fail({file, 0, 0}, in_quotes(setting.value) + " is not a value",
+         "a number, [lowest, highest], true, false or a word");
   } else {
     try {
       table = toml::parse("value = " + toml_string(setting.value) + "\n");
@@ -229,7 +249,8 @@ void MechanismReader::apply(const Setting& setting) {
     const std::vector<std::string> tables = field_tables();
     if (std::find(tables.begin(), tables.end(), table) == tables.end()) {
       const std::string nearest = nearest_word(table, tables);
-      return fail({file, 0, 0}, "unknown table " + in_quotes(table), nearest.empty() ? "fusee explain lists the tables" : "did you mean " + nearest + "?");
+      return fail({file, 0, 0}, "unknown table " + in_quotes(table),
+                  nearest.empty() ? "fusee explain lists the tables" : "did you mean " + nearest + "?");
     }
     return fail_unknown({file, 0, 0}, table, dot == std::string::npos ? setting.key : setting.key.substr(dot + 1));
   }
@@ -248,11 +269,15 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
   if (!value) {
-    return fail(place, field.name() + " must be " + kind_text(field) + ", not " + described(node), "allowed: " + allowed_text(field));
+    return fail(place, field.name() + " must be " + kind_text(field) + ", not " + described(node),
+                "allowed: " + allowed_text(field));
   }
-  if (!std::isfinite(*value)) return fail(place, field.name() + " must be a finite number, not " + shortest(*value), "allowed: " + allowed_text(field));
+  if (!std::isfinite(*value))
+    return fail(place, field.name() + " must be a finite number, not " + shortest(*value),
+                "allowed: " + allowed_text(field));
   if (*value < field.least || *value > field.most) {
-    return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is out of range", "allowed: " + allowed_text(field));
+    return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is out of range",
+                "allowed: " + allowed_text(field));
   }
   field.set(mechanism_, end, *value);
   good_[field.name()] = true;
@@ -261,7 +286,8 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
 void MechanismReader::take_range(const Field& field, const Entry& entry) {
   const toml::array* ends = entry.node->as_array();
   if (ends == nullptr || ends->size() != 2) {
-    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node), "allowed: " + allowed_text(field));
+    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node),
+                "allowed: " + allowed_text(field));
   }
   const std::size_t errors = errors_.size();
   take_number(field, entry, 0, (*ends)[0]);
@@ -278,7 +304,8 @@ void MechanismReader::take_range(const Field& field, const Entry& entry) {
 void MechanismReader::take_text(const Field& field, const Entry& entry) {
   std::string value;
   if (field.kind == FieldKind::boolean) {
-    if (!entry.node->is_boolean()) return fail(entry.place, field.name() + " must be true or false, not " + described(*entry.node));
+    if (!entry.node->is_boolean())
+      return fail(entry.place, field.name() + " must be true or false, not " + described(*entry.node));
     value = **entry.node->as_boolean() ? "true" : "false";
   } else {
     if (!entry.node->is_string()) {
@@ -286,14 +313,16 @@ void MechanismReader::take_text(const Field& field, const Entry& entry) {
     }
     value = **entry.node->as_string();
   }
-  if (field.kind == FieldKind::choice && std::find(field.choices.begin(), field.choices.end(), value) == field.choices.end()) {
+  if (field.kind == FieldKind::choice &&
+      std::find(field.choices.begin(), field.choices.end(), value) == field.choices.end()) {
     const std::string nearest = nearest_word(value, {field.choices.begin(), field.choices.end()});
     return fail(entry.place, field.name() + " = " + in_quotes(value) + " is not known",
                 "allowed: " + allowed_text(field) + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
   }
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   if (value.size() > k_longest_text || std::any_of(value.begin(), value.end(), is_control)) {
-    return fail(entry.place, field.name() + " must be one line of at most " + std::to_string(k_longest_text) + " bytes", "take a shorter text");
+    return fail(entry.place, field.name() + " must be one line of at most " + std::to_string(k_longest_text) + " bytes",
+                "take a shorter text");
   }
   field.set_text(mechanism_, value);
   good_[field.name()] = true;
@@ -302,7 +331,8 @@ void MechanismReader::take_text(const Field& field, const Entry& entry) {
 void MechanismReader::take_numbers(const Field& field, const Entry& entry) {
   const toml::array* list = entry.node->as_array();
   if (list == nullptr || list->size() > k_longest_list) {
-    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node), "for example " + std::string(field.key) + " = [10, 20]");
+    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node),
+                "for example " + std::string(field.key) + " = [10, 20]");
   }
   std::vector<double>& values = field.numbers(mechanism_);
   values.clear();
@@ -327,9 +357,11 @@ void MechanismReader::take_texts(const Field& field, const Entry& entry) {
   values.clear();
   const auto take_one = [&](const toml::node& node) {
     const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
-    if (!node.is_string()) return fail(place, field.name() + " holds texts, not " + described(node), "write them in quotes");
+    if (!node.is_string())
+      return fail(place, field.name() + " holds texts, not " + described(node), "write them in quotes");
     const std::string& value = **node.as_string();
-    if (value.size() > k_longest_text) return fail(place, field.name() + " holds texts of at most " + std::to_string(k_longest_text) + " bytes");
+    if (value.size() > k_longest_text)
+      return fail(place, field.name() + " holds texts of at most " + std::to_string(k_longest_text) + " bytes");
     if (!field.choices.empty() && std::find(field.choices.begin(), field.choices.end(), value) == field.choices.end()) {
       const std::string nearest = nearest_word(value, {field.choices.begin(), field.choices.end()});
       return fail(place, field.name() + " = " + in_quotes(value) + " is not known",
@@ -338,25 +370,33 @@ void MechanismReader::take_texts(const Field& field, const Entry& entry) {
     values.push_back(value);
   };
   const std::size_t errors = errors_.size();
-  if (list == nullptr) take_one(*entry.node);
-  else for (const toml::node& node : *list) take_one(node);
+  if (list == nullptr)
+    take_one(*entry.node);
+  else
+    for (const toml::node& node : *list) take_one(node);
   good_[field.name()] = errors == errors_.size();
 }
 
 void MechanismReader::take(const Field& field, const Entry& entry) {
   good_[field.name()] = false;
   switch (field.kind) {
-    case FieldKind::number: return take_number(field, entry, 0, *entry.node);
-    case FieldKind::range: return take_range(field, entry);
+    case FieldKind::number:
+      return take_number(field, entry, 0, *entry.node);
+    case FieldKind::range:
+      return take_range(field, entry);
     case FieldKind::choice:
     case FieldKind::text:
-    case FieldKind::boolean: return take_text(field, entry);
-    case FieldKind::numbers: return take_numbers(field, entry);
-    case FieldKind::texts: return take_texts(field, entry);
+    case FieldKind::boolean:
+      return take_text(field, entry);
+    case FieldKind::numbers:
+      return take_numbers(field, entry);
+    case FieldKind::texts:
+      return take_texts(field, entry);
   }
 }
 
-/// A key without a default that this mechanism uses. Where the choice that decides it is wrong itself, nothing is known.
+/// A key without a default that this mechanism uses. Where the choice that decides it is wrong itself, nothing is
+/// known.
 bool MechanismReader::is_needed(const Field& field) const {
   const std::string decider(field.only_when.substr(0, field.only_when.find('=')));
   const auto decided = good_.find(decider);
@@ -370,10 +410,14 @@ void MechanismReader::look_for_missing() {
     if (!field.table.empty() && belongs_to_other != other_joint) continue;
     const bool conditional = !field.only_when.empty() && field.fallback.empty() && is_needed(field) && !other_joint;
     if (!(field.required || conditional) || good_.count(field.name()) > 0) continue;
-    const std::string where = field.table.empty() ? "at the top of the file" : "under [" + std::string(field.table) + "]";
-    const std::string example = field.least == field.most && field.kind == FieldKind::number ? shortest(field.least) : "...";
-    fail(table_place(field.table), "missing key " + field.name() + (conditional ? " (needed with " + condition_text(field) + ")" : ""),
-         "add " + std::string(field.key) + " = " + example + " " + where + ": " + std::string(field.meaning) + "; " + allowed_text(field));
+    const std::string where =
+        field.table.empty() ? "at the top of the file" : "under [" + std::string(field.table) + "]";
+    const std::string example =
+        field.least == field.most && field.kind == FieldKind::number ? shortest(field.least) : "...";
+    fail(table_place(field.table),
+         "missing key " + field.name() + (conditional ? " (needed with " + condition_text(field) + ")" : ""),
+         "add " + std::string(field.key) + " = " + example + " " + where + ": " + std::string(field.meaning) + "; " +
+             allowed_text(field));
   }
 }
 
@@ -387,7 +431,8 @@ void MechanismReader::check_transmission() {
          "[transmission] stands in place of [joint], [guides] and [pulley]: leave one side out");
   }
   if (good_.count("transmission.ratio") > 0 && good_["transmission.ratio"] && mechanism_.transmission->ratio == 0) {
-    fail(entries_["transmission.ratio"].place, "transmission.ratio = 0 turns nothing", "theta = offset + alpha/ratio: any number but 0");
+    fail(entries_["transmission.ratio"].place, "transmission.ratio = 0 turns nothing",
+         "theta = offset + alpha/ratio: any number but 0");
   }
 }
 
@@ -406,12 +451,14 @@ void MechanismReader::check_bore() {
     for (const Horn& horn : horns()) names.push_back(horn.name);
     const std::string nearest = nearest_word(body.horn, names);
     fail(entries_["body.horn"].place, "body.horn = " + in_quotes(body.horn) + " is not known",
-         (nearest.empty() ? "" : "did you mean \"" + nearest + "\"? ") + std::string("fusee explain body.horn lists the horns"));
+         (nearest.empty() ? "" : "did you mean \"" + nearest + "\"? ") +
+             std::string("fusee explain body.horn lists the horns"));
   }
   if (body.bore == Bore::d && body.bore_flat > 0 && body.bore_diameter > 0 &&
       (body.bore_flat <= 0.5 * body.bore_diameter || body.bore_flat > body.bore_diameter) && has("body.bore_flat_mm")) {
     fail(entries_["body.bore_flat_mm"].place,
-         "body.bore_flat_mm = " + shortest(body.bore_flat) + " mm does not go with bore_diameter_mm = " + shortest(body.bore_diameter) + " mm",
+         "body.bore_flat_mm = " + shortest(body.bore_flat) +
+             " mm does not go with bore_diameter_mm = " + shortest(body.bore_diameter) + " mm",
          "from the flat to the far side: more than half the diameter and at most all of it");
   }
 }
@@ -467,7 +514,8 @@ void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
   if (warnings != nullptr) *warnings = warnings_;
 }
 
-Mechanism MechanismReader::read(std::string_view text, const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings) {
+Mechanism MechanismReader::read(std::string_view text, const std::vector<Setting>& settings,
+                                std::vector<Diagnostic>* warnings) {
   parse(text);
   mechanism_ = default_mechanism();
   flatten();

@@ -13,27 +13,43 @@ using Json = nlohmann::ordered_json;
 
 /// A table whose keys are all known; keys come with add().
 Json closed_object(std::string_view description) {
-  return {{"type", "object"}, {"description", description}, {"properties", Json::object()}, {"additionalProperties", false}};
+  return {{"type", "object"},
+          {"description", description},
+          {"properties", Json::object()},
+          {"additionalProperties", false}};
 }
 
-Json fallback_json(const Field& field) { return Json::parse(field.fallback); }  // TOML's numbers, strings and booleans are JSON's
+Json fallback_json(const Field& field) {
+  return Json::parse(field.fallback);
+}  // TOML's numbers, strings and booleans are JSON's
 
 Json field_schema(const Field& field) {
   Json json;
   json["title"] = field.symbol.empty() ? field.name() : field.name() + " (" + std::string(field.symbol) + ")";
-  json["description"] = std::string(field.meaning) + (field.unit.empty() ? "" : ", " + std::string(field.unit)) + "; " + default_text(field);
+  json["description"] = std::string(field.meaning) + (field.unit.empty() ? "" : ", " + std::string(field.unit)) + "; " +
+                        default_text(field);
   const Json number = {{"type", "number"}, {"minimum", field.least}, {"maximum", field.most}};
   switch (field.kind) {
-    case FieldKind::number: json.update(number); break;
+    case FieldKind::number:
+      json.update(number);
+      break;
     case FieldKind::range:
       json["type"] = "array";
       json["items"] = number;
       json["minItems"] = json["maxItems"] = 2;
       break;
-    case FieldKind::choice: json["enum"] = field.choices; break;
-    case FieldKind::text: json["type"] = "string"; break;
-    case FieldKind::boolean: json["type"] = "boolean"; break;
-    case FieldKind::numbers: json.update({{"type", "array"}, {"items", number}}); break;
+    case FieldKind::choice:
+      json["enum"] = field.choices;
+      break;
+    case FieldKind::text:
+      json["type"] = "string";
+      break;
+    case FieldKind::boolean:
+      json["type"] = "boolean";
+      break;
+    case FieldKind::numbers:
+      json.update({{"type", "array"}, {"items", number}});
+      break;
     case FieldKind::texts: {
       Json one = {{"type", "string"}};
       if (!field.choices.empty()) one["enum"] = field.choices;
@@ -63,7 +79,8 @@ Json condition_schema(const Field& field) {
 Json either_joint() {
   Json other;
   other["if"] = {{"required", {"transmission"}}};
-  for (const char* table : {"joint", "guides", "pulley"}) other["then"]["not"]["anyOf"].push_back({{"required", {table}}});
+  for (const char* table : {"joint", "guides", "pulley"})
+    other["then"]["not"]["anyOf"].push_back({{"required", {table}}});
   other["else"] = {{"required", {"joint", "guides", "pulley", "tendon"}}};
   other["else"]["properties"]["tendon"]["required"] = {"diameter_mm"};
   return other;
@@ -72,12 +89,14 @@ Json either_joint() {
 }  // namespace
 
 std::string mechanism_schema() {
-  Json schema = closed_object("A tendon-driven joint and the pulley that drives it. Lengths in mm, angles in degrees, forces in N.");
+  Json schema = closed_object(
+      "A tendon-driven joint and the pulley that drives it. Lengths in mm, angles in degrees, forces in N.");
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = "fusee mechanism file";
   for (const Field& field : fields()) {
     const std::string table(field.table);
-    if (!table.empty() && !schema["properties"].contains(table)) schema["properties"][table] = closed_object(table_meaning(table));
+    if (!table.empty() && !schema["properties"].contains(table))
+      schema["properties"][table] = closed_object(table_meaning(table));
     Json& object = table.empty() ? schema : schema["properties"][table];
     object["properties"][std::string(field.key)] = field_schema(field);
     // A tendon may be left out beside [transmission]: either_joint() asks for it.

@@ -19,7 +19,8 @@ std::string_view find_template(std::string_view name) {
     list += (list.empty() ? "" : ", ") + names.back();
   }
   const std::string nearest = nearest_word(name, names);
-  throw InputError("", "there is no template " + in_quotes(name), (nearest.empty() ? "" : "did you mean " + nearest + "? ") + std::string("There are: ") + list);
+  throw InputError("", "there is no template " + in_quotes(name),
+                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") + std::string("There are: ") + list);
 }
 
 }  // namespace fusee

@@ -19,9 +19,9 @@ bool reads_back(const Field& field, const Mechanism& mechanism, int end, const s
   return copy == mechanism;
 }
 
-/// The number with the fewest digits that reads back as what the mechanism holds. Conversion from degrees or percent rounds, so that
-/// the nearest number of the file's unit may miss by one bit where a neighbour does not. A value that no number of the
-/// file's unit gives (it did not come from a file) is written to the last bit but one.
+/// The number with the fewest digits that reads back as what the mechanism holds. Conversion from degrees or percent
+/// rounds, so that the nearest number of the file's unit may miss by one bit where a neighbour does not. A value that
+/// no number of the file's unit gives (it did not come from a file) is written to the last bit but one.
 std::string number_text(const Field& field, const Mechanism& mechanism, int end) {
   const double value = field.get(mechanism, end);
   for (int digits = 1; digits <= 17; ++digits) {
@@ -53,13 +53,19 @@ std::string list_text(const List& list, ToText to_text) {
 std::string value_text(const Field& field, const Mechanism& mechanism) {
   Mechanism copy = mechanism;  // lists are reached through a reference that may write
   switch (field.kind) {
-    case FieldKind::number: return number_text(field, mechanism, 0);
-    case FieldKind::range: return "[" + number_text(field, mechanism, 0) + ", " + number_text(field, mechanism, 1) + "]";
-    case FieldKind::boolean: return field.get_text(mechanism);
+    case FieldKind::number:
+      return number_text(field, mechanism, 0);
+    case FieldKind::range:
+      return "[" + number_text(field, mechanism, 0) + ", " + number_text(field, mechanism, 1) + "]";
+    case FieldKind::boolean:
+      return field.get_text(mechanism);
     case FieldKind::choice:
-    case FieldKind::text: return toml_string(field.get_text(mechanism));
-    case FieldKind::numbers: return list_text(field.numbers(copy), shortest);
-    case FieldKind::texts: return list_text(field.texts(copy), toml_string);
+    case FieldKind::text:
+      return toml_string(field.get_text(mechanism));
+    case FieldKind::numbers:
+      return list_text(field.numbers(copy), shortest);
+    case FieldKind::texts:
+      return list_text(field.texts(copy), toml_string);
   }
   return {};
 }
@@ -88,7 +94,8 @@ std::string write_mechanism(const Mechanism& mechanism) {
     if (mechanism.transmission ? of_mechanism : field.table == "transmission") continue;
     // A ratio declares no tendon unless it does.
     if (mechanism.transmission && field.name() == "tendon.diameter_mm" && mechanism.tendon.diameter == 0) continue;
-    if (field.table != table) text += "\n# " + std::string(table_meaning(field.table)) + "\n[" + std::string(field.table) + "]\n";
+    if (field.table != table)
+      text += "\n# " + std::string(table_meaning(field.table)) + "\n[" + std::string(field.table) + "]\n";
     table = field.table;
     text += comment(field);
     if (is_blank(field, mechanism)) {

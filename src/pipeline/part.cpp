@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
@@ -63,6 +64,14 @@ RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) 
   return rewind(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
 }
 
+/// The loops of a mesh that is inside out, as if it were not.
+std::vector<Polygon> outward(std::vector<Polygon> loops) {
+  const auto by_size = [](const Polygon& a, const Polygon& b) { return std::abs(signed_area(a)) < std::abs(signed_area(b)); };
+  if (signed_area(*std::max_element(loops.begin(), loops.end(), by_size)) >= 0) return loops;
+  for (Polygon& loop : loops) std::reverse(loop.begin(), loop.end());
+  return loops;
+}
+
 /// The mesh is larger than the part by the material's shrinkage.
 Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
   const std::vector<Polygon> loops = section(mesh, z * scale);
@@ -70,7 +79,7 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
     throw InputError("", "the mesh has no section at z = " + rounded(z * scale) + " mm, where the mechanism has a groove",
                      "z must run along the pulley's axis from the bed at 0, in mm");
   }
-  Polygon floor = outer_loop(loops);
+  Polygon floor = outer_loop(outward(loops));
   for (Vec2& point : floor) point /= scale;
   return floor;
 }

@@ -21,7 +21,7 @@ Vec2 way(double psi0, double psi1, double r0, double r1) {
 /// A radius of curvature at each knot, and how it answers to the two multipliers of the closure.
 struct Knots {
   std::vector<double> psi;
-  std::vector<double> rest;    ///< radius that the arc would like to have: the ends', blended
+  std::vector<double> rest;    ///< radius that the arc would like to have: the ends', then that of a curve about the axis
   std::vector<double> window;  ///< how freely the radius may leave it: nothing at the ends
   std::vector<double> least;
 
@@ -30,13 +30,23 @@ struct Knots {
   }
 };
 
+/// 1 at the ends of the arc, 0 away from them.
+double near_ends(double u, double turn) {
+  const double ramp = std::min(0.4, radians(60.0) / turn);
+  const double way_in = std::min(1.0, std::min(u, 1.0 - u) / ramp);
+  return 1.0 - way_in * way_in * (3.0 - 2.0 * way_in);
+}
+
 Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
   Knots knots;
   for (int i = 0; i <= k_segments; ++i) {
     const double u = static_cast<double>(i) / k_segments;
     const double sine = std::sin(k_pi * u);
     knots.psi.push_back(begin.psi + (end.psi - begin.psi) * u);
-    knots.rest.push_back(begin.radius + (end.radius - begin.radius) * u);
+    const double of_ends = begin.radius + (end.radius - begin.radius) * u;
+    const double about_axis = begin.h + (end.h - begin.h) * u;
+    const double near = near_ends(u, end.psi - begin.psi);
+    knots.rest.push_back(near * of_ends + (1.0 - near) * about_axis);
     knots.window.push_back(sine * sine);
     knots.least.push_back(std::min(least_radius, knots.rest.back()));
   }
@@ -67,8 +77,8 @@ Eigen::Matrix2d closure_slope(const Knots& knots, const Vec2& multipliers) {
 
 }  // namespace
 
-// Of all radii of curvature ρ(ψ) ≥ ρ_least that close the curve, ∫ρ t dψ = V, the one nearest to the blend ρ0 of both ends, weighed by
-// 1/window, is ρ = max(ρ_least, ρ0 + window · λ·t(ψ)): the multipliers λ of the two closure equations are found by Newton's method on a convex
+// The arc would like to leave its ends with their curvature and go round the axis between them: ρ0(ψ). Of all radii of curvature
+// ρ(ψ) ≥ ρ_least that close the curve, ∫ρ t dψ = V, the one nearest to ρ0, weighed by 1/window, is ρ = max(ρ_least, ρ0 + window · λ·t(ψ)): the multipliers λ of the two closure equations are found by Newton's method on a convex
 // dual. When no convex arc closes the curve they run away.
 std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
   if (!(end.psi > begin.psi) || !(begin.radius > 0) || !(end.radius > 0)) return std::nullopt;
@@ -114,6 +124,14 @@ CurvePoint ClosingArc::at(double psi) const {
   Vec2 position = positions_[i];
   if (psi > psi0) position += way(psi0, psi, radii_[i], radius);
   return {psi, position.dot(unit(psi)), position.dot(turned_left(unit(psi))), radius};
+}
+
+double ClosingArc::least_support() const {
+  double least = positions_.front().dot(unit(begin_));
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    least = std::min(least, positions_[i].dot(unit(begin_ + static_cast<double>(i) * step_)));
+  }
+  return least;
 }
 
 double ClosingArc::length() const {

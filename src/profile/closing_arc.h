@@ -18,6 +18,8 @@ class ClosingArc {
 
   CurvePoint at(double psi) const;
   double length() const;
+  /// The smallest distance of a tangent from the axis; below zero the axis lies outside.
+  double least_support() const;
 
  private:
   double begin_ = 0;

@@ -157,14 +157,18 @@ Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<Take
   return condition;
 }
 
-Condition closes(Side side, const SideAttempt& attempt) {
+Condition closes(const Mechanism& mechanism, Side side, const SideAttempt& attempt) {
+  const double half = 0.5 * mechanism.tendon.diameter;
   Condition condition;
   condition.name = "closing_arc_P" + number(side);
   condition.alpha = attempt.samples.back().stroke.alpha;
-  condition.value = attempt.closing ? attempt.closing->length() : 0.0;
+  condition.value = attempt.closing ? attempt.closing->least_support() - half : 0.0;
   condition.unit = "mm";
-  condition.ok = attempt.closing.has_value();
-  if (!condition.ok) {
+  condition.ok = attempt.closing && condition.value > 0;
+  if (attempt.closing && !condition.ok) {
+    condition.message = "the arc that closes P" + number(side) + " would pass the axis at " + rounded(-condition.value, 3) +
+                        " mm on the wrong side";
+  } else if (!condition.ok) {
     condition.message = "the ends of P" + number(side) + "'s active arc (" + radius_name(side) + " " +
                         rounded(attempt.samples.front().curve.h) + " and " + rounded(attempt.samples.back().curve.h) +
                         " mm) cannot be joined by a convex arc over the " +
@@ -237,7 +241,7 @@ SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& me
   conditions.push_back(one_turn(mechanism, take_offs.side(), side.samples));
   if (!exact || !conditions.back().ok) return side;
   side.closing = close(mechanism, side.samples);
-  conditions.push_back(closes(take_offs.side(), side));
+  conditions.push_back(closes(mechanism, take_offs.side(), side));
   return side;
 }
 

@@ -121,15 +121,19 @@ class String {
   bool started_ = false;
 };
 
-/// The joint angle at which the string is as long as at home. Its length grows with θ on the left.
+/// The joint angle at which the string is as long as at home. Its length grows with θ on the left, up to the dead centre: so
+/// the bracket starts narrow.
 double taut_theta(const String& string, double home_length, double alpha, double guess) {
-  constexpr double reach = 0.6;
+  double reach = 0.005;
+  while (!(string.length(guess - reach) < home_length && string.length(guess + reach) > home_length)) {
+    reach *= 2;
+    if (reach > 0.7) {
+      throw InputError("", "no joint angle near the declared one makes tendon 1 taut at α = " + rounded(degrees(alpha), 4) + "°",
+                       "is this the pulley of this mechanism, in mm, its axis at the origin?");
+    }
+  }
   double low = guess - reach;
   double high = guess + reach;
-  if (!(string.length(low) < home_length && string.length(high) > home_length)) {
-    throw InputError("", "no joint angle within ±34° of the declared one makes tendon 1 taut at α = " + rounded(degrees(alpha), 4) + "°",
-                     "is this the pulley of this mechanism, in mm, its axis at the origin?");
-  }
   for (int i = 0; i < 52; ++i) {
     const double middle = 0.5 * (low + high);
     (string.length(middle) < home_length ? low : high) = middle;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fusee/base/diagnostics.h"
+#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
@@ -177,13 +177,6 @@ RingStack body_stack(const Outline& p1, const Outline& p2, double tendon_diamete
   return StackBuilder(p1, p2, tendon_diameter, kind, layout).build();
 }
 
-double inradius(const Polygon& convex) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < convex.size(); ++i) {
-    const Vec2 along = convex[(i + 1) % convex.size()] - convex[i];
-    least = std::min(least, cross(along, -convex[i]) / along.norm());
-  }
-  return least;
-}
+double inradius(const Polygon& convex) { return depth_inside(convex, Vec2::Zero()); }
 
 }  // namespace fusee

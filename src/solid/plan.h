@@ -1,19 +1,26 @@
 /// \file
-/// What will be built, before any triangle: sizes, anchors, marks, and the conditions that say whether it can be. mm,
-/// not yet scaled.
+/// What will be built, before any triangle: sizes, anchors, and the conditions that say whether it can be. mm, not yet
+/// scaled.
 #pragma once
 
 #include <vector>
 
 #include "fusee/solid/pulley.h"
+#include "solid/anchors.h"
 #include "solid/body.h"
 
 namespace fusee {
 
+struct PlannedAnchor {
+  Side side = Side::left;
+  bool wound_end = true;
+  AnchorPath path;
+};
+
 struct BodyPlan {
   BodyLayout layout;
   FlangeRims rims;
-  std::vector<Anchor> anchors;
+  std::vector<PlannedAnchor> anchors;
   std::vector<Condition> conditions;
 
   bool possible() const;

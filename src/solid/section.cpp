@@ -11,7 +11,7 @@
 namespace fusee {
 namespace {
 
-// A cut triangle: the section enters it over one directed edge and leaves it over another, the solid on its left.
+// A cut triangle: the section enters it over the edge that descends and leaves it over the one that rises, the solid on its left.
 struct Cut {
   std::uint64_t from = 0;  // undirected edge
   std::uint64_t to = 0;
@@ -58,10 +58,10 @@ std::vector<Cut> cuts_at(const TriangleMesh& mesh, double z) {
       const bool from_above = above(mesh.vertices[from], z);
       if (from_above == above(mesh.vertices[to], z)) continue;
       if (from_above) {
-        cut.to = edge_key(from, to);
-      } else {
         cut.from = edge_key(from, to);
         cut.start = crossing(mesh, from, to, z);
+      } else {
+        cut.to = edge_key(from, to);
       }
     }
     cuts.push_back(cut);

@@ -105,7 +105,8 @@ TEST_F(Files, ReadsFilesThatHideTheirSize) {
 }
 
 TEST_F(Files, RefusesWhatIsNoFile) {
-  EXPECT_THAT(input_error([&] { read_file(root_ / "missing", 10); }), HasSubstr("missing: error: cannot be read: No such file"));
+  EXPECT_THAT(input_error([&] { read_file(root_ / "missing", 10); }),
+              HasSubstr("missing: error: cannot be read: No such file"));
   EXPECT_THAT(input_error([&] { read_file(root_, 10); }), HasSubstr("is a directory"));
   EXPECT_THAT(input_error([&] { read_file("/dev/zero", 10); }), HasSubstr("is not a regular file"));
   EXPECT_THAT(input_error([&] { read_file("", 10); }), HasSubstr("cannot be read"));
@@ -166,8 +167,12 @@ TEST_F(Files, RefusesForeignFiles) {
   fs::create_directory(root_ / "out");
   put(root_ / "out" / "x.stl", "somebody's");
   put(root_ / "out" / "notes.txt", "somebody's");
-  EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}}); }),
-              HasSubstr("files that fusee did not write: x.stl | choose another folder with -o, or overwrite them with --force"));
+  EXPECT_THAT(
+      output_error([&] {
+        publish(root_ / "out", {{"x.stl", "new"}});
+      }),
+      HasSubstr(
+          "files that fusee did not write: x.stl | choose another folder with -o, or overwrite them with --force"));
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "somebody's");
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("notes.txt", "x.stl"));
   publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true);
@@ -178,7 +183,9 @@ TEST_F(Files, RefusesForeignFiles) {
 TEST_F(Files, RefusesFilesChangedSince) {
   publish(root_ / "out", {{"x.stl", "old"}, {"y.obj", "same"}});
   put(root_ / "out" / "x.stl", "edited by hand");
-  EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}, {"y.obj", "other"}}); }),
+  EXPECT_THAT(output_error([&] {
+                publish(root_ / "out", {{"x.stl", "new"}, {"y.obj", "other"}});
+              }),
               HasSubstr("files that were changed after fusee wrote them: x.stl |"));
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "edited by hand");
   EXPECT_EQ(bytes_of(root_ / "out" / "y.obj"), "same");
@@ -200,12 +207,17 @@ TEST_F(Files, ClaimNamesAllAtOnceAndWritesNothing) {
 }
 
 TEST_F(Files, ABrokenOrForeignManifestIsSomebodyElses) {
-  for (const std::string& manifest : {std::string("{\"tool\":\"fusee"), std::string("{\"tool\":\"npm\",\"outputs\":[]}"), std::string("[]"), std::string("{}"),
-                                      std::string("{\"tool\":\"fusee\",\"outputs\":{}}"), std::string(200000, '['), std::string("\xff")}) {
+  for (const std::string& manifest :
+       {std::string("{\"tool\":\"fusee"), std::string("{\"tool\":\"npm\",\"outputs\":[]}"), std::string("[]"),
+        std::string("{}"), std::string("{\"tool\":\"fusee\",\"outputs\":{}}"), std::string(200000, '['),
+        std::string("\xff")}) {
     fs::create_directory(root_ / "out");
     put(root_ / "out" / "manifest.json", manifest);
     EXPECT_FALSE(OutputFolder(root_ / "out", false).has_earlier_run()) << manifest.substr(0, 40);
-    EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}}); }), HasSubstr("did not write: manifest.json"));
+    EXPECT_THAT(output_error([&] {
+                  publish(root_ / "out", {{"x.stl", "new"}});
+                }),
+                HasSubstr("did not write: manifest.json"));
     EXPECT_EQ(bytes_of(root_ / "out" / "manifest.json"), manifest);
     fs::remove_all(root_ / "out");
   }
@@ -213,14 +225,21 @@ TEST_F(Files, ABrokenOrForeignManifestIsSomebodyElses) {
 
 TEST_F(Files, NeverReplacesWhatIsNoFile) {
   fs::create_directories(root_ / "out" / "x.stl");
-  EXPECT_THAT(output_error([&] { publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true); }), HasSubstr("is not a regular file"));
+  EXPECT_THAT(output_error([&] {
+                publish(root_ / "out", {{"x.stl", "new"}}, /*force=*/true);
+              }),
+              HasSubstr("is not a regular file"));
   EXPECT_TRUE(fs::is_directory(root_ / "out" / "x.stl"));
 }
 
 TEST_F(Files, TheFolderMayNotBeAFile) {
   put(root_ / "file", "bytes");
   for (const fs::path& folder : {root_ / "file", root_ / "file" / "below", root_ / "file" / "below" / "further"}) {
-    EXPECT_THAT(output_error([&] { publish(folder, {{"x.stl", "new"}}); }), HasSubstr("file is not a folder")) << folder;
+    EXPECT_THAT(output_error([&] {
+                  publish(folder, {{"x.stl", "new"}});
+                }),
+                HasSubstr("file is not a folder"))
+        << folder;
     EXPECT_THAT(output_error([&] { OutputFolder(folder, false).claim({"x.stl"}); }), HasSubstr("file is not a folder"));
   }
   EXPECT_EQ(bytes_of(root_ / "file"), "bytes");
@@ -241,7 +260,9 @@ TEST_F(Files, AFullDiskLeavesEarlierFilesWhole) {
   if (!alone || ::mount("fusee", disk.c_str(), "tmpfs", 0, "size=1m") != 0) GTEST_SKIP() << "may not mount";
   publish(disk / "out", {{"x.stl", "old"}});
   const std::vector<std::string> before = names_in(disk / "out");
-  const std::string error = output_error([&] { publish(disk / "out", {{"a.obj", "small"}, {"x.stl", std::string(4 << 20, 'x')}}); });
+  const std::string error = output_error([&] {
+    publish(disk / "out", {{"a.obj", "small"}, {"x.stl", std::string(4 << 20, 'x')}});
+  });
   const std::string content = bytes_of(disk / "out" / "x.stl");
   const std::vector<std::string> after = names_in(disk / "out");
   ::umount(disk.c_str());
@@ -333,7 +354,8 @@ TEST_F(Files, NamesStayWithinTheFolder) {
 TEST_F(Files, WritesOneFile) {
   write_file(root_ / "new" / "x.toml", "one", false);
   EXPECT_EQ(bytes_of(root_ / "new" / "x.toml"), "one");
-  EXPECT_THAT(output_error([&] { write_file(root_ / "new" / "x.toml", "two", false); }), HasSubstr("x.toml exists | choose another name, or overwrite it with --force"));
+  EXPECT_THAT(output_error([&] { write_file(root_ / "new" / "x.toml", "two", false); }),
+              HasSubstr("x.toml exists | choose another name, or overwrite it with --force"));
   EXPECT_EQ(bytes_of(root_ / "new" / "x.toml"), "one");
   write_file(root_ / "new" / "x.toml", "two", true);
   EXPECT_EQ(bytes_of(root_ / "new" / "x.toml"), "two");

@@ -74,7 +74,7 @@ CASES = [
     ("build unknown.toml", 3, "^$", "unknown.toml:3:1: .*lenght_mm.*length_mm"),
     ("build many.toml", 3, "^$", "many.toml:3:.*many.toml:4:.*many.toml:6:.*many.toml:8:.*linear.*many.toml:10:"),
     ("build /dev/zero", 3, "^$", "is not a regular file"),
-    ("build arm.toml --set pulley.r1=15", 3, "^$", "pulley.r1_mm"),
+    ("build arm.toml --set pulley.r1=15", 3, "^$", "unknown key pulley.r1.*r1_mm"),
     ("build arm.toml --set pully.r1_mm=15", 3, "^$", "pulley"),
     ("build arm.toml --set pulley.r1_mm=nan", 3, "^$", "r1_mm"),
     ("build arm.toml --set pulley.r1_mm=inf", 3, "^$", "r1_mm"),

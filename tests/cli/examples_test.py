@@ -25,7 +25,7 @@ class Examples(harness.Scratch):
     def test_help_fits_a_terminal(self):
         for command in ["", "new", "explain", "build", "check", "rewind"]:
             for line in self.fusee(f"{command} --help").stdout.decode().splitlines():
-                self.assertLessEqual(len(line), 84, line)
+                self.assertLessEqual(len(line), 80, line)
 
 
 if __name__ == "__main__":

@@ -25,10 +25,10 @@ inline std::string dxf_of(const std::string& entities, int units = 4, const std:
          tags({{0, "ENDSEC"}, {0, "EOF"}});
 }
 
-inline std::vector<const DrawingPath*> on_layer(const Drawing& drawing, const std::string& layer) {
-  std::vector<const DrawingPath*> paths;
+inline std::vector<DrawingPath> on_layer(const Drawing& drawing, const std::string& layer) {
+  std::vector<DrawingPath> paths;
   for (const DrawingPath& path : drawing.paths) {
-    if (path.layer == layer) paths.push_back(&path);
+    if (path.layer == layer) paths.push_back(path);
   }
   return paths;
 }

@@ -1,9 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
@@ -21,7 +19,8 @@ const std::filesystem::path k_profiles = std::filesystem::path(FUSEE_SOURCE_DIR)
 TEST(Explain, OneKeyTellsAll) {
   const std::string text = explain("r1_mm");
   EXPECT_EQ(text, explain("pulley.r1_mm"));
-  for (const char* part : {"pulley.r1_mm  (r1)", "a number in mm", "0.1 to 1000 mm", "required with law = \"compensate\""}) {
+  for (const char* part :
+       {"pulley.r1_mm  (r1)", "a number in mm", "0.1 to 1000 mm", "required with law = \"compensate\""}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(explain("friction"), HasSubstr("default 0.12"));
@@ -127,14 +126,22 @@ std::string key_table() {
   for (const Field& field : fields()) {
     if (field.table != table) {
       table = field.table;
-      text += table.empty() ? "At the top of the file:\n" : "\n" + code("[" + std::string(table) + "]") + " " + std::string(table_meaning(table)) + ":\n";
+      text += table.empty()
+                  ? "At the top of the file:\n"
+                  : "\n" + code("[" + std::string(table) + "]") + " " + std::string(table_meaning(table)) + ":\n";
       text += "\n| key | meaning | unit | allowed | default |\n|---|---|---|---|---|\n";
     }
     const std::string symbol = field.symbol.empty() ? "" : std::string(field.symbol) + ": ";
-    text += "| " + code(field.key) + " | " + symbol + std::string(field.meaning) + " | " + std::string(field.unit) + " | " + allowed_cell(field) +
-            " | " + default_cell(field) + " |\n";
+    text += "| " + code(field.key) + " | " + symbol + std::string(field.meaning) + " | " + std::string(field.unit) +
+            " | " + allowed_cell(field) + " | " + default_cell(field) + " |\n";
   }
   return text;
+}
+
+TEST(Readme, NamesEveryProfile) {
+  const std::string readme = read_file(k_profiles / "README.md", 1 << 20);
+  for (const Template& profile : templates())
+    EXPECT_THAT(readme, HasSubstr("| " + code(std::string(profile.name) + ".toml") + " |"));
 }
 
 TEST(Readme, ItsKeyTableIsThatOfTheFields) {

@@ -16,13 +16,15 @@ std::string errors_of(const std::string& csv) {
   std::vector<Diagnostic> problems;
   parse_law_table(csv, "law.csv", k_joint, problems);
   std::string text;
-  for (const Diagnostic& problem : problems) text += std::to_string(problem.place.line) + " " + problem.message + " | " + problem.hint + "\n";
+  for (const Diagnostic& problem : problems)
+    text += std::to_string(problem.place.line) + " " + problem.message + " | " + problem.hint + "\n";
   return text;
 }
 
 TEST(LawTable, ReadsWhatSpreadsheetsWrite) {
   std::vector<Diagnostic> problems;
-  const std::string csv = "\xEF\xBB\xBF# a law\r\nalpha_deg, theta_deg\r\n\r\n-90, -30\r\n-45,\t-15 # low\r\n0,0\r\n45,15\r\n90,30";
+  const std::string csv =
+      "\xEF\xBB\xBF# a law\r\nalpha_deg, theta_deg\r\n\r\n-90, -30\r\n-45,\t-15 # low\r\n0,0\r\n45,15\r\n90,30";
   const std::vector<LawRow> rows = parse_law_table(csv, "law.csv", k_joint, problems);
   EXPECT_THAT(problems, IsEmpty());
   ASSERT_THAT(rows, SizeIs(5));
@@ -33,22 +35,31 @@ TEST(LawTable, ReadsWhatSpreadsheetsWrite) {
 TEST(LawTable, NamesTheLineOfEachError) {
   EXPECT_THAT(errors_of(""), HasSubstr("0 the table is empty"));
   EXPECT_THAT(errors_of("theta_deg,alpha_deg\n1,2\n"), HasSubstr("1 the columns are \"theta_deg,alpha_deg\""));
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n0,0\n90,30\n"), HasSubstr("0 the table has 3 rows; a law needs at least 4"));
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n0,zero\n45,15\n90,30\n"), HasSubstr("3 \"0,zero\" is not two finite numbers"));
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n0,nan\n45,15\n90,30\n"), HasSubstr("3 \"0,nan\" is not two finite numbers"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n0,0\n90,30\n"),
+              HasSubstr("0 the table has 3 rows; a law needs at least 4"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n0,zero\n45,15\n90,30\n"),
+              HasSubstr("3 \"0,zero\" is not two finite numbers"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n0,nan\n45,15\n90,30\n"),
+              HasSubstr("3 \"0,nan\" is not two finite numbers"));
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90\n"), HasSubstr("2 \"-90\" is not two finite numbers"));
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30,5\n"), HasSubstr("2 \"-90,-30,5\" is not two"));
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-95,-20\n0,0\n90,30\n"), HasSubstr("3 alpha_deg does not increase: -95 deg after -90 deg"));
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-30\n0,0\n90,30\n"), HasSubstr("3 theta_deg does not increase: -30 deg after -30 deg"));
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-29\n-45,-15\n0,0\n90,30\n"), HasSubstr("2 theta begins at -29 deg, above joint.range_deg's -30 deg"));
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0\n90,29\n"), HasSubstr("5 theta ends at 29 deg, below joint.range_deg's 30 deg"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-95,-20\n0,0\n90,30\n"),
+              HasSubstr("3 alpha_deg does not increase: -95 deg after -90 deg"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-30\n0,0\n90,30\n"),
+              HasSubstr("3 theta_deg does not increase: -30 deg after -30 deg"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-29\n-45,-15\n0,0\n90,30\n"),
+              HasSubstr("2 theta begins at -29 deg, above joint.range_deg's -30 deg"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0\n90,29\n"),
+              HasSubstr("5 theta ends at 29 deg, below joint.range_deg's 30 deg"));
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n1e9,0\n"), HasSubstr("2 an angle is too large"));
 }
 
 TEST(LawTable, HomeIsKept) {
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0.02\n45,15\n90,30\n"), HasSubstr("the law does not pass through home: theta is 0.02 deg"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0.02\n45,15\n90,30\n"),
+              HasSubstr("the law does not pass through home: theta is 0.02 deg"));
   EXPECT_THAT(errors_of("alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0.009\n45,15\n90,30\n"), IsEmpty());
-  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n10,-30\n20,-15\n30,0\n45,15\n90,30\n"), HasSubstr("alpha = 0 (home) is not within the table"));
+  EXPECT_THAT(errors_of("alpha_deg,theta_deg\n10,-30\n20,-15\n30,0\n45,15\n90,30\n"),
+              HasSubstr("alpha = 0 (home) is not within the table"));
 }
 
 TEST(LawTable, HomeBetweenRowsOfACurvedLaw) {

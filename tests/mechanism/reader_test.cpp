@@ -30,13 +30,15 @@ std::string only_error(const std::string& text, const std::vector<Setting>& sett
   const std::vector<Diagnostic> errors = errors_of(text, settings);
   if (errors.size() != 1) return "not one error but " + std::to_string(errors.size());
   const Diagnostic& error = errors.front();
-  return std::to_string(error.place.line) + ":" + std::to_string(error.place.column) + " " + error.message + " | " + error.hint;
+  return std::to_string(error.place.line) + ":" + std::to_string(error.place.column) + " " + error.message + " | " +
+         error.hint;
 }
 
 std::string with(const std::string& from, const std::string& to) { return replaced(k_good_file, from, to); }
 
 TEST(Reader, ReadsEveryNumberInItsUnit) {
-  const Mechanism m = parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.5\n[body]\ngroove_angle_deg = 60\n", "f.toml");
+  const Mechanism m =
+      parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.5\n[body]\ngroove_angle_deg = 60\n", "f.toml");
   EXPECT_EQ(m.name, "test");
   EXPECT_EQ(m.joint.R, 100);
   EXPECT_DOUBLE_EQ(m.joint.theta_min, -30 * std::acos(-1.0) / 180);
@@ -63,40 +65,57 @@ TEST(Reader, FillsInDefaults) {
 TEST(Reader, NamesLineAndColumnOfEachKindOfError) {
   EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = \"abc\"")),
             "4:13 joint.length_mm must be a number in mm, not the string \"abc\" | allowed: 1 to 10000 mm");
-  EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = -5")), "4:13 joint.length_mm = -5 mm is out of range | allowed: 1 to 10000 mm");
+  EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = -5")),
+            "4:13 joint.length_mm = -5 mm is out of range | allowed: 1 to 10000 mm");
   EXPECT_EQ(only_error(with("length_mm = 100", "length_mm = nan")),
             "4:13 joint.length_mm must be a finite number, not nan | allowed: 1 to 10000 mm");
   EXPECT_EQ(only_error(with("OE_mm = -40", "OE_mm = inf")),
             "9:9 guides.OE_mm must be a finite number, not inf | allowed: -10000 to 10000 mm");
-  EXPECT_THAT(only_error(with("EB_mm = 50\n", "")), HasSubstr("6:2 missing key guides.EB_mm | add EB_mm = ... under [guides]"));
+  EXPECT_THAT(only_error(with("EB_mm = 50\n", "")),
+              HasSubstr("6:2 missing key guides.EB_mm | add EB_mm = ... under [guides]"));
   EXPECT_THAT(only_error(with("schema = 1", "schema = 2")), HasSubstr("1:10 schema = 2 is out of range"));
-  EXPECT_THAT(only_error(with("schema = 1\n", "")), HasSubstr("0:0 missing key schema | add schema = 1 at the top of the file"));
-  EXPECT_THAT(only_error(k_good_file + "[body]\nnut_trap = 1\n"), HasSubstr("16:12 body.nut_trap must be true or false, not the number 1"));
-  EXPECT_THAT(only_error(with("name = \"test\"", "name = 4")), HasSubstr("2:8 name must be a text in quotes, not the number 4"));
-  EXPECT_THAT(only_error(with("name = \"test\"", "name = 2020-01-01")), HasSubstr("2:8 name must be a text in quotes, not a date or time"));
+  EXPECT_THAT(only_error(with("schema = 1\n", "")),
+              HasSubstr("0:0 missing key schema | add schema = 1 at the top of the file"));
+  EXPECT_THAT(only_error(k_good_file + "[body]\nnut_trap = 1\n"),
+              HasSubstr("16:12 body.nut_trap must be true or false, not the number 1"));
+  EXPECT_THAT(only_error(with("name = \"test\"", "name = 4")),
+              HasSubstr("2:8 name must be a text in quotes, not the number 4"));
+  EXPECT_THAT(only_error(with("name = \"test\"", "name = 2020-01-01")),
+              HasSubstr("2:8 name must be a text in quotes, not a date or time"));
   EXPECT_THAT(only_error(with("name = \"test\"", "name = \"a\\nb\"")), HasSubstr("2:8 name must be one line"));
-  EXPECT_THAT(only_error(with("[tendon]\n", "law = \"linea\"\nratio = 2\n[tendon]\n")), HasSubstr("13:7 pulley.law = \"linea\" is not known"));
+  EXPECT_THAT(only_error(with("[tendon]\n", "law = \"linea\"\nratio = 2\n[tendon]\n")),
+              HasSubstr("13:7 pulley.law = \"linea\" is not known"));
 }
 
 TEST(Reader, RangeHoldsHome) {
-  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[10, 20]")), HasSubstr("5:13 joint.range_deg = [10, 20] deg does not hold home"));
+  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[10, 20]")),
+              HasSubstr("5:13 joint.range_deg = [10, 20] deg does not hold home"));
   EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[0, 0]")), HasSubstr("does not hold home"));
   EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[30, -30]")), HasSubstr("does not hold home"));
-  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-30]")), HasSubstr("5:13 joint.range_deg must be two numbers [lowest, highest] in deg, not a list of 1"));
-  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-30.0, nan]")), HasSubstr("5:21 joint.range_deg must be a finite number"));
-  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-300, 30.0]")), HasSubstr("5:14 joint.range_deg = -300 deg is out of range"));
+  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-30]")),
+              HasSubstr("5:13 joint.range_deg must be two numbers [lowest, highest] in deg, not a list of 1"));
+  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-30.0, nan]")),
+              HasSubstr("5:21 joint.range_deg must be a finite number"));
+  EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[-300, 30.0]")),
+              HasSubstr("5:14 joint.range_deg = -300 deg is out of range"));
   EXPECT_THAT(errors_of(with("[-30.0, 30.0]", "[0, 30]")), IsEmpty());
 }
 
 TEST(Reader, KnowsWhatWasMeant) {
-  EXPECT_THAT(only_error(k_good_file + "diametr_mm = 2\n"), HasSubstr("15:1 unknown key tendon.diametr_mm | did you mean diameter_mm?"));
-  EXPECT_THAT(only_error(with("[guides]", "EF_mm = 80\n[guides]")), HasSubstr("6:1 unknown key joint.EF_mm | pulley.EF_mm: EF_mm belongs in [pulley]"));
-  EXPECT_THAT(only_error(with("schema = 1", "schema = 1\nlength_mm = 4")), HasSubstr("2:1 unknown key length_mm | joint.length_mm: length_mm belongs in [joint]"));
-  EXPECT_THAT(only_error(k_good_file + "[bdy]\nbore = \"d\"\n"), HasSubstr("15:2 unknown table [bdy] | did you mean [body]?"));
+  EXPECT_THAT(only_error(k_good_file + "diametr_mm = 2\n"),
+              HasSubstr("15:1 unknown key tendon.diametr_mm | did you mean diameter_mm?"));
+  EXPECT_THAT(only_error(with("[guides]", "EF_mm = 80\n[guides]")),
+              HasSubstr("6:1 unknown key joint.EF_mm | pulley.EF_mm: EF_mm belongs in [pulley]"));
+  EXPECT_THAT(only_error(with("schema = 1", "schema = 1\nlength_mm = 4")),
+              HasSubstr("2:1 unknown key length_mm | joint.length_mm: length_mm belongs in [joint]"));
+  EXPECT_THAT(only_error(k_good_file + "[bdy]\nbore = \"d\"\n"),
+              HasSubstr("15:2 unknown table [bdy] | did you mean [body]?"));
   EXPECT_THAT(only_error(k_good_file + "[optimize]\n"), HasSubstr("unknown table [optimize]"));
   EXPECT_THAT(only_error(k_good_file + "[tendon.sub]\na = 1\n"), HasSubstr("unknown key tendon.sub"));
-  EXPECT_THAT(only_error(with("schema = 1", "schema = 1\nbody = 4")), HasSubstr("2:1 body is a table, not the number 4"));
-  EXPECT_THAT(only_error(with("schema = 1", "schema = 1\n\"joint.length_mm\" = 4")), HasSubstr("2:1 unknown key joint.length_mm"));
+  EXPECT_THAT(only_error(with("schema = 1", "schema = 1\nbody = 4")),
+              HasSubstr("2:1 body is a table, not the number 4"));
+  EXPECT_THAT(only_error(with("schema = 1", "schema = 1\n\"joint.length_mm\" = 4")),
+              HasSubstr("2:1 unknown key joint.length_mm"));
 }
 
 TEST(Reader, SaysAllErrorsAtOnceInTheOrderOfTheFile) {
@@ -117,25 +136,32 @@ TEST(Reader, ManyErrorsAreCounted) {
 }
 
 TEST(Reader, LawsNeedTheirOwnKey) {
-  EXPECT_THAT(only_error(with("r1_mm = 16\n", "")), HasSubstr("missing key pulley.r1_mm (needed with law = \"compensate\")"));
-  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"linear\"\n")), HasSubstr("missing key pulley.ratio (needed with law = \"linear\")"));
-  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"table\"\n")), HasSubstr("missing key pulley.table (needed with law = \"table\")"));
-  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"linear\"\nratio = -2\n")), HasSubstr("13:9 pulley.ratio = -2 is out of range"));
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", "")),
+              HasSubstr("missing key pulley.r1_mm (needed with law = \"compensate\")"));
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"linear\"\n")),
+              HasSubstr("missing key pulley.ratio (needed with law = \"linear\")"));
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"table\"\n")),
+              HasSubstr("missing key pulley.table (needed with law = \"table\")"));
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"linear\"\nratio = -2\n")),
+              HasSubstr("13:9 pulley.ratio = -2 is out of range"));
   // A wrong law asks for no key of another.
-  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"quadratic\"\n")), HasSubstr("12:7 pulley.law = \"quadratic\" is not known"));
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", "law = \"quadratic\"\n")),
+              HasSubstr("12:7 pulley.law = \"quadratic\" is not known"));
 }
 
 TEST(Reader, WarnsOfKeysWithoutUse) {
   std::vector<Diagnostic> warnings;
   parse_mechanism(with("r1_mm = 16\n", "r1_mm = 16\nlaw = \"linear\"\nratio = 2\n"), "f.toml", ".", {}, &warnings);
   ASSERT_THAT(warnings, SizeIs(1));
-  EXPECT_EQ(to_text(warnings[0]), "f.toml:12:9: warning: pulley.r1_mm is not used: it is for law = \"compensate\" only");
+  EXPECT_EQ(to_text(warnings[0]),
+            "f.toml:12:9: warning: pulley.r1_mm is not used: it is for law = \"compensate\" only");
   parse_mechanism(k_good_file, "f.toml", ".", {}, &warnings);
   EXPECT_THAT(warnings, IsEmpty());
 }
 
 TEST(Reader, BoreAndHorn) {
-  EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\n"), HasSubstr("missing key body.horn (needed with bore = \"horn\")"));
+  EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\n"),
+              HasSubstr("missing key body.horn (needed with bore = \"horn\")"));
   EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion\"\n"),
               HasSubstr("17:8 body.horn = \"lynxmotion\" is not known | did you mean \"lynxmotion-ses\"?"));
   EXPECT_THAT(errors_of(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion-ses\"\n"), IsEmpty());
@@ -152,22 +178,27 @@ TEST(Reader, RatioStandsInPlaceOfTheMechanism) {
   ASSERT_THAT(both, SizeIs(3));
   EXPECT_EQ(both[0].place.line, 3);
   EXPECT_EQ(both[0].message, "[joint] and [transmission] cannot both be declared");
-  EXPECT_THAT(only_error("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = 0\n"), HasSubstr("4:9 transmission.ratio = 0 turns nothing"));
+  EXPECT_THAT(only_error("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = 0\n"),
+              HasSubstr("4:9 transmission.ratio = 0 turns nothing"));
   EXPECT_THAT(only_error("schema = 1\n[transmission]\nratio = 2\n"), HasSubstr("2:2 missing key transmission.kind"));
 }
 
 TEST(Reader, SettingsSupplyAndReplace) {
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"guides.EB_mm", "60"}}).guides.EB, 60);
   EXPECT_EQ(parse_mechanism(with("EB_mm = 50\n", ""), "f.toml", ".", {{"guides.EB_mm", "60"}}).guides.EB, 60);
-  EXPECT_EQ(parse_mechanism(with("EB_mm = 50\n", "EB_mm = \"bad\"\n"), "f.toml", ".", {{"guides.EB_mm", "60"}}).guides.EB, 60);
+  EXPECT_EQ(
+      parse_mechanism(with("EB_mm = 50\n", "EB_mm = \"bad\"\n"), "f.toml", ".", {{"guides.EB_mm", "60"}}).guides.EB,
+      60);
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"name", "my arm"}}).name, "my arm");
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"name", "\"x = 1\""}}).name, "x = 1");
-  EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"pulley.law", "linear"}, {"pulley.ratio", "2"}}).pulley.law, Law::linear);
+  EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"pulley.law", "linear"}, {"pulley.ratio", "2"}}).pulley.law,
+            Law::linear);
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"body.nut_trap", "false"}}).body.nut_trap, false);
   const Mechanism ranged = parse_mechanism(k_good_file, "f.toml", ".", {{"joint.range_deg", "[-20, 10]"}});
   EXPECT_DOUBLE_EQ(ranged.joint.theta_max, std::acos(-1.0) / 18);
   // The last one holds.
-  EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"guides.EB_mm", "60"}, {"guides.EB_mm", "70"}}).guides.EB, 70);
+  EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"guides.EB_mm", "60"}, {"guides.EB_mm", "70"}}).guides.EB,
+            70);
 }
 
 TEST(Reader, SettingsNameThemselvesInErrors) {
@@ -175,7 +206,8 @@ TEST(Reader, SettingsNameThemselvesInErrors) {
     const std::vector<Diagnostic> errors = errors_of(k_good_file, {setting});
     return errors.size() == 1 ? to_text(errors.front()) : "not one error";
   };
-  EXPECT_THAT(text_of({"guides.EB_mm", "abc"}), HasSubstr("--set guides.EB_mm=abc: error: guides.EB_mm must be a number in mm, not the string \"abc\""));
+  EXPECT_THAT(text_of({"guides.EB_mm", "abc"}),
+              HasSubstr("--set guides.EB_mm=abc: error: guides.EB_mm must be a number in mm, not the string \"abc\""));
   EXPECT_THAT(text_of({"guides.EB_m", "4"}), HasSubstr("unknown key guides.EB_m\n  hint: did you mean EB_mm?"));
   EXPECT_THAT(text_of({"guide.EB_mm", "4"}), HasSubstr("unknown table \"guide\"\n  hint: did you mean guides?"));
   EXPECT_THAT(text_of({"EB_mm", "4"}), HasSubstr("guides.EB_mm: EB_mm belongs in [guides]"));
@@ -195,7 +227,10 @@ TEST(Reader, SyntaxErrorsHaveAPlace) {
 TEST(Reader, RefusesWhatIsNoMechanismFile) {
   EXPECT_THAT(only_error(""), HasSubstr("0:0 is empty"));
   EXPECT_THAT(only_error(" \n\r\n\t"), HasSubstr("0:0 is empty"));
-  EXPECT_THAT(only_error(std::string("\x7f" "ELF\0\0", 6)), HasSubstr("is a binary file"));
+  EXPECT_THAT(only_error(std::string("\x7f"
+                                     "ELF\0\0",
+                                     6)),
+              HasSubstr("is a binary file"));
   EXPECT_THAT(only_error(std::string((1 << 20) + 1, '#')), HasSubstr("larger than 1 MB"));
 }
 

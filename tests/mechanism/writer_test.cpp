@@ -24,13 +24,19 @@ double random_number(const Field& field) {
 
 void set_random(const Field& field, Mechanism& mechanism) {
   switch (field.kind) {
-    case FieldKind::number: field.set(mechanism, 0, random_number(field)); break;
+    case FieldKind::number:
+      field.set(mechanism, 0, random_number(field));
+      break;
     case FieldKind::range:
       field.set(mechanism, 0, *rc::gen::inRange(-17500000, -1) / 1e5);
       field.set(mechanism, 1, *rc::gen::inRange(0, 17500000) / 1e5);
       break;
-    case FieldKind::choice: field.set_text(mechanism, *rc::gen::elementOf(field.choices)); break;
-    case FieldKind::boolean: field.set_text(mechanism, *rc::gen::element(std::string_view("true"), std::string_view("false"))); break;
+    case FieldKind::choice:
+      field.set_text(mechanism, *rc::gen::elementOf(field.choices));
+      break;
+    case FieldKind::boolean:
+      field.set_text(mechanism, *rc::gen::element(std::string_view("true"), std::string_view("false")));
+      break;
     case FieldKind::text: {
       const std::string text = *rc::gen::container<std::string>(rc::gen::inRange<char>(' ', '~'));
       field.set_text(mechanism, text.substr(0, 100));
@@ -82,7 +88,8 @@ TEST(Writer, ATableIsWrittenByItsName) {
 }
 
 TEST(Writer, NumbersAreWrittenAsAPersonWould) {
-  const std::string text = write_mechanism(parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.3\n", "f.toml"));
+  const std::string text =
+      write_mechanism(parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.3\n", "f.toml"));
   EXPECT_THAT(text, HasSubstr("\nrange_deg = [-30, 30]\n"));
   EXPECT_THAT(text, HasSubstr("\nshrinkage_percent = 0.3\n"));
   EXPECT_THAT(text, HasSubstr("\ngroove_angle_deg = 50\n"));
@@ -93,7 +100,8 @@ TEST(Writer, EveryKeyStandsThereWithItsMeaning) {
   const std::string text = write_mechanism(parse_mechanism(k_good_file, "f.toml"));
   for (const Field& field : fields()) {
     if (field.table == "transmission") continue;
-    EXPECT_THAT(text, HasSubstr("\n" + std::string(is_used(field, default_mechanism()) ? "" : "# ") + std::string(field.key) + " ="));
+    EXPECT_THAT(text, HasSubstr("\n" + std::string(is_used(field, default_mechanism()) ? "" : "# ") +
+                                std::string(field.key) + " ="));
     EXPECT_THAT(text, HasSubstr(std::string(field.meaning)));
   }
 }

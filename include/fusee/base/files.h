@@ -26,13 +26,13 @@ struct OutputFile {
 
 /// A set of files that appears in `folder` whole or not at all.
 ///
-/// stage() writes the files into a hidden folder inside the target; publish() flushes them to disk and renames each into place, manifest.json
-/// last; the destructor removes what was staged and not published, and the folders made for it. A kill at any moment leaves the earlier
-/// files whole; what a killed run left staged is removed by the next one.
+/// stage() writes the files into a hidden folder inside the target; publish() flushes them to disk and renames each into
+/// place, manifest.json last; the destructor removes what was staged and not published, and the folders made for it. A
+/// kill at any moment leaves the earlier files whole; what a killed run left staged is removed by the next one.
 ///
-/// Whose work is it? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim() and stage() throw
-/// OutputError when publishing would overwrite a file that is not named there, or whose bytes were changed since,
-/// unless `force`. A manifest that cannot be read is somebody else's file.
+/// Whose work is it? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim() and
+/// stage() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were changed
+/// since, unless `force`. A manifest that cannot be read is somebody else's file.
 class OutputFolder {
  public:
   /// Touches nothing yet.
@@ -43,8 +43,8 @@ class OutputFolder {
 
   /// True when the folder already holds a manifest of an earlier run of fusee.
   bool has_earlier_run() const { return earlier_run_; }
-  /// Throws OutputError, naming all of them, when some of `names` may not be overwritten (see above) or the folder cannot be
-  /// written. Writes nothing.
+  /// Throws OutputError, naming all of them, when some of `names` may not be overwritten (see above) or the folder
+  /// cannot be written. Writes nothing.
   void claim(const std::vector<std::string>& names) const;
   void stage(const OutputFile& file);
   /// Where a staged file can be read back before it is published.
@@ -62,15 +62,16 @@ class OutputFolder {
   std::filesystem::path staging_;
   bool force_;
   bool earlier_run_ = false;
-  /// What earlier runs of fusee wrote here: name and SHA-256. A run killed while publishing has its manifest still staged.
+  /// What earlier runs of fusee wrote here: name and SHA-256. A run killed while publishing has its manifest still
+  /// staged.
   std::set<std::pair<std::string, std::string>> ours_;
   std::vector<std::string> staged_;
   std::vector<std::filesystem::path> made_folders_;  ///< outermost first
   int lock_ = -1;                                    ///< held on the staging folder while this run lives
 };
 
-/// Writes one file beside its place and renames it there. OutputError when it exists (unless `force`) or cannot be written.
-/// A symbolic link is followed; what is no regular file is never replaced.
+/// Writes one file beside its place and renames it there. OutputError when it exists (unless `force`) or cannot be
+/// written. A symbolic link is followed; what is no regular file is never replaced.
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool force);
 
 }  // namespace fusee

@@ -14,8 +14,8 @@ struct ValueEdit {
   double value = 0;
 };
 
-/// `text` with the values of these keys replaced where they stand; a key that is not written yet is put below its table's header (or
-/// with the table at the end). `text` must be a mechanism file that parses.
+/// `text` with the values of these keys replaced where they stand; a key that is not written yet is put below its
+/// table's header (or with the table at the end). `text` must be a mechanism file that parses.
 std::string edit_values(std::string_view text, const std::vector<ValueEdit>& edits);
 
 }  // namespace fusee

@@ -1,6 +1,6 @@
 /// \file
-/// The field table: one row for every key of the mechanism file, from which come the reader, the writer, `fusee explain`,
-/// `fusee new`, the JSON schema and the searches for advice.
+/// The field table: one row for every key of the mechanism file, from which come the reader, the writer, `fusee
+/// explain`, `fusee new`, the JSON schema and the searches for advice.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,15 @@ namespace fusee {
 enum class FieldKind { number, range, choice, text, boolean, numbers, texts };
 
 struct Field {
-  std::string_view table;  ///< "joint"; "" for the keys at the top of the file
-  std::string_view key;    ///< "length_mm": the unit stands in the name
-  std::string_view symbol; ///< the paper's symbol or "" ("R")
+  std::string_view table;   ///< "joint"; "" for the keys at the top of the file
+  std::string_view key;     ///< "length_mm": the unit stands in the name
+  std::string_view symbol;  ///< the paper's symbol or "" ("R")
   FieldKind kind = FieldKind::number;
-  std::string_view unit;   ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
+  std::string_view unit;  ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
   /// Must be written. Where [transmission] stands in place of the mechanism, only its own keys must.
   bool required = false;
-  /// "pulley.law=compensate": the key is used only then (a warning otherwise), and must be written then if it has no default.
+  /// "pulley.law=compensate": the key is used only then (a warning otherwise), and must be written then if it has no
+  /// default.
   std::string_view only_when;
   /// Default as it would be written in the file ("0.12", "\"u\"", "true"); "" when there is none.
   std::string_view fallback;

@@ -1,9 +1,10 @@
 /// \file
-/// A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in MPa.
+/// A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in
+/// MPa.
 ///
 /// Joint axis O is the origin; y points to the tendon's attachment C at home; C = R (sin θ, cos θ). Guide pins stand at
-/// B (−EB, −OE) and D (ED, −OE); the pulley's axis G is at (0, −OE − EF). Tendon 1 runs C → B → P1 on the left, tendon 2
-/// C → D → P2 on the right. α > 0 turns the pulley clockwise: tendon 1 is paid out, tendon 2 wound in, θ grows.
+/// B (−EB, −OE) and D (ED, −OE); the pulley's axis G is at (0, −OE − EF). Tendon 1 runs C → B → P1 on the left, tendon
+/// 2 C → D → P2 on the right. α > 0 turns the pulley clockwise: tendon 1 is paid out, tendon 2 wound in, θ grows.
 ///
 /// Every number here has one row in the field table (fields.h): its key, unit, range, default and meaning.
 #pragma once
@@ -47,8 +48,8 @@ struct LawRow {
 
 /// Where the pulley sits and what it must do. (The body that comes out is solid/pulley.h's Pulley.)
 struct PulleyDrive {
-  double EF = 0;             ///< from the pins' line down to the pulley's axis G
-  double r1 = 0;             ///< P1's pitch radius (law = compensate)
+  double EF = 0;  ///< from the pins' line down to the pulley's axis G
+  double r1 = 0;  ///< P1's pitch radius (law = compensate)
   Law law = Law::compensate;
   double ratio = 0;          ///< α per θ (law = linear)
   std::string table;         ///< the CSV of law = table, as written in the file
@@ -87,21 +88,21 @@ enum class Marks { engraved, raised, none };
 /// The printed body. 0 stands for "automatic" where the field table says so; solid/layout.h resolves it.
 struct Body {
   Groove groove = Groove::u;
-  double groove_angle = 0;      ///< full angle between the walls, rad
-  double groove_depth = 0;      ///< lip above the floor; 0: 2 d
-  double seat_ratio = 0;        ///< seat radius of a U groove per tendon diameter
+  double groove_angle = 0;  ///< full angle between the walls, rad
+  double groove_depth = 0;  ///< lip above the floor; 0: 2 d
+  double seat_ratio = 0;    ///< seat radius of a U groove per tendon diameter
   Flange flange = Flange::follow;
   double flange_thickness = 0;  ///< at the lip
   double hub_diameter = 0;      ///< 0: from the bore and the set screw
-  double hub_height = 0;        ///< above the top flange; 0: no hub. Where there is no room for one it is left out, with a note
+  double hub_height = 0;        ///< above the top flange; 0: no hub. Without room for one it is left out
   Bore bore = Bore::round;
-  double bore_diameter = 0;     ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
-  double bore_flat = 0;         ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
-  std::string horn;             ///< bore = horn: a name of catalogue.h
-  std::string set_screw;        ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
+  double bore_diameter = 0;  ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
+  double bore_flat = 0;      ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
+  std::string horn;          ///< bore = horn: a name of catalogue.h
+  std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
-  double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3
-  double knot_pocket = 0;       ///< diameter; 0: 3.5 d
+  double anchor_hole = 0;  ///< width of the tie-off channel; 0: d + 0.3
+  double knot_pocket = 0;  ///< diameter; 0: 3.5 d
   Marks marks = Marks::engraved;
   double mark_depth = 0;
   double min_wall = 0;
@@ -129,12 +130,12 @@ struct Cut {
   bool operator==(const Cut&) const = default;
 };
 
-/// What `fusee optimize` may change and what it is after: the texts of [optimize] as they were written (and found to be well formed);
-/// optimize/problem.h gives them their meaning.
+/// What `fusee optimize` may change and what it is after: the texts of [optimize] as they were written (and found to be
+/// well formed); optimize/problem.h gives them their meaning.
 struct Optimization {
-  std::vector<std::string> objectives;   ///< names of optimize/objectives.h
-  std::vector<std::string> variables;    ///< keys of the field table
-  std::vector<double> lower;             ///< one a variable, in the file's units
+  std::vector<std::string> objectives;  ///< names of optimize/objectives.h
+  std::vector<std::string> variables;   ///< keys of the field table
+  std::vector<double> lower;            ///< one a variable, in the file's units
   std::vector<double> upper;
   std::vector<std::string> tied;         ///< "guides.EB_mm = guides.ED_mm"
   std::vector<std::string> constraints;  ///< "guides.EB_mm <= 0.5 * joint.length_mm"

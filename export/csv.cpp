@@ -1,0 +1,97 @@
+// Tables for a spreadsheet: comma-separated, a header line with the units in the names, numbers with a point and six
+// decimals. A cell is empty where there is no such number.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/export/export.h"
+#include "fusee/transmission/tension.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+
+std::string cell(double value) { return std::isfinite(value) ? fixed(value, 6) : std::string(); }
+
+void put_row(std::string& table, std::span<const double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) table += ',';
+    table += cell(values[i]);
+  }
+  table += '\n';
+}
+
+void put_outline(std::string& table, const Outline& outline) {
+  const std::string pulley = outline.side == Side::left ? "P1," : "P2,";
+  for (std::size_t i = 0; i < outline.points.size(); ++i) {
+    const OutlinePoint& point = outline.points[i];
+    const double angle = std::atan2(point.position.y(), point.position.x());
+    table += pulley + cell(degrees(angle)) + ',' + cell(point.position.x()) + ',' + cell(point.position.y()) + ',' +
+             cell(point.curvature_radius) + (outline.is_active(i) ? ",1," : ",0,") + cell(degrees(point.psi)) + '\n';
+  }
+}
+
+struct AsBuilt {
+  double theta = k_none;
+  double slack = k_none;
+};
+
+/// The rewound pulley at `alpha`, between its points; none outside them.
+AsBuilt as_built_at(const std::vector<RewindPoint>& points, double alpha) {
+  constexpr double k_same_alpha = 1e-9;
+  const auto right = std::lower_bound(points.begin(), points.end(), alpha - k_same_alpha,
+                                      [](const RewindPoint& point, double a) { return point.alpha < a; });
+  if (right == points.end()) return {};
+  if (std::abs(right->alpha - alpha) <= k_same_alpha) return {right->theta, right->slack};
+  if (right == points.begin()) return {};
+  const auto left = right - 1;
+  const double t = (alpha - left->alpha) / (right->alpha - left->alpha);
+  return {std::lerp(left->theta, right->theta, t), std::lerp(left->slack, right->slack, t)};
+}
+
+}  // namespace
+
+/// angle_deg is the direction of the point from the axis, normal_deg that of the tendon's outward normal there; both
+/// counter-clockwise from x at home. active: 1 where a tendon leaves the pulley within the range.
+std::string profile_csv(const Product& product) {
+  std::string table = "pulley,angle_deg,x_mm,y_mm,radius_of_curvature_mm,active,normal_deg\n";
+  put_outline(table, product.synthesis.p1);
+  put_outline(table, product.synthesis.p2);
+  return table;
+}
+
+/// r1 and r2 are the moment arms of the tendons about the pulley's axis, m1 and m2 those about the joint; forces as in
+/// transmission/tension.h; the last two columns as the tendons wound on the mesh that was written have it.
+std::string transmission_csv(const Product& product) {
+  std::string table =
+      "alpha_deg,theta_deg,r1_mm,r2_mm,m1_mm,m2_mm,gamma2_deg,T2_N,phi_deg,Tb_N,elongation_mm,theta_error_deg,"
+      "theta_as_built_deg,slack_mm\n";
+  for (const TransmissionPoint& point : product.synthesis.stroke) {
+    const PaperForces forces = paper_forces(product.file.mechanism, point);
+    const AsBuilt as_built = as_built_at(product.as_built.points, point.alpha);
+    const std::array<double, 14> row = {degrees(point.alpha),
+                                        degrees(point.theta),
+                                        point.t1.p,
+                                        point.t2.p,
+                                        point.t1.m,
+                                        point.t2.m,
+                                        degrees(forces.gamma2),
+                                        forces.T2,
+                                        degrees(forces.phi),
+                                        forces.Tb,
+                                        forces.elongation,
+                                        degrees(forces.theta_error),
+                                        degrees(as_built.theta),
+                                        as_built.slack};
+    put_row(table, row);
+  }
+  return table;
+}
+
+}  // namespace fusee

@@ -1,0 +1,22 @@
+/// \file
+/// How long to cut the tendons and where their knots lie, at home.
+#pragma once
+
+#include <vector>
+
+#include "fusee/export/export.h"
+
+namespace fusee {
+
+struct TendonLength {
+  Side side = Side::left;
+  Vec2 joint_knot;           ///< C, in the frame of the mechanism, mm
+  Vec3 pulley_knot;          ///< middle of the knot pocket, in the frame of the mesh, mm
+  double between_knots = 0;  ///< along the tendon's centre line, mm
+  double spare_lap = 0;      ///< on the groove between the anchor and the last point of contact at full pay-out, rad
+};
+
+/// Of each tendon whose pulley has an anchor.
+std::vector<TendonLength> tendon_lengths(const Product& product);
+
+}  // namespace fusee

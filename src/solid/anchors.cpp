@@ -1,0 +1,209 @@
+#include "solid/anchors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+// The mouth begins this many tendon diameters past the arc that the tendon leaves from.
+constexpr double k_lap_ratio = 1.6;
+constexpr int k_fillet_steps = 6;
+
+Vec2 turned(const Vec2& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+struct Station {
+  Vec2 position;
+  Vec2 normal;
+};
+
+// Walks the closing arc from one end of the active arc to the other.
+class ClosingArc {
+ public:
+  ClosingArc(const Outline& outline, bool wound_end) : outline_(outline) {
+    const bool from_last = (outline.side == Side::left) == wound_end;
+    sense_ = from_last ? 1.0 : -1.0;
+    const std::size_t from = from_last ? outline.active_last : outline.active_first;
+    const std::size_t to = from_last ? outline.active_first : outline.active_last;
+    const std::size_t n = outline.points.size();
+    reach_.push_back(0.0);
+    index_.push_back(from);
+    while (index_.back() != to) {
+      const std::size_t next = from_last ? (index_.back() + 1) % n : (index_.back() + n - 1) % n;
+      reach_.push_back(reach_.back() + (outline.points[next].position - outline.points[index_.back()].position).norm());
+      index_.push_back(next);
+    }
+  }
+
+  double sense() const { return sense_; }
+  double length() const { return reach_.back(); }
+
+  Station at(double s) const {
+    const auto above = std::upper_bound(reach_.begin() + 1, reach_.end() - 1, s);
+    const auto k = static_cast<std::size_t>(above - reach_.begin());
+    const OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
+    const double share = std::clamp((s - reach_[k - 1]) / (reach_[k] - reach_[k - 1]), 0.0, 1.0);
+    return {a.position + share * (b.position - a.position), (a.normal + share * (b.normal - a.normal)).normalized()};
+  }
+
+ private:
+  const Outline& outline_;
+  double sense_ = 1;
+  std::vector<double> reach_;
+  std::vector<std::size_t> index_;
+};
+
+class AnchorSearch {
+ public:
+  AnchorSearch(const AnchorSite& site, bool wound_end, double wanted)
+      : site_(site),
+        arc_(site.outline, wound_end),
+        wanted_(wanted),
+        floor_(parallel(site.outline, -0.5 * site.tendon_diameter)) {}
+
+  // From short paths to long ones, so that the first with all the room wanted is the one to take.
+  std::optional<AnchorPath> run() {
+    constexpr std::array<double, 6> turns{70, 85, 55, 100, 115, 40};
+    const double d = site_.tendon_diameter;
+    for (const double lap : {k_lap_ratio, 2.5, 4.0, 6.0, 9.0}) {
+      if (lap * d > arc_.length()) break;
+      for (const double turn : turns) {
+        if (try_straights(arc_.at(lap * d), radians(turn))) return best_;
+      }
+    }
+    return best_;
+  }
+
+ private:
+  // True when a path with all the room wanted was found.
+  bool try_straights(const Station& station, double turn) {
+    const double step = 0.5 * site_.width;
+    const double longest = 2.0 * floor_radius();
+    for (double straight = 0.6 * site_.width; straight < longest; straight += step) {
+      AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, straight, 0};
+      const Vec2 pocket = path.pocket();
+      const double depth = depth_inside(floor_, pocket);
+      if (depth < -site_.width) break;
+      path.room = room_at(pocket, depth, straight);
+      if (!(path.room >= 0.55 * site_.width) || (best_ && path.room <= best_->room) || !channel_fits(path)) continue;
+      best_ = path;
+      if (path.room >= wanted_) return true;
+    }
+    return false;
+  }
+
+  double floor_radius() const {
+    double radius = 0;
+    for (const Vec2& point : floor_) radius = std::max(radius, point.norm());
+    return radius;
+  }
+
+  // The pocket's circle must meet the channel's edges on the straight.
+  double room_at(const Vec2& pocket, double depth, double straight) const {
+    double room = std::min({wanted_, depth - site_.wall, straight});
+    for (const auto* bars : {&site_.holes, &site_.above_pocket}) {
+      for (const Bar& bar : *bars) room = std::min(room, gap({pocket, pocket, 0.0}, bar) - site_.wall);
+    }
+    return room;
+  }
+
+  bool channel_fits(const AnchorPath& path) const {
+    const std::vector<Bar> bars = path.bars(site_.width);
+    for (const Bar& bar : bars) {
+      for (const Bar& hole : site_.holes) {
+        if (gap(bar, hole) < site_.wall) return false;
+      }
+    }
+    for (std::size_t i = 0; i < floor_.size(); ++i) {
+      if (!site_.outline.is_active(i)) continue;
+      const Bar point{floor_[i], floor_[i], 0.05};
+      if (std::any_of(bars.begin(), bars.end(), [&point](const Bar& bar) { return gap(bar, point) < 0; })) return false;
+    }
+    return true;
+  }
+
+  const AnchorSite& site_;
+  ClosingArc arc_;
+  double wanted_;
+  Polygon floor_;
+  std::optional<AnchorPath> best_;
+};
+
+}  // namespace
+
+Vec2 AnchorPath::outer() const { return turned(normal, sense * turn); }
+Vec2 AnchorPath::heading() const { return sense * turned_left(outer()); }
+Vec2 AnchorPath::pocket() const { return start - fillet * normal + fillet * outer() + straight * heading(); }
+
+std::vector<Vec2> AnchorPath::edge(double aside, int steps) const {
+  const Vec2 centre = start - fillet * normal;
+  std::vector<Vec2> points;
+  for (int k = 0; k <= steps; ++k)
+    points.push_back(centre + (fillet + aside) * turned(normal, sense * turn * k / steps));
+  return points;
+}
+
+std::vector<Bar> AnchorPath::bars(double width) const {
+  std::vector<Vec2> line = edge(0.0, k_fillet_steps);
+  line.push_back(pocket());
+  std::vector<Bar> result;
+  for (std::size_t k = 1; k < line.size(); ++k) result.push_back({line[k - 1], line[k], 0.5 * width});
+  return result;
+}
+
+std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted) {
+  demand(site.fillet > 0.5 * site.width,
+         "a channel of " + std::to_string(site.width) + " mm with a fillet of " + std::to_string(site.fillet));
+  return AnchorSearch(site, wound_end, wanted).run();
+}
+
+int pocket_facets(double radius) {
+  return std::clamp(static_cast<int>(std::ceil(k_pi / std::acos(1.0 - std::min(0.5, 0.02 / radius)))), 12, 64);
+}
+
+// Corners in the order: outer edge, pocket from the outer edge round to the inner one, inner edge backwards, and the
+// pocket's mouth.
+Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets) {
+  demand(radius > 0.5 * width, "a pocket narrower than its channel");
+  const Vec2 centre = path.pocket(), heading = path.heading(), inner = -path.outer();
+  const double mouth = std::asin(0.5 * width / radius);
+  const auto on_pocket = [&](double angle) {
+    return Vec2(centre + radius * (std::cos(angle) * heading + std::sin(angle) * inner));
+  };
+  std::vector<Vec2> points = path.edge(0.5 * width, k_fillet_steps);
+  const auto pocket_first = static_cast<std::uint32_t>(points.size());
+  for (int k = 0; k <= facets; ++k) points.push_back(on_pocket((k_pi - mouth) * (2.0 * k / facets - 1.0)));
+  const auto inner_first = static_cast<std::uint32_t>(points.size());
+  std::vector<Vec2> back = path.edge(-0.5 * width, k_fillet_steps);
+  points.insert(points.end(), back.rbegin(), back.rend());
+  const auto mouth_first = static_cast<std::uint32_t>(points.size());
+  points.push_back(on_pocket(k_pi));
+
+  Keyhole result;
+  for (std::uint32_t i = 0; i < mouth_first; ++i) result.outline.push_back(i);
+  for (std::uint32_t i = pocket_first; i < inner_first; ++i) result.pocket.push_back(i);
+  result.pocket.push_back(mouth_first);
+  for (std::uint32_t i = 0; i <= pocket_first; ++i) result.channel.push_back(i);
+  result.channel.push_back(mouth_first);
+  for (std::uint32_t i = inner_first - 1; i < mouth_first; ++i) result.channel.push_back(i);
+  result.points = std::move(points);
+  if (path.sense < 0) {
+    for (auto* loop : {&result.outline, &result.pocket, &result.channel}) std::reverse(loop->begin(), loop->end());
+  }
+  return result;
+}
+
+Polygon outline_of(const Keyhole& keyhole) {
+  Polygon outline;
+  for (const std::uint32_t index : keyhole.outline) outline.push_back(keyhole.points[index]);
+  return outline;
+}
+
+}  // namespace fusee

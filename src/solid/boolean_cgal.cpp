@@ -1,0 +1,80 @@
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Random.h>
+#include <CGAL/Surface_mesh.h>
+
+#include "fusee/base/diagnostics.h"
+#include "solid/boolean.h"
+
+namespace fusee {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Slots = std::array<boost::optional<SurfaceMesh*>, 4>;
+// Places of the results in CGAL's array.
+constexpr std::size_t k_union = 0, k_common = 1, k_difference = 2;
+
+SurfaceMesh surface_of(const TriangleMesh& mesh) {
+  SurfaceMesh surface;
+  surface.reserve(mesh.vertices.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());
+  for (const Vec3& vertex : mesh.vertices) surface.add_vertex({vertex.x(), vertex.y(), vertex.z()});
+  using Vertex = SurfaceMesh::Vertex_index;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    demand(surface.add_face(Vertex(a), Vertex(b), Vertex(c)) != SurfaceMesh::null_face(),
+           "a boolean of a mesh that is not manifold");
+  }
+  return surface;
+}
+
+TriangleMesh triangles_of(SurfaceMesh& surface) {
+  surface.collect_garbage();
+  TriangleMesh mesh;
+  for (const auto vertex : surface.vertices()) {
+    const auto& point = surface.point(vertex);
+    mesh.vertices.emplace_back(point.x(), point.y(), point.z());
+  }
+  for (const auto face : surface.faces()) {
+    std::array<std::uint32_t, 3> triangle{};
+    std::size_t k = 0;
+    for (const auto vertex : surface.vertices_around_face(surface.halfedge(face)))
+      triangle.at(k++) = static_cast<std::uint32_t>(vertex.idx());
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+std::optional<BooleanResult> combine(const TriangleMesh& a, const TriangleMesh& b, std::size_t wanted) {
+  // CGAL's box search draws from its default generator: the same draws give the same order of vertices every time.
+  CGAL::get_default_random() = CGAL::Random(0);
+  SurfaceMesh first = surface_of(a), second = surface_of(b), result, common;
+  Slots slots;
+  slots[wanted] = &result;
+  slots[k_common] = &common;
+  const std::array<bool, 4> valid = pmp::corefine_and_compute_boolean_operations(first, second, slots);
+  if (!valid[wanted] || !valid[k_common]) return std::nullopt;
+  BooleanResult outcome;
+  outcome.mesh = rounded_to_float(triangles_of(result));
+  outcome.common_volume = enclosed_volume(triangles_of(common));
+  return outcome;
+}
+
+}  // namespace
+
+std::optional<BooleanResult> subtract(const TriangleMesh& body, const TriangleMesh& tool) {
+  return combine(body, tool, k_difference);
+}
+std::optional<BooleanResult> unite(const TriangleMesh& a, const TriangleMesh& b) { return combine(a, b, k_union); }
+
+TriangleMesh together(const std::vector<TriangleMesh>& meshes) {
+  TriangleMesh all;
+  for (const TriangleMesh& mesh : meshes) {
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
+  }
+  return all;
+}
+
+}  // namespace fusee

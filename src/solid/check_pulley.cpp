@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/solid/pulley.h"
+#include "solid/nearest_segment.h"
+#include "solid/plane_distance.h"
+
+namespace fusee {
+namespace {
+
+// What rounding to float moves a coordinate by, and a section of such a mesh a little more.
+constexpr double k_float_grain = 1e-5;
+// The features' vertices are rounded too: far below any feature, far above the rounding.
+constexpr double k_volume_tolerance = 1e-6;
+
+int euler_number(const TriangleMesh& mesh) {
+  const TriangleMesh welded = weld(mesh);
+  std::vector<std::uint64_t> edges;
+  std::vector<bool> used(welded.vertices.size(), false);
+  edges.reserve(3 * welded.triangles.size());
+  for (const auto& triangle : welded.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
+      edges.push_back((std::uint64_t{std::min(a, b)} << 32) | std::max(a, b));
+      used[a] = true;
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto distinct = std::unique(edges.begin(), edges.end()) - edges.begin();
+  return static_cast<int>(std::count(used.begin(), used.end(), true) - distinct +
+                          static_cast<std::ptrdiff_t>(welded.triangles.size()));
+}
+
+std::string place_of(const Vec2& point) { return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ") mm"; }
+
+// Measures one groove on the sections of a mesh, in the pulley's own mm (the mesh's scale is taken out).
+class GrooveGauge {
+ public:
+  GrooveGauge(const TriangleMesh& mesh, const Mechanism& mechanism, const Outline& outline, const Pulley& pulley)
+      : mesh_(mesh),
+        d_(mechanism.tendon.diameter),
+        outline_(outline),
+        pulley_(pulley),
+        layout_(pulley.layout),
+        left_(outline.side == Side::left) {
+    floor_ = parallel(outline, -0.5 * d_);
+    for (Polygon& loop : loops_at(z())) (signed_area(loop) > 0 ? outlines_ : holes_).push_back(std::move(loop));
+  }
+
+  void add_checks(std::vector<Check>& checks, double tolerance, double min_wall) const {
+    const std::string name = left_ ? "_P1" : "_P2";
+    if (outlines_.empty()) {
+      checks.push_back({"floor_deviation" + name, 0, tolerance, "mm", false,
+                        fmt::format("no closed section at z = {} mm", rounded(z()))});
+      return;
+    }
+    const auto [deviation, where] = floor_deviation();
+    checks.push_back(at_most("floor_deviation" + name, deviation, tolerance + k_float_grain, "mm",
+                             "P" + std::string(left_ ? "1" : "2") + " at " + place_of(where)));
+    checks.push_back(at_least("wall" + name, thinnest_wall(), min_wall - k_float_grain, "mm",
+                              fmt::format("in the section at z = {} mm", rounded(z()))));
+    checks.push_back(
+        at_least("groove_depth" + name, depth(), layout_.groove_depth - tolerance, "mm", "between floor and flange"));
+    checks.push_back(at_least("groove_width" + name, width(), d_ - k_float_grain, "mm",
+                              "at the height of the tendon's centre line"));
+  }
+
+ private:
+  double z() const { return left_ ? layout_.z_p1 : layout_.z_p2; }
+
+  std::vector<Polygon> loops_at(double height) const {
+    std::vector<Polygon> loops = section(mesh_, height * layout_.scale);
+    for (Polygon& loop : loops) {
+      for (Vec2& point : loop) point /= layout_.scale;
+    }
+    return loops;
+  }
+
+  // At a channel's mouth there is no floor to measure.
+  bool at_a_mouth(const Vec2& point) const {
+    for (const Anchor& anchor : pulley_.anchors) {
+      if (anchor.side != outline_.side) continue;
+      bool inside = false;
+      for (std::size_t i = 0, j = anchor.channel.size() - 1; i < anchor.channel.size(); j = i++) {
+        const Vec2 &a = anchor.channel[i], &b = anchor.channel[j];
+        if (distance_to_segment(point, a, b) < 0.05) return true;
+        if ((a.y() > point.y()) != (b.y() > point.y()) &&
+            point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
+          inside = !inside;
+      }
+      if (inside) return true;
+    }
+    return false;
+  }
+
+  struct Deviation {
+    double value = 0;
+    Vec2 where = Vec2::Zero();
+    void look(double deviation, const Vec2& point) {
+      // A NaN is a deviation too.
+      if (!(deviation <= value)) *this = {deviation, point};
+    }
+  };
+
+  // Between section and polygon of the analytic curve, both ways, plus the sagitta by which that polygon cuts the
+  // curve's arcs.
+  Deviation floor_deviation() const {
+    Deviation worst;
+    const NearestSegment to_floor({floor_}), to_section(outlines_);
+    for (const Polygon& outline : outlines_) {
+      for (const Vec2& point : outline) {
+        if (!at_a_mouth(point)) worst.look(to_floor.distance(point), point);
+      }
+    }
+    for (std::size_t i = 0; i < floor_.size(); ++i) {
+      if (outline_.is_active(i) || !at_a_mouth(floor_[i])) worst.look(to_section.distance(floor_[i]), floor_[i]);
+    }
+    worst.value += sagitta();
+    return worst;
+  }
+
+  double sagitta() const {
+    double largest = 0;
+    const auto& points = outline_.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const OutlinePoint &a = points[i], &b = points[(i + 1) % points.size()];
+      const double turn = std::remainder(b.psi - a.psi, k_two_pi);
+      const double radius = 0.5 * (a.curvature_radius + b.curvature_radius) - 0.5 * d_;
+      largest = std::max(largest, radius * (1.0 - std::cos(0.5 * turn)));
+    }
+    return largest;
+  }
+
+  // Holes of the section are the bore and its screws; the outline runs into the tie-offs too.
+  double thinnest_wall() const {
+    if (holes_.empty()) return 0;
+    double least = std::numeric_limits<double>::infinity();
+    const NearestSegment to_outline(outlines_), to_holes(holes_);
+    for (const Polygon& hole : holes_) {
+      for (const Vec2& point : hole) least = std::min(least, to_outline.distance(point));
+    }
+    for (const Polygon& outline : outlines_) {
+      for (const Vec2& point : outline) least = std::min(least, to_holes.distance(point));
+    }
+    return least;
+  }
+
+  double depth() const {
+    const double side = left_ ? -1.0 : 1.0;
+    const std::vector<Polygon> flange =
+        loops_at(z() + side * (layout_.groove_half_width + 0.5 * std::min(0.2, layout_.flange_thickness)));
+    if (flange.empty()) return 0;
+    const NearestSegment to_flange({outer_loop(flange)});
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < floor_.size(); ++i) {
+      if (outline_.is_active(i)) least = std::min(least, to_flange.distance(floor_[i]));
+    }
+    return least;
+  }
+
+  // Along an upright line half-way between two samples on the pitch curve: from the facet below the groove's plane to
+  // the one above.
+  double width() const {
+    const std::size_t n = outline_.points.size(), i = (outline_.active_first + 1) % n;
+    const Vec2 at = layout_.scale * 0.5 * (outline_.points[i].position + outline_.points[(i + 1) % n].position);
+    double below = -std::numeric_limits<double>::infinity(), above = -below;
+    for (const auto& triangle : mesh_.triangles) {
+      const Vec3 &a = mesh_.vertices[triangle[0]], &b = mesh_.vertices[triangle[1]], &c = mesh_.vertices[triangle[2]];
+      const double wa = cross(b.head<2>() - at, c.head<2>() - at), wb = cross(c.head<2>() - at, a.head<2>() - at),
+                   wc = cross(a.head<2>() - at, b.head<2>() - at);
+      const bool covers = (wa > 0 && wb > 0 && wc > 0) || (wa < 0 && wb < 0 && wc < 0);
+      if (!covers) continue;
+      const double height = (wa * a.z() + wb * b.z() + wc * c.z()) / (wa + wb + wc) / layout_.scale;
+      (height < z() ? below : above) = height < z() ? std::max(below, height) : std::min(above, height);
+    }
+    return std::isfinite(above - below) ? above - below : 0.0;
+  }
+
+  const TriangleMesh& mesh_;
+  double d_;
+  const Outline& outline_;
+  const Pulley& pulley_;
+  const BodyLayout& layout_;
+  bool left_;
+  Polygon floor_;
+  std::vector<Polygon> outlines_;
+  std::vector<Polygon> holes_;
+};
+
+}  // namespace
+
+std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
+                                const Pulley& pulley, double tolerance) {
+  demand(pulley.made(), "check of a pulley that was not made");
+  std::vector<Check> checks = check_mesh(mesh);
+  const bool measurable = checks[0].ok && checks[1].ok && checks[2].ok;
+  if (!measurable) return checks;
+  checks.push_back(exactly("euler_number", euler_number(mesh), pulley.expected_euler, "1",
+                           "a hole is missing or closed, or there is one too many"));
+  const double volume = enclosed_volume(mesh);
+  checks.push_back(
+      at_most("volume_deviation", std::abs(volume / pulley.expected_volume - 1.0), k_volume_tolerance, "1",
+              fmt::format("{} mm³ in place of {} mm³", rounded(volume, 9), rounded(pulley.expected_volume, 9))));
+  GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, mechanism.body.min_wall);
+  GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, mechanism.body.min_wall);
+  return checks;
+}
+
+}  // namespace fusee

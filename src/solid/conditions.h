@@ -1,0 +1,31 @@
+/// \file
+/// Can this body be made? Each condition names the number to change, and to what.
+#pragma once
+
+#include "solid/plan.h"
+
+namespace fusee {
+
+/// The thinnest wall between a convex floor and a hole inside it.
+struct Wall {
+  double thickness = 0;
+  double angle = 0;  ///< where, about the axis, rad
+};
+Wall wall_between(const Polygon& floor, const Polygon& hole);
+
+/// What the planner found about the tie-offs at the wound ends.
+struct AnchorRoom {
+  Side side = Side::left;
+  double room = 0;   ///< radius of the largest pocket found, 0: not even the channel fits
+  double least = 0;  ///< radius below which there is no use in it
+  /// Numbers with which there would be room; 0: none was found.
+  double min_wall_that_fits = 0;
+  double bore_that_fits = 0;
+};
+
+/// All conditions of a planned body. Those of the tie-offs are added from `rooms`.
+std::vector<Condition> conditions_of(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                                     const BodyLayout& layout, const FlangeRims& rims,
+                                     const std::vector<AnchorRoom>& rooms);
+
+}  // namespace fusee

@@ -1,0 +1,157 @@
+#include "solid/marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+// Clear of every edge of its face.
+constexpr double k_margin = 0.5;
+// Strokes of letters, as wide as a nozzle prints well.
+constexpr double k_letter_height = 4.0;
+constexpr double k_smallest_letter = 2.5;
+constexpr double k_home_half_width = 0.8;
+constexpr double k_home_length = 2.0;
+
+// Letters on a grid 3 wide and 5 high, strokes 1 wide, the origin at the lower left.
+std::vector<std::vector<Polygon>> glyph(char letter) {
+  switch (letter) {
+    case 'P':
+      return {{{{0, 0}, {1, 0}, {1, 2}, {3, 2}, {3, 5}, {0, 5}}, {{1, 3}, {1, 4}, {2, 4}, {2, 3}}}};
+    case '1':
+      return {{{{1, 0}, {2, 0}, {2, 5}, {1, 5}, {0, 4}, {1, 4}}}};
+    default:
+      return {{{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {3, 2}, {3, 5}, {0, 5}, {0, 4}, {2, 4}, {2, 3}, {0, 3}}}};
+  }
+}
+
+// "P1" or "P2" about `centre`, as read by someone who looks at the face.
+std::vector<Mark> label(char digit, const Vec2& centre, double height, bool on_top) {
+  const double unit_length = height / 5.0;
+  std::vector<Mark> marks;
+  double left = -3.5;
+  for (const char letter : {'P', digit}) {
+    for (const auto& loops : glyph(letter)) {
+      Mark mark;
+      mark.on_top = on_top;
+      for (const Polygon& loop : loops) {
+        Polygon placed;
+        for (const Vec2& corner : loop) {
+          const Vec2 local = unit_length * Vec2(left + corner.x(), corner.y() - 2.5);
+          placed.push_back(centre + (on_top ? local : Vec2(-local.x(), local.y())));
+        }
+        mark.loops.push_back(std::move(placed));
+      }
+      marks.push_back(std::move(mark));
+    }
+    left += 4.0;
+  }
+  return marks;
+}
+
+// One end face: its rim, what stands on it or opens in it.
+class Face {
+ public:
+  Face(const BodyPlan& plan, bool on_top) : rim_(on_top ? plan.rims.upper : plan.rims.lower), on_top_(on_top) {
+    const BodyLayout& layout = plan.layout;
+    const double middle = std::max(layout.bore.radius, on_top ? layout.hub_radius : 0.0);
+    bars_.push_back({Vec2::Zero(), Vec2::Zero(), middle});
+    edge_ = on_top ? 0.0 : layout.elephant_foot;
+    for (const Polygon& hole : layout.bore.screw_holes) {
+      for (const Vec2& corner : hole) bars_.push_back({corner, corner, 0.0});
+    }
+    for (const PlannedAnchor& anchor : plan.anchors) {
+      if ((anchor.side == Side::right) == on_top)
+        bars_.push_back({anchor.path.pocket(), anchor.path.pocket(), layout.pocket_radius});
+    }
+  }
+
+  void occupy(const Bar& bar) { bars_.push_back(bar); }
+
+  bool is_free(const Bar& bar) const {
+    const double depth = std::min(depth_inside(rim_, bar.a), depth_inside(rim_, bar.b)) - bar.radius;
+    if (depth < k_margin + edge_) return false;
+    return std::all_of(bars_.begin(), bars_.end(), [&bar](const Bar& other) { return gap(bar, other) >= k_margin; });
+  }
+
+  // The rim's distance from the axis towards +y.
+  double reach_up() const {
+    double low = 0, high = 1e4;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (low + high);
+      (depth_inside(rim_, {0.0, middle}) > 0 ? low : high) = middle;
+    }
+    return low - edge_;
+  }
+
+  bool on_top() const { return on_top_; }
+
+ private:
+  const Polygon& rim_;
+  bool on_top_;
+  double edge_ = 0;
+  std::vector<Bar> bars_;
+};
+
+// A triangle that points at the rim in the direction of the joint at home (top), a bar at the same place below: with
+// both, parts that were made separately can be clocked.
+std::optional<Mark> home_mark(Face& face) {
+  const double tip = face.reach_up() - k_margin - 0.1, foot = tip - k_home_length;
+  if (!face.is_free({{0, tip - k_home_half_width}, {0, foot + k_home_half_width}, k_home_half_width - 0.1}))
+    return std::nullopt;
+  face.occupy({{0, tip}, {0, foot}, k_home_half_width});
+  Mark mark;
+  mark.on_top = face.on_top();
+  if (face.on_top()) {
+    mark.loops = {{{-k_home_half_width, foot}, {k_home_half_width, foot}, {0.03, tip}, {-0.03, tip}}};
+  } else {
+    mark.loops = {{{-0.4, foot}, {0.4, foot}, {0.4, tip}, {-0.4, tip}}};
+  }
+  return mark;
+}
+
+// Tries places all round the axis, large letters before small ones.
+std::vector<Mark> label_on(Face& face, char digit) {
+  const double reach = face.reach_up();
+  for (double height = k_letter_height; height >= k_smallest_letter; height *= 0.85) {
+    const double half_length = 0.7 * height;
+    for (const double angle_degrees : {270.0, 180.0, 0.0, 225.0, 315.0, 135.0, 45.0, 247.0, 293.0}) {
+      for (double radius = 0.15 * reach; radius < 1.6 * reach; radius += 0.5) {
+        const Vec2 centre = radius * unit(radians(angle_degrees));
+        const double round = 0.5 * height;
+        const Bar bar{centre - Vec2(half_length - round, 0), centre + Vec2(half_length - round, 0), 1.25 * round};
+        if (!face.is_free(bar)) continue;
+        face.occupy(bar);
+        return label(digit, centre, height, face.on_top());
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Mark> marks_of(Marks kind, BodyPlan& plan) {
+  std::vector<Mark> marks;
+  if (kind == Marks::none) return marks;
+  for (const bool on_top : {false, true}) {
+    Face face(plan, on_top);
+    if (auto home = home_mark(face)) {
+      marks.push_back(std::move(*home));
+    } else {
+      plan.layout.notes.push_back(on_top ? "no room for the home mark on the top face: left out"
+                                         : "no room for the clocking mark on the bottom face: left out");
+    }
+    auto letters = label_on(face, on_top ? '2' : '1');
+    if (letters.empty())
+      plan.layout.notes.push_back(on_top ? "no room for the label P2: left out" : "no room for the label P1: left out");
+    std::move(letters.begin(), letters.end(), std::back_inserter(marks));
+  }
+  return marks;
+}
+
+}  // namespace fusee

@@ -1,0 +1,70 @@
+#include "solid/nearest_segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solid/plane_distance.h"
+
+namespace fusee {
+
+NearestSegment::NearestSegment(std::vector<Polygon> loops) : loops_(std::move(loops)) {
+  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
+  low_ = -high;
+  for (const Polygon& loop : loops_) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      segments_.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
+      low_ = low_.cwiseMin(loop[i]);
+      high = high.cwiseMax(loop[i]);
+    }
+  }
+  if (segments_.empty()) return;
+  const Vec2 size = high - low_;
+  side_ = std::max(size.maxCoeff() / std::ceil(std::sqrt(static_cast<double>(segments_.size()))),
+                   std::numeric_limits<double>::min());
+  columns_ = static_cast<long>(size.x() / side_) + 1;
+  rows_ = static_cast<long>(size.y() / side_) + 1;
+  cells_.resize(static_cast<std::size_t>(columns_ * rows_));
+  for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+    const auto& [a, b] = segments_[s];
+    const Cell from = cell_of(a.cwiseMin(b)), to = cell_of(a.cwiseMax(b));
+    for (long row = from.row; row <= to.row; ++row) {
+      for (long column = from.column; column <= to.column; ++column)
+        cells_[static_cast<std::size_t>(row * columns_ + column)].push_back(s);
+    }
+  }
+}
+
+NearestSegment::Cell NearestSegment::cell_of(const Vec2& point) const {
+  const auto clamped = [this](double offset, long count) {
+    return static_cast<long>(std::clamp(offset / side_, 0.0, static_cast<double>(count - 1)));
+  };
+  return {clamped(point.x() - low_.x(), columns_), clamped(point.y() - low_.y(), rows_)};
+}
+
+double NearestSegment::nearest_in(long column, long row, const Vec2& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return least;
+  for (const std::uint32_t s : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
+    least = std::min(least, distance_to_segment(point, segments_[s].first, segments_[s].second));
+  }
+  return least;
+}
+
+// Rings of cells outward from the point's own. A segment beyond ring k is at least k cells away from that cell's
+// border.
+double NearestSegment::distance(const Vec2& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (segments_.empty()) return least;
+  const auto [column, row] = cell_of(point);
+  for (long k = 0; k <= std::max(columns_, rows_) && (k == 0 || least > static_cast<double>(k - 1) * side_); ++k) {
+    for (long i = -k; i <= k; ++i) {
+      least = std::min({least, nearest_in(column + i, row - k, point), nearest_in(column + i, row + k, point)});
+      if (std::abs(i) != k)
+        least = std::min({least, nearest_in(column - k, row + i, point), nearest_in(column + k, row + i, point)});
+    }
+  }
+  return least;
+}
+
+}  // namespace fusee

@@ -1,0 +1,42 @@
+#include "solid/plane_distance.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fusee {
+namespace {
+
+bool segments_cross(const Bar& p, const Bar& q) {
+  const auto side = [](const Bar& bar, const Vec2& point) { return cross(bar.b - bar.a, point - bar.a); };
+  return side(p, q.a) * side(p, q.b) < 0 && side(q, p.a) * side(q, p.b) < 0;
+}
+
+}  // namespace
+
+double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - a - share * along).norm();
+}
+
+double gap(const Bar& p, const Bar& q) {
+  double apart = 0;
+  if (!segments_cross(p, q)) {
+    apart = std::min({distance_to_segment(p.a, q.a, q.b), distance_to_segment(p.b, q.a, q.b),
+                      distance_to_segment(q.a, p.a, p.b), distance_to_segment(q.b, p.a, p.b)});
+  }
+  return apart - p.radius - q.radius;
+}
+
+double depth_inside(const Polygon& convex, const Vec2& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    const Vec2& a = convex[i];
+    const Vec2 along = convex[i + 1 == convex.size() ? 0 : i + 1] - a;
+    least = std::min(least, cross(along, point - a) / along.norm());
+  }
+  return least;
+}
+
+}  // namespace fusee

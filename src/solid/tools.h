@@ -1,0 +1,24 @@
+/// \file
+/// Closed meshes of what is cut out of the body (or added to it). mm, not yet scaled.
+#pragma once
+
+#include <vector>
+
+#include "fusee/solid/layout.h"
+#include "fusee/solid/mesh.h"
+#include "solid/anchors.h"
+
+namespace fusee {
+
+/// loops[0] without the others, from `low` to `high`.
+TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high);
+
+/// A keyhole between `far` and `near`, its pocket open to `open` (below both, or above both; `near` lies between the
+/// others).
+TriangleMesh keyhole_tool(const Keyhole& keyhole, double open, double near, double far);
+
+/// The set screw's hole from the axis through the hub, with the slot its nut is slid into. Another `variant` has other
+/// facets.
+TriangleMesh set_screw_tool(const SetScrewLayout& screw, double hub_radius, double hub_top, int variant);
+
+}  // namespace fusee

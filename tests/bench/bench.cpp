@@ -1,0 +1,132 @@
+// How long the steps of a build take, and how they grow with the number of triangles.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "fusee/pipeline.h"
+
+namespace {
+
+using namespace fusee;
+
+const MechanismFile& paper() {
+  static const MechanismFile file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/paper_optimum.toml");
+  return file;
+}
+
+const SynthesisResult& paper_synthesis() {
+  static const SynthesisResult synthesis = synthesise(paper().mechanism);
+  return synthesis;
+}
+
+const Pulley& paper_pulley() {
+  static const Pulley pulley = make_pulley(paper().mechanism, paper_synthesis());
+  return pulley;
+}
+
+/// A ring of about `triangles` faces, coordinates as floats hold them: a sound solid of any size.
+TriangleMesh torus(std::int64_t triangles) {
+  const auto n = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)));
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const double u = k_two_pi * i / n, v = k_two_pi * j / n, r = 20 + 5 * std::cos(v);
+      mesh.vertices.emplace_back(r * std::cos(u), r * std::sin(u), 5 * std::sin(v));
+      const std::uint32_t a = i * n + j, b = (i + 1) % n * n + j, c = (i + 1) % n * n + (j + 1) % n, d = i * n + (j + 1) % n;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  }
+  return rounded_to_float(std::move(mesh));
+}
+
+void synthesis(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(synthesise(paper().mechanism));
+}
+BENCHMARK(synthesis)->Unit(benchmark::kMillisecond);
+
+void body(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(make_pulley(paper().mechanism, paper_synthesis()));
+}
+BENCHMARK(body)->Unit(benchmark::kMillisecond);
+
+void checks(benchmark::State& state) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(check_pulley(paper_pulley().mesh, paper().mechanism, paper_synthesis(), paper_pulley(), 0.01));
+  }
+}
+BENCHMARK(checks)->Unit(benchmark::kMillisecond);
+
+void rewinding(benchmark::State& state) {
+  const Part part = paper_pulley().mesh;
+  for (auto _ : state) benchmark::DoNotOptimize(rewind_part(paper().mechanism, part));
+}
+BENCHMARK(rewinding)->Unit(benchmark::kMillisecond);
+
+/// Every format and every check, onto the disk.
+void whole_build(benchmark::State& state) {
+  const auto folder = std::filesystem::temp_directory_path() / "fusee-bench";
+  BuildOptions options;
+  options.folder = folder;
+  for (auto _ : state) benchmark::DoNotOptimize(build(paper(), options));
+  std::filesystem::remove_all(folder);
+}
+BENCHMARK(whole_build)->Unit(benchmark::kMillisecond);
+
+// Finer and finer facets of the same part.
+void build_by_tolerance(benchmark::State& state) {
+  BuildOptions options;
+  options.tolerance = 0.01 / static_cast<double>(state.range(0));
+  options.dry_run = true;
+  options.folder = "unused";
+  std::size_t triangles = 0;
+  for (auto _ : state) triangles = build(paper(), options).product.pulley.mesh.triangles.size();
+  state.counters["triangles"] = static_cast<double>(triangles);
+}
+BENCHMARK(build_by_tolerance)->Arg(1)->Arg(4)->Arg(16)->Unit(benchmark::kMillisecond);
+
+// Growth up to a million triangles: the figure at the end is the exponent's verdict ("N" is linear).
+void sizes(benchmark::internal::Benchmark* bench) {
+  bench->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
+}
+
+void write_stl(benchmark::State& state) {
+  const TriangleMesh mesh = torus(state.range(0));
+  std::size_t bytes = 0;
+  for (auto _ : state) bytes += stl_bytes(mesh, "torus").size();
+  state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(write_stl)->Apply(sizes);
+
+/// What the STL writer is held against: the same bytes, copied.
+void copy_stl(benchmark::State& state) {
+  const std::string stl = stl_bytes(torus(state.range(0)), "torus");
+  for (auto _ : state) {
+    std::string copy(stl.size(), '\0');
+    std::memcpy(copy.data(), stl.data(), stl.size());
+    benchmark::DoNotOptimize(copy.data());
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * stl.size()));
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(copy_stl)->Apply(sizes);
+
+void read_stl(benchmark::State& state) {
+  const std::string stl = stl_bytes(torus(state.range(0)), "torus");
+  for (auto _ : state) benchmark::DoNotOptimize(read_mesh(stl, "torus.stl"));
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * stl.size()));
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(read_stl)->Apply(sizes);
+
+void check_a_mesh(benchmark::State& state) {
+  const TriangleMesh mesh = torus(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(check_mesh(mesh));
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(check_a_mesh)->Apply(sizes);
+
+}  // namespace

@@ -1,0 +1,24 @@
+// Any bytes under any name: a mesh or an InputError. A mesh that came out has its indices in range.
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/export/export.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  // The name decides where the content does not tell.
+  for (const char* name : {"fuzz.stl", "fuzz.obj", "fuzz.off"}) {
+    try {
+      const fusee::TriangleMesh mesh = fusee::read_mesh(bytes, name);
+      for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t index : triangle) {
+          if (index >= mesh.vertices.size()) std::abort();
+        }
+      }
+    } catch (const fusee::InputError&) {
+    }
+  }
+  return 0;
+}

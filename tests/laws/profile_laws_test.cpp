@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fusee/profile/rewind.h"
+#include "fusee/profile/synthesis.h"
+#include "laws/random_mechanism.h"
+
+namespace fusee {
+namespace {
+
+using testing::expect_law;
+
+bool is_convex(const Polygon& polygon) {
+  const std::size_t count = polygon.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2& here = polygon[i];
+    const Vec2& next = polygon[(i + 1) % count];
+    if (cross(next - here, polygon[(i + 2) % count] - next) <= 0) return false;
+  }
+  return true;
+}
+
+TEST(ProfileLaws, WhatIsAcceptedIsConvexAndRewindsToItsLaw) {
+  expect_law(400, [](const Mechanism& mechanism) {
+    const SynthesisResult result = synthesise(mechanism, {.advice = false});
+    if (!result.made()) return false;
+    const double half = 0.5 * mechanism.tendon.diameter;
+    const Polygon floor1 = parallel(result.p1, -half);
+    const Polygon floor2 = parallel(result.p2, -half);
+    RC_ASSERT(is_convex(floor1));
+    RC_ASSERT(is_convex(floor2));
+    const RewindResult wound = rewind(mechanism, floor1, floor2);
+    RC_ASSERT(degrees(wound.max_theta_error) < 0.05);
+    RC_ASSERT(wound.max_slack < 0.05);
+    return true;
+  });
+}
+
+TEST(ProfileLaws, WhatIsRefusedSaysWhy) {
+  expect_law(400, [](const Mechanism& mechanism) {
+    const SynthesisResult result = synthesise(mechanism, {.advice = false});
+    const auto failed = std::count_if(result.conditions.begin(), result.conditions.end(), [](const Condition& c) { return !c.ok; });
+    RC_ASSERT(result.made() == (failed == 0));
+    for (const Condition& condition : result.conditions) {
+      RC_ASSERT(condition.ok == condition.message.empty());
+      RC_ASSERT(std::isfinite(condition.alpha));
+      if (condition.ok) RC_ASSERT(std::isfinite(condition.value));
+    }
+    return result.made();
+  });
+}
+
+TEST(ProfileLaws, NoTendonTouchesTheClosingArc) {
+  expect_law(200, [](const Mechanism& mechanism) {
+    const SynthesisResult result = synthesise(mechanism, {.advice = false});
+    if (!result.made()) return false;
+    for (const TransmissionPoint& at : result.stroke) {
+      const Vec2 normal1 = unit(at.t1.lower_normal + at.alpha);
+      const Vec2 normal2 = unit(at.t2.lower_normal + at.alpha);
+      for (const OutlinePoint& point : result.p1.points) RC_ASSERT(point.position.dot(normal1) <= at.t1.p + 1e-9 * mechanism.joint.R);
+      for (const OutlinePoint& point : result.p2.points) RC_ASSERT(point.position.dot(normal2) <= at.t2.p + 1e-9 * mechanism.joint.R);
+    }
+    return true;
+  });
+}
+
+}  // namespace
+}  // namespace fusee

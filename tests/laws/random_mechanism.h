@@ -1,0 +1,75 @@
+/// \file
+/// Random joints: from finger to arm, of every law, symmetric or not, possible or not.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism/file.h"
+
+namespace fusee::testing {
+
+namespace detail {
+
+/// A number between two bounds, uniform in steps of a millionth.
+inline rc::Gen<double> between(double low, double high) {
+  return rc::gen::map(rc::gen::resize(1000000, rc::gen::inRange(0, 1000001)),
+                      [low, high](int step) { return low + (high - low) * step / 1e6; });
+}
+
+}  // namespace detail
+
+inline Mechanism random_mechanism() {
+  using detail::between;
+  Mechanism mechanism = default_mechanism();
+  mechanism.name = "random";
+  const double R = std::exp(*between(std::log(20.0), std::log(300.0)));
+  mechanism.joint = {R, radians(-*between(8.0, 38.0)), radians(*between(8.0, 38.0))};
+  mechanism.guides.EB = R * *between(0.3, 0.75);
+  mechanism.guides.ED = *rc::gen::element(true, false) ? mechanism.guides.EB : R * *between(0.3, 0.75);
+  mechanism.guides.OE = R * *between(-0.5, 0.2);
+  mechanism.pulley.EF = R * *between(0.5, 1.6);
+  mechanism.tendon.diameter = R * *between(0.004, 0.02);
+  mechanism.guides.radius = mechanism.tendon.diameter * *between(0.0, 3.0);
+  if (*rc::gen::element(true, true, false)) {
+    mechanism.pulley.r1 = R * *between(0.11, 0.2);
+  } else {
+    mechanism.pulley.law = Law::linear;
+    mechanism.pulley.ratio = *between(2.4, 4.5);
+  }
+  return mechanism;
+}
+
+/// Checks `property(mechanism)` on random mechanisms, the same ones every time: `usual_cases` of them, or FUSEE_LAW_CASES.
+/// A property asserts with RC_ASSERT and returns whether the mechanism was possible; some of each kind must have been met.
+template <typename Property>
+void expect_law(int usual_cases, Property property) {
+  const char* wanted = std::getenv("FUSEE_LAW_CASES");
+  rc::detail::TestParams params;
+  params.seed = 20251120;
+  params.maxSuccess = wanted == nullptr ? usual_cases : std::atoi(wanted);
+  params.disableShrinking = true;  // a smaller mechanism is no clearer one
+  int possible = 0;
+  int cases = 0;
+  const auto result = rc::detail::checkTestable(
+      [&] {
+        const Mechanism mechanism = random_mechanism();
+        RC_LOG() << write_mechanism(mechanism);
+        ++cases;
+        if (property(mechanism)) ++possible;
+      },
+      rc::detail::TestMetadata(), params);
+  std::ostringstream message;
+  rc::detail::printResultMessage(result, message);
+  EXPECT_TRUE(result.template is<rc::detail::SuccessResult>()) << message.str();
+  EXPECT_GT(possible, cases / 8);
+  EXPECT_LT(possible, cases);
+}
+
+}  // namespace fusee::testing
