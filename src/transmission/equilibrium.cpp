@@ -206,7 +206,9 @@ TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial
   state.lower = trial.balance.lower;
   state.wrap = trial.wrap;
   state.contact = trial.balance.contact;
-  state.slack = std::max(0.0, tendon.upper_material - trial.spans.upper_length) + std::max(0.0, tendon.lower_material - at.lower_length);
+  for (const double stretch : {trial.spans.upper_length - tendon.upper_material, at.lower_length - tendon.lower_material}) {
+    (stretch > 0 ? state.stretch : state.slack) += std::abs(stretch);
+  }
   return state;
 }
 

@@ -57,7 +57,11 @@ CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& 
 
 }  // namespace
 
-MadePulleys::MadePulleys(const Mechanism& made_for, double offset) : declared_(made_for), offset_(offset) {}
+MadePulleys MadePulleys::offset_by(double by) const {
+  MadePulleys larger = *this;
+  larger.offset_ += by;
+  return larger;
+}
 
 // A line of the pulley's frame with normal ψ_b stands at ψ = ψ_b − α; it touches the mounted pin's circle on the outer side when
 //   F = c cos(φ − ψ) + ρ − h(ψ_b) = 0.

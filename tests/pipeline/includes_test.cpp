@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> k_flow = {{"base", 0},  {"mechanism", 1}, {"transmission", 2}, {"profile", 3},
-                                           {"solid", 4}, {"export", 5},    {"pipeline", 6},     {"cli", 7}};
+const std::map<std::string, int> k_flow = {{"base", 0},     {"mechanism", 1}, {"transmission", 2}, {"profile", 3},  {"analysis", 4},
+                                           {"optimize", 5}, {"solid", 6},     {"export", 7},       {"pipeline", 8}, {"cli", 9}};
 
 struct Include {
   fs::path file;  ///< relative to the source tree

@@ -27,10 +27,11 @@ enum class PinContact {
 };
 
 struct TendonState {
-  double upper = 0;  ///< tension between pin and C, N
-  double lower = 0;  ///< tension between pulley and pin, N
-  double slack = 0;  ///< material beyond the path's length, both spans, mm
-  double wrap = 0;   ///< φ on the pin, rad; negative: the tendon would leave the pin, and the model ends there
+  double upper = 0;    ///< tension between pin and C, N
+  double lower = 0;    ///< tension between pulley and pin, N
+  double slack = 0;    ///< material beyond the path's length, both spans, mm
+  double stretch = 0;  ///< path beyond the material's length, both spans, mm
+  double wrap = 0;     ///< φ on the pin, rad; negative: the tendon would leave the pin, and the model ends there
   PinContact contact = PinContact::stick;
 };
 

@@ -24,8 +24,10 @@ struct LowerPath {
 /// Both pulleys as made for a mechanism, looked at from pins that may stand elsewhere. Cheap to copy; immutable.
 class MadePulleys {
  public:
-  /// `offset`: both pitch curves lie this much outside the declared ones (print offset, tendon thickness), mm.
-  explicit MadePulleys(const Mechanism& made_for, double offset = 0.0);
+  explicit MadePulleys(const Mechanism& made_for) : declared_(made_for) {}
+
+  /// The same with both pitch curves `by` further out all round (print offset, tendon thickness), mm.
+  MadePulleys offset_by(double by) const;
 
   /// Both tendons (left, right) at the pulley angle `alpha`. NaN where a tendon touches a part of the curve that the law does not define.
   std::array<LowerPath, 2> paths(const std::array<PinPlace, 2>& mounted, double alpha) const;
@@ -35,7 +37,7 @@ class MadePulleys {
   LowerPath path(Side side, const PinPlace& mounted, double alpha, const TransmissionPoint& first) const;
 
   Transmission declared_;
-  double offset_;
+  double offset_ = 0;
 };
 
 struct JointModel {
