@@ -60,6 +60,7 @@ class Search {
   // ---- branch and bound ------------------------------------------------------------------------------------------------
 
   void start() {
+    for (const Design& design : options_.first_tries) try_design(design);
     constexpr int k_first_tries = 200;
     Random random(1);
     for (int i = 0; i < k_first_tries; ++i) try_design(random_design(problem_, random));

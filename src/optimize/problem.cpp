@@ -137,6 +137,12 @@ Mechanism mechanism_at(const Problem& problem, const Design& design) {
   return mechanism;
 }
 
+std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design) {
+  std::vector<ValueEdit> edits;
+  for (const MovingKey& moving : problem.moving) edits.push_back({moving.key, moving.value(design)});
+  return edits;
+}
+
 double constraint_violation(const Problem& problem, const Design& design) {
   constexpr double k_rounding = 1e-12;
   double violation = 0;

@@ -11,6 +11,7 @@ struct CertifiedOptions {
   double tie = 1e-3;          ///< relative: designs this near to the best tie with it
   long most_boxes = 4000000;  ///< an end to memory and time
   long most_tie_boxes = 3000;
+  std::vector<Design> first_tries;  ///< designs known to be good
   KeepGoing keep_going;
 };
 

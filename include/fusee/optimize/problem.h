@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fusee/mechanism/edit.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/mechanism/file.h"
 #include "fusee/mechanism/linear_relation.h"
@@ -65,6 +66,8 @@ Problem make_problem(const MechanismFile& file);
 
 /// The mechanism of a design, ties followed; without its [optimize].
 Mechanism mechanism_at(const Problem& problem, const Design& design);
+/// What a design changes in the person's file.
+std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design);
 /// How far beyond its constraints a design lies, each in units of its own size; 0 when it keeps them all.
 double constraint_violation(const Problem& problem, const Design& design);
 /// Objective, constraints, ties within their bounds, cap, and (when demanded) whether a pulley can be made.
