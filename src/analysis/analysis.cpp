@@ -5,6 +5,7 @@
 
 #include "analysis/stroke.h"
 #include "fusee/mechanism/catalogue.h"
+#include "fusee/mechanism/fields.h"
 
 namespace fusee {
 namespace {
@@ -92,6 +93,34 @@ void summarise(AnalysisResult& result) {
   });
 }
 
+bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double>& alphas) {
+  mechanism.tendon.pretension = pretension;
+  const std::vector<StrokePoint> stroke = settled_stroke(mechanism, alphas);
+  return std::all_of(stroke.begin(), stroke.end(), [](const StrokePoint& point) {
+    const auto taut = [](const EquilibriumPoint& at) { return held(at) && !is_slack(at.t1) && !is_slack(at.t2); };
+    return taut(point.rising) && taut(point.falling);
+  });
+}
+
+/// To one part in a hundred, on the safe side.
+std::optional<double> taut_pretension(const Mechanism& mechanism) {
+  const Transmission transmission(mechanism);
+  std::vector<double> alphas;
+  for (int i = 0; i <= 12; ++i) alphas.push_back(transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / 12);
+  double slack = mechanism.tendon.pretension;
+  double taut = std::max(1.0, slack);
+  while (!stays_taut(mechanism, taut, alphas)) {
+    slack = taut;
+    taut *= 2.0;
+    if (taut > find_field("tendon.pretension_N")->most) return std::nullopt;
+  }
+  while (taut > 1.01 * slack && taut > 0.01) {
+    const double middle = 0.5 * (slack + taut);
+    (stays_taut(mechanism, middle, alphas) ? taut : slack) = middle;
+  }
+  return taut;
+}
+
 }  // namespace
 
 std::optional<Strength> tendon_strength(const Tendon& tendon) {
@@ -118,6 +147,7 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   }
   result.rows = rows_of(mechanism, synthesis.stroke);
   summarise(result);
+  if (!result.slack1.empty() || !result.slack2.empty()) result.taut_pretension = taut_pretension(mechanism);
   result.strength = tendon_strength(mechanism.tendon);
   if (result.strength && result.largest_tension.tension > result.strength->tension) result.breaks_at = result.largest_tension.alpha;
   result.sources = error_sources(mechanism);

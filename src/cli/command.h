@@ -32,6 +32,7 @@ struct Command {
 // One file a command.
 Command new_command();
 Command explain_command();
+Command analyze_command();
 Command build_command();
 Command check_command();
 Command rewind_command();

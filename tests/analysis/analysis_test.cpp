@@ -70,8 +70,12 @@ TEST(Analysis, NamesWhereATendonIsSlack) {
   EXPECT_EQ(loaded.slack1[0].from, loaded.rows.front().declared.alpha);
   EXPECT_TRUE(loaded.slack2.empty());
   EXPECT_TRUE(loaded.untensioned.empty());
-  mechanism.tendon.pretension = 100.0;
+  // The least pretension that keeps it taut, to 1 %.
+  ASSERT_TRUE(loaded.taut_pretension.has_value());
+  mechanism.tendon.pretension = *loaded.taut_pretension;
   EXPECT_TRUE(analyse(mechanism, quick()).slack1.empty());
+  mechanism.tendon.pretension = 0.97 * *loaded.taut_pretension;
+  EXPECT_FALSE(analyse(mechanism, quick()).slack1.empty());
 }
 
 TEST(Analysis, SaysWhereNothingHoldsTheJoint) {

@@ -17,7 +17,7 @@ FILES = {
     "triangle.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
 }
 
-ALL_COMMANDS = "new.*explain.*build.*check.*rewind"
+ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind"
 
 CASES = [
     # Asking for help.
@@ -89,6 +89,20 @@ CASES = [
     ("build arm.toml --set pulley.r1_mm=60", 4, "^$", "error: .*it would be possible with "),
     ("build arm.toml --set joint.range_deg=[-80,80]", 4, "^$", "error: "),
     ("build arm.toml --set body.bore_diameter_mm=60", 4, "^$", "error: .*bore"),
+    # Forces.
+    ("analyze arm.toml", 0, "Geometry.*Forces.*What gives way.*largest tension.*Error budget.*Tolerances.*all ", "^$"),
+    ("analyze arm.toml --set load.tip_force_N=10", 0, "tendon 1 slack.*tendon.pretension_N >= ", "^$"),
+    ("analyze arm.toml --csv", 0, "^alpha_deg,theta_deg,r1_mm,r2_mm,.*rising_T2_N", "^$"),
+    ("analyze arm.toml -o stroke.csv --dry-run", 0, "Summary", "^$"),
+    ("analyze arm.toml --steps 1", 2, "^$", "from 2 to 2000"),
+    ("analyze arm.toml --samples many", 2, "^$", "'many' is not"),
+    ("analyze missing.toml", 3, "^$", "missing.toml"),
+    ("analyze arm.toml --set load.mass_kg=-1", 3, "^$", "mass_kg"),
+    ("analyze arm.toml --set tendon.pretension_N=0", 0, "Summary", "warning: both tendons are without tension, alpha = .*nothing holds.*pretension_N >="),
+    ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "dead centre.*it would be possible with "),
+    ("analyze arm.toml --set tendon.modulus_MPa=30 --set load.tip_force_N=300", 5, "Summary", "past its dead centre at alpha = "),
+    ("analyze arm.toml --set load.tip_force_N=900", 5, "Summary", "the tendon breaks at alpha = .*hmpe-1.0"),
+    ("analyze arm.toml --set tendon.strength_N=20 --set load.tip_force_N=20", 5, "Summary", "the tendon breaks at alpha = .*tendon.strength_N"),
     # Bad parts.
     ("check missing.stl", 3, "^$", "missing.stl"),
     ("check .", 3, "^$", "is a directory"),

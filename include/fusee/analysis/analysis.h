@@ -88,6 +88,8 @@ struct AnalysisResult {
   std::vector<AlphaRange> slack1;    ///< where tendon 1 is slack (rising)
   std::vector<AlphaRange> slack2;
   std::vector<AlphaRange> untensioned;  ///< where both are: nothing holds the joint
+  /// The least pretension of tendon 1 that keeps both tendons taut all over the range, N; when one is slack and there is such a pretension.
+  std::optional<double> taut_pretension;
   std::optional<double> lost_at;     ///< α of the first row without equilibrium
   std::optional<Strength> strength;
   std::optional<double> breaks_at;   ///< α of the row at which the largest tension passes the strength
