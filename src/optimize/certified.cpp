@@ -94,7 +94,7 @@ class Search {
 
   bool stopped(double bound) {
     if (!options_.keep_going || boxes_ < next_report_) return false;
-    next_report_ = boxes_ + 2000;
+    next_report_ = boxes_ + 200;
     SearchProgress progress;
     progress.best = best_value_;
     progress.lower_bound = bound;
@@ -117,7 +117,9 @@ class Search {
     ++boxes_;
     if (!bounder_.contract(box)) return false;
     if (cap_) {
-      const BoxBound first = cap_->bound(box, problem_.cap->limit);
+      Box of_cap = box;
+      of_cap.bound = -k_none;  // the box's own bound is of the other objective
+      const BoxBound first = cap_->bound(of_cap, problem_.cap->limit);
       if (!first.possible || first.bound > problem_.cap->limit) return false;
     }
     const BoxBound bound = bounder_.bound(box, tie_limit());

@@ -135,7 +135,8 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
   }
   result.evaluations = static_cast<long>(population.get_problem().get_fevals());
   const auto costs = population.get_f();
-  for (const auto i : std::get<0>(pagmo::fast_non_dominated_sorting(costs)).front()) {
+  const auto fronts = std::get<0>(pagmo::fast_non_dominated_sorting(costs));
+  for (const auto i : fronts.front()) {
     if (!(costs[i][0] < k_penalty)) continue;
     FrontPoint point{population.get_x()[i], {}};
     for (std::size_t k = 0; k < costs[i].size(); ++k) point.values.push_back(info(problem.objectives[k]).largest ? -costs[i][k] : costs[i][k]);
@@ -144,6 +145,8 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
   std::sort(result.front.begin(), result.front.end(), [](const FrontPoint& a, const FrontPoint& b) {
     return std::tie(a.values, a.design) < std::tie(b.values, b.design);
   });
+  const auto same = [](const FrontPoint& a, const FrontPoint& b) { return a.values == b.values; };
+  result.front.erase(std::unique(result.front.begin(), result.front.end(), same), result.front.end());
   if (result.front.empty()) result.reason = commonest(*pagmo_problem.reasons);
   return result;
 }

@@ -82,6 +82,7 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
     return impossible("a tendon loses its moment arm at θ = " + rounded(degrees(*theta), 4) + "°");
   }
   Mechanism loaded = mechanism;
+  loaded.load = {};
   loaded.load.tip_force = 1.0;
   std::string reason;
   const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
@@ -96,7 +97,7 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
     const PaperForces forces = paper_forces(loaded, point);
     if (objective == Objective::max_tension) return forces.Tb;
     if (objective == Objective::motor_torque) return forces.Tb * point.t2.p;
-    if (objective == Objective::max_error) return degrees(forces.theta_error);
+    if (objective == Objective::max_error) return degrees(forces.elongation / point.t2.m);
     Domain domain;
     const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, point_pins);
     return objective_at(objective, numbers, place, domain);

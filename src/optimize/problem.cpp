@@ -89,6 +89,7 @@ std::vector<Variable> variables_of(const Optimization& table) {
 /// Whether turning this variable alone ever changes an objective, its possibility or (when demanded) the making of the pulley.
 bool has_effect(const Problem& problem, std::size_t variable) {
   Random random(1);
+  bool nothing_is_possible = true;  // then nothing is known of effects either
   for (int trial = 0; trial < 12; ++trial) {
     Design a = random_design(problem, random);
     Design b = a;
@@ -98,12 +99,13 @@ bool has_effect(const Problem& problem, std::size_t variable) {
     for (const Objective objective : problem.objectives) {
       const Evaluation value_a = evaluate(objective, at_a, problem.point_pins), value_b = evaluate(objective, at_b, problem.point_pins);
       if (value_a.possible != value_b.possible || value_a.value != value_b.value) return true;
+      if (value_a.possible) nothing_is_possible = false;
     }
     SynthesisOptions options;
     options.advice = false;
     if (problem.feasible && synthesise(at_a, options).brief() != synthesise(at_b, options).brief()) return true;
   }
-  return false;
+  return nothing_is_possible;
 }
 
 void demand_effects(const Problem& problem, const std::string& file) {

@@ -144,6 +144,18 @@ double nonlinearity(const std::vector<StrokePlace>& stroke) {
   return degrees(deviation(0.5 * (low + high)));
 }
 
+double off_least_squares(const std::vector<StrokePlace>& stroke) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const StrokePlace& place : stroke) {
+    const double a = place.point.alpha, t = place.point.theta;
+    n += 1, x += a, y += t, xx += a * a, xy += a * t;
+  }
+  const double slope = (n * xy - x * y) / (n * xx - x * x), offset = (y - slope * x) / n;
+  double most = 0;
+  for (const StrokePlace& place : stroke) most = std::max(most, std::abs(place.point.theta - offset - slope * place.point.alpha));
+  return degrees(most);
+}
+
 std::vector<LawCost> law_costs(const PaperAssumptions& assumptions) {
   const Mechanism compensate = table_4_mechanism(assumptions);
   Mechanism linear = compensate;

@@ -20,6 +20,8 @@ std::vector<StrokePlace> paper_stroke(const Mechanism& mechanism, int steps = 60
 
 /// Largest distance of θ(α) from its best straight line, deg.
 double nonlinearity(const std::vector<StrokePlace>& stroke);
+/// The same from the line of least squares through evenly spaced α.
+double off_least_squares(const std::vector<StrokePlace>& stroke);
 
 std::vector<Claim> paper_claims(const Reproduction& so_far, const std::function<void(std::string_view)>& before_step);
 std::vector<PaperFigure> paper_figures(const PaperAssumptions& assumptions, const GeneticResult& evolution);
