@@ -33,9 +33,6 @@ class OptimizeTableCheck {
   }
 
   void check_objectives() {
-    if (table_.objectives.empty())
-      fail(item_place_("objective", 0), "optimize.objective is empty",
-           "name one, for example objective = \"max_tension\"");
     if (table_.objectives.size() > k_most_objectives) {
       fail(item_place_("objective", k_most_objectives), "optimize.objective names more than three",
            "a front has two or three objectives");
@@ -44,9 +41,6 @@ class OptimizeTableCheck {
 
   void check_variables() {
     const auto& variables = table_.variables;
-    if (variables.empty())
-      fail(item_place_("variables", 0), "optimize.variables names no key",
-           "for example variables = [\"joint.length_mm\"]");
     if (variables.size() > k_most_variables)
       fail(item_place_("variables", k_most_variables), "optimize.variables names more than eight keys",
            "leave some out");

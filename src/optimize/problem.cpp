@@ -193,6 +193,7 @@ Problem make_problem(const MechanismFile& file) {
   if (table.variables.empty()) {
     throw InputError(file.path, "has no [optimize] variables", "say what may change, for example variables = [\"joint.length_mm\"], lower = [100], upper = [300]");
   }
+  if (table.objectives.empty()) throw InputError(file.path, "optimize.objective is empty", "name one, for example objective = \"max_tension\"");
   Problem problem;
   problem.base = file.mechanism;
   problem.base.optimize = {};  // designs are copied by the thousand
