@@ -81,7 +81,7 @@ std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
 std::string summary(const AnalysisResult& result, const AnalysisOptions& options) {
   std::string text = "Summary\n" + tension_line(result) + strength_line(result) + slack_lines(result);
   text += line("motor torque", "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
-  text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between both directions, " + alpha_text(result.hysteresis.alpha));
+  text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " + alpha_text(result.hysteresis.alpha));
   text += "\nError budget\n" + sources_table(result.sources);
   text += "\nTolerances: each dimension within " + shortest(options.tolerance) + " mm (95 %), theta and slack within these\n" +
           tolerances_table(result.tolerances);
@@ -222,11 +222,13 @@ Command analyze_command() {
   return {"analyze",
           "SPEC",
           "the transmission and the forces over the range",
-          "Shows angles, radii, tensions, torque, stretch and stiffness over the range of the\n"
-          "mechanism file SPEC: by the paper's formulas, and beside them by the full model of two\n"
-          "elastic tendons with pretension and friction, third cycle, alpha growing. The summary\n"
-          "says what is largest, what is slack, and what makes the joint miss its angle.",
-          {{"-o,--out", "FILE", "write the table to FILE: JSON if it ends in .json, else\nCSV"},
+          "Shows angles, radii, tensions, torque, stretch and stiffness over the range of\n"
+          "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
+          "model of two elastic tendons with pretension and friction, in its third cycle,\n"
+          "alpha growing. The summary says what is largest, what is slack, and what makes\n"
+          "the joint miss its angle. At the ends of the range the motion turns back: there\n"
+          "both directions show the same state.",
+          {{"-o,--out", "FILE", "write the table to FILE: JSON if it ends in .json,\nelse CSV"},
            {"--csv", "", "the table as CSV on stdout"},
            {"--steps", "N", "steps of the table (default 60)"},
            {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},

@@ -15,7 +15,11 @@
 // stored + (T_up + U_up − T_low − U_low) · crossed + what is shed where tendon leaves the pulley at another strain.
 //
 // Winding an arc ds takes ds/(1 + T_low/EA) of material: by the trapezoid over a step, with the step's own T_low, so that B − crossed
-// = (L_low + ½Δs)/(1 + T_low/EA) stays a span of its own. Paying out gives back what was wound, last first.
+// = (L_low + ½Δs)/(1 + T_low/EA) stays a span of its own. Paying out gives back what was wound, last first. The simpler law, to pay
+// out at the tension of the moment, was tried and is wrong with friction: as tension is higher while winding than while paying out, each
+// cycle carries material past the pulley, and θ creeps by 0.005° a cycle (EA 31 kN, 5 N on both, μ 0.15; 0.18° at EA 850 N) for ever,
+// where the profile settles within three cycles. Without friction the two differ by what lay on the pulley before the load came on:
+// 0.0036° and 0.13°.
 
 namespace fusee {
 namespace {
