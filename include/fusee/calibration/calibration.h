@@ -1,0 +1,81 @@
+/// \file
+/// From a measured residual to named effects with their evidence: CONTRACT §6.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fusee/calibration/measurement.h"
+#include "fusee/mechanism/mechanism.h"
+
+namespace fusee {
+
+struct CalibrationOptions {
+  std::vector<std::string> hold_out;  ///< names of runs kept for validation only; empty: whole runs are left out in turn
+  std::function<void(const std::string& what, double share)> progress;
+};
+
+struct FittedParameter {
+  std::string name;   ///< "EA_N": the unit stands in the name
+  double value = 0;   ///< in that unit
+  double low = 0;     ///< 95 % interval
+  double high = 0;
+};
+
+/// One effect that the data ask for, with all that would do as well.
+struct FoundEffect {
+  std::string name;
+  std::vector<std::string> group;  ///< `name` and every effect whose held-out error is within one standard error
+  std::string place;               ///< "tendon", "pins", "motor sensor" …
+  std::vector<FittedParameter> parameters;
+  double rms_drop = 0;             ///< of the held-out residual, rad
+  std::string correctable_by;      ///< "pulley", "table" or ""
+};
+
+/// A candidate that was tried: the evidence for it, or against.
+struct Candidate {
+  std::string name;
+  double held_out_rms = 0;         ///< rad, with it added to what was accepted before
+  double margin = 0;               ///< drop of the held-out error in standard errors over blocks
+  double delta_bic = 0;
+  bool accepted = false;
+  std::string why;                 ///< in words
+};
+
+struct ErrorFigures {
+  double rms = 0;           ///< rad
+  double max = 0;
+  double held_out_rms = 0;
+};
+
+struct Detectable {
+  std::string name;
+  double smallest = 0;  ///< rad at the joint
+};
+
+struct Calibration {
+  std::string verdict;  ///< CONTRACT §6: not_testable, not_repeatable, unexplained, confounded, explained, no_effect
+  std::string summary;  ///< two sentences that a person can act on
+  std::vector<FoundEffect> effects;
+  std::vector<Candidate> tried;
+  NoiseFloor noise;
+  ErrorFigures before, after;
+  std::vector<std::vector<double>> residuals_before;  ///< rad, run by run, sample by sample
+  std::vector<std::vector<double>> residuals_after;
+  std::vector<std::string> held_out_factors;          ///< "load", "speed"
+  std::vector<std::string> held_out_runs;
+  double unexplained_rms = 0;
+  std::string unexplained_where;                      ///< where in α, which direction, load, harmonic
+  std::vector<Detectable> detectable;
+  std::vector<std::string> next_runs;
+  Iso230 iso_before, iso_after;
+  double correctable_by_pulley = 0;                   ///< rms that a new pulley would take away, rad
+  double correctable_by_table = 0;
+};
+
+/// Nothing is fitted before the noise floor is known; nothing is accepted that does not hold on data it did not see.
+Calibration calibrate(const Mechanism& declared, const Measurement& measurement, const CalibrationOptions& options = {});
+
+}  // namespace fusee

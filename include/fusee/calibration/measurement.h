@@ -1,0 +1,81 @@
+/// \file
+/// Measured runs of a joint: what a bench logged, read with suspicion and cut into strokes. CONTRACT §5.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fusee/base/diagnostics.h"
+
+namespace fusee {
+
+struct MeasurementOptions {
+  std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
+};
+
+/// One logged row. NaN where a column is absent.
+struct Sample {
+  double time = 0;         ///< s
+  double alpha = 0;        ///< rad, unwrapped
+  double theta = 0;        ///< rad, unwrapped
+  double load = 0;         ///< in the load column's own unit: N for load_N (a tip force, positive against +θ)
+  double temperature = 0;  ///< °C
+  double tension1 = 0;     ///< N
+  double tension2 = 0;
+};
+
+/// A stretch of samples in one direction of α, from one reversal (or the run's beginning) to the next.
+struct Stroke {
+  std::size_t first = 0;  ///< index into the run's samples
+  std::size_t last = 0;   ///< included
+  int direction = 0;      ///< +1: α grows, −1: α falls
+  int cycle = 0;
+  bool partial = false;   ///< the first stroke of a run that did not begin at a reversal: its play state is unknown
+};
+
+struct Run {
+  std::string name;             ///< file name without its folder
+  std::vector<Sample> samples;  ///< by time
+  std::vector<Stroke> strokes;
+  double speed = 0;             ///< median |dα/dt|, rad/s; 0 without time
+  double mean_load = 0;         ///< mean of the load column; 0 without
+  bool has_time = false, has_load = false, has_temperature = false;
+};
+
+struct Measurement {
+  std::vector<Run> runs;
+  double alpha_quantum = 0;  ///< smallest step seen, rad
+  double theta_quantum = 0;
+  std::vector<std::string> notes;        ///< what was dropped, repaired or suspected, with file and line
+  std::vector<std::string> not_testable; ///< reasons why nothing can be concluded; empty when it can
+};
+
+/// Reads and checks all files. InputError (file, line, what to change) for what cannot be read; `not_testable` for what can be read but not used.
+Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {});
+
+/// Scatter of θ between repeats at the same α, direction, load and speed, before any fit.
+struct NoiseFloor {
+  double rms = 0;               ///< rad, the quantum included in quadrature
+  double degrees_of_freedom = 0;
+  bool from_repeats = false;    ///< false: no repeats; taken from differences of neighbours, a lower bound
+};
+NoiseFloor noise_floor(const Measurement& measurement);
+
+/// ISO 230-2 of deviations (rad): up and down strokes at fixed positions of α.
+struct Iso230 {
+  double A = 0;  ///< accuracy
+  double R = 0;  ///< bidirectional repeatability
+  double B = 0;  ///< reversal
+  double E = 0;  ///< systematic deviation
+  double M = 0;  ///< range of the mean bidirectional deviation
+};
+/// `deviations[i][d][k]`: position i, direction d (0 up, 1 down), repeat k.
+Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations);
+/// From residuals (rad), one vector a run, parallel to the samples.
+Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<double>>& residuals);
+
+}  // namespace fusee
