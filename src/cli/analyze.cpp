@@ -6,6 +6,7 @@
 #include "fusee/analysis/analysis.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
+#include "fusee/calibration/correction.h"
 
 namespace fusee::cli {
 namespace {
@@ -194,7 +195,7 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
     throw InputError(file.path, "a joint with [transmission] has no tendons to analyze", "[transmission] is for 'fusee calibrate'");
   }
   console.progress("moving the joint through its range");
-  const AnalysisResult result = analyse(file.mechanism, options);
+  const AnalysisResult result = analyse(as_it_is(file.mechanism), options);
   if (!result.exists) {
     reply.exit = Exit::infeasible;
     add_obstacles(file.path, result.obstacles, reply);

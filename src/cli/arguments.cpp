@@ -74,14 +74,15 @@ void refuse_switch_values(const std::vector<Option>& options, const std::vector<
 void check_count(const Command& command, const std::vector<std::string>& given) {
   const std::vector<std::string> expected = split(command.positionals, ' ');
   const std::string usage = "usage: fusee " + std::string(command.name) + " " + std::string(command.positionals);
-  if (given.size() > expected.size()) {
+  const bool open_ended = command.positionals.ends_with("...");
+  if (given.size() > expected.size() && !open_ended) {
     throw UsageError("'" + given[expected.size()] + "' is one argument too many for '" + std::string(command.name) + "'", usage);
   }
   for (std::size_t i = given.size(); i < expected.size(); ++i) {
     if (expected[i][0] != '[') throw UsageError("'" + std::string(command.name) + "' needs " + expected[i], usage);
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
-    if (given[i].empty()) throw UsageError(expected[i] + " is empty", usage);
+    if (given[i].empty()) throw UsageError(expected[std::min(i, expected.size() - 1)] + " is empty", usage);
   }
 }
 
@@ -165,6 +166,11 @@ std::optional<std::string> Arguments::text(std::string_view option) const {
   const auto found = values_.find(std::string(option));
   if (found == values_.end()) return std::nullopt;
   return found->second.front();
+}
+
+std::vector<std::string> Arguments::texts(std::string_view option) const {
+  const auto found = values_.find(std::string(option));
+  return found == values_.end() ? std::vector<std::string>() : found->second;
 }
 
 double Arguments::number(std::string_view option, double fallback, double least, double most, std::string_view unit) const {

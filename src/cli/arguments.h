@@ -45,6 +45,8 @@ class Arguments {
   const std::vector<std::string>& positionals() const { return positionals_; }
   bool has(std::string_view option) const { return values_.count(std::string(option)) > 0; }
   std::optional<std::string> text(std::string_view option) const;
+  /// Of a repeatable option, in order; empty when it is not given.
+  std::vector<std::string> texts(std::string_view option) const;
   /// A finite number within [least, most], or `fallback` when the option is not given. `unit` stands in the message.
   double number(std::string_view option, double fallback, double least, double most, std::string_view unit) const;
   /// All --set, in order.

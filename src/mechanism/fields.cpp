@@ -372,6 +372,87 @@ void add_optimize(std::vector<Field>& table) {
       {"optimize.feasible", "", "false", "only designs of which a pulley can be made"}));
 }
 
+void add_identified(std::vector<Field>& table) {
+  constexpr auto identified = &Mechanism::identified;
+  table.push_back(number<identified, &Imperfections::motor_offset, degrees, radians>(
+      {"identified.motor_offset_deg", "", "0", "the shaft stands this much further than the motor sensor shows"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::motor_eccentricity_sin, degrees, radians>(
+      {"identified.motor_eccentricity_sin_deg", "", "0", "once a turn of the motor sensor: sin alpha"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::motor_eccentricity_cos, degrees, radians>(
+      {"identified.motor_eccentricity_cos_deg", "", "0", "once a turn of the motor sensor: cos alpha - 1"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::backlash, degrees, radians>(
+      {"identified.backlash_deg", "", "0", "play of alpha, full width; no pulley takes it out, compensation.csv does"}, "deg", 0, 360));
+  table.push_back(number<identified, &Imperfections::radius_offset>(
+      {"identified.radius_offset_mm", "", "0", "tendons run this much further out on the made pulley than drawn"}, "mm", -100, 100));
+  table.push_back(number<identified, &Imperfections::pulley_scale, percent, fraction>(
+      {"identified.pulley_scale_percent", "", "0", "the made pulley is larger than drawn by this"}, "%", -50, 100));
+  table.push_back(number<identified, &Imperfections::runout_x>(
+      {"identified.runout_x_mm", "", "0", "centre of the made curves off the axis, at home"}, "mm", -100, 100));
+  table.push_back(number<identified, &Imperfections::runout_y>(
+      {"identified.runout_y_mm", "", "0", "the same across"}, "mm", -100, 100));
+  table.push_back(number<identified, &Imperfections::profile_sin, degrees, radians>(
+      {"identified.profile_sin_deg", "", "0", "tendon wound too far twice a turn: sin 2 alpha"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::profile_cos, degrees, radians>(
+      {"identified.profile_cos_deg", "", "0", "the same: cos 2 alpha - 1"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::stretch>(
+      {"identified.stretch", "", "0", "the tendon's compliance beyond the declared one, per the declared one"}, "", -0.999, 1e+06));
+  table.push_back(number<identified, &Imperfections::pretension>(
+      {"identified.pretension_N", "", "0", "added to tendon.pretension_N"}, "N", -100000, 100000));
+  table.push_back(number<identified, &Imperfections::slack>(
+      {"identified.slack_mm", "", "0", "of both tendons together, beyond what pretension takes up"}, "mm", 0, 1000));
+  table.push_back(number<identified, &Imperfections::creep, degrees, radians>(
+      {"identified.creep_deg", "", "0", "turned by a unit of load in every decade of seconds"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::slip, degrees, radians>(
+      {"identified.slip_deg", "", "0", "step of theta"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::slip_time>(
+      {"identified.slip_time_s", "", "0", "when that step was"}, "s", -1e+12, 1e+12));
+  table.push_back(number<identified, &Imperfections::thermal, degrees, radians>(
+      {"identified.thermal_deg_per_K", "", "0", "turned by each kelvin"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::friction>(
+      {"identified.friction", "", "0", "added to guides.friction"}, "", -2, 2));
+  table.push_back(number<identified, &Imperfections::guide_radius>(
+      {"identified.guide_radius_mm", "", "0", "added to guides.radius_mm"}, "mm", -500, 500));
+  table.push_back(number<identified, &Imperfections::guide_outward>(
+      {"identified.guide_outward_mm", "", "0", "added to guides.EB_mm and ED_mm"}, "mm", -10000, 10000));
+  table.push_back(number<identified, &Imperfections::guide_down>(
+      {"identified.guide_down_mm", "", "0", "added to guides.OE_mm, taken from pulley.EF_mm"}, "mm", -10000, 10000));
+  table.push_back(number<identified, &Imperfections::joint_length>(
+      {"identified.length_mm", "", "0", "added to joint.length_mm"}, "mm", -10000, 10000));
+  table.push_back(number<identified, &Imperfections::gravity_cos>(
+      {"identified.gravity_cos_Nmm", "", "0", "torque against +theta: cos theta"}, "Nmm", -1e+07, 1e+07));
+  table.push_back(number<identified, &Imperfections::gravity_sin>(
+      {"identified.gravity_sin_Nmm", "", "0", "torque against +theta: sin theta"}, "Nmm", -1e+07, 1e+07));
+  table.push_back(number<identified, &Imperfections::compliance, degrees, radians>(
+      {"identified.compliance_deg", "", "0", "of a joint declared by a ratio: turned by a unit of load"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::dry_friction, degrees, radians>(
+      {"identified.dry_friction_deg", "", "0", "of a joint declared by a ratio: half loop per unit of load"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::zero, degrees, radians>(
+      {"identified.zero_deg", "", "0", "what the joint sensor shows at theta = 0"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::gain, percent, fraction>(
+      {"identified.gain_percent", "", "0", "by how much the joint sensor shows too much"}, "%", -99, 1000));
+  table.push_back(number<identified, &Imperfections::joint_eccentricity_sin, degrees, radians>(
+      {"identified.joint_eccentricity_sin_deg", "", "0", "once a turn of the joint sensor: sin theta"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::joint_eccentricity_cos, degrees, radians>(
+      {"identified.joint_eccentricity_cos_deg", "", "0", "the same: cos theta - 1"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::lag>(
+      {"identified.lag_s", "", "0", "by which the joint sensor is late"}, "s", 0, 1000));
+}
+
+void add_prior(std::vector<Field>& table) {
+  const auto reading = [&table]<auto Member>(std::string_view name, std::string_view meaning) {
+    table.push_back(numbers<&Mechanism::prior, Member>({name, "", "[]", meaning}, -1e6, 1e6));
+  };
+  reading.operator()<&Prior::EB>("prior.EB_mm", "measured by hand: [value, standard uncertainty]");
+  reading.operator()<&Prior::ED>("prior.ED_mm", "the same of guides.ED_mm");
+  reading.operator()<&Prior::OE>("prior.OE_mm", "the same of guides.OE_mm");
+  reading.operator()<&Prior::EF>("prior.EF_mm", "the same of pulley.EF_mm");
+  reading.operator()<&Prior::guide_radius>("prior.guide_radius_mm", "the same of guides.radius_mm");
+  reading.operator()<&Prior::length>("prior.length_mm", "the same of joint.length_mm");
+  reading.operator()<&Prior::radius_offset>("prior.radius_offset_mm", "the same of the made pulley's pitch radius less the drawn one");
+  reading.operator()<&Prior::pulley_scale>("prior.pulley_scale", "the same of the made pulley's size per the drawn one");
+  reading.operator()<&Prior::modulus>("prior.modulus_MPa", "the same of tendon.modulus_MPa");
+}
+
 std::vector<Field> make_table() {
   std::vector<Field> table;
   table.push_back(schema_field());
@@ -380,6 +461,8 @@ std::vector<Field> make_table() {
   add_body(table);
   add_making(table);
   add_optimize(table);
+  add_identified(table);
+  add_prior(table);
   return table;
 }
 
@@ -460,6 +543,8 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "material") return "what it is printed of";
   if (table == "cut") return "cutting it as a stack of plates";
   if (table == "optimize") return "what fusee optimize may change, and what it is after";
+  if (table == "identified") return "what fusee calibrate found the joint to be, against what is declared";
+  if (table == "prior") return "what was measured of the joint by hand, each as [value, standard uncertainty]";
   if (table == "transmission")
     return "in place of joint, guides and pulley: a joint of another kind, for calibrate alone";
   return "the file";

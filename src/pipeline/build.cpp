@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "fusee/calibration/correction.h"
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
 
@@ -51,6 +52,13 @@ struct Workshop {
   }
 };
 
+/// A runout in making is undone by the opposite one in the drawing.
+void draw_off_axis(SynthesisResult& synthesis, const Vec2& shift) {
+  for (Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    for (OutlinePoint& point : outline->points) point.position += shift;
+  }
+}
+
 /// False when no such pulley can be made.
 bool design(Workshop& shop) {
   Product& product = shop.result.product;
@@ -59,6 +67,7 @@ bool design(Workshop& shop) {
   SynthesisOptions synthesis_options;
   synthesis_options.tolerance = shop.options.tolerance;
   product.synthesis = synthesise(mechanism, synthesis_options);
+  draw_off_axis(product.synthesis, pulley_shift(mechanism));
   if (!product.synthesis.made()) return false;
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
@@ -143,6 +152,7 @@ const std::vector<std::string>& output_names() {
 BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
   result.product.file = file;
+  result.product.file.mechanism = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(output_names());  // before the work: a refusal should not cost a wait
   if (options.dry_run) {

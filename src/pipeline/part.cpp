@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fusee/base/text.h"
+#include "fusee/calibration/correction.h"
 #include "fusee/pipeline.h"
 
 namespace fusee {
@@ -47,10 +48,16 @@ Polygon counter_clockwise(Polygon polygon) {
   return polygon;
 }
 
+/// A floor drawn off the axis to undo a runout stands on it once it is made.
+Polygon on_axis(Polygon floor, const Mechanism& mechanism) {
+  for (Vec2& point : floor) point -= pulley_shift(mechanism);
+  return floor;
+}
+
 RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) {
   const DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
   const DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
-  if (floor1 && floor2) return rewind(mechanism, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
+  if (floor1 && floor2) return rewind(mechanism, on_axis(counter_clockwise(floor1->points), mechanism), on_axis(counter_clockwise(floor2->points), mechanism));
   const DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
   const DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
   if (!pitch1 || !pitch2) {
@@ -61,7 +68,7 @@ RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) 
   Mechanism centre_line = mechanism;
   centre_line.guides.radius = mechanism.guide_pitch_radius();
   centre_line.tendon.diameter = 0;
-  return rewind(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
+  return rewind(centre_line, on_axis(counter_clockwise(pitch1->points), mechanism), on_axis(counter_clockwise(pitch2->points), mechanism));
 }
 
 /// The loops of a mesh that is inside out, as if it were not.
@@ -86,7 +93,8 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
 
 RewindResult rewind_mesh(const Mechanism& mechanism, const TriangleMesh& mesh) {
   const BodyLayout layout = axial_layout(mechanism);
-  return rewind(mechanism, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
+  return rewind(mechanism, on_axis(floor_in_section(mesh, layout.z_p1, layout.scale), mechanism),
+                on_axis(floor_in_section(mesh, layout.z_p2, layout.scale), mechanism));
 }
 
 }  // namespace
@@ -102,7 +110,8 @@ std::vector<Check> check_part(const Part& part) {
   return check_drawing(std::get<Drawing>(part));
 }
 
-RewindResult rewind_part(const Mechanism& mechanism, const Part& part) {
+RewindResult rewind_part(const Mechanism& declared, const Part& part) {
+  const Mechanism mechanism = as_it_is(declared);
   if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(mechanism, *mesh);
   return rewind_drawing(mechanism, std::get<Drawing>(part));
 }

@@ -7,9 +7,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
 
@@ -50,12 +53,23 @@ struct Measurement {
   std::vector<Run> runs;
   double alpha_quantum = 0;  ///< smallest step seen, rad
   double theta_quantum = 0;
+  std::string load_unit;     ///< of the load column, from its name: "N", "Nm", "Nmm"; "" without one
   std::vector<std::string> notes;        ///< what was dropped, repaired or suspected, with file and line
   std::vector<std::string> not_testable; ///< reasons why nothing can be concluded; empty when it can
 };
 
 /// Reads and checks all files. InputError (file, line, what to change) for what cannot be read; `not_testable` for what can be read but not used.
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {});
+
+/// One run from text; `name` stands in the messages. InputError. Notes and reasons go to `into`.
+Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into);
+
+/// The roles that a column can have, and the column that has each unless the options say otherwise: {"alpha", "alpha_deg"} …
+const std::vector<std::pair<std::string, std::string>>& column_roles();
+
+/// Data that cannot be of the declared joint, said and not fitted: α and θ exchanged, opposite sign, radians given as degrees.
+/// Adds the reasons to `not_testable`.
+void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit.
 struct NoiseFloor {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "fusee/base/units.h"
+#include "fusee/mechanism/imperfections.h"
 
 namespace fusee {
 
@@ -151,6 +152,13 @@ struct RatioTransmission {
   bool operator==(const RatioTransmission&) const = default;
 };
 
+/// What was measured of the joint by hand: value and its standard uncertainty, in the file's unit; empty where nothing was.
+struct Prior {
+  std::vector<double> EB, ED, OE, EF, guide_radius, length, radius_offset, pulley_scale, modulus;
+
+  bool operator==(const Prior&) const = default;
+};
+
 struct Mechanism {
   std::string name;
   Joint joint;
@@ -162,6 +170,8 @@ struct Mechanism {
   Material material;
   Cut cut;
   Optimization optimize;
+  Imperfections identified;  ///< what fusee calibrate found; all zero: as declared
+  Prior prior;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
 
   bool operator==(const Mechanism&) const = default;

@@ -1,0 +1,117 @@
+// calibration.json and manifest.json of a calibration.
+
+#include "fusee/export/calibration.h"
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "export/tool.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no NaN and no infinity. Nine digits: the last ones of a fit are noise.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  if (value == 0) return 0.0;
+  const double scale = std::pow(10.0, 8 - std::floor(std::log10(std::abs(value))));
+  return std::isfinite(scale) && scale > 0 ? Json(std::round(value * scale) / scale) : Json(value);
+}
+Json angle(double value) { return number(degrees(value)); }
+
+Json effect_json(const FoundEffect& effect) {
+  Json parameters = Json::object();
+  for (const FittedParameter& parameter : effect.parameters) {
+    parameters[parameter.name] = {{"value", number(parameter.value)}, {"ci95", {number(parameter.low), number(parameter.high)}}};
+  }
+  return {{"name", effect.name},
+          {"group", effect.group},
+          {"place", effect.place},
+          {"parameters", parameters},
+          {"rms_drop_deg", angle(effect.rms_drop)},
+          {"correctable_by", effect.correctable_by}};
+}
+
+Json figures_json(const ErrorFigures& figures) {
+  return {{"rms_deg", angle(figures.rms)}, {"max_deg", angle(figures.max)}, {"held_out_rms_deg", angle(figures.held_out_rms)}};
+}
+
+Json iso_json(const Iso230& iso) {
+  return {{"A_deg", angle(iso.A)}, {"R_deg", angle(iso.R)}, {"B_deg", angle(iso.B)}, {"E_deg", angle(iso.E)}, {"M_deg", angle(iso.M)}};
+}
+
+Json tried_json(const std::vector<Candidate>& tried) {
+  Json list = Json::array();
+  for (const Candidate& candidate : tried) {
+    list.push_back({{"name", candidate.name},
+                    {"held_out_rms_deg", angle(candidate.held_out_rms)},
+                    {"margin", number(candidate.margin)},
+                    {"delta_bic", number(candidate.delta_bic)},
+                    {"accepted", candidate.accepted},
+                    {"why", candidate.why}});
+  }
+  return list;
+}
+
+Json effects_json(const Calibration& calibration) {
+  Json list = Json::array();
+  for (const FoundEffect& effect : calibration.effects) list.push_back(effect_json(effect));
+  return list;
+}
+
+Json detectable_json(const Calibration& calibration) {
+  Json list = Json::array();
+  for (const Detectable& detectable : calibration.detectable) list.push_back({{"name", detectable.name}, {"smallest_deg", angle(detectable.smallest)}});
+  return list;
+}
+
+Json correctable_json(const Correction& correction) {
+  Json json = {{"by_pulley_rms_deg", angle(correction.by_pulley)}, {"by_table_rms_deg", angle(correction.by_table)}};
+  if (correction.round.r1 > 0) {
+    json["p1_round"] = {{"best_r1_mm", number(correction.round.r1)}, {"max_error_deg", angle(correction.round.max_error)}, {"suffices", correction.round.suffices}};
+  }
+  return json;
+}
+
+std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace
+
+std::string calibration_json(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  Json json = {{"schema", 1}, {"verdict", calibration.verdict}, {"summary", calibration.summary}};
+  json["effects"] = effects_json(calibration);
+  json["noise_floor_deg"] = angle(calibration.noise.rms);
+  json["noise_floor"] = {{"degrees_of_freedom", number(calibration.noise.degrees_of_freedom)}, {"from_repeats", calibration.noise.from_repeats}};
+  json["before"] = figures_json(calibration.before);
+  json["after"] = figures_json(calibration.after);
+  json["after_per_noise_floor"] = calibration.noise.rms > 0 ? number(calibration.after.rms / calibration.noise.rms) : Json();
+  json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
+  json["unexplained_rms_deg"] = angle(calibration.unexplained_rms);
+  json["unexplained_where"] = calibration.unexplained_where;
+  json["detectable"] = detectable_json(calibration);
+  json["next_runs"] = calibration.next_runs;
+  json["iso230"] = {{"before", iso_json(calibration.iso_before)}, {"after", iso_json(calibration.iso_after)}};
+  json["correctable"] = correctable_json(product.correction);
+  json["tried"] = tried_json(calibration.tried);
+  json["not_testable"] = product.measurement.not_testable;
+  json["notes"] = product.measurement.notes;
+  return text_of(json);
+}
+
+std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs) {
+  Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
+  json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()}, {"sha256", product.file.sha256}};
+  json["runs"] = Json::array();
+  for (const Run& run : product.measurement.runs) json["runs"].push_back(run.name);
+  json["verdict"] = product.calibration.verdict;
+  json["outputs"] = Json::array();
+  for (const OutputFile& file : outputs) json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  return text_of(json);
+}
+
+}  // namespace fusee

@@ -1,0 +1,83 @@
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/calibration/correction.h"
+#include "fusee/mechanism/edit.h"
+#include "fusee/mechanism/fields.h"
+
+namespace fusee {
+namespace {
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+std::string found_text(const FoundEffect& effect) {
+  std::string text = "# " + effect.name + " (" + effect.place + ")";
+  for (const FittedParameter& parameter : effect.parameters) {
+    text += ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) + " to " + rounded(parameter.high);
+  }
+  if (effect.group.size() < 2) return text;
+  text += "; or";
+  for (const std::string& rival : effect.group) {
+    if (rival != effect.name) text += " " + rival;
+  }
+  return text + ": these data cannot tell";
+}
+
+/// Six digits are more than any bench gives, and shorter than all of a double.
+double tidy(double value) {
+  if (value == 0 || !std::isfinite(value)) return 0;
+  const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+  return std::isfinite(scale) ? std::round(value * scale) / scale : 0;
+}
+
+constexpr const char* k_title = "# ---- found by fusee calibrate: without the table [identified] this is the declared joint again ----\n";
+
+/// Without the words of an earlier calibration.
+std::string without_earlier_words(std::string text) {
+  const std::size_t title = text.find(k_title);
+  if (title == std::string::npos) return text;
+  std::size_t end = title;
+  while (end < text.size() && text[end] == '#') end = std::min(text.find('\n', end), text.size() - 1) + 1;
+  return text.erase(title, end - title);
+}
+
+}  // namespace
+
+std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration, const Correction& correction) {
+  std::string text = without_earlier_words(std::string(declared_text));
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  std::string words = std::string(k_title) + "# verdict: " + one_line(calibration.verdict) + "\n";
+  for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
+  if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
+
+  Mechanism corrected = declared;
+  corrected.identified = correction.identified;
+  std::vector<ValueEdit> edits;
+  for (const Field& field : fields()) {
+    if (field.table != "identified") continue;
+    const double value = tidy(field.get(corrected, 0));
+    if (value != 0 || field.get(declared, 0) != 0) edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
+  }
+  const std::size_t table = text.find("\n[identified]");
+  if (table == std::string::npos) {
+    text += "\n" + words;
+  } else {
+    text.insert(table + 1, words);
+  }
+  return edit_values(text, edits);
+}
+
+std::string compensation_csv(const Correction& correction) {
+  std::string text = "theta_deg,alpha_up_deg,alpha_down_deg\n";
+  for (const CompensationRow& row : correction.table) {
+    text += fixed(degrees(row.theta), 4) + "," + fixed(degrees(row.alpha_up), 4) + "," + fixed(degrees(row.alpha_down), 4) + "\n";
+  }
+  return text;
+}
+
+}  // namespace fusee
