@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fusee/calibration/measurement.h"
+#include "fusee/mechanism/imperfections.h"
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
@@ -59,6 +60,7 @@ struct Calibration {
   std::string verdict;  ///< CONTRACT §6: not_testable, not_repeatable, unexplained, confounded, explained, no_effect
   std::string summary;  ///< two sentences that a person can act on
   std::vector<FoundEffect> effects;
+  Imperfections identified;  ///< what the effects amount to; all zero without any
   std::vector<Candidate> tried;
   NoiseFloor noise;
   ErrorFigures before, after;
@@ -77,5 +79,8 @@ struct Calibration {
 
 /// Nothing is fitted before the noise floor is known; nothing is accepted that does not hold on data it did not see.
 Calibration calibrate(const Mechanism& declared, const Measurement& measurement, const CalibrationOptions& options = {});
+
+/// θ as the joint's sensor would have logged it, rad, run by run, sample by sample. NaN where the joint has no equilibrium.
+std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections, const Measurement& measurement);
 
 }  // namespace fusee

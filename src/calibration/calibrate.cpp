@@ -1,0 +1,116 @@
+#include "fusee/calibration/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/verdict.h"
+
+namespace fusee {
+namespace {
+
+std::vector<std::vector<double>> residuals(const Measurement& measurement, const Readings& model) {
+  std::vector<std::vector<double>> all;
+  for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
+    all.emplace_back();
+    for (std::size_t k = 0; k < model[i].size(); ++k) all.back().push_back(measurement.runs[i].samples[k].theta - model[i][k]);
+  }
+  return all;
+}
+
+/// Of whole strokes.
+ErrorFigures figures(const Measurement& measurement, const std::vector<std::vector<double>>& all, double held_out_mean_square) {
+  ErrorFigures error;
+  double squares = 0;
+  double rows = 0;
+  for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
+    for (const Stroke& stroke : measurement.runs[i].strokes) {
+      for (std::size_t k = stroke.first; !stroke.partial && k <= stroke.last; ++k) {
+        if (!std::isfinite(all[i][k])) continue;
+        squares += all[i][k] * all[i][k];
+        rows += 1;
+        error.max = std::max(error.max, std::abs(all[i][k]));
+      }
+    }
+  }
+  error.rms = rows > 0 ? std::sqrt(squares / rows) : 0;
+  error.held_out_rms = std::sqrt(held_out_mean_square);
+  return error;
+}
+
+/// What the effects that something can correct do to θ, rms.
+double moved_by(const Evidence& evidence, const Selection& selection, const std::string& correctable_by) {
+  Imperfections corrected = selection.best.at;
+  for (const Effect* effect : selection.best.effects) {
+    if (effect->correctable_by != correctable_by) continue;
+    for (const EffectParameter& parameter : effect->parameters) corrected.*parameter.member = 0;
+  }
+  Forward forward(*evidence.declared, evidence.measurement);
+  const Readings with = forward(selection.best.at);
+  const Readings without = forward(corrected);
+  double squares = 0;
+  double rows = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    for (std::size_t k = 0; k < with[i].size(); ++k) {
+      const double difference = with[i][k] - without[i][k];
+      if (!std::isfinite(difference)) continue;
+      squares += difference * difference;
+      rows += 1;
+    }
+  }
+  return rows > 0 ? std::sqrt(squares / rows) : 0;
+}
+
+void name_held_out(const Evidence& evidence, Calibration& calibration) {
+  calibration.held_out_factors = evidence.factors;
+  const std::vector<Run>& runs = evidence.measurement.runs;
+  std::vector<bool> held(runs.size(), false);
+  for (const std::vector<std::size_t>& fold : evidence.folds) {
+    for (const std::size_t block : fold) held[evidence.blocks[block].run] = true;
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (held[i]) calibration.held_out_runs.push_back(runs[i].name);
+  }
+}
+
+Calibration not_testable(const std::vector<std::string>& reasons) {
+  Calibration calibration;
+  calibration.verdict = "not_testable";
+  for (const std::string& reason : reasons) calibration.summary += (calibration.summary.empty() ? "" : " ") + reason;
+  calibration.next_runs = {"several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster"};
+  return calibration;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections, const Measurement& measurement) {
+  return Forward(declared, measurement)(imperfections);
+}
+
+Calibration calibrate(const Mechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
+  if (!measurement.not_testable.empty()) return not_testable(measurement.not_testable);
+  const NoiseFloor noise = noise_floor(measurement);
+  const Evidence evidence = gather(declared, measurement, options.hold_out, std::max(noise.rms, 1e-9));
+  if (evidence.blocks.size() < 2) return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
+  Forward forward(declared, evidence.measurement);
+  const Selection selection = select_effects(evidence, forward, options.progress);
+  if (!selection.none.usable) return not_testable({"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not of one joint."});
+  Calibration calibration;
+  calibration.noise = noise;
+  calibration.effects = selection.found;
+  calibration.tried = selection.tried;
+  calibration.detectable = selection.detectable;
+  calibration.identified = selection.best.at;
+  calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, measurement));
+  calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, measurement));
+  calibration.before = figures(measurement, calibration.residuals_before, selection.none.held_out_mean_square);
+  calibration.after = figures(measurement, calibration.residuals_after, selection.best.held_out_mean_square);
+  calibration.iso_before = iso230(measurement, calibration.residuals_before);
+  calibration.iso_after = iso230(measurement, calibration.residuals_after);
+  calibration.correctable_by_pulley = moved_by(evidence, selection, "pulley");
+  calibration.correctable_by_table = moved_by(evidence, selection, "table");
+  name_held_out(evidence, calibration);
+  conclude(evidence, selection, calibration);
+  return calibration;
+}
+
+}  // namespace fusee

@@ -1,0 +1,218 @@
+#include "calibration/forward.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/transmission/equilibrium.h"
+
+namespace fusee {
+namespace {
+
+/// Steps in which a joint is brought from home to where its run begins. What happened before the log is not known; a joint that came
+/// straight from home is the least that can be assumed.
+constexpr int k_approach = 24;
+
+constexpr double k_least_stiffness = 1e-3;  // of the declared EA
+
+/// What the motor sensor hides.
+double shaft_angle(double alpha, const Imperfections& at) {
+  return alpha + at.motor_offset + at.motor_eccentricity_sin * std::sin(alpha) + at.motor_eccentricity_cos * (std::cos(alpha) - 1.0);
+}
+
+double wound_angle(double shaft, const Imperfections& at) {
+  return shaft + at.profile_sin * std::sin(2.0 * shaft) + at.profile_cos * (std::cos(2.0 * shaft) - 1.0);
+}
+
+/// What the mechanism does not see: the same for all sensors.
+Imperfections without_sensors(Imperfections at) {
+  at.zero = at.gain = at.joint_eccentricity_sin = at.joint_eccentricity_cos = at.lag = 0;
+  at.creep = at.slip = at.slip_time = at.thermal = 0;
+  return at;
+}
+
+double tip_force(const Run& run, const Sample& sample, const Mechanism& declared) {
+  return run.has_load ? sample.load : declared.load.tip_force;
+}
+
+/// θ at the time `lag` earlier, straight between samples. Before the first sample the joint stood still.
+std::vector<double> delayed(const Run& run, const std::vector<double>& theta, double lag) {
+  std::vector<double> late(theta.size());
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    const double time = run.samples[i].time - lag;
+    while (j + 1 < theta.size() && run.samples[j + 1].time <= time) ++j;
+    const double from = run.samples[j].time;
+    const double step = j + 1 < theta.size() ? run.samples[j + 1].time - from : 0.0;
+    const double share = step > 0 ? std::clamp((time - from) / step, 0.0, 1.0) : 0.0;
+    late[i] = share > 0 ? theta[j] + share * (theta[j + 1] - theta[j]) : theta[j];
+  }
+  return late;
+}
+
+double first_temperature(const Measurement& measurement) {
+  for (const Run& run : measurement.runs) {
+    if (run.has_temperature && !run.samples.empty()) return run.samples.front().temperature;
+  }
+  return 0;
+}
+
+/// Creep, slip and heat move the joint itself; the sensor then shows it in its own way.
+std::vector<double> shown(const Run& run, std::vector<double> theta, const Imperfections& at, double reference_temperature) {
+  const double start = run.samples.empty() ? 0.0 : run.samples.front().time;
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    const Sample& sample = run.samples[i];
+    const double load = run.has_load ? sample.load : 1.0;
+    if (at.creep != 0) theta[i] -= at.creep * load * std::log10(1.0 + std::max(0.0, sample.time - start));
+    if (at.slip != 0 && sample.time >= at.slip_time) theta[i] += at.slip;
+    if (at.thermal != 0 && run.has_temperature) theta[i] += at.thermal * (sample.temperature - reference_temperature);
+  }
+  if (at.lag != 0) theta = delayed(run, theta, at.lag);
+  for (double& angle : theta) {
+    const double true_angle = angle;
+    angle = at.zero + (1.0 + at.gain) * true_angle + at.joint_eccentricity_sin * std::sin(true_angle) +
+            at.joint_eccentricity_cos * (std::cos(true_angle) - 1.0);
+  }
+  return theta;
+}
+
+}  // namespace
+
+double Play::to(double input) {
+  output_ = std::clamp(output_, input - half_, input + half_);
+  return output_;
+}
+
+Mechanism mounted(const Mechanism& declared, const Imperfections& at) {
+  Mechanism mechanism = declared;
+  mechanism.joint.R += at.joint_length;
+  mechanism.guides.EB += at.guide_outward;
+  mechanism.guides.ED += at.guide_outward;
+  mechanism.guides.OE += at.guide_down;
+  mechanism.pulley.EF -= at.guide_down;  // the pulley's axis stays
+  mechanism.guides.radius = std::max(0.0, mechanism.guides.radius + at.guide_radius);
+  mechanism.guides.mu = std::max(0.0, mechanism.guides.mu + at.friction);
+  mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.stretch);
+  mechanism.tendon.pretension = std::max(0.0, mechanism.tendon.pretension + at.pretension);
+  return mechanism;
+}
+
+JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
+  const MadePulleys larger = made.offset_by(at.radius_offset / (1.0 + at.pulley_scale));
+  JointModel model = joint_model(larger, mounted(declared, at));
+  // The pulley's centre off the axis is, to a tendon, a pin that moves the other way; a pulley larger by a factor, pins that stand
+  // closer by it.
+  const bool as_made = at.pulley_scale == 0 && at.runout_x == 0 && at.runout_y == 0;
+  if (!as_made) {
+    model.lower = [larger, pins = model.pins, scale = 1.0 + at.pulley_scale, x = at.runout_x, y = at.runout_y](double alpha) {
+      const double c = std::cos(alpha);
+      const double s = std::sin(alpha);
+      const Vec2 centre(c * x + s * y, c * y - s * x);  // turned clockwise
+      std::array<PinPlace, 2> seen = pins;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double sign = i == 0 ? -1.0 : 1.0;
+        seen[i].e = (pins[i].e - sign * centre.x()) / scale;
+        seen[i].ef = (pins[i].ef - centre.y()) / scale;
+        seen[i].rho = pins[i].rho / scale;
+      }
+      std::array<LowerPath, 2> paths = larger.paths(seen, alpha);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double sign = i == 0 ? -1.0 : 1.0;
+        paths[i].p = paths[i].p * scale + sign * centre.x() * std::cos(paths[i].normal) + centre.y() * std::sin(paths[i].normal);
+        paths[i].reach *= scale;
+        paths[i].wound *= scale;
+      }
+      return paths;
+    };
+  }
+  if (at.gravity_cos != 0 || at.gravity_sin != 0) {
+    // weight · sin(tilt − θ) is added to what is declared.
+    const double cos_part = model.weight * std::sin(model.tilt) + at.gravity_cos;
+    const double sin_part = -model.weight * std::cos(model.tilt) + at.gravity_sin;
+    model.weight = std::hypot(cos_part, sin_part);
+    model.tilt = std::atan2(cos_part, -sin_part);
+  }
+  return model;
+}
+
+Forward::Forward(const Mechanism& declared, const Measurement& measurement) : declared_(declared), measurement_(measurement) {
+  if (!declared.transmission) made_.emplace(declared);
+}
+
+std::vector<double> Forward::elastic(const Run& run, const JointModel& model, const Imperfections& at) const {
+  std::vector<double> theta;
+  theta.reserve(run.samples.size());
+  if (run.samples.empty()) return theta;
+  JointMotion motion(model);
+  Play play(at.backlash, 0.0);
+  const Sample& first = run.samples.front();
+  const auto step = [&](double alpha, const Sample& sample) {
+    const double pulley = wound_angle(play.to(shaft_angle(alpha, at)), at);
+    return motion.to({pulley, tip_force(run, sample, declared_), declared_.load.torque});
+  };
+  for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first);
+  double loose = 0;  // where the joint stands within the slack, −½ … ½
+  double last = 0;
+  for (const Sample& sample : run.samples) {
+    const EquilibriumPoint point = step(sample.alpha, sample);
+    double angle = point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
+    if (at.slack > 0) {
+      const double arm = 0.5 * (upper_span(model.pins[0], -point.theta).m + upper_span(model.pins[1], point.theta).m);
+      const double width = at.slack / arm;
+      // Under load the joint lies on the tendon that carries; without, it stays where it was left until a tendon takes it along.
+      const double torque = point.load_torque;
+      if (std::abs(torque) > 1e-9) {
+        loose = torque > 0 ? -0.5 : 0.5;
+      } else {
+        loose = std::clamp(loose - (point.theta - last) / width, -0.5, 0.5);
+      }
+      last = point.theta;
+      angle += loose * width;
+    }
+    theta.push_back(angle);
+  }
+  return theta;
+}
+
+std::vector<double> Forward::geared(const Run& run, const Imperfections& at) const {
+  std::vector<double> theta;
+  theta.reserve(run.samples.size());
+  if (run.samples.empty()) return theta;
+  const double ratio = declared_.transmission->ratio;
+  Play play(at.backlash, shaft_angle(0.0, at));
+  const double start = run.samples.front().alpha;
+  for (int i = 1; i < k_approach; ++i) play.to(shaft_angle(start * i / k_approach, at));
+  double direction = 0;
+  double before = play.to(shaft_angle(start, at));
+  for (const Sample& sample : run.samples) {
+    const double pulley = play.to(shaft_angle(sample.alpha, at));
+    if (pulley != before) direction = (pulley > before) == (ratio > 0) ? 1.0 : -1.0;
+    before = pulley;
+    const double load = run.has_load ? sample.load : 0.0;
+    theta.push_back(wound_angle(pulley, at) / ratio - at.compliance * load - at.dry_friction * std::abs(load) * direction);
+  }
+  return theta;
+}
+
+const Readings& Forward::mechanism(const Imperfections& imperfections) {
+  const Imperfections key = without_sensors(imperfections);
+  for (const Motion& motion : latest_) {
+    if (motion.key == key && !motion.theta.empty()) return motion.theta;
+  }
+  Motion& place = latest_[next_++ % latest_.size()];
+  place.key = key;
+  place.theta.clear();
+  std::optional<JointModel> model;
+  if (made_) model = imperfect_model(*made_, declared_, key);
+  for (const Run& run : measurement_.runs) place.theta.push_back(model ? elastic(run, *model, key) : geared(run, key));
+  return place.theta;
+}
+
+Readings Forward::operator()(const Imperfections& imperfections) {
+  Readings readings = mechanism(imperfections);
+  const double temperature = first_temperature(measurement_);
+  for (std::size_t i = 0; i < readings.size(); ++i) readings[i] = shown(measurement_.runs[i], std::move(readings[i]), imperfections, temperature);
+  return readings;
+}
+
+}  // namespace fusee

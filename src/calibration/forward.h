@@ -1,0 +1,60 @@
+/// \file
+/// What the sensors of a joint would have logged, given how it differs from what was declared.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "fusee/calibration/measurement.h"
+#include "fusee/mechanism/imperfections.h"
+#include "fusee/mechanism/mechanism.h"
+#include "fusee/transmission/joint_model.h"
+
+namespace fusee {
+
+/// θ as the joint sensor shows it, rad, run by run, parallel to the samples.
+using Readings = std::vector<std::vector<double>>;
+
+/// The play operator: follows `input` at a distance of half the `width`, and stands still in between.
+class Play {
+ public:
+  Play(double width, double input) : half_(0.5 * width), output_(input) {}
+  double to(double input);
+
+ private:
+  double half_;
+  double output_;
+};
+
+/// The joint on its bench. Keeps the latest motions of the mechanism, since sensors do not change them.
+class Forward {
+ public:
+  Forward(const Mechanism& declared, const Measurement& measurement);
+
+  /// NaN where the mechanism has no equilibrium.
+  Readings operator()(const Imperfections& imperfections);
+
+ private:
+  struct Motion {
+    Imperfections key;
+    Readings theta;
+  };
+
+  const Readings& mechanism(const Imperfections& imperfections);
+  std::vector<double> elastic(const Run& run, const JointModel& model, const Imperfections& imperfections) const;
+  std::vector<double> geared(const Run& run, const Imperfections& imperfections) const;
+
+  const Mechanism& declared_;
+  const Measurement& measurement_;
+  std::optional<MadePulleys> made_;
+  std::array<Motion, 4> latest_;
+  std::size_t next_ = 0;
+};
+
+/// The joint as declared but for what acts beyond the tendons' paths: an imperfect mechanism, mounted.
+Mechanism mounted(const Mechanism& declared, const Imperfections& imperfections);
+/// Its statics: pulleys made for `declared` and imperfect themselves, in the mechanism as mounted.
+JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, const Imperfections& imperfections);
+
+}  // namespace fusee

@@ -1,0 +1,24 @@
+/// \file
+/// The rest after all accepted effects, looked at without blame, and the one word for the whole.
+#pragma once
+
+#include <string>
+
+#include "calibration/selection.h"
+#include "fusee/calibration/calibration.h"
+
+namespace fusee {
+
+/// Structure of the residual that repeats, and scatter of strokes that should be alike.
+struct Rest {
+  double structure = 0;       ///< rms above the noise floor, rad
+  double scatter = 0;         ///< rms between strokes of the same run and direction, beyond their own noise, rad
+  double autocorrelation = 0; ///< lag 1, within strokes
+  std::string where;          ///< where it is largest
+};
+Rest look_at_rest(const Evidence& evidence, const Fit& fit);
+
+/// Fills verdict, summary, next_runs, unexplained_rms and unexplained_where.
+void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration);
+
+}  // namespace fusee
