@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/transmission/equilibrium.h"
+#include "calibration/forward_motion.h"
 
 namespace fusee {
 namespace {
@@ -143,34 +143,15 @@ std::vector<double> Forward::elastic(const Run& run, const JointModel& model, co
   std::vector<double> theta;
   theta.reserve(run.samples.size());
   if (run.samples.empty()) return theta;
-  JointMotion motion(model);
+  BenchMotion motion(model, at.slack);
   Play play(at.backlash, 0.0);
   const Sample& first = run.samples.front();
   const auto step = [&](double alpha, const Sample& sample) {
     const double pulley = wound_angle(play.to(shaft_angle(alpha, at)), at);
-    return motion.to({pulley, tip_force(run, sample, declared_), declared_.load.torque});
+    return motion.to(pulley, tip_force(run, sample, declared_) * model.pins[1].R + declared_.load.torque);
   };
   for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first);
-  double loose = 0;  // where the joint stands within the slack, −½ … ½
-  double last = 0;
-  for (const Sample& sample : run.samples) {
-    const EquilibriumPoint point = step(sample.alpha, sample);
-    double angle = point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
-    if (at.slack > 0) {
-      const double arm = 0.5 * (upper_span(model.pins[0], -point.theta).m + upper_span(model.pins[1], point.theta).m);
-      const double width = at.slack / arm;
-      // Under load the joint lies on the tendon that carries; without, it stays where it was left until a tendon takes it along.
-      const double torque = point.load_torque;
-      if (std::abs(torque) > 1e-9) {
-        loose = torque > 0 ? -0.5 : 0.5;
-      } else {
-        loose = std::clamp(loose - (point.theta - last) / width, -0.5, 0.5);
-      }
-      last = point.theta;
-      angle += loose * width;
-    }
-    theta.push_back(angle);
-  }
+  for (const Sample& sample : run.samples) theta.push_back(step(sample.alpha, sample).value_or(std::numeric_limits<double>::quiet_NaN()));
   return theta;
 }
 

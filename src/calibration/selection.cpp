@@ -14,7 +14,7 @@ constexpr double k_least_bic_drop = 6.0;
 /// Two explanations are one if their errors differ by less than this part of the floor's square, however surely they do.
 constexpr double k_same = 0.03;
 constexpr std::size_t k_most_effects = 5;
-constexpr std::size_t k_pair_leaders = 4;
+constexpr std::size_t k_pair_leaders = 3;
 
 class Selector {
  public:
@@ -141,7 +141,7 @@ bool Selector::add_two(const std::vector<Trial>& singles) {
   if (selection_.best.effects.size() + 2 > k_most_effects) return false;
   Trial best;
   const std::size_t leaders = std::min(k_pair_leaders, singles.size());
-  const std::size_t seconds = std::min<std::size_t>(8, singles.size());
+  const std::size_t seconds = std::min<std::size_t>(6, singles.size());
   for (std::size_t i = 0; i < leaders; ++i) {
     for (std::size_t j = i + 1; j < seconds; ++j) {
       report("trying pairs", static_cast<double>(i * seconds + j) / static_cast<double>(leaders * seconds));

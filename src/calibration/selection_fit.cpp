@@ -14,8 +14,10 @@ namespace fusee {
 namespace {
 
 /// Rows of a run that a fit looks at: enough for every stroke's shape, and few enough for hundreds of fits.
-constexpr std::size_t k_rows_a_run = 260;
-constexpr std::size_t k_most_rows = 3000;
+constexpr std::size_t k_rows_a_run = 170;
+constexpr std::size_t k_most_rows = 1500;
+/// A joint declared by a ratio costs next to nothing to simulate.
+constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 
 /// Residuals beyond this many scales count linearly.
@@ -36,10 +38,13 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Every n-th row and both ends of each stroke.
-Run thinned(const Run& run, std::size_t most) {
+/// Every n-th row, and both ends of each stroke, which the motion's history needs. `counted`: the every n-th alone, lest ends weigh too much.
+Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   const std::size_t every = (run.samples.size() + most - 1) / std::max<std::size_t>(1, most);
-  if (every <= 1) return run;
+  if (every <= 1) {
+    counted.insert(counted.end(), run.samples.size(), true);
+    return run;
+  }
   std::set<std::size_t> ends;
   for (const Stroke& stroke : run.strokes) {
     ends.insert(stroke.first);
@@ -50,7 +55,9 @@ Run thinned(const Run& run, std::size_t most) {
   std::vector<std::size_t> place(run.samples.size());
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     place[i] = thin.samples.size();
-    if (i % every == 0 || ends.count(i) || i + 1 == run.samples.size()) thin.samples.push_back(run.samples[i]);
+    if (i % every != 0 && !ends.count(i)) continue;
+    thin.samples.push_back(run.samples[i]);
+    counted.push_back(i % every == 0);
   }
   for (Stroke& stroke : thin.strokes) {
     stroke.first = place[stroke.first];
@@ -166,6 +173,28 @@ Eigen::VectorXd flat(const Readings& readings) {
   return all;
 }
 
+/// Of many starts the two after which one step of the fit would go furthest.
+std::vector<std::vector<double>> promising(const Effect& effect, const Imperfections& from, const Eigen::VectorXd& residual, Forward& forward) {
+  constexpr std::size_t few = 2;
+  if (effect.starts.size() <= 4) return effect.starts;
+  const Eigen::VectorXd base = flat(forward(from));
+  std::vector<std::pair<double, std::size_t>> gains;
+  for (std::size_t i = 0; i < effect.starts.size(); ++i) {
+    Imperfections moved = from;
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      const EffectParameter& parameter = effect.parameters[k];
+      moved.*parameter.member = parameter.searched ? effect.starts[i][k] : parameter.step;
+    }
+    const Eigen::VectorXd J = flat(forward(moved)) - base;
+    const double gain = J.squaredNorm() > 0 ? std::pow(J.dot(residual), 2) / J.squaredNorm() : 0.0;
+    gains.emplace_back(std::isfinite(gain) ? -gain : 0.0, i);
+  }
+  std::sort(gains.begin(), gains.end());
+  std::vector<std::vector<double>> best;
+  for (std::size_t i = 0; i < few; ++i) best.push_back(effect.starts[gains[i].second]);
+  return best;
+}
+
 Imperfections placed(const std::vector<const EffectParameter*>& parameters, Imperfections at, const double* x) {
   for (std::size_t i = 0; i < parameters.size(); ++i) at.*parameters[i]->member = x[i] * parameters[i]->step;
   return at;
@@ -234,8 +263,8 @@ double solve(const Misfit& misfit, const std::vector<const EffectParameter*>& pa
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
-  options.max_num_iterations = 12;
-  options.function_tolerance = 1e-5;
+  options.max_num_iterations = 8;
+  options.function_tolerance = 1e-4;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -384,8 +413,10 @@ Evidence gather(const Mechanism& declared, const Measurement& measurement, const
   evidence.floor = floor;
   evidence.measurement = measurement;
   const std::size_t runs = std::max<std::size_t>(1, measurement.runs.size());
-  const std::size_t most = std::min(k_rows_a_run, std::max<std::size_t>(60, k_most_rows / runs));
-  for (Run& run : evidence.measurement.runs) run = thinned(run, most);
+  const std::size_t cheaper = declared.transmission ? k_cheaper : 1;
+  const std::size_t most = cheaper * std::min(k_rows_a_run, std::max<std::size_t>(60, k_most_rows / runs));
+  std::vector<bool> counted;
+  for (Run& run : evidence.measurement.runs) run = thinned(run, most, counted);
   Forward forward(declared, evidence.measurement);
   Readings theta;
   for (const Run& run : evidence.measurement.runs) {
@@ -398,8 +429,10 @@ Evidence gather(const Mechanism& declared, const Measurement& measurement, const
   for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
     const Run& run = evidence.measurement.runs[i];
     for (std::size_t s = 0; s < run.strokes.size(); ++s) {
-      if (run.strokes[s].partial) continue;
+      // Where the play stood when the log began is not known: the first stroke finds out.
+      if (run.strokes[s].partial || (s == 0 && run.strokes.size() > 2)) continue;
       Block block{i, s, without_outliers(residual, offset + run.strokes[s].first, offset + run.strokes[s].last, floor)};
+      block.rows.erase(std::remove_if(block.rows.begin(), block.rows.end(), [&](std::size_t row) { return !counted[row]; }), block.rows.end());
       if (block.rows.size() >= k_least_rows_a_block) evidence.blocks.push_back(std::move(block));
     }
     offset += run.samples.size();
@@ -428,7 +461,7 @@ Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& eff
     bool known = false;
     for (const EffectParameter& parameter : effect->parameters) known = known || from.*parameter.member != 0;
     if (known) continue;
-    for (const std::vector<double>& start : effect->starts) {
+    for (const std::vector<double>& start : promising(*effect, starts.front(), before, forward)) {
       Imperfections at = starts.front();
       for (std::size_t k = 0; k < start.size(); ++k) at.*effect->parameters[k].member = start[k];
       starts.push_back(at);

@@ -1,0 +1,110 @@
+// Six joints measured on a rig that shares no code with the fit, and a real one: each is read as its truth says, with no option set.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "fusee/base/units.h"
+#include "fusee/calibration/calibration.h"
+#include "fusee/mechanism/file.h"
+
+namespace fusee {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Not;
+using testing::UnorderedElementsAre;
+
+std::vector<std::filesystem::path> runs_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Calibration rig(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
+  return calibrate(read_mechanism(folder / "spec.toml").mechanism, read_measurement(runs_in(folder)));
+}
+
+std::vector<std::string> names(const Calibration& calibration) {
+  std::vector<std::string> all;
+  for (const FoundEffect& effect : calibration.effects) all.push_back(effect.name);
+  return all;
+}
+
+TEST(RigData, a_joint_that_is_as_declared_gets_no_blame) {
+  const Calibration found = rig("a_declared_right");
+  EXPECT_EQ(found.verdict, "no_effect");
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_LT(degrees(found.before.rms), 0.022);  // the sensor's noise is 0.02°
+  EXPECT_FALSE(found.detectable.empty());
+}
+
+TEST(RigData, a_soft_tendon_is_found_with_its_stiffness) {
+  const Calibration found = rig("b_stretch");
+  EXPECT_EQ(found.verdict, "explained");
+  ASSERT_THAT(names(found), ElementsAre("tendon_stretch"));
+  EXPECT_THAT(found.effects[0].group, ElementsAre("tendon_stretch"));
+  const double truth = 9000.0 * 0.25 * k_pi * 0.8 * 0.8;
+  EXPECT_NEAR(found.effects[0].parameters[0].value, truth, 0.02 * truth);
+  EXPECT_LE(found.effects[0].parameters[0].low, truth);
+  EXPECT_GE(found.effects[0].parameters[0].high, truth);
+}
+
+TEST(RigData, backlash_is_found_with_its_width) {
+  const Calibration found = rig("c_backlash");
+  EXPECT_EQ(found.verdict, "explained");
+  ASSERT_THAT(names(found), ElementsAre("backlash"));
+  EXPECT_THAT(found.effects[0].group, ElementsAre("backlash"));
+  EXPECT_NEAR(found.effects[0].parameters[0].value, 2.4, 0.05);
+  EXPECT_LT(found.after.held_out_rms, 0.1 * found.before.held_out_rms);
+}
+
+TEST(RigData, a_thicker_pin_is_in_the_group) {
+  const Calibration found = rig("d_guide_radius");
+  ASSERT_EQ(found.effects.size(), 1u);
+  EXPECT_THAT(found.effects[0].group, Contains("guide_radius"));
+}
+
+TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
+  const Calibration found = rig("e_one_sweep_only");
+  EXPECT_EQ(found.verdict, "confounded");
+  ASSERT_EQ(found.effects.size(), 1u);
+  EXPECT_GT(found.effects[0].group.size(), 1u);
+  EXPECT_TRUE(testing::Matches(Contains("pulley_scale"))(found.effects[0].group) ||
+              testing::Matches(Contains("radius_offset"))(found.effects[0].group));
+  EXPECT_FALSE(found.next_runs.empty());
+}
+
+TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
+  const Calibration found = rig("f_not_in_any_catalogue");
+  EXPECT_EQ(found.verdict, "unexplained");
+  EXPECT_TRUE(found.effects.empty()) << found.summary;
+  EXPECT_GT(degrees(found.unexplained_rms), 0.05);
+  EXPECT_FALSE(found.unexplained_where.empty());
+}
+
+// Data of O'Neill et al., RA-L 3(4), 2018, doi 10.1109/LRA.2018.2849862.
+TEST(RealJaw, backlash_and_stretch_and_no_delay) {
+  const char* folder = std::getenv("FUSEE_DAVINCI_JAW");
+  if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW names no folder";
+  const Mechanism declared = parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.0928961748633879\n", "jaw.toml");
+  MeasurementOptions options;
+  options.columns = {{"load", "tau_out_Nm"}};
+  const Calibration found = calibrate(declared, read_measurement(runs_in(folder), options));
+  EXPECT_THAT(names(found), Contains("backlash"));
+  EXPECT_THAT(names(found), Contains("tendon_stretch"));
+  EXPECT_THAT(names(found), Not(Contains("sensor_lag")));
+  EXPECT_EQ(found.verdict, "unexplained");
+  EXPECT_GT(degrees(found.before.held_out_rms), 1.5);
+  EXPECT_LE(degrees(found.after.held_out_rms), 0.32);
+}
+
+}  // namespace
+}  // namespace fusee
