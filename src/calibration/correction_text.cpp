@@ -64,10 +64,10 @@ std::string corrected_toml(std::string_view declared_text, const Mechanism& decl
     if (value != 0 || field.get(declared, 0) != 0) edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
   }
   const std::size_t table = text.find("\n[identified]");
-  if (table == std::string::npos) {
-    text += "\n" + words;
-  } else {
+  if (table != std::string::npos) {
     text.insert(table + 1, words);
+  } else {
+    text += "\n" + words + (edits.empty() ? "" : "[identified]\n");
   }
   return edit_values(text, edits);
 }
