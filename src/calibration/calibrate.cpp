@@ -80,6 +80,25 @@ Calibration not_testable(const std::vector<std::string>& reasons) {
   return calibration;
 }
 
+bool is_named(const Run& run, const std::vector<std::string>& names) { return std::find(names.begin(), names.end(), run.name) != names.end(); }
+
+/// The runs that may be learnt from, or those kept for validation.
+Measurement part(const Measurement& measurement, const std::vector<std::string>& hold_out, bool held) {
+  Measurement chosen = measurement;
+  std::erase_if(chosen.runs, [&](const Run& run) { return is_named(run, hold_out) != held; });
+  return chosen;
+}
+
+/// Where runs were named, theirs are the held-out figures.
+void validate(const Mechanism& declared, const Measurement& kept, const Selection& selection, Calibration& calibration) {
+  if (kept.runs.empty()) return;
+  const auto rms = [&](const Imperfections& at) { return figures(kept, residuals(kept, predict(declared, at, kept)), 0).rms; };
+  calibration.before.held_out_rms = rms(selection.none.at);
+  calibration.after.held_out_rms = rms(selection.best.at);
+  calibration.held_out_runs.clear();
+  for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections, const Measurement& measurement) {
@@ -89,7 +108,8 @@ std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperf
 Calibration calibrate(const Mechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
   if (!measurement.not_testable.empty()) return not_testable(measurement.not_testable);
   const NoiseFloor noise = noise_floor(measurement);
-  const Evidence evidence = gather(declared, measurement, options.hold_out, std::max(noise.rms, 1e-9));
+  const Measurement learnt_from = part(measurement, options.hold_out, false);
+  const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
   if (evidence.blocks.size() < 2) return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Forward forward(declared, evidence.measurement);
   const Selection selection = select_effects(evidence, forward, options.progress);
@@ -109,6 +129,7 @@ Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
   calibration.correctable_by_pulley = moved_by(evidence, selection, "pulley");
   calibration.correctable_by_table = moved_by(evidence, selection, "table");
   name_held_out(evidence, calibration);
+  validate(declared, part(measurement, options.hold_out, true), selection, calibration);
   conclude(evidence, selection, calibration);
   return calibration;
 }

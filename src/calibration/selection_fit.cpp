@@ -106,7 +106,7 @@ std::vector<std::vector<std::size_t>> speed_levels(const Measurement& measuremen
 }
 
 /// Whole levels of load and speed, where enough is left to learn from; whole runs that no level holds; strokes of a lone run.
-void choose_folds(Evidence& evidence, const std::vector<std::string>& hold_out) {
+void choose_folds(Evidence& evidence) {
   const std::vector<Run>& runs = evidence.measurement.runs;
   const auto blocks_of = [&](const std::vector<std::size_t>& chosen) {
     std::vector<std::size_t> found;
@@ -115,14 +115,6 @@ void choose_folds(Evidence& evidence, const std::vector<std::string>& hold_out) 
     }
     return found;
   };
-  std::vector<std::size_t> named;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (std::find(hold_out.begin(), hold_out.end(), runs[i].name) != hold_out.end()) named.push_back(i);
-  }
-  if (!named.empty() && named.size() < runs.size()) {
-    evidence.folds = {blocks_of(named)};
-    return;
-  }
   if (runs.size() == 1) {
     for (std::size_t b = 0; b < evidence.blocks.size(); ++b) evidence.folds.push_back({b});
     return;
@@ -333,7 +325,6 @@ void hold_out(const Evidence& evidence, Fit& fit) {
   double rows = 0;
   double squares = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
-    // A block that is never held out (the user named the runs that are) says nothing.
     fit.held_out.push_back(times[b] > 0 ? error[b] / times[b] : std::numeric_limits<double>::quiet_NaN());
     if (times[b] == 0) continue;
     rows += fit.sums[b].rows;
@@ -407,7 +398,7 @@ std::vector<const EffectParameter*> varied(const Mechanism& declared, const Effe
   return parameters;
 }
 
-Evidence gather(const Mechanism& declared, const Measurement& measurement, const std::vector<std::string>& held, double floor) {
+Evidence gather(const Mechanism& declared, const Measurement& measurement, double floor) {
   Evidence evidence;
   evidence.declared = &declared;
   evidence.floor = floor;
@@ -437,7 +428,7 @@ Evidence gather(const Mechanism& declared, const Measurement& measurement, const
     }
     offset += run.samples.size();
   }
-  choose_folds(evidence, held);
+  choose_folds(evidence);
   return evidence;
 }
 
@@ -491,6 +482,9 @@ Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& eff
     const double step = fit.at.*parameter.member + parameter.step <= parameter.most ? 1.0 : -1.0;
     moved.*parameter.member += step * parameter.step;
     fit.J.col(k) = (flat(forward(moved)) - at) / step;
+    // At its bound a parameter stays there, whatever part of the data it is fitted to.
+    const double value = fit.at.*parameter.member;
+    if (value <= parameter.least + 1e-9 * parameter.step || value >= parameter.most - 1e-9 * parameter.step) fit.J.col(k).setZero();
   }
   for (const Block& block : evidence.blocks) {
     for (const std::size_t i : block.rows) {

@@ -30,7 +30,7 @@ struct Evidence {
   std::size_t rows_used() const;
 };
 
-Evidence gather(const Mechanism& declared, const Measurement& measurement, const std::vector<std::string>& hold_out, double floor);
+Evidence gather(const Mechanism& declared, const Measurement& measurement, double floor);
 
 using EffectSet = std::vector<const Effect*>;
 
