@@ -407,7 +407,7 @@ void add_identified(std::vector<Field>& table) {
   table.push_back(number<identified, &Imperfections::slip_time>(
       {"identified.slip_time_s", "", "0", "when that step was"}, "s", -1e+12, 1e+12));
   table.push_back(number<identified, &Imperfections::thermal, degrees, radians>(
-      {"identified.thermal_deg_per_K", "", "0", "turned by each kelvin"}, "deg", -360, 360));
+      {"identified.thermal_per_K_deg", "", "0", "turned by each kelvin"}, "deg", -360, 360));
   table.push_back(number<identified, &Imperfections::friction>(
       {"identified.friction", "", "0", "added to guides.friction"}, "", -2, 2));
   table.push_back(number<identified, &Imperfections::guide_radius>(
