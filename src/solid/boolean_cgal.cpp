@@ -45,6 +45,13 @@ TriangleMesh triangles_of(SurfaceMesh& surface) {
   return mesh;
 }
 
+// Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone.
+TriangleMesh without_short_edges(const TriangleMesh& rounded) {
+  TriangleMesh mesh = weld(rounded);
+  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return mesh;
+}
+
 std::optional<BooleanResult> combine(const TriangleMesh& a, const TriangleMesh& b, std::size_t wanted) {
   // CGAL's box search draws from its default generator: the same draws give the same order of vertices every time.
   CGAL::get_default_random() = CGAL::Random(0);
@@ -55,7 +62,7 @@ std::optional<BooleanResult> combine(const TriangleMesh& a, const TriangleMesh& 
   const std::array<bool, 4> valid = pmp::corefine_and_compute_boolean_operations(first, second, slots);
   if (!valid[wanted] || !valid[k_common]) return std::nullopt;
   BooleanResult outcome;
-  outcome.mesh = rounded_to_float(triangles_of(result));
+  outcome.mesh = without_short_edges(rounded_to_float(triangles_of(result)));
   outcome.common_volume = enclosed_volume(triangles_of(common));
   return outcome;
 }
