@@ -107,7 +107,9 @@ Verdict verdict_of(const Product& product) {
 
 std::string warnings(const Product& product) {
   std::vector<std::string> all = product.synthesis.warnings;
-  for (const Diagnostic& diagnostic : product.file.warnings) all.push_back(diagnostic.message);
+  for (const Diagnostic& diagnostic : product.file.warnings) {
+    all.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : ": " + diagnostic.hint));
+  }
   if (all.empty()) return "";
   return "<section class=\"warnings\">" + list("ul", all) + "</section>";
 }
@@ -218,8 +220,7 @@ std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortes
 
 /// Plane, half height and least radius of a groove, for its tint.
 std::string groove_words(const BodyLayout& layout, double z) {
-  const double inside = 1.1 * std::max(layout.bore.radius, layout.hub_radius);
-  return vector_words(layout.scale * Vec3(z, 0.98 * layout.groove_half_width, inside));
+  return vector_words(layout.scale * Vec3(z, 0.98 * layout.groove_half_width, 1.1 * layout.bore.radius));
 }
 
 std::string part_view(const Product& product) {
@@ -237,8 +238,7 @@ std::string part_view(const Product& product) {
       "<button data-view=\"side\">Side</button><button data-view=\"below\">Below</button>"
       "<button data-view=\"half\" aria-pressed=\"false\">Cut open</button></div>"
       "<p class=\"missing\">This view needs WebGL 2, which is off or missing here. The same part is in pulley.stl, "
-      "pulley.3mf and pulley.obj; "
-      "its profiles are drawn below.</p></div>";
+      "pulley.3mf and pulley.obj; its profiles are drawn below.</p></div>";
   html +=
       "<p class=\"hint\">Drag to turn, shift-drag to move, pinch or wheel (after a click) to zoom; arrow keys, + and "
       "−. " +
@@ -312,16 +312,14 @@ std::string tendon_table(const Product& product) {
          "pay-out</th></tr></thead><tbody>" +
          rows +
          "</tbody></table></div><p class=\"hint\">From C to the knot’s pocket, taut, with the joint and the pulley at "
-         "home. The cut leaves "
-         "60 mm at each end for knots.</p>";
+         "home. The cut leaves 60 mm at each end for knots.</p>";
 }
 
 std::vector<std::string> steps(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
   std::vector<std::string> items{
       "Print it standing on its lower flange, as it lies in the files: the groove walls need no support. Use enough "
-      "walls that grooves and "
-      "anchors are solid."};
+      "walls that grooves and anchors are solid."};
   if (layout.scale != 1) {
     items.push_back("The files are already " + readable((layout.scale - 1) * 100, 2) +
                     " % larger, for the shrinkage of " + product.file.mechanism.material.name +
@@ -333,8 +331,7 @@ std::vector<std::string> steps(const Product& product) {
       "home.");
   items.push_back(
       "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
-      "outer side of pin B to C; tendon 2 "
-      "likewise from P2 over pin D.");
+      "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
   items.push_back("Tighten both until tendon 1 carries " + with_unit(product.file.mechanism.tendon.pretension, "N") +
                   " at home, then turn the pulley over the whole stroke: neither may go slack.");
   return items;
