@@ -18,6 +18,9 @@ namespace {
 // Between a flange and a pin that must not touch: print tolerance and a pulley that runs out a little.
 constexpr double k_pin_gap = 0.5;
 
+// A number taken from a message must do, though it was rounded to be written.
+constexpr double k_grain = 1e-9;
+
 // Numbers to advise: rounded to what people write, on the side that works.
 double rounded_down(double value) { return 0.1 * std::floor(value / 0.1 + 1e-9); }
 double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
@@ -63,10 +66,10 @@ class Conditions {
     result_.push_back(std::move(condition));
   }
   void add_least(std::string name, double value, double least, std::string fact, const std::string& advice) {
-    add(std::move(name), value, least, value >= least, std::move(fact), advice);
+    add(std::move(name), value, least, value >= least - k_grain, std::move(fact), advice);
   }
   void add_most(std::string name, double value, double most, std::string fact, const std::string& advice) {
-    add(std::move(name), value, most, value <= most, std::move(fact), advice);
+    add(std::move(name), value, most, value <= most + k_grain, std::move(fact), advice);
   }
 
   void add_groove() {
