@@ -9,13 +9,13 @@
 
 #include "export/report/drawing.h"
 #include "export/report/mesh_code.h"
+#include "export/report/report_parts.h"
 #include "export/report/report_plots.h"
 #include "export/report/tables.h"
 #include "export/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/export/export.h"
-#include "report_parts.h"
 
 namespace fusee {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "export/report/report_parts.h"
 #include "fusee/base/text.h"
-#include "report_parts.h"
 
 namespace fusee {
 namespace {
