@@ -48,7 +48,8 @@ TEST(Body, RoundPulleyHasTheVolumeOfItsFrustums) {
   const double middle = signed_area(rims.middle) * t;
   const double bore = signed_area(layout.bore.outline) * layout.z_hub;
   const double expected = frustum(n, lip - foot, lip, foot) + frustum(n, lip, lip, t - foot) + 2.0 * groove + middle +
-                          frustum(n, lip, lip, t) + frustum(n, 8, 8, 8) - bore;
+                          frustum(n, lip, lip, t) + signed_area(stack.hub->outline) * 8 - bore;
+  EXPECT_NEAR(signed_area(stack.hub->outline), k_pi * 64, 0.01 * k_two_pi * 8);
   EXPECT_NEAR(volume_of(stack), expected, 1e-9 * expected);
   EXPECT_NEAR(enclosed_volume(mesh_of(stack)), expected, 1e-9 * expected);
 }
