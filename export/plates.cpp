@@ -170,11 +170,21 @@ class LayerMaker {
       finished.push_back(part);
       path.push_back(*inner);
     }
-    layer.outer = difference(layer.outer.front(), finished);
-    layer.cut_outer = difference(layer.cut_outer.front(), path);
-    // Slivers that the cut frees fall out; a hole that it closes is no outline.
-    layer.outer.resize(1);
-    layer.cut_outer.resize(1);
+    const std::vector<Polygon> outer = difference(layer.outer.front(), finished);
+    const std::vector<Polygon> cut_outer = difference(layer.cut_outer.front(), path);
+    if (!is_one_plate(outer) || !is_one_plate(cut_outer)) {
+      note_once(plates_, fmt::format("{}: a tendon channel is left out, it would cut the plate in two", layer.name));
+      return;
+    }
+    layer.outer = {outer.front()};
+    layer.cut_outer = {cut_outer.front()};
+  }
+
+  /// The rest must hang together and be open where the tendon comes in; slivers that fall out are no plate.
+  static bool is_one_plate(const std::vector<Polygon>& loops) {
+    constexpr double k_sliver = 1.0;  // mm²
+    return !loops.empty() && is_simple(loops.front()) &&
+           (loops.size() == 1 || std::abs(signed_area(loops[1])) < k_sliver);
   }
 
   Plates& plates_;

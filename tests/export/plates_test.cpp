@@ -130,6 +130,15 @@ TEST(Plates, AChannelIsCutIntoItsCoreAlone) {
   EXPECT_GE(x_near(-7.4), 1);
 }
 
+TEST(Plates, AChannelThroughThePlateIsLeftOutAndSaid) {
+  Product product = egg_with_anchor();
+  product.pulley.anchors[0].channel = {{-8.7, -30}, {-7.3, -30}, {-7.3, 30}, {-8.7, 30}};
+  const Plates plates = make_plates(product);
+  EXPECT_THAT(plates.notes, Contains(HasSubstr("it would cut the plate in two")));
+  EXPECT_DOUBLE_EQ(signed_area(layer_named(plates, "P1 CORE").outer[0]),
+                   signed_area(layer_named(make_plates(egg()), "P1 CORE").outer[0]));
+}
+
 class PlatesDrawing : public ::testing::TestWithParam<DxfVersion> {};
 INSTANTIATE_TEST_SUITE_P(BothVersions, PlatesDrawing, ::testing::Values(DxfVersion::ac1015, DxfVersion::r12));
 
