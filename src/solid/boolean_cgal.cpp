@@ -3,8 +3,11 @@
 #include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
+
 #include "fusee/base/diagnostics.h"
 #include "solid/boolean.h"
+#include "solid/self_intersection.h"
 
 namespace fusee {
 namespace {
@@ -52,6 +55,28 @@ TriangleMesh without_short_edges(const TriangleMesh& rounded) {
   return mesh;
 }
 
+// Rounding may put a facet's three corners on a line. It lies along its longest edge: the two facets on that edge are
+// divided the other way.
+void flip_flat_facets(TriangleMesh& mesh) {
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (!is_degenerate(mesh, f)) continue;
+    auto& flat = mesh.triangles[f];
+    const auto length = [&](std::size_t k) {
+      return (mesh.vertices[flat[(k + 1) % 3]] - mesh.vertices[flat[k]]).squaredNorm();
+    };
+    const std::size_t k = length(0) >= length(1) ? (length(0) >= length(2) ? 0 : 2) : (length(1) >= length(2) ? 1 : 2);
+    const std::uint32_t p = flat[k], q = flat[(k + 1) % 3], r = flat[(k + 2) % 3];
+    const auto runs_back = [p, q](const auto& t) {
+      return (t[0] == q && t[1] == p) || (t[1] == q && t[2] == p) || (t[2] == q && t[0] == p);
+    };
+    const auto beside = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), runs_back);
+    if (beside == mesh.triangles.end()) continue;
+    const std::uint32_t s = (*beside)[0] + (*beside)[1] + (*beside)[2] - p - q;
+    flat = {p, s, r};
+    *beside = {s, q, r};
+  }
+}
+
 std::optional<BooleanResult> combine(const TriangleMesh& a, const TriangleMesh& b, std::size_t wanted) {
   // CGAL's box search draws from its default generator: the same draws give the same order of vertices every time.
   CGAL::get_default_random() = CGAL::Random(0);
@@ -63,6 +88,7 @@ std::optional<BooleanResult> combine(const TriangleMesh& a, const TriangleMesh& 
   if (!valid[wanted] || !valid[k_common]) return std::nullopt;
   BooleanResult outcome;
   outcome.mesh = without_short_edges(rounded_to_float(triangles_of(result)));
+  flip_flat_facets(outcome.mesh);
   outcome.common_volume = enclosed_volume(triangles_of(common));
   return outcome;
 }

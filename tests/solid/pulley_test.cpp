@@ -179,7 +179,7 @@ TEST(CheckPulley, EmptyAndBrokenMeshesAreMeasuredAsFarAsTheyGo) {
 // A few dozen shapes and bodies; the laws' tests run hundreds of whole mechanisms.
 TEST(Pulley, WhatIsMadeHoldsEveryCheckAndWhatIsNotSaysWhy) {
   int made = 0;
-  for (int k = 0; k < 24; ++k) {
+  for (int k = 0; k < 16; ++k) {
     const double r = 6.0 + 2.1 * k, ratio = 0.7 + 0.03 * k;
     const double wobble = 0.03 * r * std::sin(1.7 * k);
     const SupportShape p1{r, {{1, 0.1 * r * std::sin(k), 0}, {2, wobble, 0.02 * r}}},
@@ -197,7 +197,7 @@ TEST(Pulley, WhatIsMadeHoldsEveryCheckAndWhatIsNotSaysWhy) {
     ++made;
     EXPECT_EQ(failed(check_pulley(pulley.mesh, mechanism, shape, pulley, 0.05)), "") << "k = " << k;
   }
-  EXPECT_GE(made, 20);
+  EXPECT_GE(made, 13);
 }
 
 }  // namespace

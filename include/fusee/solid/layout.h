@@ -2,6 +2,7 @@
 /// The body's sizes with every "automatic" resolved: one place that solid, OpenSCAD, plates and report read.
 ///
 /// Bottom to top along z: flange 1 | groove P1 | middle flange | groove P2 | flange 2 | hub. z = 0 is the bed. mm, rad.
+/// These are the finished part's sizes; the mesh's coordinates are `scale` times them.
 #pragma once
 
 #include <string>
