@@ -42,7 +42,7 @@ struct Stock {
                          mechanism.body.flange)),
         floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
         floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
-        wall(std::max(mechanism.body.min_wall, k_least_wall)) {}
+        wall(std::max(layout.min_wall, k_least_wall)) {}
 
   Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
 };

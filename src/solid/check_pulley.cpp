@@ -206,8 +206,8 @@ std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mecha
   checks.push_back(
       at_most("volume_deviation", std::abs(volume / pulley.expected_volume - 1.0), k_volume_tolerance, "1",
               fmt::format("{} mm³ in place of {} mm³", rounded(volume, 9), rounded(pulley.expected_volume, 9))));
-  GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, mechanism.body.min_wall);
-  GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, mechanism.body.min_wall);
+  GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
+  GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
   return checks;
 }
 

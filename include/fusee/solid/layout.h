@@ -53,6 +53,7 @@ struct BodyLayout {
   double channel_width = 0;         ///< of the tie-off channels
   double channel_fillet = 0;        ///< radius at which a channel leaves the floor's tangent, to its centre line
   double pocket_radius = 0;         ///< of the knot pockets
+  double min_wall = 0;              ///< no wall is thinner
   double elephant_foot = 0;
   double mark_depth = 0;
   double scale = 1;                 ///< all x, y, z of the mesh are times this: 1/(1 − shrinkage)
