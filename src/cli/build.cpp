@@ -111,24 +111,24 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   for (const Condition& condition : conditions) {
     if (!condition.ok) reply.diagnostics.push_back(about_file(Severity::error, product.file.path, condition.message));
   }
-  const std::vector<Change>& advice = product.synthesis.advice;
-  if (!has_curves) {
-    for (const Change& change : advice) {
-      reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + change.text + " (" + change.key + " is " +
-                                                           rounded(change.from) + ")"));
-    }
-    if (advice.empty()) reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
+  const std::vector<Change>& advice = has_curves ? product.pulley.advice : product.synthesis.advice;
+  for (const Change& change : advice) {
+    reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + change.text + " (" + change.key +
+                                                         " is " + rounded(change.from) + ")"));
   }
+  if (advice.empty())
+    reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
-  reply.fields["advice"] = to_json(has_curves ? std::vector<Change>() : advice);
+  reply.fields["advice"] = to_json(advice);
 }
 
 void add_failed_checks(const BuildResult& built, const BuildOptions& options, Reply& reply) {
   reply.exit = Exit::check_failed;
   add_failures(built.product.checks, reply);
   if (!built.published && !options.dry_run) {
-    reply.diagnostics.push_back(note(Severity::note, "the files of the earlier run in " + options.folder.string() + " were kept",
+    reply.diagnostics.push_back(note(Severity::note,
+                                     "the files of the earlier run in " + options.folder.string() + " were kept",
                                      "--force replaces them with the faulty ones"));
   }
 }

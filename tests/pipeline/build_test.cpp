@@ -64,7 +64,8 @@ TEST_F(Build, GivesTheSameBytesAgain) {
   const BuildResult first = build(file_, options_);
   options_.folder = scratch_ / "again";
   const BuildResult second = build(file_, options_);
-  for (std::size_t i = 0; i < first.outputs.size(); ++i) EXPECT_EQ(first.outputs[i].bytes, second.outputs[i].bytes) << first.outputs[i].name;
+  for (std::size_t i = 0; i < first.outputs.size(); ++i)
+    EXPECT_EQ(first.outputs[i].bytes, second.outputs[i].bytes) << first.outputs[i].name;
 }
 
 TEST_F(Build, DryRunLeavesNothingAndSaysTheSame) {
@@ -120,7 +121,8 @@ TEST_F(Build, ByThePapersMethodReportsItsSlack) {
   const BuildResult built = build(file_, options_);
   EXPECT_EQ(built.status, BuildStatus::done);
   EXPECT_GT(built.product.as_built.max_slack, 0.05);
-  EXPECT_THAT(names_of(built.product.checks), ::testing::AllOf(::testing::Contains("slack_reported"), ::testing::Not(::testing::Contains("slack"))));
+  EXPECT_THAT(names_of(built.product.checks),
+              ::testing::AllOf(::testing::Contains("slack_reported"), ::testing::Not(::testing::Contains("slack"))));
 }
 
 class Profiles : public Build, public ::testing::WithParamInterface<fs::path> {};
@@ -140,6 +142,7 @@ std::vector<fs::path> profiles() {
   return paths;
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Profiles, ::testing::ValuesIn(profiles()), [](const auto& profile) { return profile.param.stem().string(); });
+INSTANTIATE_TEST_SUITE_P(Each, Profiles, ::testing::ValuesIn(profiles()),
+                         [](const auto& profile) { return profile.param.stem().string(); });
 
 }  // namespace

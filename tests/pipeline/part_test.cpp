@@ -15,7 +15,8 @@ using namespace fusee;
 class MadePart : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    mechanism_ = new Mechanism(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml").mechanism);
+    mechanism_ =
+        new Mechanism(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml").mechanism);
     synthesis_ = new SynthesisResult(synthesise(*mechanism_));
     mesh_ = new TriangleMesh(make_pulley(*mechanism_, *synthesis_).mesh);
   }
@@ -78,7 +79,8 @@ TEST_F(MadePart, MirroredIsFoundOut) {
 TEST_F(MadePart, TurnedOnItsShaftLeavesSlack) {
   // The profile meets the tendons at the wrong place.
   const double c = std::cos(radians(5.0)), s = std::sin(radians(5.0));
-  EXPECT_THAT(failures(changed([&](Vec3& v) { v.head<2>() = Vec2(c * v.x() - s * v.y(), s * v.x() + c * v.y()); })), Contains("slack"));
+  EXPECT_THAT(failures(changed([&](Vec3& v) { v.head<2>() = Vec2(c * v.x() - s * v.y(), s * v.x() + c * v.y()); })),
+              Contains("slack"));
 }
 
 TEST_F(MadePart, WithoutGroovesIsBadInput) {
