@@ -4,6 +4,8 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 #include "fusee/base/diagnostics.h"
 #include "solid/boolean.h"
@@ -77,6 +79,29 @@ void flip_flat_facets(TriangleMesh& mesh) {
   }
 }
 
+// CGAL numbers what it makes in an order that depends on where in memory its boxes lie: the same vertices and facets
+// are put into the same order every time.
+TriangleMesh in_order(TriangleMesh mesh) {
+  std::vector<std::uint32_t> order(mesh.vertices.size()), rank(order.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b];
+    return std::tuple(p.z(), p.y(), p.x()) < std::tuple(q.z(), q.y(), q.x());
+  });
+  std::vector<Vec3> vertices;
+  for (std::uint32_t k = 0; k < order.size(); ++k) {
+    rank[order[k]] = k;
+    vertices.push_back(mesh.vertices[order[k]]);
+  }
+  mesh.vertices = std::move(vertices);
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& index : triangle) index = rank[index];
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  }
+  std::sort(mesh.triangles.begin(), mesh.triangles.end());
+  return mesh;
+}
+
 std::optional<BooleanResult> combine(const TriangleMesh& a, const TriangleMesh& b, std::size_t wanted) {
   // CGAL's box search draws from its default generator: the same draws give the same order of vertices every time.
   CGAL::get_default_random() = CGAL::Random(0);
@@ -87,7 +112,7 @@ std::optional<BooleanResult> combine(const TriangleMesh& a, const TriangleMesh& 
   const std::array<bool, 4> valid = pmp::corefine_and_compute_boolean_operations(first, second, slots);
   if (!valid[wanted] || !valid[k_common]) return std::nullopt;
   BooleanResult outcome;
-  outcome.mesh = without_short_edges(rounded_to_float(triangles_of(result)));
+  outcome.mesh = in_order(without_short_edges(rounded_to_float(triangles_of(result))));
   flip_flat_facets(outcome.mesh);
   outcome.common_volume = enclosed_volume(triangles_of(common));
   return outcome;

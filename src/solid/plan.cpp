@@ -83,18 +83,22 @@ class Planner {
     return {k_bores.begin(), k_bores.end()};
   }
 
-  // Thick walls before large bores, both as large as leaves room for both tie-offs; the least of all when nothing does.
+  // Thick walls before large bores, both as large as leaves room for both tie-offs. Where the least of all has none,
+  // none of the others has.
   BodyLayout preferred_layout() const {
-    BodyLayout layout;
-    for (const double wall : walls()) {
-      for (const double bore : bores()) {
-        layout = layout_with(bore, wall);
-        if (bore_fits(layout) && has_room(wound_anchors(layout))) return layout;
+    const std::vector<double> walls = this->walls(), bores = this->bores();
+    const BodyLayout least = layout_with(bores.back(), walls.back());
+    if (!fits(least)) return least;
+    for (const double wall : walls) {
+      for (const double bore : bores) {
+        const BodyLayout layout = layout_with(bore, wall);
+        if (fits(layout)) return layout;
       }
     }
-    return layout;
+    return least;
   }
 
+  bool fits(const BodyLayout& layout) const { return bore_fits(layout) && has_room(wound_anchors(layout)); }
   bool bore_fits(const BodyLayout& layout) const {
     const auto thick = [&](const Outline& outline) {
       return wall_between(floor(outline), layout.bore.outline).thickness >= layout.min_wall;

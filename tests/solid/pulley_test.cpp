@@ -151,7 +151,7 @@ TEST(CheckPulley, MissingFeatureChangesVolumeAndEulerNumber) {
 
 TEST(CheckPulley, ThinWall) {
   Made made;
-  made.mechanism.body.min_wall = 9.0;
+  made.pulley.layout.min_wall = 9.0;
   EXPECT_EQ(failures(made.pulley, made.mechanism, made.shape), "wall_P2");
 }
 
@@ -191,7 +191,7 @@ TEST(Pulley, WhatIsMadeHoldsEveryCheckAndWhatIsNotSaysWhy) {
     const SynthesisResult shape = pulley_of(p1, p2, 160 + 16 * k);
     const Pulley pulley = make_pulley(mechanism, shape);
     if (!pulley.made()) {
-      EXPECT_NE(pulley.brief().find("make "), std::string::npos) << pulley.brief();
+      EXPECT_NE(pulley.brief().find(" mm"), std::string::npos) << pulley.brief();
       continue;
     }
     ++made;
