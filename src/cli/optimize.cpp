@@ -183,6 +183,18 @@ void say_none(const Job& job, Reply& reply, const std::string& reason, bool prov
 // ---- files
 // ------------------------------------------------------------------------------------------------------------
 
+/// Whether an edited file is one, and has the numbers that were meant.
+bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const std::string& path) {
+  try {
+    const Mechanism read = parse_mechanism(text, path, std::filesystem::path(path).parent_path());
+    return std::all_of(edits.begin(), edits.end(), [&read](const ValueEdit& edit) {
+      return std::abs(find_number_key(edit.key)->get(read) - edit.value) <= 1e-12 * std::abs(edit.value);
+    });
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// The person's file with the design's numbers. What --set gave and is a number goes in too.
 std::string new_text(const Job& job, const Design& design, std::vector<Diagnostic>& diagnostics) {
   std::vector<ValueEdit> edits;
@@ -198,7 +210,14 @@ std::string new_text(const Job& job, const Design& design, std::vector<Diagnosti
     std::erase_if(edits, [&edit](const ValueEdit& earlier) { return earlier.key == edit.key; });
     edits.push_back(edit);
   }
-  return edit_values(read_file(job.file.path, k_largest_file), edits);
+  const std::string text = edit_values(read_file(job.file.path, k_largest_file), edits);
+  if (holds(text, edits, job.file.path)) return text;
+  // Tables written as dotted keys have no place for a new key.
+  diagnostics.push_back(
+      note(Severity::warning, "the layout of " + job.file.path + " could not be kept: the new file has every key"));
+  Mechanism whole = mechanism_at(job.problem, design);
+  whole.optimize = job.file.mechanism.optimize;
+  return write_mechanism(whole);
 }
 
 void write_new_file(const Job& job, const Design& design, const std::string& path, Reply& reply) {

@@ -119,7 +119,7 @@ Reply run_reproduce(const Arguments& arguments, Console& console) {
 Command reproduce_command() {
   return {"reproduce",
           "",
-          "the paper's tables and figures beside what this program computes",
+          "the paper, claim by claim",
           "Computes the table and the figures of the paper that this program began with,\n"
           "from its own equations, and holds each of its claims against them: holds, holds\n"
           "only if ..., does not hold. Numbers that the paper does not give are assumed and\n"

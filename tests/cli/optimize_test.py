@@ -64,6 +64,16 @@ class Optimize(harness.Scratch):
         self.assertEqual(self.fusee("optimize problem.toml -o new.toml --force").returncode, 0)
         self.assertAlmostEqual(json.loads(self.fusee("optimize new.toml --json").stdout)["value_before"], 2.3673443, 7)
 
+    def test_a_file_of_dotted_keys_still_gets_its_numbers(self):
+        (self.folder / "dotted.toml").write_text(
+            "schema = 1\njoint = {length_mm = 100, range_deg = [-30, 30]}\nguides.EB_mm = 50\nguides.ED_mm = 50\nguides.OE_mm = -40\n"
+            "pulley = {EF_mm = 60, r1_mm = 20}\ntendon.diameter_mm = 1\n"
+            "optimize = {variables = ['guides.radius_mm', 'guides.OE_mm'], lower = [1, -40], upper = [5, 0]}\n")
+        done = self.fusee("optimize dotted.toml -o new.toml --json")
+        self.assertEqual(done.returncode, 0, done.stderr.decode())
+        again = json.loads(self.fusee("optimize new.toml --json").stdout)
+        self.assertAlmostEqual(again["value_before"], json.loads(done.stdout)["value"], 8)
+
     def test_the_same_seed_gives_the_same_bytes(self):
         first = self.fusee("optimize problem.toml --json --method ga --seed 3").stdout
         self.assertEqual(first, self.fusee("optimize problem.toml --json --method ga --seed 3").stdout)
