@@ -116,7 +116,7 @@ CASES = [
     ("analyze missing.toml", 3, "^$", "missing.toml"),
     ("analyze arm.toml --set load.mass_kg=-1", 3, "^$", "mass_kg"),
     ("analyze arm.toml --set tendon.pretension_N=0", 0, "Summary", "warning: both tendons are without tension, alpha = .*nothing holds.*pretension_N >="),
-    ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "at θ = 51.34°, α = .*dead centre.*it would be possible with "),
+    ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "at θ = 53.58°, α = 199°.*dead centre.*it would be possible with "),
     ("analyze arm.toml --set tendon.modulus_MPa=30 --set load.tip_force_N=300", 5, "Summary", "past its dead centre at alpha = "),
     ("analyze arm.toml --set load.tip_force_N=900", 5, "Summary", "the tendon breaks at alpha = .*hmpe-1.0"),
     ("analyze arm.toml --set tendon.strength_N=20 --set load.tip_force_N=20", 5, "Summary", "the tendon breaks at alpha = .*tendon.strength_N"),
