@@ -1,5 +1,6 @@
 /// \file
-/// The global optimum, proven: branch and bound with outward-rounded intervals over the variables and the stroke.
+/// The global optimum, proven: branch and bound with outward-rounded intervals over the variables and the stroke. Constraints are kept to
+/// 1e-12 of their largest term, in the bound and in the designs.
 #pragma once
 
 #include "fusee/optimize/problem.h"
