@@ -43,6 +43,11 @@ Json field_value(const Field& field, const Mechanism& mechanism) {
       return field.get_text(mechanism);
     case FieldKind::boolean:
       return field.get_text(mechanism) == "true";
+    case FieldKind::numbers:
+    case FieldKind::texts: {
+      Mechanism copy = mechanism;  // lists are reached through a reference that may write
+      return field.kind == FieldKind::numbers ? Json(field.numbers(copy)) : Json(field.texts(copy));
+    }
   }
   return nullptr;
 }

@@ -108,16 +108,9 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   const Product& product = built.product;
   const bool has_curves = product.synthesis.made();
   const std::vector<Condition>& conditions = has_curves ? product.pulley.conditions : product.synthesis.conditions;
-  for (const Condition& condition : conditions) {
-    if (!condition.ok) reply.diagnostics.push_back(about_file(Severity::error, product.file.path, condition.message));
-  }
+  add_obstacles(product.file.path, conditions, reply);
   const std::vector<Change>& advice = has_curves ? product.pulley.advice : product.synthesis.advice;
-  for (const Change& change : advice) {
-    reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + change.text + " (" + change.key +
-                                                         " is " + rounded(change.from) + ")"));
-  }
-  if (advice.empty())
-    reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
+  add_advice(advice, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
   reply.fields["advice"] = to_json(advice);

@@ -32,9 +32,12 @@ struct Command {
 // One file a command.
 Command new_command();
 Command explain_command();
+Command analyze_command();
 Command build_command();
 Command check_command();
 Command rewind_command();
+Command optimize_command();
+Command reproduce_command();
 
 /// All of them, in the order in which a person meets them.
 const std::vector<Command>& commands();

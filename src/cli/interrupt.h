@@ -25,5 +25,7 @@ class InterruptsDeferred {
   InterruptsDeferred& operator=(const InterruptsDeferred&) = delete;
 };
 void stop_if_interrupted();
+/// For a search that has an answer whenever it is stopped.
+bool is_interrupted();
 
 }  // namespace fusee::cli

@@ -1,5 +1,7 @@
 #include "cli/reply.h"
 
+#include "fusee/base/text.h"
+
 namespace fusee::cli {
 namespace {
 
@@ -63,6 +65,20 @@ Json to_json(const std::vector<Change>& advice) {
         {{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}});
   }
   return list;
+}
+
+void add_obstacles(const std::string& file, const std::vector<Condition>& conditions, Reply& reply) {
+  for (const Condition& condition : conditions) {
+    if (!condition.ok) reply.diagnostics.push_back(about_file(Severity::error, file, condition.message));
+  }
+}
+
+void add_advice(const std::vector<Change>& advice, Reply& reply) {
+  for (const Change& change : advice) {
+    reply.diagnostics.push_back(
+        note(Severity::note, "it would be possible with " + change.text + " (" + change.key + " is " + rounded(change.from) + ")"));
+  }
+  if (advice.empty()) reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
 }
 
 Diagnostic note(Severity severity, std::string message, std::string hint) {

@@ -100,17 +100,17 @@ Json field_json(const Field& field) {
   json["table"] = field.table;
   json["key"] = field.key;
   json["symbol"] = field.symbol;
-  constexpr const char* k_kinds[] = {"number", "range", "choice", "text", "boolean"};
+  constexpr const char* k_kinds[] = {"number", "range", "choice", "text", "boolean", "numbers", "texts"};
   json["kind"] = k_kinds[static_cast<int>(field.kind)];
   json["unit"] = field.unit;
   json["required"] = field.required;
   json["only_when"] = field.only_when;
   json["default"] = field.fallback;
-  if (field.kind == FieldKind::number || field.kind == FieldKind::range) {
+  if (field.kind == FieldKind::number || field.kind == FieldKind::range || field.kind == FieldKind::numbers) {
     json["least"] = field.least;
     json["most"] = field.most;
   }
-  if (field.kind == FieldKind::choice) json["choices"] = field.choices;
+  if (!field.choices.empty()) json["choices"] = field.choices;
   json["meaning"] = field.meaning;
   return json;
 }

@@ -66,6 +66,10 @@ std::string allowed_text(const Field& field) {
       return "any text of one line";
     case FieldKind::boolean:
       return "true or false";
+    case FieldKind::numbers:
+      return shortest(field.least) + " to " + shortest(field.most) + " each";
+    case FieldKind::texts:
+      return field.choices.empty() ? "texts of one line" : choices_text(field.choices);
   }
   return {};
 }
@@ -83,6 +87,10 @@ std::string kind_text(const Field& field) {
       return "a text in quotes";
     case FieldKind::boolean:
       return "true or false";
+    case FieldKind::numbers:
+      return "a list of numbers";
+    case FieldKind::texts:
+      return field.choices.empty() ? "a list of texts in quotes" : "one or a list of " + choices_text(field.choices);
   }
   return {};
 }

@@ -57,6 +57,11 @@ struct BooleanAccess {
   static void set(Mechanism& mechanism, std::string_view value) { mechanism.*Part.*Member = value == "true"; }
 };
 
+template <auto Part, auto Member>
+auto& member_of(Mechanism& mechanism) {
+  return mechanism.*Part.*Member;
+}
+
 // ---- builders of rows -----------------------------------------------------------------------------------------------
 
 /// What all kinds of rows have in common.
@@ -120,6 +125,24 @@ Field boolean(const Row& row) {
   return field;
 }
 
+/// `least`, `most`: of each number of the list.
+template <auto Part, auto Member>
+Field numbers(const Row& row, double least, double most) {
+  Field field = base_field(row, FieldKind::numbers);
+  field.least = least;
+  field.most = most;
+  field.numbers = &member_of<Part, Member>;
+  return field;
+}
+
+template <auto Part, auto Member>
+Field texts(const Row& row, std::vector<std::string_view> choices = {}) {
+  Field field = base_field(row, FieldKind::texts);
+  field.choices = std::move(choices);
+  field.texts = &member_of<Part, Member>;
+  return field;
+}
+
 // ---- rows that are not one member -----------------------------------------------------------------------------------
 
 Field schema_field() {
@@ -179,6 +202,23 @@ Field transmission_ratio_field() {
 // Bounds are those of things that can be made and of formulas that make sense, with room to spare: they catch a slipped
 // decimal point or a wrong unit. Whether a pulley exists is for synthesis to say.
 
+void add_load(std::vector<Field>& table) {
+  constexpr auto load = &Mechanism::load;
+  table.push_back(number<load, &Load::tip_force>(
+      {"load.tip_force_N", "F_c", "0", "force across OC at C, positive against +theta"}, "N", -100000, 100000));
+  table.push_back(number<load, &Load::torque>(
+      {"load.torque_Nmm", "", "0", "torque on the joint, positive against +theta"}, "Nmm", -10000000, 10000000));
+  table.push_back(
+      number<load, &Load::mass>({"load.mass_kg", "", "0", "mass of the link and what it carries"}, "kg", 0, 10000));
+  table.push_back(number<load, &Load::lever>(
+      {"load.lever_mm", "", "0", "from the joint axis along OC to the centre of that mass"}, "mm", -10000, 10000));
+  table.push_back(number<load, &Load::tilt, degrees, radians>(
+      {"load.tilt_deg", "", "0",
+       "the joint angle at which OC points straight up: 0 at home, 90: level at home, the weight loads tendon 2; 180: "
+       "it hangs down at home"},
+      "deg", -360, 360));
+}
+
 void add_mechanism(std::vector<Field>& table) {
   constexpr auto joint = &Mechanism::joint;
   constexpr auto guides = &Mechanism::guides;
@@ -225,8 +265,10 @@ void add_mechanism(std::vector<Field>& table) {
       {"tendon.pretension_N", "", "5", "pretension of tendon 1 at home"}, "N", 0, 100000));
   table.push_back(number<tendon, &Tendon::bend_ratio>(
       {"tendon.bend_ratio", "D/d", "8", "smallest bend diameter per tendon diameter before a warning"}, "", 1, 1000));
-  table.push_back(number<&Mechanism::load, &Load::tip_force>(
-      {"load.tip_force_N", "F_c", "0", "force across OC at C, positive against +theta"}, "N", -100000, 100000));
+  table.push_back(number<tendon, &Tendon::strength>(
+      {"tendon.strength_N", "", "0", "the tension at which a tendon breaks, knots included; 0: not known"}, "N", 0,
+      1000000));
+  add_load(table);
 }
 
 void add_body(std::vector<Field>& table) {
@@ -311,6 +353,25 @@ void add_making(std::vector<Field>& table) {
   table.push_back(transmission_ratio_field());
 }
 
+void add_optimize(std::vector<Field>& table) {
+  constexpr auto optimize = &Mechanism::optimize;
+  table.push_back(texts<optimize, &Optimization::objectives>(
+      {"optimize.objective", "", "[\"max_tension\"]", "what is made small (min_bend: large); two or three for a front"},
+      {"max_tension", "max_error", "footprint", "motor_torque", "min_bend"}));
+  table.push_back(
+      texts<optimize, &Optimization::variables>({"optimize.variables", "", "[]", "keys of this file that may change"}));
+  table.push_back(numbers<optimize, &Optimization::lower>(
+      {"optimize.lower", "", "[]", "least value of each variable, in its own unit"}, -1e6, 1e6));
+  table.push_back(numbers<optimize, &Optimization::upper>(
+      {"optimize.upper", "", "[]", "largest value of each variable, in its own unit"}, -1e6, 1e6));
+  table.push_back(texts<optimize, &Optimization::tied>(
+      {"optimize.tied", "", "[]", "keys that follow others: \"guides.EB_mm = guides.ED_mm\""}));
+  table.push_back(texts<optimize, &Optimization::constraints>(
+      {"optimize.constraints", "", "[]", "linear conditions on keys: \"guides.EB_mm <= 0.5 * joint.length_mm\""}));
+  table.push_back(boolean<optimize, &Optimization::feasible>(
+      {"optimize.feasible", "", "false", "only designs of which a pulley can be made"}));
+}
+
 std::vector<Field> make_table() {
   std::vector<Field> table;
   table.push_back(schema_field());
@@ -318,6 +379,7 @@ std::vector<Field> make_table() {
   add_mechanism(table);
   add_body(table);
   add_making(table);
+  add_optimize(table);
   return table;
 }
 
@@ -329,6 +391,11 @@ void set_fallback(const Field& field, Mechanism& mechanism) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     demand(error == std::errc() && end == text.data() + text.size(), "default of " + field.name());
     field.set(mechanism, 0, value);
+    return;
+  }
+  if (field.kind == FieldKind::numbers || field.kind == FieldKind::texts) {
+    // Lists are empty or hold one text.
+    if (text.size() > 2) field.texts(mechanism) = {std::string(text.substr(2, text.size() - 4))};
     return;
   }
   if (text.size() >= 2 && text.front() == '"') text = text.substr(1, text.size() - 2);
@@ -353,6 +420,28 @@ const Field* find_field(std::string_view name) {
   return nullptr;
 }
 
+std::optional<NumberKey> find_number_key(std::string_view name) {
+  int end = 0;
+  const bool first = name.ends_with("[0]"), second = name.ends_with("[1]");
+  if (first || second) {
+    end = second ? 1 : 0;
+    name.remove_suffix(3);
+  }
+  const Field* field = find_field(name);
+  const FieldKind kind = first || second ? FieldKind::range : FieldKind::number;
+  if (field == nullptr || field->kind != kind || field->table.empty()) return std::nullopt;
+  return NumberKey{field, end};
+}
+
+std::vector<std::string> number_key_names() {
+  std::vector<std::string> names;
+  for (const Field& field : fields()) {
+    if (field.kind == FieldKind::number && !field.table.empty()) names.push_back(field.name());
+    if (field.kind == FieldKind::range) names.insert(names.end(), {field.name() + "[0]", field.name() + "[1]"});
+  }
+  return names;
+}
+
 std::vector<std::string> field_tables() {
   std::vector<std::string> tables;
   for (const Field& field : fields()) {
@@ -370,6 +459,7 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "body") return "the body of the pulley";
   if (table == "material") return "what it is printed of";
   if (table == "cut") return "cutting it as a stack of plates";
+  if (table == "optimize") return "what fusee optimize may change, and what it is after";
   if (table == "transmission")
     return "in place of joint, guides and pulley: a joint of another kind, for calibrate alone";
   return "the file";

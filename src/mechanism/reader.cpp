@@ -15,6 +15,7 @@
 #include "mechanism/field_text.h"
 #include "mechanism/law_table.h"
 #include "mechanism/nesting.h"
+#include "mechanism/optimize_table.h"
 
 // From bytes to a Mechanism in four steps, each of which goes on after an error so that all errors of a file come at
 // once:
@@ -29,6 +30,7 @@ namespace {
 constexpr std::size_t k_largest_file = 1 << 20;
 constexpr std::size_t k_largest_table = 8 << 20;
 constexpr std::size_t k_longest_text = 200;
+constexpr std::size_t k_longest_list = 100;
 constexpr std::size_t k_most_errors = 100;
 
 Place place_of(const toml::source_region& region, const std::string& file) {
@@ -79,12 +81,15 @@ class MechanismReader {
   void take_number(const Field& field, const Entry& entry, int end, const toml::node& node);
   void take_range(const Field& field, const Entry& entry);
   void take_text(const Field& field, const Entry& entry);
+  void take_numbers(const Field& field, const Entry& entry);
+  void take_texts(const Field& field, const Entry& entry);
   bool is_needed(const Field& field) const;
   void look_for_missing();
   // Step 4
   void check_transmission();
   void check_unused();
   void check_bore();
+  void check_optimize();
   void load_table();
 
   bool has(const std::string& key) const { return entries_.count(key) > 0; }
@@ -323,6 +328,55 @@ void MechanismReader::take_text(const Field& field, const Entry& entry) {
   good_[field.name()] = true;
 }
 
+void MechanismReader::take_numbers(const Field& field, const Entry& entry) {
+  const toml::array* list = entry.node->as_array();
+  if (list == nullptr || list->size() > k_longest_list) {
+    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node),
+                "for example " + std::string(field.key) + " = [10, 20]");
+  }
+  std::vector<double>& values = field.numbers(mechanism_);
+  values.clear();
+  for (const toml::node& node : *list) {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
+    if (!value || !(*value >= field.least && *value <= field.most)) {
+      return fail(place, field.name() + " holds numbers, not " + described(node), "allowed: " + allowed_text(field));
+    }
+    values.push_back(*value);
+  }
+  good_[field.name()] = true;
+}
+
+/// A single text stands for a list of one.
+void MechanismReader::take_texts(const Field& field, const Entry& entry) {
+  const toml::array* list = entry.node->as_array();
+  if (!entry.node->is_string() && (list == nullptr || list->size() > k_longest_list)) {
+    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node));
+  }
+  std::vector<std::string>& values = field.texts(mechanism_);
+  values.clear();
+  const auto take_one = [&](const toml::node& node) {
+    const Place place = entry.place.line > 0 ? place_of(node.source(), entry.place.file) : entry.place;
+    if (!node.is_string())
+      return fail(place, field.name() + " holds texts, not " + described(node), "write them in quotes");
+    const std::string& value = **node.as_string();
+    if (value.size() > k_longest_text)
+      return fail(place, field.name() + " holds texts of at most " + std::to_string(k_longest_text) + " bytes");
+    if (!field.choices.empty() && std::find(field.choices.begin(), field.choices.end(), value) == field.choices.end()) {
+      const std::string nearest = nearest_word(value, {field.choices.begin(), field.choices.end()});
+      return fail(place, field.name() + " = " + in_quotes(value) + " is not known",
+                  "allowed: " + allowed_text(field) + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+    }
+    values.push_back(value);
+  };
+  const std::size_t errors = errors_.size();
+  if (list == nullptr)
+    take_one(*entry.node);
+  else
+    for (const toml::node& node : *list) take_one(node);
+  good_[field.name()] = errors == errors_.size();
+}
+
 void MechanismReader::take(const Field& field, const Entry& entry) {
   good_[field.name()] = false;
   switch (field.kind) {
@@ -334,6 +388,10 @@ void MechanismReader::take(const Field& field, const Entry& entry) {
     case FieldKind::text:
     case FieldKind::boolean:
       return take_text(field, entry);
+    case FieldKind::numbers:
+      return take_numbers(field, entry);
+    case FieldKind::texts:
+      return take_texts(field, entry);
   }
 }
 
@@ -405,6 +463,23 @@ void MechanismReader::check_bore() {
   }
 }
 
+/// Places of the items of a list of [optimize]; of the whole value where it is a single text or came from --set.
+void MechanismReader::check_optimize() {
+  if (!has_table("optimize")) return;
+  const auto item_place = [this](const std::string& key, std::size_t item) {
+    const auto entry = entries_.find("optimize." + key);
+    if (entry == entries_.end()) return table_place("optimize");
+    const toml::array* list = entry->second.node->as_array();
+    if (entry->second.place.line == 0 || list == nullptr || item >= list->size()) return entry->second.place;
+    return place_of((*list)[item].source(), name_);
+  };
+  const auto is_good = [this](const std::string& key) {
+    const auto found = good_.find("optimize." + key);
+    return found == good_.end() || found->second;
+  };
+  check_optimize_table(mechanism_.optimize, is_good, item_place, errors_);
+}
+
 void MechanismReader::load_table() {
   const PulleyDrive& pulley = mechanism_.pulley;
   if (pulley.law != Law::table || !good_["pulley.table"] || !good_["joint.range_deg"]) return;
@@ -453,6 +528,7 @@ Mechanism MechanismReader::read(std::string_view text, const std::vector<Setting
   check_transmission();
   check_unused();
   check_bore();
+  check_optimize();
   load_table();
   finish(warnings);
   return mechanism_;

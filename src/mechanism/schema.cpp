@@ -47,6 +47,15 @@ Json field_schema(const Field& field) {
     case FieldKind::boolean:
       json["type"] = "boolean";
       break;
+    case FieldKind::numbers:
+      json.update({{"type", "array"}, {"items", number}});
+      break;
+    case FieldKind::texts: {
+      Json one = {{"type", "string"}};
+      if (!field.choices.empty()) one["enum"] = field.choices;
+      json["anyOf"] = {one, {{"type", "array"}, {"items", one}}};
+      break;
+    }
   }
   if (field.name() == "body.horn") {
     for (const Horn& horn : horns()) json["enum"].push_back(horn.name);

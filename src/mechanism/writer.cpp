@@ -43,7 +43,15 @@ std::string number_text(const Field& field, const Mechanism& mechanism, int end)
   return shortest(value);
 }
 
+template <typename List, typename ToText>
+std::string list_text(const List& list, ToText to_text) {
+  std::string text;
+  for (const auto& item : list) text += (text.empty() ? "" : ", ") + to_text(item);
+  return "[" + text + "]";
+}
+
 std::string value_text(const Field& field, const Mechanism& mechanism) {
+  Mechanism copy = mechanism;  // lists are reached through a reference that may write
   switch (field.kind) {
     case FieldKind::number:
       return number_text(field, mechanism, 0);
@@ -54,6 +62,10 @@ std::string value_text(const Field& field, const Mechanism& mechanism) {
     case FieldKind::choice:
     case FieldKind::text:
       return toml_string(field.get_text(mechanism));
+    case FieldKind::numbers:
+      return list_text(field.numbers(copy), shortest);
+    case FieldKind::texts:
+      return list_text(field.texts(copy), toml_string);
   }
   return {};
 }

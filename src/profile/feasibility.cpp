@@ -188,8 +188,10 @@ Condition dead_centre(const Transmission& transmission) {
   const bool left = !(upper_span(transmission.place(Side::left), -theta).m > 1e-6);
   const Side side = left ? Side::left : Side::right;
   condition.value = degrees(theta);
-  condition.message = "tendon " + number(side) + " has no moment arm about the joint at θ = " + rounded(degrees(theta), 4) +
-                      "° (dead centre, or C runs into pin " + pin_name(side) + "): the range must end before it";
+  condition.alpha = transmission.alpha(theta);
+  if (!std::isfinite(condition.alpha)) condition.alpha = 0;  // C within a pin
+  condition.message = "tendon " + number(side) + " has no moment arm about the joint at θ = " + rounded(degrees(theta), 4) + "°, " +
+                      at_alpha_text(condition.alpha) + " (dead centre, or C runs into pin " + pin_name(side) + "): the range must end before it";
   return condition;
 }
 

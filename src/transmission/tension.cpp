@@ -1,25 +1,51 @@
 #include "fusee/transmission/tension.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "fusee/transmission/joint_model.h"
+
 namespace fusee {
+namespace {
+
+/// [10],[11]: the angle of the triangle O-pin-C at O, before and after its side pin–C grew by the elongation. Where the sides no
+/// longer meet, the joint has turned until they lie in one line.
+double turned_by_law_of_cosines(const PinPlace& place, double span, double elongation) {
+  const double to_pin = place.pin().norm();
+  const auto angle_at_joint = [&](double opposite) {
+    const double cosine = (place.R * place.R + to_pin * to_pin - opposite * opposite) / (2.0 * place.R * to_pin);
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+  };
+  return angle_at_joint(span + elongation) - angle_at_joint(span);
+}
+
+}  // namespace
 
 // [6] the tip force acts across OC, tendon 2 at γ2 to it: F_c R = T2 m2 with m2 = R sin γ2.
 // [7],[8] the pin takes e^{μφ}. [9] each span stretches under its own tension; the wrap on the pin under the mean of both.
-// [10],[11] the elongation turns the joint by what its moment arm makes of it.
+// [10],[11] the elongation turns the joint: by the law of cosines over point pins, for which alone it holds, and to first order
+// (Δ/m, which is the law of cosines' own first order) over pins of any size.
 PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& point) {
-  const TendonPoint& tendon = point.t2;
+  const bool by_first = load_torque(mechanism, point.theta) < 0;
+  const Side side = by_first ? Side::left : Side::right;
+  const TendonPoint& tendon = by_first ? point.t1 : point.t2;
+  const double stiffness = section_stiffness(mechanism.tendon);
   PaperForces forces;
-  forces.gamma2 = std::asin(std::min(1.0, tendon.m / mechanism.joint.R));
-  forces.T2 = mechanism.load.tip_force * mechanism.joint.R / tendon.m;
-  forces.phi = tendon.wrap;
-  forces.Tb = forces.T2 * std::exp(mechanism.guides.mu * tendon.wrap);
-  const double diameter = mechanism.tendon.diameter;
-  const double stiffness = 0.25 * k_pi * diameter * diameter * mechanism.tendon.modulus;  // A E, N
+  // C lies at 90° − θ from O, the tendon's line at its normal: in the image γ = θ + ψ, beyond 90° too.
+  forces.gamma1 = k_pi - point.t1.upper_normal - point.theta;
+  forces.gamma2 = point.t2.upper_normal + point.theta;
+  const double T = std::abs(load_torque(mechanism, point.theta)) / tendon.m;
+  (by_first ? forces.T1 : forces.T2) = T;
+  forces.phi = point.t2.wrap;
+  forces.Tb = T * std::exp(mechanism.guides.mu * std::max(0.0, tendon.wrap));
   const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach;
-  forces.elongation = (forces.T2 * tendon.free_upper + 0.5 * (forces.T2 + forces.Tb) * on_pin + forces.Tb * tendon.lower_reach) /
-                      stiffness;
-  forces.theta_error = forces.elongation / tendon.m;
+  forces.elongation = (T * tendon.free_upper + 0.5 * (T + forces.Tb) * on_pin + forces.Tb * tendon.lower_reach) / stiffness;
+  const bool point_pins = mechanism.pulley.method == Method::paper || mechanism.guide_pitch_radius() == 0;
+  const PinPlace place = pin_place(mechanism, side, 0.0);
+  const double turned = point_pins ? turned_by_law_of_cosines(place, tendon.free_upper, forces.elongation) : forces.elongation / tendon.m;
+  forces.theta_error = by_first ? -turned : turned;
+  forces.motor_torque = (by_first ? -1.0 : 1.0) * forces.Tb * tendon.p;
+  forces.stiffness = stiffness * tendon.m * tendon.m / tendon.length;
   return forces;
 }
 

@@ -106,7 +106,7 @@ TEST(Templates, AMisspeltNameNamesTheNearest) {
 std::string code(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 std::string allowed_cell(const Field& field) {
-  if (field.kind == FieldKind::number || field.kind == FieldKind::range) {
+  if (field.kind == FieldKind::number || field.kind == FieldKind::range || field.kind == FieldKind::numbers) {
     return field.least == field.most ? shortest(field.least) : shortest(field.least) + " … " + shortest(field.most);
   }
   std::string text;

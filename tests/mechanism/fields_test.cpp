@@ -38,6 +38,10 @@ TEST(Fields, EachRowReachesAMemberOfItsOwn) {
       if (field.set != nullptr) {
         field.set(mechanism, end, 0.25 * field.least + 0.75 * field.most - 0.125);
         EXPECT_NEAR(field.get(mechanism, end), 0.25 * field.least + 0.75 * field.most - 0.125, 1e-9) << field.name();
+      } else if (field.kind == FieldKind::numbers) {
+        field.numbers(mechanism).push_back(1.5);
+      } else if (field.kind == FieldKind::texts) {
+        field.texts(mechanism).push_back("another text");
       } else if (field.kind == FieldKind::text) {
         field.set_text(mechanism, "another text");
         EXPECT_EQ(field.get_text(mechanism), "another text");
@@ -63,6 +67,17 @@ TEST(Fields, DefaultsLieWithinTheirBounds) {
     EXPECT_GE(field.get(defaults, 0), field.least) << field.name();
     EXPECT_LE(field.get(defaults, 0), field.most) << field.name();
   }
+}
+
+TEST(NumberKeys, AreNumbersAndEndsOfRanges) {
+  Mechanism mechanism = parse_mechanism(k_good_file, "f.toml");
+  EXPECT_EQ(find_number_key("joint.length_mm")->get(mechanism), 100.0);
+  find_number_key("joint.range_deg[1]")->set(mechanism, 20.0);
+  EXPECT_NEAR(mechanism.joint.theta_max, radians(20.0), 1e-15);
+  for (const char* none : {"joint.range_deg", "joint.length_mm[0]", "pulley.law", "schema", "nothing", "joint.range_deg[2]"}) {
+    EXPECT_FALSE(find_number_key(none)) << none;
+  }
+  for (const std::string& name : number_key_names()) EXPECT_TRUE(find_number_key(name)) << name;
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(Reader, KnowsWhatWasMeant) {
               HasSubstr("2:1 unknown key length_mm | joint.length_mm: length_mm belongs in [joint]"));
   EXPECT_THAT(only_error(k_good_file + "[bdy]\nbore = \"d\"\n"),
               HasSubstr("15:2 unknown table [bdy] | did you mean [body]?"));
-  EXPECT_THAT(only_error(k_good_file + "[optimize]\n"), HasSubstr("unknown table [optimize]"));
+  EXPECT_THAT(only_error(k_good_file + "[calibrate]\n"), HasSubstr("unknown table [calibrate]"));
   EXPECT_THAT(only_error(k_good_file + "[tendon.sub]\na = 1\n"), HasSubstr("unknown key tendon.sub"));
   EXPECT_THAT(only_error(with("schema = 1", "schema = 1\nbody = 4")),
               HasSubstr("2:1 body is a table, not the number 4"));

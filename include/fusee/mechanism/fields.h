@@ -1,8 +1,9 @@
 /// \file
-/// The field table: one row for every key of the mechanism file, from which come the reader, the writer, `fusee explain`,
-/// `fusee new`, the JSON schema and the searches for advice.
+/// The field table: one row for every key of the mechanism file, from which come the reader, the writer, `fusee
+/// explain`, `fusee new`, the JSON schema and the searches for advice.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,14 +13,14 @@
 
 namespace fusee {
 
-enum class FieldKind { number, range, choice, text, boolean };
+enum class FieldKind { number, range, choice, text, boolean, numbers, texts };
 
 struct Field {
-  std::string_view table;  ///< "joint"; "" for the keys at the top of the file
-  std::string_view key;    ///< "length_mm": the unit stands in the name
-  std::string_view symbol; ///< the paper's symbol or "" ("R")
+  std::string_view table;   ///< "joint"; "" for the keys at the top of the file
+  std::string_view key;     ///< "length_mm": the unit stands in the name
+  std::string_view symbol;  ///< the paper's symbol or "" ("R")
   FieldKind kind = FieldKind::number;
-  std::string_view unit;   ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
+  std::string_view unit;  ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
   /// Must be written. Where [transmission] stands in place of the mechanism, only its own keys must.
   bool required = false;
   /// "pulley.law=compensate": the key is used only then (a warning otherwise), and must be written then if it has no
@@ -39,6 +40,9 @@ struct Field {
   /// choice, text and boolean ("true"/"false").
   std::string (*get_text)(const Mechanism&) = nullptr;
   void (*set_text)(Mechanism&, std::string_view value) = nullptr;
+  /// Lists: numbers and texts. Their members themselves.
+  std::vector<double>& (*numbers)(Mechanism&) = nullptr;
+  std::vector<std::string>& (*texts)(Mechanism&) = nullptr;
 
   std::string name() const;  ///< "joint.length_mm"
 };
@@ -47,6 +51,19 @@ struct Field {
 std::span<const Field> fields();
 /// By dotted name, or null.
 const Field* find_field(std::string_view name);
+
+/// A number that can be turned: a field of kind number, or one end of a range ("joint.range_deg[0]").
+struct NumberKey {
+  const Field* field = nullptr;
+  int end = 0;
+
+  double get(const Mechanism& mechanism) const { return field->get(mechanism, end); }
+  void set(Mechanism& mechanism, double value) const { field->set(mechanism, end, value); }
+};
+/// By dotted name; null when there is no such key or it holds no number of the mechanism.
+std::optional<NumberKey> find_number_key(std::string_view name);
+/// All names that find_number_key() knows.
+std::vector<std::string> number_key_names();
 
 /// The tables in the order in which they stand in a file; "" (the top of the file) first.
 std::vector<std::string> field_tables();

@@ -1,9 +1,10 @@
 /// \file
-/// A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in MPa.
+/// A joint as declared: plain values, in the paper's symbols. Angles in rad, lengths in mm, forces in N, stresses in
+/// MPa.
 ///
 /// Joint axis O is the origin; y points to the tendon's attachment C at home; C = R (sin θ, cos θ). Guide pins stand at
-/// B (−EB, −OE) and D (ED, −OE); the pulley's axis G is at (0, −OE − EF). Tendon 1 runs C → B → P1 on the left, tendon 2
-/// C → D → P2 on the right. α > 0 turns the pulley clockwise: tendon 1 is paid out, tendon 2 wound in, θ grows.
+/// B (−EB, −OE) and D (ED, −OE); the pulley's axis G is at (0, −OE − EF). Tendon 1 runs C → B → P1 on the left, tendon
+/// 2 C → D → P2 on the right. α > 0 turns the pulley clockwise: tendon 1 is paid out, tendon 2 wound in, θ grows.
 ///
 /// Every number here has one row in the field table (fields.h): its key, unit, range, default and meaning.
 #pragma once
@@ -48,8 +49,8 @@ struct LawRow {
 
 /// Where the pulley sits and what it must do. (The body that comes out is solid/pulley.h's Pulley.)
 struct PulleyDrive {
-  double EF = 0;             ///< from the pins' line down to the pulley's axis G
-  double r1 = 0;             ///< P1's pitch radius (law = compensate)
+  double EF = 0;  ///< from the pins' line down to the pulley's axis G
+  double r1 = 0;  ///< P1's pitch radius (law = compensate)
   Law law = Law::compensate;
   double ratio = 0;          ///< α per θ (law = linear)
   std::string table;         ///< the CSV of law = table, as written in the file
@@ -64,12 +65,18 @@ struct Tendon {
   double modulus = 0;     ///< Young's modulus, MPa
   double pretension = 0;  ///< of tendon 1 at home, N
   double bend_ratio = 0;  ///< smallest D/d before a warning
+  double strength = 0;    ///< the tension at which it breaks, N; 0: not known
 
   bool operator==(const Tendon&) const = default;
 };
 
+/// What the joint carries. Forces and torques are positive against +θ: they load tendon 2.
 struct Load {
-  double tip_force = 0;  ///< F_c across OC, positive against +θ, N
+  double tip_force = 0;  ///< F_c across OC, N
+  double torque = 0;     ///< about O, N·mm
+  double mass = 0;       ///< of the link, kg
+  double lever = 0;      ///< from O along OC to the centre of that mass
+  double tilt = 0;       ///< the joint angle at which OC points straight up, rad
 
   bool operator==(const Load&) const = default;
 };
@@ -90,10 +97,10 @@ struct Body {
   double hub_diameter = 0;      ///< 0: from the bore and the set screw
   double hub_height = 0;        ///< above the top flange; 0: no hub. Without room for one it is left out
   Bore bore = Bore::round;
-  double bore_diameter = 0;     ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
-  double bore_flat = 0;         ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
-  std::string horn;             ///< bore = horn: a name of catalogue.h
-  std::string set_screw;        ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
+  double bore_diameter = 0;  ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
+  double bore_flat = 0;      ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
+  std::string horn;          ///< bore = horn: a name of catalogue.h
+  std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
   double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
   double knot_pocket = 0;       ///< diameter; 0: 3.5 d, or what there is room for
@@ -124,6 +131,20 @@ struct Cut {
   bool operator==(const Cut&) const = default;
 };
 
+/// What `fusee optimize` may change and what it is after: the texts of [optimize] as they were written (and found to be
+/// well formed); optimize/problem.h gives them their meaning.
+struct Optimization {
+  std::vector<std::string> objectives;  ///< names of optimize/objectives.h
+  std::vector<std::string> variables;   ///< keys of the field table
+  std::vector<double> lower;            ///< one a variable, in the file's units
+  std::vector<double> upper;
+  std::vector<std::string> tied;         ///< "guides.EB_mm = guides.ED_mm"
+  std::vector<std::string> constraints;  ///< "guides.EB_mm <= 0.5 * joint.length_mm"
+  bool feasible = false;                 ///< only designs of which a pulley can be made
+
+  bool operator==(const Optimization&) const = default;
+};
+
 /// A joint that is not this mechanism, for calibration alone: θ = offset + α/ratio.
 struct RatioTransmission {
   double ratio = 0;
@@ -141,6 +162,7 @@ struct Mechanism {
   Body body;
   Material material;
   Cut cut;
+  Optimization optimize;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
 
   bool operator==(const Mechanism&) const = default;

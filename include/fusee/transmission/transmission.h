@@ -46,7 +46,7 @@ class Transmission {
   explicit Transmission(const Mechanism& mechanism);
 
   /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, or a formula has no value; null when
-  /// the law exists over the whole range. The other members may be called only when it is null.
+  /// the law exists over the whole range. The other members, but alpha() and place(), may be called only when it is null.
   std::optional<double> dead_centre() const { return dead_centre_; }
 
   double alpha_min() const { return alpha_min_; }

@@ -1,0 +1,84 @@
+/// \file
+/// [optimize] as numbers: a box of variables, what is tied to them, linear constraints, and what is wanted.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fusee/mechanism/edit.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/mechanism/file.h"
+#include "fusee/mechanism/linear_relation.h"
+#include "fusee/optimize/objectives.h"
+
+namespace fusee {
+
+/// Values of the variables, in the file's units and order.
+using Design = std::vector<double>;
+
+struct Variable {
+  std::string key;
+  std::string symbol;  ///< "R", or the key where there is none
+  std::string unit;
+  double lower = 0;
+  double upper = 0;
+};
+
+/// a · x <= b over the variables, the ties put in.
+struct LinearConstraint {
+  std::vector<double> a;
+  double b = 0;
+  std::string text;
+};
+
+/// A key that a design changes: a variable, or what is tied to some. Its value is constant + a · x.
+struct MovingKey {
+  std::string key;
+  NumberKey number;
+  std::vector<double> a;
+  double constant = 0;
+
+  double value(const Design& design) const;
+};
+
+/// One objective already has its say: designs above `limit` do not count.
+struct ObjectiveCap {
+  Objective objective = Objective::max_tension;
+  double limit = 0;
+};
+
+struct Problem {
+  Mechanism base;
+  std::vector<Objective> objectives;
+  std::vector<Variable> variables;
+  std::vector<MovingKey> moving;  ///< variables in their order, then what is tied
+  std::vector<LinearConstraint> constraints;
+  bool feasible = false;
+  bool point_pins = false;  ///< of all designs
+  std::optional<ObjectiveCap> cap;
+};
+
+/// InputError: nothing to optimise, a variable that no objective depends on.
+Problem make_problem(const MechanismFile& file);
+
+/// The mechanism of a design, ties followed; without its [optimize].
+Mechanism mechanism_at(const Problem& problem, const Design& design);
+/// What a design changes in the person's file.
+std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design);
+/// How far beyond its constraints a design lies, each in units of its own size; 0 when it keeps them all.
+double constraint_violation(const Problem& problem, const Design& design);
+/// Objective, constraints, ties within their bounds, cap, and (when demanded) whether a pulley can be made.
+Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design);
+/// How far a search has come; returning false stops it, and it answers with what it has.
+struct SearchProgress {
+  double done = 0;         ///< 0 … 1, a guess
+  double best = 0;         ///< value of the best design, in the objective's unit
+  double lower_bound = 0;  ///< certified only
+  long evaluations = 0;
+};
+using KeepGoing = std::function<bool(const SearchProgress&)>;
+
+}  // namespace fusee

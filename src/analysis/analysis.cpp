@@ -1,0 +1,158 @@
+#include "fusee/analysis/analysis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/stroke.h"
+#include "fusee/mechanism/catalogue.h"
+#include "fusee/mechanism/fields.h"
+
+namespace fusee {
+namespace {
+
+/// Less than this on either tendon holds nothing. N
+constexpr double k_least_tension = 1e-6;
+
+bool path_exists(const TransmissionPoint& point) {
+  return std::isfinite(point.theta) && std::isfinite(point.t1.length) && std::isfinite(point.t2.length) && point.t1.p > 0 && point.t2.p > 0;
+}
+
+bool law_exists(const SynthesisResult& synthesis) {
+  const auto grows = [](const Condition& condition) { return condition.ok || condition.name != "law_grows"; };
+  return !synthesis.stroke.empty() && std::all_of(synthesis.stroke.begin(), synthesis.stroke.end(), path_exists) &&
+         std::all_of(synthesis.conditions.begin(), synthesis.conditions.end(), grows);
+}
+
+std::vector<Condition> failed(const std::vector<Condition>& conditions) {
+  std::vector<Condition> found;
+  std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(found), [](const Condition& condition) { return !condition.ok; });
+  return found;
+}
+
+std::vector<AnalysisRow> rows_of(const Mechanism& mechanism, const std::vector<TransmissionPoint>& stroke) {
+  std::vector<double> alphas;
+  for (const TransmissionPoint& point : stroke) alphas.push_back(point.alpha);
+  const std::vector<StrokePoint> full = settled_stroke(mechanism, alphas);
+  std::vector<AnalysisRow> rows;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    rows.push_back({stroke[i], paper_forces(mechanism, stroke[i]), full[i].rising, full[i].falling});
+  }
+  return rows;
+}
+
+bool held(const EquilibriumPoint& point) { return point.status != EquilibriumStatus::no_equilibrium; }
+
+void look_for_tension(TensionExtreme& largest, const EquilibriumPoint& point, bool rising) {
+  if (!held(point)) return;
+  for (const Side side : {Side::left, Side::right}) {
+    const TendonState& tendon = side == Side::left ? point.t1 : point.t2;
+    for (const bool below : {false, true}) {
+      const double tension = below ? tendon.lower : tendon.upper;
+      if (tension > largest.tension) largest = {tension, point.alpha, side, below, rising};
+    }
+  }
+}
+
+void enlarge(Extreme& extreme, double value, double alpha) {
+  if (value > extreme.value) extreme = {value, alpha};
+}
+
+template <typename Predicate>
+std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predicate holds) {
+  std::vector<AlphaRange> ranges;
+  bool within = false;
+  for (const AnalysisRow& row : rows) {
+    const bool now = holds(row);
+    if (now && !within) ranges.push_back({row.declared.alpha, row.declared.alpha});
+    if (now) ranges.back().to = row.declared.alpha;
+    within = now;
+  }
+  return ranges;
+}
+
+bool is_slack(const TendonState& tendon) { return tendon.upper <= k_least_tension; }
+
+void summarise(AnalysisResult& result) {
+  for (const AnalysisRow& row : result.rows) {
+    const double alpha = row.declared.alpha;
+    look_for_tension(result.largest_tension, row.rising, true);
+    look_for_tension(result.largest_tension, row.falling, false);
+    enlarge(result.largest_paper_tension, row.paper.Tb, alpha);
+    const bool both_held = held(row.rising) && held(row.falling);
+    if (!both_held) {
+      if (!result.lost_at) result.lost_at = alpha;
+      continue;
+    }
+    enlarge(result.largest_torque, std::max(std::abs(row.rising.motor_torque), std::abs(row.falling.motor_torque)), alpha);
+    enlarge(result.hysteresis, std::abs(row.rising.theta - row.falling.theta), alpha);
+  }
+  result.slack1 = ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t1); });
+  result.slack2 = ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t2); });
+  result.untensioned = ranges_where(result.rows, [](const AnalysisRow& row) {
+    return held(row.rising) && is_slack(row.rising.t1) && is_slack(row.rising.t2);
+  });
+}
+
+bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double>& alphas) {
+  mechanism.tendon.pretension = pretension;
+  const std::vector<StrokePoint> stroke = settled_stroke(mechanism, alphas);
+  return std::all_of(stroke.begin(), stroke.end(), [](const StrokePoint& point) {
+    const auto taut = [](const EquilibriumPoint& at) { return held(at) && !is_slack(at.t1) && !is_slack(at.t2); };
+    return taut(point.rising) && taut(point.falling);
+  });
+}
+
+/// To one part in a hundred, on the safe side.
+std::optional<double> taut_pretension(const Mechanism& mechanism) {
+  const Transmission transmission(mechanism);
+  std::vector<double> alphas;
+  for (int i = 0; i <= 12; ++i) alphas.push_back(transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / 12);
+  double slack = mechanism.tendon.pretension;
+  double taut = std::max(1.0, slack);
+  while (!stays_taut(mechanism, taut, alphas)) {
+    slack = taut;
+    taut *= 2.0;
+    if (taut > find_field("tendon.pretension_N")->most) return std::nullopt;
+  }
+  while (taut > 1.01 * slack && taut > 0.01) {
+    const double middle = 0.5 * (slack + taut);
+    (stays_taut(mechanism, middle, alphas) ? taut : slack) = middle;
+  }
+  return taut;
+}
+
+}  // namespace
+
+std::optional<Strength> tendon_strength(const Tendon& tendon) {
+  if (tendon.strength > 0) return Strength{tendon.strength, "tendon.strength_N"};
+  for (const TendonType& type : tendon_types()) {
+    const bool same = std::abs(type.diameter - tendon.diameter) < 0.005 && std::abs(type.modulus / tendon.modulus - 1.0) < 0.01;
+    if (same) return Strength{type.breaking_strength, type.name};
+  }
+  return std::nullopt;
+}
+
+AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options) {
+  AnalysisResult result;
+  SynthesisOptions synthesis_options;
+  synthesis_options.stroke_steps = options.steps;
+  synthesis_options.advice = false;
+  SynthesisResult synthesis = synthesise(mechanism, synthesis_options);
+  result.obstacles = failed(synthesis.conditions);
+  result.exists = law_exists(synthesis);
+  if (!result.exists) {
+    synthesis_options.advice = true;
+    result.advice = synthesise(mechanism, synthesis_options).advice;
+    return result;
+  }
+  result.rows = rows_of(mechanism, synthesis.stroke);
+  summarise(result);
+  if (!result.slack1.empty() || !result.slack2.empty()) result.taut_pretension = taut_pretension(mechanism);
+  result.strength = tendon_strength(mechanism.tendon);
+  if (result.strength && result.largest_tension.tension > result.strength->tension) result.breaks_at = result.largest_tension.alpha;
+  result.sources = error_sources(mechanism);
+  result.tolerances = tolerance_effects(mechanism, options);
+  return result;
+}
+
+}  // namespace fusee

@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "analysis/rigid_joint.h"
+#include "analysis/stroke.h"
+#include "fusee/analysis/analysis.h"
+
+namespace fusee {
+namespace {
+
+constexpr int k_places = 8;  ///< steps of the range at which deviations are looked at
+
+std::vector<double> places_of(const Transmission& transmission) {
+  std::vector<double> alphas;
+  for (int i = 0; i <= k_places; ++i) {
+    alphas.push_back(transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / k_places);
+  }
+  return alphas;
+}
+
+// ---- what is ignored ------------------------------------------------------------------------------------------------
+
+/// Deviations that do not exist (a tendon past the curve's end) are left out.
+void include(ErrorSource& source, double deviation, double alpha) {
+  if (!std::isfinite(deviation)) return;
+  if (std::abs(deviation) > std::max(-source.least, source.most)) source.worst_at = alpha;
+  source.least = std::min(source.least, deviation);
+  source.most = std::max(source.most, deviation);
+}
+
+/// The joint as it is, with pulleys as `drawn` for one that is simpler, against the law that the drawing promises.
+ErrorSource ignored(std::string name, std::string meaning, const Mechanism& mechanism, const MadePulleys& drawn) {
+  ErrorSource source{std::move(name), std::move(meaning)};
+  const RigidJoint joint(drawn, mechanism);
+  for (const double alpha : places_of(drawn.declared())) include(source, joint.at(alpha).theta - drawn.declared().theta(alpha), alpha);
+  return source;
+}
+
+Mechanism exact(Mechanism mechanism) {
+  mechanism.pulley.method = Method::exact;
+  return mechanism;
+}
+
+ErrorSource pin_radius_ignored(const Mechanism& mechanism) {
+  Mechanism drawn = exact(mechanism);
+  drawn.guides.radius = 0;
+  return ignored("pin_radius_ignored", "pulley drawn for pins without a radius", mechanism, MadePulleys(drawn));
+}
+
+/// The groove's floor is where the centre line should be.
+ErrorSource thickness_ignored(const Mechanism& mechanism) {
+  Mechanism drawn = exact(mechanism);
+  drawn.tendon.diameter = 0;
+  return ignored("tendon_thickness_ignored", "pulley drawn for a tendon without thickness", mechanism,
+                 MadePulleys(drawn).offset_by(0.5 * mechanism.tendon.diameter));
+}
+
+// ---- what gives way -------------------------------------------------------------------------------------------------
+
+ErrorSource paper_stretch(const Mechanism& mechanism) {
+  ErrorSource source{"stretch_paper", "stretch under the load, by [9]-[11]"};
+  const Transmission declared(mechanism);
+  for (const double alpha : places_of(declared)) include(source, -paper_forces(mechanism, declared.at_alpha(alpha)).theta_error, alpha);
+  return source;
+}
+
+/// Deviation of the full model: the mean of both directions, or half their difference.
+ErrorSource full_model(const char* name, const char* meaning, const Mechanism& mechanism, double rising_share, double falling_share) {
+  ErrorSource source{name, meaning};
+  const Transmission declared(mechanism);
+  for (const StrokePoint& point : settled_stroke(mechanism, places_of(declared))) {
+    if (point.rising.status == EquilibriumStatus::no_equilibrium || point.falling.status == EquilibriumStatus::no_equilibrium) continue;
+    const double theta = declared.theta(point.rising.alpha);
+    include(source, rising_share * (point.rising.theta - theta) + falling_share * (point.falling.theta - theta), point.rising.alpha);
+  }
+  return source;
+}
+
+ErrorSource full_stretch(const Mechanism& mechanism) {
+  Mechanism smooth = mechanism;
+  smooth.guides.mu = 0;
+  return full_model("stretch", "stretch of both tendons, no friction", smooth, 0.5, 0.5);
+}
+
+ErrorSource friction(const Mechanism& mechanism) {
+  return full_model("friction", "half the loop between both directions", mechanism, 0.5, -0.5);
+}
+
+// ---- tolerances -----------------------------------------------------------------------------------------------------
+
+/// Normal numbers, the same on every machine: the standard's own distribution is not.
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(std::uint64_t seed) : bits_(seed) {}
+
+  double next() {
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    return radius * std::cos(k_two_pi * uniform());
+  }
+
+ private:
+  /// In (0, 1).
+  double uniform() { return (static_cast<double>(bits_() >> 11) + 0.5) * 0x1p-53; }
+
+  std::mt19937_64 bits_;
+};
+
+/// Half widths at each place.
+struct Spread {
+  std::vector<double> theta;
+  std::vector<double> slack;
+};
+
+/// Twice the standard deviation (95 %) about the declared law, over `samples` joints.
+Spread spread_of(const std::vector<double>& alphas, const RigidJoint& declared, int samples, const std::function<RigidJoint()>& sample) {
+  const std::size_t count = alphas.size();
+  Spread spread{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+  std::vector<RigidPoint> nominal;
+  for (const double alpha : alphas) nominal.push_back(declared.at(alpha));
+  std::vector<int> used(count, 0);
+  for (int i = 0; i < samples; ++i) {
+    const RigidJoint joint = sample();
+    for (std::size_t k = 0; k < count; ++k) {
+      const RigidPoint point = joint.at(alphas[k]);
+      const double dtheta = point.theta - nominal[k].theta;
+      const double dslack = point.slack - nominal[k].slack;
+      if (!std::isfinite(dtheta) || !std::isfinite(dslack)) continue;
+      ++used[k];
+      spread.theta[k] += dtheta * dtheta;
+      spread.slack[k] += dslack * dslack;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    spread.theta[k] = 2.0 * std::sqrt(spread.theta[k] / std::max(1, used[k]));
+    spread.slack[k] = 2.0 * std::sqrt(spread.slack[k] / std::max(1, used[k]));
+  }
+  return spread;
+}
+
+std::size_t largest(const std::vector<double>& values) {
+  return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+}
+
+ToleranceEffect effect(std::string key, const std::vector<double>& alphas, const Spread& derived, const Spread& sampled) {
+  const std::size_t theta = largest(derived.theta);
+  const std::size_t slack = largest(derived.slack);
+  return {std::move(key),       derived.theta[theta], sampled.theta[theta], alphas[theta],
+          derived.slack[slack], sampled.slack[slack], alphas[slack]};
+}
+
+Spread by_derivative(const std::vector<double>& alphas, const RigidJoint& joint, const Dimension& dimension, double tolerance) {
+  Spread spread;
+  for (const double alpha : alphas) {
+    const RigidPoint rate = derivative(joint, dimension, alpha);
+    spread.theta.push_back(std::abs(rate.theta) * tolerance);
+    spread.slack.push_back(std::abs(rate.slack) * tolerance);
+  }
+  return spread;
+}
+
+/// Independent causes add by their squares.
+void add_squares(Spread& sum, const Spread& more) {
+  for (std::size_t k = 0; k < sum.theta.size(); ++k) {
+    sum.theta[k] = std::hypot(sum.theta[k], more.theta[k]);
+    sum.slack[k] = std::hypot(sum.slack[k], more.slack[k]);
+  }
+}
+
+}  // namespace
+
+std::vector<ErrorSource> error_sources(const Mechanism& mechanism) {
+  return {paper_stretch(mechanism), full_stretch(mechanism), friction(mechanism), pin_radius_ignored(mechanism), thickness_ignored(mechanism)};
+}
+
+std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options) {
+  const Mechanism real = exact(mechanism);
+  const MadePulleys made(real);
+  const std::vector<double> alphas = places_of(made.declared());
+  const RigidJoint joint(made, real);
+  const double sigma = 0.5 * options.tolerance;
+  NormalNumbers numbers(options.seed);
+  Spread all{std::vector<double>(alphas.size(), 0.0), std::vector<double>(alphas.size(), 0.0)};
+  std::vector<ToleranceEffect> effects;
+  for (const Dimension& dimension : dimensions()) {
+    const Spread derived = by_derivative(alphas, joint, dimension, options.tolerance);
+    const Spread sampled = spread_of(alphas, joint, options.samples, [&] { return altered(made, real, dimension, sigma * numbers.next()); });
+    effects.push_back(effect(std::string(dimension.key), alphas, derived, sampled));
+    add_squares(all, derived);
+  }
+  const Spread sampled = spread_of(alphas, joint, options.samples, [&] {
+    std::vector<double> changes;
+    for (std::size_t i = 0; i < dimensions().size(); ++i) changes.push_back(sigma * numbers.next());
+    return altered(made, real, changes);
+  });
+  effects.push_back(effect("all", alphas, all, sampled));
+  return effects;
+}
+
+}  // namespace fusee

@@ -1,0 +1,112 @@
+#include "analysis/rigid_joint.h"
+
+#include <cmath>
+
+namespace fusee {
+
+RigidJoint::RigidJoint(const MadePulleys& made, const Mechanism& mounted)
+    : made_(made),
+      pins_{pin_place(mounted, Side::left, mounted.guide_pitch_radius()), pin_place(mounted, Side::right, mounted.guide_pitch_radius())} {
+  const std::array<LowerPath, 2> paths = lower(0.0);
+  for (std::size_t i = 0; i < 2; ++i) home_[i] = upper_span(pins_[i], 0.0).length + below(i, paths[i]);
+}
+
+RigidPoint RigidJoint::at(double alpha) const {
+  const std::array<LowerPath, 2> paths = lower(alpha);
+  const double wanted = home_[0] - below(0, paths[0]);
+  RigidPoint point;
+  point.theta = made_.declared().theta(alpha);
+  // The upper span of tendon 1 grows with θ by its moment arm: Newton's steps.
+  for (int i = 0; i < 30; ++i) {
+    const UpperSpan span = upper_span(pins_[0], -point.theta);
+    const double step = (span.length - wanted) / span.m;
+    point.theta -= step;
+    if (!(std::abs(step) > 1e-14)) break;
+  }
+  point.slack = home_[1] - below(1, paths[1]) - upper_span(pins_[1], point.theta).length;
+  return point;
+}
+
+// A tendon's path is the shortest one round pin and pulley: moving a part changes its length only by what the straight pieces pull
+// on that part, and growing a round part by the angle over which the tendon lies on it. With t_u from the pin to C and t_l from
+// the pulley to the pin: C gives t_u·dC, the pin (t_l − t_u)·dP, the pulley −t_l·dG, the pin's radius φ, the pitch curve ψ + α.
+namespace {
+
+Vec2 upper_direction(const PinPlace& pin, double theta) { return turned_left(unit(upper_span(pin, theta).normal)); }
+Vec2 lower_direction(const LowerPath& lower) { return turned_left(unit(lower.normal)); }
+
+double by_length(const PinPlace& pin, const LowerPath&, Side, double theta, double) {
+  return upper_direction(pin, theta).dot(Vec2(std::sin(theta), std::cos(theta)));
+}
+template <Side moved>
+double by_pin(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double) {
+  return side == moved ? lower_direction(lower).x() - upper_direction(pin, theta).x() : 0.0;
+}
+double by_height(const PinPlace& pin, const LowerPath&, Side, double theta, double) { return upper_direction(pin, theta).y(); }
+double by_pulley_place(const PinPlace&, const LowerPath& lower, Side, double, double) { return lower_direction(lower).y(); }
+double by_pin_radius(const PinPlace& pin, const LowerPath& lower, Side, double theta, double) {
+  return upper_span(pin, theta).normal - lower.normal;
+}
+double by_offset(const PinPlace&, const LowerPath& lower, Side, double, double alpha) { return lower.normal + alpha; }
+double by_diameter(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double alpha) {
+  return 0.5 * (by_pin_radius(pin, lower, side, theta, alpha) + by_offset(pin, lower, side, theta, alpha));
+}
+
+void alter_length(Alteration& joint, double by) { joint.mounted.joint.R += by; }
+void alter_left(Alteration& joint, double by) { joint.mounted.guides.EB += by; }
+void alter_right(Alteration& joint, double by) { joint.mounted.guides.ED += by; }
+void alter_height(Alteration& joint, double by) { joint.mounted.guides.OE += by; }
+void alter_radius(Alteration& joint, double by) { joint.mounted.guides.radius += by; }
+void alter_pulley_place(Alteration& joint, double by) { joint.mounted.pulley.EF += by; }
+void alter_offset(Alteration& joint, double by) { joint.offset += by; }
+/// The groove's floor stays where it is: a thicker tendon lies further out on pulley and pin.
+void alter_diameter(Alteration& joint, double by) {
+  joint.mounted.tendon.diameter += by;
+  joint.offset += 0.5 * by;
+}
+
+RigidJoint joint_of(const MadePulleys& made, const Alteration& joint) { return {made.offset_by(joint.offset), joint.mounted}; }
+
+}  // namespace
+
+const std::vector<Dimension>& dimensions() {
+  static const std::vector<Dimension> all = {{"joint.length_mm", alter_length, by_length},
+                                             {"guides.EB_mm", alter_left, by_pin<Side::left>},
+                                             {"guides.ED_mm", alter_right, by_pin<Side::right>},
+                                             {"guides.OE_mm", alter_height, by_height},
+                                             {"guides.radius_mm", alter_radius, by_pin_radius},
+                                             {"pulley.EF_mm", alter_pulley_place, by_pulley_place},
+                                             {"tendon.diameter_mm", alter_diameter, by_diameter},
+                                             {"print_offset", alter_offset, by_offset}};
+  return all;
+}
+
+RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const Dimension& dimension, double change) {
+  Alteration joint{mechanism, 0.0};
+  dimension.alter(joint, change);
+  return joint_of(made, joint);
+}
+
+RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes) {
+  Alteration joint{mechanism, 0.0};
+  for (std::size_t i = 0; i < dimensions().size(); ++i) dimensions()[i].alter(joint, changes.at(i));
+  return joint_of(made, joint);
+}
+
+RigidPoint derivative(const RigidJoint& joint, const Dimension& dimension, double alpha) {
+  const double theta = joint.at(alpha).theta;
+  const std::array<LowerPath, 2> here = joint.lower(alpha);
+  const std::array<LowerPath, 2> home = joint.lower(0.0);
+  // By how much more the path grew here than at home, where the tendon's length was set.
+  const auto grown = [&](std::size_t i, Side side) {
+    const double sign = mirror_sign(side);
+    return dimension.lengthens(joint.pins()[i], here[i], side, sign * theta, sign * alpha) -
+           dimension.lengthens(joint.pins()[i], home[i], side, 0.0, 0.0);
+  };
+  RigidPoint rate;
+  rate.theta = -grown(0, Side::left) / upper_span(joint.pins()[0], -theta).m;
+  rate.slack = upper_span(joint.pins()[1], theta).m * rate.theta - grown(1, Side::right);
+  return rate;
+}
+
+}  // namespace fusee

@@ -1,0 +1,52 @@
+#include "analysis/stroke.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+/// Steps are no longer than this part of the range: within one, tensions change in proportion.
+constexpr double k_longest_step = 1.0 / 180;
+constexpr int k_cycles_before = 2;
+
+class Runner {
+ public:
+  explicit Runner(const Mechanism& mechanism) : motion_(joint_model(mechanism)), load_(mechanism.load) {}
+
+  /// In short steps.
+  EquilibriumPoint run_to(double alpha, double longest) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(alpha - alpha_) / longest)));
+    EquilibriumPoint point;
+    for (int i = 1; i <= steps; ++i) {
+      point = motion_.to({alpha_ + (alpha - alpha_) * i / steps, load_.tip_force, load_.torque});
+    }
+    alpha_ = alpha;
+    return point;
+  }
+
+ private:
+  JointMotion motion_;
+  Load load_;
+  double alpha_ = 0;
+};
+
+}  // namespace
+
+std::vector<StrokePoint> settled_stroke(const Mechanism& mechanism, const std::vector<double>& alphas) {
+  Runner runner(mechanism);
+  const double longest = (alphas.back() - alphas.front()) * k_longest_step;
+  for (int cycle = 0; cycle < k_cycles_before; ++cycle) {
+    runner.run_to(alphas.back(), longest);
+    runner.run_to(alphas.front(), longest);
+  }
+  std::vector<StrokePoint> points(alphas.size());
+  for (std::size_t i = 0; i < alphas.size(); ++i) points[i].rising = runner.run_to(alphas[i], longest);
+  for (std::size_t i = alphas.size(); i-- > 0;) points[i].falling = runner.run_to(alphas[i], longest);
+  // The ends are turning points: what belongs to a direction is reached in it.
+  points.back().falling = points.back().rising;
+  points.front().rising = points.front().falling;
+  return points;
+}
+
+}  // namespace fusee

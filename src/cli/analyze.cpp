@@ -1,0 +1,243 @@
+#include <filesystem>
+
+#include "cli/analysis_table.h"
+#include "cli/command.h"
+#include "cli/table.h"
+#include "fusee/analysis/analysis.h"
+#include "fusee/base/files.h"
+#include "fusee/base/text.h"
+
+namespace fusee::cli {
+namespace {
+
+std::string alpha_text(double alpha) { return "alpha = " + fixed(degrees(alpha), 1) + " deg"; }
+
+std::string range_text(const AlphaRange& range) {
+  if (range.from == range.to) return "at " + alpha_text(range.from);
+  return "alpha = " + fixed(degrees(range.from), 1) + " to " + fixed(degrees(range.to), 1) + " deg";
+}
+
+std::string ranges_text(const std::vector<AlphaRange>& ranges) {
+  std::string text;
+  for (const AlphaRange& range : ranges) text += (text.empty() ? "" : ", ") + range_text(range);
+  return text;
+}
+
+// ---- what a person can act on ---------------------------------------------------------------------------------------
+
+std::string line(std::string title, const std::string& text) {
+  title.resize(18, ' ');
+  return "  " + title + text + "\n";
+}
+
+std::string tension_line(const AnalysisResult& result) {
+  const TensionExtreme& most = result.largest_tension;
+  const bool left = most.tendon == Side::left;
+  const std::string where = std::string("tendon ") + (left ? "1 " : "2 ") + (most.below_pin ? "below" : "above") + " pin " + (left ? "B" : "D");
+  return line("largest tension", rounded(most.tension) + " N, " + where + ", " + alpha_text(most.alpha) + (most.rising ? ", rising" : ", falling")) +
+         line("", "(paper: T_b " + rounded(result.largest_paper_tension.value) + " N, " + alpha_text(result.largest_paper_tension.alpha) + ")");
+}
+
+std::string strength_line(const AnalysisResult& result) {
+  if (!result.strength) return line("tendon bears", "not known: set tendon.strength_N");
+  const std::string source = result.strength->source == "tendon.strength_N" ? result.strength->source : result.strength->source + " of the catalogue";
+  std::string margin;
+  if (result.largest_tension.tension > 0) margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
+  return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin);
+}
+
+std::string slack_lines(const AnalysisResult& result) {
+  if (result.slack1.empty() && result.slack2.empty()) return line("slack", "none: both tendons stay taut");
+  std::string text;
+  if (!result.slack1.empty()) text += line("tendon 1 slack", ranges_text(result.slack1));
+  if (!result.slack2.empty()) text += line("tendon 2 slack", ranges_text(result.slack2));
+  if (result.taut_pretension) text += line("", "taut with tendon.pretension_N >= " + rounded(*result.taut_pretension, 3));
+  return text;
+}
+
+std::string sources_table(const std::vector<ErrorSource>& sources) {
+  std::vector<std::vector<std::string>> cells;
+  for (const ErrorSource& source : sources) {
+    cells.push_back({source.meaning, fixed(degrees(source.least), 4), fixed(degrees(source.most), 4), fixed(degrees(source.worst_at), 1)});
+  }
+  return table({{"theta off the declared law by", Align::left}, {"from_deg", Align::right}, {"to_deg", Align::right}, {"at alpha", Align::right}}, cells);
+}
+
+std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
+  std::vector<std::vector<std::string>> cells;
+  for (const ToleranceEffect& effect : effects) {
+    cells.push_back({effect.key, fixed(degrees(effect.theta_by_derivative), 4), fixed(degrees(effect.theta_by_monte_carlo), 4),
+                     fixed(degrees(effect.theta_at), 1), fixed(effect.slack_by_derivative, 4), fixed(effect.slack_by_monte_carlo, 4)});
+  }
+  return table({{"tolerance of", Align::left},
+                {"theta_deg", Align::right},
+                {"sampled", Align::right},
+                {"at alpha", Align::right},
+                {"slack2_mm", Align::right},
+                {"sampled", Align::right}},
+               cells);
+}
+
+std::string summary(const AnalysisResult& result, const AnalysisOptions& options) {
+  std::string text = "Summary\n" + tension_line(result) + strength_line(result) + slack_lines(result);
+  text += line("motor torque", "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
+  text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " + alpha_text(result.hysteresis.alpha));
+  text += "\nError budget\n" + sources_table(result.sources);
+  text += "\nTolerances: each dimension within " + shortest(options.tolerance) + " mm (95 %), theta and slack within these\n" +
+          tolerances_table(result.tolerances);
+  return text;
+}
+
+// ---- the same for a machine -----------------------------------------------------------------------------------------
+
+Json ranges_json(const std::vector<AlphaRange>& ranges) {
+  Json list = Json::array();
+  for (const AlphaRange& range : ranges) list.push_back({degrees(range.from), degrees(range.to)});
+  return list;
+}
+
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json summary_json(const AnalysisResult& result) {
+  const TensionExtreme& most = result.largest_tension;
+  Json json;
+  json["largest_tension"] = {{"value_N", most.tension},
+                             {"alpha_deg", degrees(most.alpha)},
+                             {"tendon", most.tendon == Side::left ? 1 : 2},
+                             {"place", most.below_pin ? "below_pin" : "above_pin"},
+                             {"direction", most.rising ? "rising" : "falling"}};
+  json["largest_paper_Tb"] = {{"value_N", result.largest_paper_tension.value}, {"alpha_deg", degrees(result.largest_paper_tension.alpha)}};
+  json["strength"] = result.strength ? Json{{"value_N", result.strength->tension}, {"source", result.strength->source}} : Json();
+  json["slack1_alpha_deg"] = ranges_json(result.slack1);
+  json["slack2_alpha_deg"] = ranges_json(result.slack2);
+  json["taut_pretension_N"] = optional_json(result.taut_pretension);
+  json["largest_motor_torque"] = {{"value_Nmm", result.largest_torque.value}, {"alpha_deg", degrees(result.largest_torque.alpha)}};
+  json["hysteresis"] = {{"value_deg", degrees(result.hysteresis.value)}, {"alpha_deg", degrees(result.hysteresis.alpha)}};
+  return json;
+}
+
+Json sources_json(const std::vector<ErrorSource>& sources) {
+  Json list = Json::array();
+  for (const ErrorSource& source : sources) {
+    list.push_back({{"name", source.name},
+                    {"meaning", source.meaning},
+                    {"theta_deg", {degrees(source.least), degrees(source.most)}},
+                    {"worst_at_alpha_deg", degrees(source.worst_at)}});
+  }
+  return list;
+}
+
+Json tolerances_json(const std::vector<ToleranceEffect>& effects) {
+  Json list = Json::array();
+  for (const ToleranceEffect& effect : effects) {
+    list.push_back({{"key", effect.key},
+                    {"theta_deg", {{"derivative", degrees(effect.theta_by_derivative)}, {"monte_carlo", degrees(effect.theta_by_monte_carlo)}, {"alpha_deg", degrees(effect.theta_at)}}},
+                    {"slack2_mm", {{"derivative", effect.slack_by_derivative}, {"monte_carlo", effect.slack_by_monte_carlo}, {"alpha_deg", degrees(effect.slack_at)}}}});
+  }
+  return list;
+}
+
+// ---- what is wrong with it ------------------------------------------------------------------------------------------
+
+void add_findings(const AnalysisResult& result, const std::string& file, Reply& reply) {
+  const auto say = [&](Severity severity, const std::string& message, const std::string& hint) {
+    Diagnostic diagnostic = about_file(severity, file, message);
+    diagnostic.hint = hint;
+    reply.diagnostics.push_back(diagnostic);
+    if (severity == Severity::error) reply.exit = Exit::check_failed;
+  };
+  if (result.lost_at) {
+    say(Severity::error, "the load pulls the joint past its dead centre at " + alpha_text(*result.lost_at) + ": nothing balances it there",
+        "a smaller [load], or stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
+  }
+  if (result.breaks_at) {
+    say(Severity::error,
+        "the tendon breaks at " + alpha_text(*result.breaks_at) + ": " + rounded(result.largest_tension.tension) + " N, and it bears " +
+            rounded(result.strength->tension) + " N (" + result.strength->source + ")",
+        "a smaller [load], less friction, a thicker tendon, or a longer lever (joint.length_mm, guides.ED_mm)");
+  }
+  const bool declared_loose = result.largest_tension.tension < 1e-6;
+  if (!result.untensioned.empty()) {
+    say(declared_loose ? Severity::warning : Severity::error, "both tendons are without tension, " + ranges_text(result.untensioned) + ": nothing holds the joint",
+        result.taut_pretension ? "tendon.pretension_N >= " + rounded(*result.taut_pretension, 3) + " keeps both taut" : "raise tendon.pretension_N");
+  }
+  for (const Condition& condition : result.obstacles) {
+    say(Severity::warning, "forces are known, but no such pulley can be made: " + condition.message, "'fusee build' says what would help");
+  }
+}
+
+AnalysisOptions options_from(const Arguments& arguments) {
+  AnalysisOptions options;
+  options.steps = static_cast<int>(arguments.number("--steps", options.steps, 2, 2000, "(steps)"));
+  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0, 10.0, "mm");
+  options.samples = static_cast<int>(arguments.number("--samples", options.samples, 10, 100000, "(samples)"));
+  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
+  return options;
+}
+
+/// The table as FILE's ending asks for.
+void write_table(const Arguments& arguments, const AnalysisResult& result, Reply& reply) {
+  const std::optional<std::string> file = arguments.text("--out");
+  if (!file) return;
+  const bool json = std::filesystem::path(*file).extension() == ".json";
+  const std::string bytes = json ? stroke_json(result.rows).dump(1) + "\n" : stroke_csv(result.rows);
+  if (!arguments.has("--dry-run")) write_file(*file, bytes, arguments.has("--force"));
+  reply.fields["output"] = *file;
+}
+
+Reply run_analyze(const Arguments& arguments, Console& console) {
+  const AnalysisOptions options = options_from(arguments);
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
+  Reply reply;
+  reply.diagnostics = file.warnings;
+  if (file.mechanism.transmission) {
+    throw InputError(file.path, "a joint with [transmission] has no tendons to analyze", "[transmission] is for 'fusee calibrate'");
+  }
+  console.progress("moving the joint through its range");
+  const AnalysisResult result = analyse(file.mechanism, options);
+  if (!result.exists) {
+    reply.exit = Exit::infeasible;
+    add_obstacles(file.path, result.obstacles, reply);
+    add_advice(result.advice, reply);
+    reply.fields["conditions"] = to_json(result.obstacles);
+    reply.fields["advice"] = to_json(result.advice);
+    return reply;
+  }
+  add_findings(result, file.path, reply);
+  write_table(arguments, result, reply);
+  const bool csv = arguments.has("--csv");
+  reply.text = csv ? stroke_csv(result.rows)
+                   : file.mechanism.name + "\n\n" + stroke_tables(result.rows, console.verbose()) + "\n" + summary(result, options);
+  reply.fields["name"] = file.mechanism.name;
+  reply.fields["summary"] = summary_json(result);
+  reply.fields["error_budget"] = sources_json(result.sources);
+  reply.fields["tolerances"] = tolerances_json(result.tolerances);
+  reply.fields["rows"] = stroke_json(result.rows);
+  return reply;
+}
+
+}  // namespace
+
+Command analyze_command() {
+  return {"analyze",
+          "SPEC",
+          "the transmission and the forces over the range",
+          "Shows angles, radii, tensions, torque, stretch and stiffness over the range of\n"
+          "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
+          "model of two elastic tendons with pretension and friction, in its third cycle,\n"
+          "alpha growing. The summary says what is largest, what is slack, and what makes\n"
+          "the joint miss its angle. At the ends of the range the motion turns back: there\n"
+          "both directions show the same state.",
+          {{"-o,--out", "FILE", "write the table to FILE: JSON if it ends in .json,\nelse CSV"},
+           {"--csv", "", "the table as CSV on stdout"},
+           {"--steps", "N", "steps of the table (default 60)"},
+           {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},
+           {"--samples", "N", "samples of the Monte Carlo (default 1000)"},
+           {"--seed", "N", "its seed (default 1)"}},
+          {{"fusee analyze arm.toml", "tables and summary"},
+           {"fusee analyze arm.toml --set load.tip_force_N=10", "what would a load of 10 N do?"},
+           {"fusee analyze arm.toml --csv > stroke.csv", "every row and every column, for a plot"}},
+          run_analyze};
+}
+
+}  // namespace fusee::cli

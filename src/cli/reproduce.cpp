@@ -1,0 +1,133 @@
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "fusee/base/files.h"
+#include "fusee/base/text.h"
+#include "fusee/export/paper.h"
+
+namespace fusee::cli {
+namespace {
+
+std::string table_4_text(const Reproduction& all) {
+  std::string text = "Table 4: paper and certified optimum, max T_b/F_c " + fixed(all.optimum, 4) + "\n";
+  for (const OptimumRow& row : all.table_4) {
+    std::string symbol = row.symbol;
+    symbol.resize(8, ' ');
+    text += "  " + symbol + rounded(row.paper) + " mm, computed " + rounded(row.computed, 6) + " mm (bounds " +
+            rounded(row.lower) + " and " + rounded(row.upper) + ")\n";
+  }
+  return text;
+}
+
+std::string claim_text(const Claim& claim) {
+  return "\n" + claim.name + ": " + std::string(verdict_text(claim.verdict)) + "\n  paper      " + claim.paper_says +
+         "\n  equations  " + claim.equations_give + "\n  holds for  " + claim_windows_text(claim) + "\n";
+}
+
+std::string laws_text(const Reproduction& all) {
+  std::string text = "\nboth laws on the paper's optimum\n";
+  for (const LawCost& law : all.laws) {
+    std::string name = law.law;
+    name.resize(11, ' ');
+    text += "  " + name + "theta within " + fixed(law.nonlinearity, 2) + " deg of a line, r2 up to " +
+            rounded(law.r2_most) + " mm, bend radius " + rounded(law.bend_radius, 3) + " mm, T_b/F_c " +
+            fixed(law.tension, 4) + ", torque/F_c " + rounded(law.torque) + " mm\n";
+  }
+  return text;
+}
+
+std::string assumed_text(const PaperAssumptions& a) {
+  return "assumed: unit " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) + " mm, EF " + rounded(a.EF) + " mm, mu " +
+         rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N\n\n";
+}
+
+Json windows_json(const std::vector<WindowsOf>& windows) {
+  Json json = Json::object();
+  for (const WindowsOf& of : windows) {
+    json[of.parameter] = Json::array();
+    for (const Window& window : of.windows) {
+      json[of.parameter].push_back(
+          {{"low", window.low}, {"high", window.high}, {"open_low", window.open_low}, {"open_high", window.open_high}});
+    }
+  }
+  return json;
+}
+
+Json reproduction_json(const Reproduction& all) {
+  const PaperAssumptions& a = all.assumptions;
+  Json json;
+  json["assumptions"] = {
+      {"unit_mm", a.unit}, {"r1_mm", a.r1}, {"EF_mm", a.EF}, {"mu", a.mu}, {"tip_force_N", a.tip_force}};
+  json["optimum"] = all.optimum;
+  json["relative_gap"] = all.relative_gap;
+  for (const OptimumRow& row : all.table_4) {
+    json["table_4"].push_back({{"symbol", row.symbol}, {"paper_mm", row.paper}, {"computed_mm", row.computed}});
+  }
+  for (const Claim& claim : all.claims) {
+    json["claims"].push_back({{"name", claim.name},
+                              {"verdict", verdict_text(claim.verdict)},
+                              {"paper_says", claim.paper_says},
+                              {"equations_give", claim.equations_give},
+                              {"windows", windows_json(claim.windows)}});
+  }
+  for (const LawCost& law : all.laws) {
+    json["laws"].push_back({{"law", law.law},
+                            {"nonlinearity_deg", law.nonlinearity},
+                            {"r2_most_mm", law.r2_most},
+                            {"bend_radius_mm", law.bend_radius},
+                            {"tension", law.tension},
+                            {"torque_mm", law.torque}});
+  }
+  for (const MuWindow& window : all.mu_windows) {
+    json["mu_windows"].push_back({{"r1_mm", window.r1},
+                                  {"EF_mm", window.EF},
+                                  {"windows", windows_json({{"mu", "", 0, 0, window.windows}})["mu"]}});
+  }
+  return json;
+}
+
+std::vector<std::string> names_of(const std::vector<OutputFile>& files) {
+  std::vector<std::string> names;
+  for (const OutputFile& file : files) names.push_back(file.name);
+  return names;
+}
+
+Reply run_reproduce(const Arguments& arguments, Console& console) {
+  const auto folder = arguments.text("--out");
+  const Reproduction all = reproduce_paper({}, [&console](std::string_view step) { console.progress(step); });
+  Reply reply;
+  reply.text = assumed_text(all.assumptions) + table_4_text(all);
+  for (const Claim& claim : all.claims) reply.text += claim_text(claim);
+  reply.text += laws_text(all);
+  reply.fields = reproduction_json(all);
+  if (!folder || arguments.has("--dry-run")) return reply;
+  const InterruptsDeferred deferred;
+  const std::vector<OutputFile> files = paper_files(all);
+  OutputFolder out(*folder, arguments.has("--force"));
+  out.claim(names_of(files));
+  for (const OutputFile& file : files) {
+    stop_if_interrupted();
+    out.stage(file);
+  }
+  out.publish();
+  reply.text += "\n" + std::to_string(files.size()) + " files in " + *folder + "\n";
+  reply.fields["outputs"] = names_of(files);
+  return reply;
+}
+
+}  // namespace
+
+Command reproduce_command() {
+  return {"reproduce",
+          "",
+          "the paper, claim by claim",
+          "Computes the table and the figures of the paper that this program began with,\n"
+          "from its own equations, and holds each of its claims against them: holds, holds\n"
+          "only if ..., does not hold. Numbers that the paper does not give are assumed and\n"
+          "named; the windows in which a claim holds are searched for.",
+          {{"-o,--out", "DIR", "figures as SVG, numbers as CSV, and the page paper.md"}},
+          {{"fusee reproduce", "the claims, one by one"},
+           {"fusee reproduce -o paper", "with figures and numbers; read paper/paper.md"}},
+          run_reproduce};
+}
+
+}  // namespace fusee::cli

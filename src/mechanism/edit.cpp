@@ -1,0 +1,96 @@
+#include "fusee/mechanism/edit.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/mechanism/fields.h"
+
+namespace fusee {
+namespace {
+
+struct Replacement {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::string text;
+};
+
+/// toml++ counts lines from 1 and columns in code points from 1.
+std::size_t offset_of(std::string_view text, const toml::source_position& position) {
+  std::size_t at = 0;
+  for (toml::source_index line = 1; line < position.line; ++line)
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+  if (at == 0 && text.substr(0, 3) == "\xEF\xBB\xBF") at = 3;
+  for (toml::source_index column = 1; column < position.column && at < text.size(); ++column) {
+    do ++at;
+    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80);
+  }
+  return at;
+}
+
+/// A number as TOML, of a kind that reads back the same.
+std::string number_text(double value) { return shortest(value); }
+
+const toml::node* written_node(const toml::table& root, const NumberKey& key) {
+  const toml::node* node = root.at_path(key.field->name()).node();
+  if (node == nullptr || key.field->kind == FieldKind::number) return node;
+  const toml::array* ends = node->as_array();
+  return ends == nullptr ? nullptr : ends->get(static_cast<std::size_t>(key.end));
+}
+
+/// A line for a key that its table does not hold yet.
+Replacement new_line(std::string_view text, const toml::table& root, const Field& field, double value,
+                     std::vector<std::string>& new_tables) {
+  const std::string line = std::string(field.key) + " = " + number_text(value);
+  const std::string table_name(field.table);
+  if (const toml::table* table = root[table_name].as_table()) {
+    if (table->is_inline()) {
+      const std::size_t at = offset_of(text, table->source().begin) + 1;
+      return {at, at, " " + line + (table->empty() ? "" : ",")};
+    }
+    const std::size_t at = std::min(text.find('\n', offset_of(text, table->source().begin)), text.size());
+    return {at, at, "\n" + line};
+  }
+  const bool first = std::find(new_tables.begin(), new_tables.end(), table_name) == new_tables.end();
+  if (first) new_tables.push_back(table_name);
+  const bool ended = text.empty() || text.back() == '\n';
+  return {text.size(), text.size(), first ? (ended ? "\n[" : "\n\n[") + table_name + "]\n" + line + "\n" : line + "\n"};
+}
+
+}  // namespace
+
+std::string edit_values(std::string_view text, const std::vector<ValueEdit>& edits) {
+  const toml::table root = toml::parse(text);
+  std::vector<Replacement> replacements;
+  std::vector<std::string> new_tables;
+  // Keys of one new table one after another.
+  std::vector<ValueEdit> ordered = edits;
+  std::stable_sort(ordered.begin(), ordered.end(), [](const ValueEdit& a, const ValueEdit& b) {
+    return a.key.substr(0, a.key.find('.')) < b.key.substr(0, b.key.find('.'));
+  });
+  for (const ValueEdit& edit : ordered) {
+    const auto key = find_number_key(edit.key);
+    demand(key.has_value(), "edit of " + edit.key);
+    if (const toml::node* node = written_node(root, *key)) {
+      replacements.push_back(
+          {offset_of(text, node->source().begin), offset_of(text, node->source().end), number_text(edit.value)});
+    } else {
+      replacements.push_back(new_line(text, root, *key->field, edit.value, new_tables));
+    }
+  }
+  std::stable_sort(replacements.begin(), replacements.end(),
+                   [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; });
+  std::string edited;
+  std::size_t from = 0;
+  for (const Replacement& replacement : replacements) {
+    edited += text.substr(from, replacement.begin - from);
+    edited += replacement.text;
+    from = replacement.end;
+  }
+  edited += text.substr(from);
+  return edited;
+}
+
+}  // namespace fusee

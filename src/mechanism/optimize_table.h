@@ -1,0 +1,20 @@
+/// \file
+/// Internal: [optimize] held against the field table, each text with its column.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/mechanism.h"
+
+namespace fusee {
+
+/// `is_good(key)`: the key was read without an error. `item_place(key, i)`: where item i of its list stands; its line
+/// is 0 for --set.
+void check_optimize_table(const Optimization& table, const std::function<bool(const std::string& key)>& is_good,
+                          const std::function<Place(const std::string& key, std::size_t item)>& item_place,
+                          std::vector<Diagnostic>& errors);
+
+}  // namespace fusee

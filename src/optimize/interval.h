@@ -1,0 +1,201 @@
+/// \file
+/// Internal: intervals that hold the true value whatever the rounding, and first derivatives carried along with them.
+///
+/// Boost.Interval's four operations round outward while a RoundingUp lives; they are wrong without one. Elementary
+/// functions come from the C library, whose errors in any rounding mode are at most 2 units in the last place (glibc
+/// manual, "Errors in Math Functions"): four are taken.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/interval.hpp>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/units.h"
+
+namespace fusee {
+
+using RoundedInterval = boost::numeric::interval<
+    double, boost::numeric::interval_lib::policies<
+                boost::numeric::interval_lib::save_state<boost::numeric::interval_lib::rounded_arith_opp<double>>,
+                boost::numeric::interval_lib::checking_base<double>>>;
+using Interval = boost::numeric::interval_lib::unprotect<RoundedInterval>::type;
+/// Rounds upward while it lives. Keep it and the arithmetic in functions of their own: the compiler may move arithmetic
+/// over its ends.
+using RoundingUp = RoundedInterval::traits_type::rounding;
+
+/// What a formula's domain does to an interval: a part of it may have to be cut off, or all of it.
+struct Domain {
+  bool possible = true;  ///< false: the formula has no value anywhere in the box
+  bool whole = true;     ///< false: a part was cut off; derivatives are worth nothing
+};
+
+inline double stretch_of(double value) {
+  return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(value) + std::numeric_limits<double>::min();
+}
+inline double below(double value) { return -(stretch_of(value) - value); }
+inline double above(double value) { return value + stretch_of(value); }
+
+/// A function that grows.
+template <typename Function>
+Interval grown(const Interval& x, Function function) {
+  return {below(function(x.lower())), above(function(x.upper()))};
+}
+
+inline Interval exp(const Interval& x) {
+  return grown(x, [](double v) { return std::exp(v); });
+}
+inline Interval atan(const Interval& x) {
+  return grown(x, [](double v) { return std::atan(v); });
+}
+inline Interval asin(const Interval& x) {
+  return grown(x, [](double v) { return std::asin(v); });
+}
+inline Interval acos(const Interval& x) { return {below(std::acos(x.upper())), above(std::acos(x.lower()))}; }
+inline Interval sqrt(const Interval& x) {
+  return grown(x, [](double v) { return std::sqrt(std::max(v, 0.0)); });
+}
+inline Interval pi_interval() { return {below(k_pi), above(k_pi)}; }
+
+/// Angles of the joint lie within ±π, and a little more by rounding.
+inline Interval sin(const Interval& x) {
+  const Interval low = {below(std::sin(x.lower())), above(std::sin(x.lower()))};
+  const Interval high = {below(std::sin(x.upper())), above(std::sin(x.upper()))};
+  Interval hull = boost::numeric::hull(low, high);
+  const double slack = 1e-9;
+  for (const double top : {-1.5 * k_pi, 0.5 * k_pi}) {
+    if (x.lower() <= top + slack && x.upper() >= top - slack) hull = boost::numeric::hull(hull, Interval(1.0));
+  }
+  for (const double bottom : {-0.5 * k_pi, 1.5 * k_pi}) {
+    if (x.lower() <= bottom + slack && x.upper() >= bottom - slack) hull = boost::numeric::hull(hull, Interval(-1.0));
+  }
+  return hull;
+}
+inline Interval cos(const Interval& x) { return sin(x + pi_interval() * 0.5); }
+inline Interval squared(const Interval& x) { return boost::numeric::square(x); }
+inline Interval larger(const Interval& a, const Interval& b) {
+  return {std::max(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
+}
+
+inline Interval positive_part(const Interval& x, Domain& domain) {
+  if (!(x.upper() > 0)) domain.possible = false;
+  if (x.lower() > 0) return x;
+  domain.whole = false;
+  constexpr double least = 1e-200;
+  return {least, std::max(x.upper(), least)};
+}
+
+/// What of x lies within ±1.
+inline Interval unit_part(const Interval& x, Domain& domain) {
+  if (!(x.lower() <= 1 && x.upper() >= -1)) domain.possible = false;
+  if (x.lower() > -1 && x.upper() < 1) return x;
+  domain.whole = false;
+  return {std::clamp(x.lower(), -1.0, 1.0), std::clamp(x.upper(), -1.0, 1.0)};
+}
+
+inline void demand_not_negative(const Interval& x, Domain& domain) {
+  if (x.upper() < 0) domain.possible = false;
+}
+
+// The same words for plain numbers, so that one formula serves both
+// ----------------------------------------------------
+
+using std::acos, std::asin, std::atan, std::cos, std::exp, std::sin, std::sqrt;
+inline double squared(double x) { return x * x; }
+inline double larger(double a, double b) { return std::max(a, b); }
+inline double positive_part(double x, Domain& domain) {
+  if (!(x > 0)) domain.possible = false;
+  return x;
+}
+inline double unit_part(double x, Domain& domain) {
+  if (!(x >= -1 && x <= 1)) domain.possible = false;
+  return x;
+}
+inline void demand_not_negative(double x, Domain& domain) {
+  if (!(x >= 0)) domain.possible = false;
+}
+
+inline double value_of(double x) { return x; }
+inline const Interval& value_of(const Interval& x) { return x; }
+
+// First derivatives
+// ----------------------------------------------------------------------------------------------------
+
+/// A value over a box and its derivatives by the box's variables, all as intervals.
+struct Jet {
+  static constexpr int k_most = 8;
+  Interval value = 0.0;
+  std::array<Interval, k_most> slope{};
+  int count = 0;  ///< slopes in use; 0: a constant
+
+  Jet() = default;
+  Jet(double constant) : value(constant) {}           // NOLINT: constants stand in formulas
+  Jet(const Interval& constant) : value(constant) {}  // NOLINT
+  static Jet variable(const Interval& value, int index, int count) {
+    Jet jet(value);
+    jet.count = count;
+    for (int i = 0; i < count; ++i) jet.slope[static_cast<std::size_t>(i)] = i == index ? 1.0 : 0.0;
+    return jet;
+  }
+};
+
+/// f(a) with df/da.
+inline Jet chained(const Jet& a, const Interval& value, const Interval& derivative) {
+  Jet jet(value);
+  jet.count = a.count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i) jet.slope[i] = derivative * a.slope[i];
+  return jet;
+}
+/// f(a, b) with both partial derivatives.
+inline Jet chained(const Jet& a, const Jet& b, const Interval& value, const Interval& da, const Interval& db) {
+  if (b.count == 0) return chained(a, value, da);
+  if (a.count == 0) return chained(b, value, db);
+  Jet jet(value);
+  jet.count = a.count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i) jet.slope[i] = da * a.slope[i] + db * b.slope[i];
+  return jet;
+}
+
+inline Jet operator+(const Jet& a, const Jet& b) { return chained(a, b, a.value + b.value, 1.0, 1.0); }
+inline Jet operator-(const Jet& a, const Jet& b) { return chained(a, b, a.value - b.value, 1.0, -1.0); }
+inline Jet operator-(const Jet& a) { return chained(a, -a.value, -1.0); }
+inline Jet operator*(const Jet& a, const Jet& b) { return chained(a, b, a.value * b.value, b.value, a.value); }
+inline Jet operator/(const Jet& a, const Jet& b) {
+  const Interval inverse = 1.0 / b.value, quotient = a.value / b.value;
+  return chained(a, b, quotient, inverse, -quotient * inverse);
+}
+inline Jet squared(const Jet& a) { return chained(a, squared(a.value), 2.0 * a.value); }
+inline Jet sqrt(const Jet& a) {
+  const Interval root = sqrt(a.value);
+  return chained(a, root, 0.5 / root);
+}
+inline Jet exp(const Jet& a) {
+  const Interval power = exp(a.value);
+  return chained(a, power, power);
+}
+inline Jet sin(const Jet& a) { return chained(a, sin(a.value), cos(a.value)); }
+inline Jet cos(const Jet& a) { return chained(a, cos(a.value), -sin(a.value)); }
+inline Jet atan(const Jet& a) { return chained(a, atan(a.value), 1.0 / (1.0 + squared(a.value))); }
+inline Jet asin(const Jet& a) { return chained(a, asin(a.value), 1.0 / sqrt(1.0 - squared(a.value))); }
+inline Jet acos(const Jet& a) { return chained(a, acos(a.value), -1.0 / sqrt(1.0 - squared(a.value))); }
+inline Jet larger(const Jet& a, const Jet& b) {
+  if (a.value.lower() >= b.value.upper()) return a;
+  if (b.value.lower() >= a.value.upper()) return b;
+  // Somewhere in the box one, somewhere the other: the slope lies between both.
+  return chained(a, b, larger(a.value, b.value), Interval(0.0, 1.0), Interval(0.0, 1.0));
+}
+inline Jet positive_part(const Jet& a, Domain& domain) {
+  Jet jet = a;
+  jet.value = positive_part(a.value, domain);
+  return jet;
+}
+inline Jet unit_part(const Jet& a, Domain& domain) {
+  Jet jet = a;
+  jet.value = unit_part(a.value, domain);
+  return jet;
+}
+inline const Interval& value_of(const Jet& a) { return a.value; }
+inline void demand_not_negative(const Jet& a, Domain& domain) { demand_not_negative(a.value, domain); }
+
+}  // namespace fusee

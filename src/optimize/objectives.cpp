@@ -1,0 +1,183 @@
+#include "fusee/optimize/objectives.h"
+
+#include <array>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/transmission/tension.h"
+#include "optimize/formulas.h"
+#include "profile/take_off.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::array<ObjectiveInfo, 5> k_objectives{{
+    {Objective::max_tension, "max_tension", "N/N", "largest T_b over the range, per newton of tip force [6]-[8]", false,
+     true},
+    {Objective::max_error, "max_error", "deg/N",
+     "largest joint error by stretch over the range, per newton of tip force [9]-[11]", false, true},
+    {Objective::footprint, "footprint", "mm^2", "largest rectangle around link, pins and pulley in any pose", false,
+     true},
+    {Objective::motor_torque, "motor_torque", "N mm/N", "largest T_b r2 over the range, per newton of tip force", false,
+     true},
+    {Objective::min_bend, "min_bend", "mm", "smallest radius of curvature that a tendon is bent to on P1 or P2", true,
+     false},
+}};
+
+/// Places of the stroke that are looked at; where the worst lies between two, it is found by golden section.
+constexpr int k_places = 61;
+constexpr double k_impossible = 1e300;
+/// A value beyond this is no design: a moment arm is as good as gone.
+constexpr double k_largest = 1e12;
+
+Evaluation impossible(std::string reason) {
+  Evaluation evaluation;
+  evaluation.reason = std::move(reason);
+  return evaluation;
+}
+
+/// The place of [low, high] where `value` is largest, to about 1e-7 of its width; the value itself is much better
+/// known.
+template <typename Value>
+double largest_place(double low, double high, Value value) {
+  constexpr double golden = 0.61803398874989485;
+  double a = high - golden * (high - low), b = low + golden * (high - low);
+  double at_a = value(a), at_b = value(b);
+  for (int i = 0; i < 24; ++i) {
+    if (at_a > at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - golden * (high - low);
+      at_a = value(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + golden * (high - low);
+      at_b = value(b);
+    }
+  }
+  return at_a > at_b ? a : b;
+}
+
+/// Largest of `value(place)` over places 0 … 1; not finite where it has none.
+template <typename Value>
+Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
+  int worst = 0;
+  double largest = -k_impossible;
+  for (int i = 0; i < k_places; ++i) {
+    const double here = value(static_cast<double>(i) / (k_places - 1));
+    if (!(std::abs(here) < k_largest)) return impossible("");
+    if (here > largest) largest = here, worst = i;
+  }
+  double place = static_cast<double>(worst) / (k_places - 1);
+  if (worst > 0 && worst < k_places - 1) {
+    const double refined = largest_place((worst - 1.0) / (k_places - 1), (worst + 1.0) / (k_places - 1), value);
+    const double there = value(refined);
+    if (there > largest) largest = there, place = refined;
+  }
+  Evaluation evaluation;
+  evaluation.possible = true;
+  evaluation.value = largest;
+  evaluation.theta = mechanism.joint.theta_min + place * (mechanism.joint.theta_max - mechanism.joint.theta_min);
+  return evaluation;
+}
+
+/// The same chain through Transmission and paper_forces(): law = "table", and the words for why there is no value.
+Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism, bool point_pins) {
+  const double rho = point_pins ? 0.0 : mechanism.guide_pitch_radius();
+  const Transmission transmission(mechanism, rho);
+  if (const auto theta = transmission.dead_centre()) {
+    return impossible("a tendon loses its moment arm at θ = " + rounded(degrees(*theta), 4) + "°");
+  }
+  Mechanism loaded = mechanism;
+  loaded.load = {};
+  loaded.load.tip_force = 1.0;
+  std::string reason;
+  const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
+  const auto value = [&](double place) {
+    const TransmissionPoint point = transmission.at_theta(mechanism.joint.theta_min + place * range);
+    const std::string where = " at θ = " + rounded(degrees(point.theta), 3) + "°";
+    if (!(point.t1.lower_reach > 0))
+      reason = "pin B stands in pulley P1" + where;
+    else if (!(point.t2.lower_reach > 0))
+      reason = "pin D stands in pulley P2" + where;
+    else if (!(point.t1.wrap >= 0))
+      reason = "tendon 1 leaves pin B" + where;
+    else if (!(point.t2.wrap >= 0))
+      reason = "tendon 2 leaves pin D" + where;
+    if (!reason.empty()) return 2.0 * k_impossible;
+    const PaperForces forces = paper_forces(loaded, point);
+    if (objective == Objective::max_tension) return forces.Tb;
+    if (objective == Objective::motor_torque) return forces.Tb * point.t2.p;
+    if (objective == Objective::max_error) return degrees(forces.elongation / point.t2.m);
+    Domain domain;
+    const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, point_pins);
+    return objective_at(objective, numbers, place, domain);
+  };
+  Evaluation evaluation = largest_over_range(mechanism, value);
+  if (!evaluation.possible)
+    evaluation.reason = reason.empty() ? "a force grows without bound: a moment arm is nearly gone" : reason;
+  return evaluation;
+}
+
+/// Smallest radius of curvature of both pitch curves; the envelope's own condition is that it is positive.
+Evaluation smallest_bend(const Mechanism& mechanism, bool point_pins) {
+  const Transmission transmission(mechanism, point_pins ? 0.0 : mechanism.guide_pitch_radius());
+  if (transmission.dead_centre()) return evaluate_by_transmission(Objective::max_tension, mechanism, point_pins);
+  const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
+  const TakeOffs left(transmission, Side::left), right(transmission, Side::right);
+  const auto tightness = [&](double place) {
+    const double theta = mechanism.joint.theta_min + place * range;
+    return -std::min(left.at(-theta).curve.radius, right.at(theta).curve.radius);
+  };
+  Evaluation evaluation = largest_over_range(mechanism, tightness);
+  evaluation.value = -evaluation.value;
+  if (!evaluation.possible) evaluation.reason = "a pin stands in a pulley";
+  return evaluation;
+}
+
+}  // namespace
+
+std::span<const ObjectiveInfo> objectives() { return k_objectives; }
+
+const ObjectiveInfo& info(Objective objective) { return k_objectives.at(static_cast<std::size_t>(objective)); }
+
+Objective find_objective(std::string_view name) {
+  for (const ObjectiveInfo& candidate : k_objectives) {
+    if (candidate.name == name) return candidate.objective;
+  }
+  throw Bug("objective " + std::string(name));
+}
+
+bool has_point_pins(const Mechanism& mechanism) {
+  return mechanism.pulley.method == Method::paper || mechanism.guides.radius == 0;
+}
+
+double Evaluation::cost(Objective objective) const {
+  if (!possible) return k_impossible;
+  return info(objective).largest ? -value : value;
+}
+
+FileNumbers<double> file_numbers(const Mechanism& m) {
+  return {m.joint.R,        m.guides.EB,       m.guides.ED,      m.guides.OE,     m.pulley.EF,
+          m.pulley.r1,      m.pulley.ratio,    m.guides.mu,      m.guides.radius, m.tendon.diameter,
+          m.tendon.modulus, m.joint.theta_min, m.joint.theta_max};
+}
+
+Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
+  return evaluate(objective, mechanism, has_point_pins(mechanism));
+}
+
+Evaluation evaluate(Objective objective, const Mechanism& mechanism, bool point_pins) {
+  if (objective == Objective::min_bend) return smallest_bend(mechanism, point_pins);
+  if (mechanism.pulley.law == Law::table) return evaluate_by_transmission(objective, mechanism, point_pins);
+  const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, point_pins);
+  Evaluation evaluation = largest_over_range(mechanism, [&](double place) {
+    Domain domain;
+    const double value = objective_at(objective, numbers, place, domain);
+    return domain.possible ? value : 2.0 * k_impossible;
+  });
+  // The slow way knows why.
+  if (!evaluation.possible) evaluation.reason = evaluate_by_transmission(objective, mechanism, point_pins).reason;
+  return evaluation;
+}
+
+}  // namespace fusee

@@ -1,0 +1,224 @@
+#include "fusee/optimize/problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/profile/synthesis.h"
+#include "optimize/random.h"
+
+namespace fusee {
+namespace {
+
+/// constant + a · x.
+struct Affine {
+  std::vector<double> a;
+  double constant = 0;
+};
+
+Affine affine(const Problem& problem, const LinearExpression& expression) {
+  Affine sum{std::vector<double>(problem.variables.size(), 0.0), expression.constant};
+  for (const LinearTerm& term : expression.terms) {
+    const auto moving = std::find_if(problem.moving.begin(), problem.moving.end(),
+                                     [&](const MovingKey& m) { return m.key == term.key; });
+    if (moving == problem.moving.end()) {
+      sum.constant += term.factor * find_number_key(term.key)->get(problem.base);
+      continue;
+    }
+    for (std::size_t i = 0; i < sum.a.size(); ++i) sum.a[i] += term.factor * moving->a[i];
+    sum.constant += term.factor * moving->constant;
+  }
+  return sum;
+}
+
+void add_moving(Problem& problem, const std::string& key, const LinearExpression& value) {
+  const Affine sum = affine(problem, value);
+  problem.moving.push_back({key, *find_number_key(key), sum.a, sum.constant});
+}
+
+/// left <= right
+void add_constraint(Problem& problem, const Affine& left, const Affine& right, const std::string& text) {
+  LinearConstraint constraint{left.a, right.constant - left.constant, text};
+  for (std::size_t i = 0; i < constraint.a.size(); ++i) constraint.a[i] -= right.a[i];
+  problem.constraints.push_back(std::move(constraint));
+}
+
+void add_moving_keys(Problem& problem, const Optimization& table) {
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    MovingKey moving{problem.variables[i].key, *find_number_key(problem.variables[i].key),
+                     std::vector<double>(problem.variables.size(), 0.0), 0.0};
+    moving.a[i] = 1.0;
+    problem.moving.push_back(std::move(moving));
+  }
+  for (const std::string& text : table.tied) {
+    const LinearRelation tie = parse_relation(text).relation;
+    add_moving(problem, tie.left.terms.front().key, tie.right);
+  }
+}
+
+void add_constraints(Problem& problem, const Optimization& table) {
+  for (const std::string& text : table.constraints) {
+    const LinearRelation relation = parse_relation(text).relation;
+    const Affine left = affine(problem, relation.left), right = affine(problem, relation.right);
+    add_constraint(problem, left, right, text);
+    if (relation.relation == Relation::equal) add_constraint(problem, right, left, text);
+  }
+  // A tied key must stay a value that the file accepts.
+  const Affine none{std::vector<double>(problem.variables.size(), 0.0), 0.0};
+  for (std::size_t i = problem.variables.size(); i < problem.moving.size(); ++i) {
+    const MovingKey& tied = problem.moving[i];
+    const Field& field = *tied.number.field;
+    Affine least = none, most = none;
+    least.constant = field.least;
+    most.constant = field.most;
+    add_constraint(problem, least, {tied.a, tied.constant}, tied.key + " >= " + shortest(field.least));
+    add_constraint(problem, {tied.a, tied.constant}, most, tied.key + " <= " + shortest(field.most));
+  }
+}
+
+std::vector<Variable> variables_of(const Optimization& table) {
+  std::vector<Variable> variables;
+  for (std::size_t i = 0; i < table.variables.size(); ++i) {
+    const Field& field = *find_number_key(table.variables[i])->field;
+    const std::string symbol =
+        field.symbol.empty() || field.kind == FieldKind::range ? table.variables[i] : std::string(field.symbol);
+    variables.push_back({table.variables[i], symbol, std::string(field.unit), table.lower[i], table.upper[i]});
+  }
+  return variables;
+}
+
+/// Whether turning this variable alone ever changes an objective, its possibility or (when demanded) the making of the
+/// pulley.
+bool has_effect(const Problem& problem, std::size_t variable) {
+  Random random(1);
+  bool nothing_is_possible = true;  // then nothing is known of effects either
+  for (int trial = 0; trial < 12; ++trial) {
+    Design a = random_design(problem, random);
+    Design b = a;
+    a[variable] = problem.variables[variable].lower;
+    b[variable] = problem.variables[variable].upper;
+    const Mechanism at_a = mechanism_at(problem, a), at_b = mechanism_at(problem, b);
+    for (const Objective objective : problem.objectives) {
+      const Evaluation value_a = evaluate(objective, at_a, problem.point_pins),
+                       value_b = evaluate(objective, at_b, problem.point_pins);
+      if (value_a.possible != value_b.possible || value_a.value != value_b.value) return true;
+      if (value_a.possible) nothing_is_possible = false;
+    }
+    SynthesisOptions options;
+    options.advice = false;
+    if (problem.feasible && synthesise(at_a, options).brief() != synthesise(at_b, options).brief()) return true;
+  }
+  return nothing_is_possible;
+}
+
+void demand_effects(const Problem& problem, const std::string& file) {
+  std::vector<Diagnostic> errors;
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const Variable& variable = problem.variables[i];
+    if (variable.lower == variable.upper || has_effect(problem, i)) continue;
+    std::string names;
+    for (const Objective objective : problem.objectives)
+      names += (names.empty() ? "" : ", ") + std::string(info(objective).name);
+    Diagnostic error;
+    error.place.file = file;
+    error.message = "optimize.variables: " + variable.key + " has no effect on " + names;
+    error.hint = "leave it out, or choose an objective that depends on it";
+    if (problem.base.guides.mu == 0) error.hint += " (guides.friction is 0)";
+    errors.push_back(std::move(error));
+  }
+  if (!errors.empty()) throw InputError(errors);
+}
+
+}  // namespace
+
+double MovingKey::value(const Design& design) const {
+  double sum = constant;
+  for (std::size_t i = 0; i < design.size(); ++i) sum += a[i] * design[i];
+  return sum;
+}
+
+Mechanism mechanism_at(const Problem& problem, const Design& design) {
+  Mechanism mechanism = problem.base;
+  for (const MovingKey& moving : problem.moving) moving.number.set(mechanism, moving.value(design));
+  return mechanism;
+}
+
+std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design) {
+  std::vector<ValueEdit> edits;
+  for (const MovingKey& moving : problem.moving) edits.push_back({moving.key, moving.value(design)});
+  return edits;
+}
+
+double constraint_violation(const Problem& problem, const Design& design) {
+  constexpr double k_rounding = 1e-12;
+  double violation = 0;
+  for (const LinearConstraint& constraint : problem.constraints) {
+    double excess = -constraint.b, size = std::abs(constraint.b);
+    for (std::size_t i = 0; i < design.size(); ++i) {
+      excess += constraint.a[i] * design[i];
+      size = std::max(size, std::abs(constraint.a[i] * design[i]));
+    }
+    if (excess > k_rounding * size) violation += excess / size;
+  }
+  return violation;
+}
+
+Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design) {
+  Evaluation none;
+  if (constraint_violation(problem, design) > 0) {
+    none.reason = "a constraint is not kept";
+    return none;
+  }
+  const Mechanism mechanism = mechanism_at(problem, design);
+  if (problem.cap) {
+    const Evaluation first = evaluate(problem.cap->objective, mechanism, problem.point_pins);
+    if (!first.possible) return first;
+    if (!(first.cost(problem.cap->objective) <= problem.cap->limit)) {
+      none.reason = std::string(info(problem.cap->objective).name) + " is beyond its limit";
+      return none;
+    }
+  }
+  Evaluation evaluation = evaluate(objective, mechanism, problem.point_pins);
+  if (evaluation.possible && problem.feasible) {
+    SynthesisOptions options;
+    options.advice = false;
+    const SynthesisResult synthesis = synthesise(mechanism, options);
+    if (!synthesis.made()) {
+      none.reason = "no pulley can be made: " + synthesis.brief();
+      return none;
+    }
+  }
+  return evaluation;
+}
+
+Problem make_problem(const MechanismFile& file) {
+  const Optimization& table = file.mechanism.optimize;
+  if (file.mechanism.transmission)
+    throw InputError(file.path, "declares [transmission] in place of a mechanism",
+                     "only a joint with guides and pulley can be optimised");
+  if (table.variables.empty()) {
+    throw InputError(
+        file.path, "has no [optimize] variables",
+        "say what may change, for example variables = [\"joint.length_mm\"], lower = [100], upper = [300]");
+  }
+  if (table.objectives.empty())
+    throw InputError(file.path, "optimize.objective is empty", "name one, for example objective = \"max_tension\"");
+  Problem problem;
+  problem.base = file.mechanism;
+  problem.base.optimize = {};  // designs are copied by the thousand
+  for (const std::string& name : table.objectives) problem.objectives.push_back(find_objective(name));
+  problem.variables = variables_of(table);
+  add_moving_keys(problem, table);
+  add_constraints(problem, table);
+  problem.feasible = table.feasible;
+  const bool pins_vary = std::any_of(problem.moving.begin(), problem.moving.end(),
+                                     [](const MovingKey& m) { return m.key == "guides.radius_mm"; });
+  problem.point_pins =
+      file.mechanism.pulley.method == Method::paper || (file.mechanism.guides.radius == 0 && !pins_vary);
+  demand_effects(problem, file.path);
+  return problem;
+}
+
+}  // namespace fusee

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include "analysis/rigid_joint.h"
+#include "fusee/analysis/analysis.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using testing::forearm;
+using testing::linear_wrist;
+using testing::reference;
+using testing::unsymmetric;
+
+RigidJoint as_declared(const Mechanism& mechanism) { return {MadePulleys(mechanism), mechanism}; }
+
+const ErrorSource& named(const std::vector<ErrorSource>& sources, const std::string& name) {
+  for (const ErrorSource& source : sources) {
+    if (source.name == name) return source;
+  }
+  throw std::out_of_range(name);
+}
+
+TEST(RigidJoint, AsDeclaredIsTheDeclaredLaw) {
+  for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
+    const Transmission transmission(mechanism);
+    for (const double theta : {-0.3, 0.0, 0.4}) {
+      const RigidPoint point = as_declared(mechanism).at(transmission.alpha(theta));
+      EXPECT_NEAR(point.theta, theta, 1e-12);
+      EXPECT_NEAR(point.slack, 0.0, 1e-11);
+    }
+  }
+}
+
+TEST(RigidJoint, DerivativesAreThoseOfDifferences) {
+  constexpr double step = 1e-4;
+  for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
+    const Transmission transmission(mechanism);
+    const MadePulleys made(mechanism);
+    for (const Dimension& dimension : dimensions()) {
+      const RigidJoint more = altered(made, mechanism, dimension, step);
+      const RigidJoint less = altered(made, mechanism, dimension, -step);
+      for (const double theta : {-0.3, 0.15, 0.4}) {
+        const double alpha = transmission.alpha(theta);
+        const RigidPoint rate = derivative(as_declared(mechanism), dimension, alpha);
+        EXPECT_NEAR((more.at(alpha).theta - less.at(alpha).theta) / (2 * step), rate.theta, 1e-8) << dimension.key;
+        EXPECT_NEAR((more.at(alpha).slack - less.at(alpha).slack) / (2 * step), rate.slack, 1e-6) << dimension.key;
+      }
+    }
+  }
+}
+
+TEST(RigidJoint, ScalingAllLengthsChangesNothing) {
+  // An exact null direction of the mechanism: by Euler, length times derivative over all lengths adds up to zero.
+  const Mechanism m = unsymmetric();
+  const Transmission transmission(m);
+  const double lengths[] = {m.joint.R, m.guides.EB, m.guides.ED, m.guides.OE, m.guides.radius, m.pulley.EF, m.tendon.diameter};
+  const double alpha = transmission.alpha(0.4);
+  // Its pulleys scale too, which no offset does: their part is what P1, round, gives for r1.
+  double sum = 0;
+  for (std::size_t i = 0; i < std::size(lengths); ++i) sum += lengths[i] * derivative(as_declared(m), dimensions()[i], alpha).theta;
+  // The pitch curve of the round P1 by r1 − d/2, the floor's radius.
+  sum += (m.pulley.r1 - 0.5 * m.tendon.diameter) * derivative(as_declared(m), dimensions().back(), alpha).theta;
+  EXPECT_NEAR(sum, 0.0, 1e-10);
+}
+
+TEST(RigidJoint, AllChangesAtOnceAreEachOnItsOwn) {
+  const Mechanism mechanism = unsymmetric();
+  const MadePulleys made(mechanism);
+  const double alpha = made.declared().alpha(0.3);
+  for (std::size_t i = 0; i < dimensions().size(); ++i) {
+    std::vector<double> changes(dimensions().size(), 0.0);
+    changes[i] = 0.5;
+    EXPECT_EQ(altered(made, mechanism, changes).at(alpha).theta, altered(made, mechanism, dimensions()[i], 0.5).at(alpha).theta) << dimensions()[i].key;
+  }
+}
+
+TEST(ErrorSources, OfTheReferenceAreTheKnownOnes) {
+  // A pin radius of 2 mm ignored: +1.4/−0.85° at the ends of the stroke.
+  Mechanism pins = reference();
+  pins.guides.radius = 2.0;
+  pins.tendon.diameter = 1e-6;
+  const ErrorSource pin = named(error_sources(pins), "pin_radius_ignored");
+  EXPECT_NEAR(degrees(pin.most), 1.4, 0.05);
+  EXPECT_NEAR(degrees(pin.least), -0.85, 0.05);
+  // A tendon 1 mm thick: −0.9/+0.8° by the pulley that is thicker by half of it …
+  Mechanism point_pins = reference();
+  point_pins.tendon.diameter = 1e-6;
+  const MadePulleys drawn(point_pins);
+  const RigidJoint thicker(drawn.offset_by(0.5), point_pins);
+  EXPECT_NEAR(degrees(thicker.at(drawn.declared().alpha_min()).theta) + 30.0, -0.9, 0.05);
+  EXPECT_NEAR(degrees(thicker.at(drawn.declared().alpha_max()).theta) - 30.0, 0.8, 0.05);
+  // … of which the pins, thicker too, take back a part: a quarter of the 2 mm above.
+  const ErrorSource thick = named(error_sources(reference()), "tendon_thickness_ignored");
+  EXPECT_NEAR(degrees(thick.least), -0.9 + 1.4 / 4, 0.06);
+  EXPECT_NEAR(degrees(thick.most), 0.8 - 0.85 / 4, 0.05);
+}
+
+TEST(ErrorSources, StretchAndFrictionVanishWithTheirCause) {
+  Mechanism mechanism = forearm();
+  mechanism.load.tip_force = 10.0;
+  mechanism.guides.mu = 0;
+  EXPECT_NEAR(named(error_sources(mechanism), "friction").most, 0.0, 1e-9);
+  EXPECT_GT(-named(error_sources(mechanism), "stretch").least, 1e-4);
+  mechanism.load.tip_force = 0;
+  mechanism.tendon.pretension = 0;
+  mechanism.guides.mu = 0.2;
+  EXPECT_NEAR(named(error_sources(mechanism), "stretch").most, 0.0, 1e-9);
+  EXPECT_NEAR(named(error_sources(mechanism), "friction").most, 0.0, 1e-9);
+}
+
+TEST(Tolerances, BothRoadsAgree) {
+  AnalysisOptions options;
+  options.samples = 2000;
+  for (const Mechanism& mechanism : {forearm(), linear_wrist()}) {
+    const std::vector<ToleranceEffect> effects = tolerance_effects(mechanism, options);
+    ASSERT_EQ(effects.size(), dimensions().size() + 1);
+    EXPECT_EQ(effects.back().key, "all");
+    for (const ToleranceEffect& effect : effects) {
+      // Twice a standard deviation of 2000 samples: ± 5 %.
+      EXPECT_NEAR(effect.theta_by_monte_carlo, effect.theta_by_derivative, 0.06 * effect.theta_by_derivative + 1e-12) << effect.key;
+      EXPECT_NEAR(effect.slack_by_monte_carlo, effect.slack_by_derivative, 0.06 * effect.slack_by_derivative + 1e-9) << effect.key;
+    }
+    EXPECT_GT(effects.back().theta_by_derivative, effects.front().theta_by_derivative);
+  }
+}
+
+TEST(Tolerances, GrowWithTheTolerance) {
+  AnalysisOptions fine;
+  fine.samples = 50;
+  fine.tolerance = 0.01;
+  AnalysisOptions coarse = fine;
+  coarse.tolerance = 0.1;
+  const auto a = tolerance_effects(forearm(), fine);
+  const auto b = tolerance_effects(forearm(), coarse);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_NEAR(10 * a[i].theta_by_derivative, b[i].theta_by_derivative, 1e-14);
+    // The same samples, ten times as large.
+    EXPECT_NEAR(10 * a[i].theta_by_monte_carlo, b[i].theta_by_monte_carlo, 0.01 * b[i].theta_by_monte_carlo + 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace fusee

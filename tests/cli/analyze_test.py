@@ -1,0 +1,78 @@
+"""The table of `fusee analyze`: the same numbers on the terminal, as CSV and as JSON, and never one that is none."""
+
+import csv
+import io
+import json
+import math
+
+import harness
+
+# What strains the model: rough pins, rubber, no tension, loads either way, a hanging link, other laws.
+STRAINS = [
+    "",
+    "--set load.tip_force_N=10",
+    "--set load.tip_force_N=-10 --set guides.friction=0.5",
+    "--set load.mass_kg=1 --set load.lever_mm=80 --set load.tilt_deg=90",
+    "--set tendon.pretension_N=0 --set load.torque_Nmm=500",
+    "--set tendon.modulus_MPa=1000 --set tendon.pretension_N=50 --set guides.friction=2",
+    "--set guides.radius_mm=0 --set pulley.method=paper --set load.tip_force_N=5",
+    "--set pulley.law=linear --set pulley.ratio=3.2 --set joint.range_deg=[-25,25] --set load.tip_force_N=5",
+]
+
+
+class Analyze(harness.Scratch):
+    def rows(self, arguments):
+        return list(csv.DictReader(io.StringIO(self.expect(f"analyze arm.toml --csv {arguments}", 0).stdout.decode())))
+
+    def test_every_number_is_one(self):
+        for strain in STRAINS:
+            with self.subTest(strain):
+                rows = self.rows(f"{strain} --samples 10 --steps 20")
+                self.assertEqual(len({row["alpha_deg"] for row in rows}), len(rows))
+                for row in rows:
+                    for name, value in row.items():
+                        if name.endswith(("status", "pin1", "pin2")):
+                            self.assertIn(value, ["held", "loose", "stick", "slip_up", "slip_down", "slack"])
+                        else:
+                            self.assertTrue(math.isfinite(float(value)), f"{name}: {value}")
+
+    def test_where_the_load_is_lost_cells_are_empty(self):
+        strain = "--set tendon.modulus_MPa=30 --set load.tip_force_N=300 --samples 10"
+        text = self.expect(f"analyze arm.toml --csv {strain}", 5, "no_equilibrium,,,", "past its dead centre at alpha").stdout.decode()
+        self.assertNotIn("nan", text)
+        self.assertNotIn("inf", text)
+        rows = self.expect_json(f"analyze arm.toml {strain}", 5)["rows"]
+        self.assertTrue(any(row["rising_theta_deg"] is None for row in rows))
+
+    def test_csv_and_json_agree(self):
+        arguments = "--set load.tip_force_N=10 --samples 10"
+        document = self.expect_json(f"analyze arm.toml {arguments}", 0)
+        rows = self.rows(arguments)
+        self.assertEqual([list(row) for row in rows], [list(row) for row in document["rows"]])
+        for ours, other in zip(rows, document["rows"]):
+            for name, value in other.items():
+                if not isinstance(value, str):
+                    self.assertEqual(float(ours[name]), value, name)
+        self.assertEqual(document["summary"]["largest_tension"]["tendon"], 2)
+        self.assertEqual(document["tolerances"][-1]["key"], "all")
+
+    def test_files_are_whole_and_not_overwritten(self):
+        self.expect("analyze arm.toml -o stroke.csv --samples 10", 0)
+        self.assertEqual((self.folder / "stroke.csv").read_text(), self.fusee("analyze arm.toml --csv --samples 10").stdout.decode())
+        self.expect("analyze arm.toml -o stroke.csv --samples 10", 6, "^$", "stroke.csv")
+        self.expect("analyze arm.toml -o stroke.csv --samples 10 --force", 0)
+        self.expect("analyze arm.toml -o stroke.json --samples 10", 0)
+        self.assertEqual(json.loads((self.folder / "stroke.json").read_text()), self.expect_json("analyze arm.toml --samples 10", 0)["rows"])
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        self.assertEqual(self.fusee("analyze arm.toml").stdout, self.fusee("analyze arm.toml").stdout)
+
+    def test_fits_a_terminal(self):
+        for strain in STRAINS + ["--set load.tip_force_N=500 --set joint.length_mm=1000 --set guides.EB_mm=500 --set guides.ED_mm=500 "
+                                 "--set guides.OE_mm=-400 --set pulley.EF_mm=800 --set pulley.r1_mm=160 --set tendon.diameter_mm=5"]:
+            for line in self.fusee(f"analyze arm.toml --samples 10 {strain}").stdout.decode().splitlines():
+                self.assertLessEqual(len(line), 80, f"{strain}: {line}")
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,165 @@
+#include "fusee/optimize/objectives.h"
+
+#include <gmock/gmock.h>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/transmission/tension.h"
+#include "optimize/formulas.h"
+#include "optimize/problem_text.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using testing::paper_problem;
+
+/// Largest of a value of the paper's chain over a fine stroke, by Transmission: another way to the same numbers.
+template <typename Value>
+double largest(const Mechanism& mechanism, Value value) {
+  const Transmission transmission(mechanism);
+  Mechanism loaded = mechanism;
+  loaded.load.tip_force = 1.0;
+  double most = -1e300;
+  for (int i = 0; i <= 2000; ++i) {
+    const double theta = mechanism.joint.theta_min + (mechanism.joint.theta_max - mechanism.joint.theta_min) * i / 2000;
+    const TransmissionPoint point = transmission.at_theta(theta);
+    most = std::max(most, value(point, paper_forces(loaded, point)));
+  }
+  return most;
+}
+
+TEST(Objectives, AreThePapersChainOfForces) {
+  for (Mechanism mechanism : {testing::forearm(), testing::linear_wrist(), testing::unsymmetric()}) {
+    for (const Method method : {Method::exact, Method::paper}) {
+      mechanism.pulley.method = method;
+      const auto value = [&mechanism](Objective objective) { return evaluate(objective, mechanism).value; };
+      EXPECT_NEAR(value(Objective::max_tension), largest(mechanism, [](const auto&, const auto& f) { return f.Tb; }),
+                  1e-6);
+      EXPECT_NEAR(value(Objective::motor_torque),
+                  largest(mechanism, [](const auto& p, const auto& f) { return f.Tb * p.t2.p; }), 1e-4);
+      EXPECT_NEAR(value(Objective::max_error),
+                  largest(mechanism, [](const auto& p, const auto& f) { return degrees(f.elongation / p.t2.m); }),
+                  1e-9);
+    }
+  }
+}
+
+TEST(Objectives, ScaleAsTheirUnitsSay) {
+  const Mechanism small = testing::forearm(), large = testing::scaled(small, 3.0);
+  const auto ratio = [&](Objective objective) {
+    return evaluate(objective, large).value / evaluate(objective, small).value;
+  };
+  EXPECT_NEAR(ratio(Objective::max_tension), 1.0, 1e-9);
+  EXPECT_NEAR(ratio(Objective::footprint), 9.0, 1e-8);
+  EXPECT_NEAR(ratio(Objective::motor_torque), 3.0, 1e-8);
+  EXPECT_NEAR(ratio(Objective::min_bend), 3.0, 1e-8);
+}
+
+/// Every derivative that the proof leans on, against differences.
+TEST(Formulas, DerivativesAreThoseOfDifferences) {
+  const FileNumbers<double> at = file_numbers(testing::forearm());
+  using Member = std::pair<double FileNumbers<double>::*, Jet FileNumbers<Jet>::*>;
+  const std::vector<Member> members = {{&FileNumbers<double>::R, &FileNumbers<Jet>::R},
+                                       {&FileNumbers<double>::EB, &FileNumbers<Jet>::EB},
+                                       {&FileNumbers<double>::ED, &FileNumbers<Jet>::ED},
+                                       {&FileNumbers<double>::OE, &FileNumbers<Jet>::OE},
+                                       {&FileNumbers<double>::EF, &FileNumbers<Jet>::EF},
+                                       {&FileNumbers<double>::r1, &FileNumbers<Jet>::r1},
+                                       {&FileNumbers<double>::mu, &FileNumbers<Jet>::mu},
+                                       {&FileNumbers<double>::radius, &FileNumbers<Jet>::radius},
+                                       {&FileNumbers<double>::diameter, &FileNumbers<Jet>::diameter},
+                                       {&FileNumbers<double>::theta_min, &FileNumbers<Jet>::theta_min}};
+  for (const ObjectiveInfo& info : objectives()) {
+    if (!info.certifiable) continue;
+    for (const bool point_pins : {false, true}) {
+      for (const auto& [number, jet] : members) {
+        const auto value = [&](double shift) {
+          FileNumbers<double> shifted = at;
+          shifted.*number += shift;
+          Domain domain;
+          return objective_at(info.objective, design_numbers(shifted, Law::compensate, point_pins), 0.1, domain);
+        };
+        const double step = 1e-5;
+        const double difference = (value(step) - value(-step)) / (2 * step);
+        const RoundingUp rounding;
+        FileNumbers<Jet> jets{at.R,  at.EB,     at.ED,       at.OE,      at.EF,        at.r1,       at.ratio,
+                              at.mu, at.radius, at.diameter, at.modulus, at.theta_min, at.theta_max};
+        jets.*jet = Jet::variable(at.*number, 0, 1);
+        Domain domain;
+        const Jet result =
+            objective_at(info.objective, design_numbers(jets, Law::compensate, point_pins), Jet(0.1), domain);
+        const double slope = result.count == 0 ? 0.0 : result.slope[0].lower();
+        EXPECT_NEAR(slope, difference, 1e-6 * (1 + std::abs(difference))) << info.name;
+      }
+    }
+  }
+}
+
+TEST(Interval, HoldsTheTrueValue) {
+  const RoundingUp rounding;
+  const Interval third = Interval(1.0) / 3.0;
+  EXPECT_LT(third.lower(), third.upper());
+  EXPECT_LE(std::nextafter(third.lower(), 1.0), third.upper() + 1e-300);
+  // sin over its top, where neither end is the largest.
+  EXPECT_EQ(sin(Interval(1.0, 2.0)).upper() >= 1.0, true);
+  EXPECT_LE(sin(Interval(1.0, 2.0)).lower(), 0.8414709848078965);
+  EXPECT_LE(cos(Interval(-0.5, 0.25)).lower(), 0.8775825618903728);
+  EXPECT_GE(cos(Interval(-0.5, 0.25)).upper(), 1.0);
+}
+
+TEST(Objectives, HaveTheNamesOfTheFile) {
+  const Field* field = find_field("optimize.objective");
+  ASSERT_NE(field, nullptr);
+  ASSERT_EQ(field->choices.size(), objectives().size());
+  for (std::size_t i = 0; i < field->choices.size(); ++i) {
+    EXPECT_EQ(objectives()[i].name, field->choices[i]);
+    EXPECT_EQ(info(find_objective(field->choices[i])).objective, objectives()[i].objective);
+  }
+}
+
+TEST(Objectives, SayWhyThereIsNoValue) {
+  Mechanism dead = testing::reference();
+  dead.joint.theta_max = radians(60.0);
+  EXPECT_FALSE(evaluate(Objective::max_tension, dead).possible);
+  EXPECT_THAT(evaluate(Objective::max_tension, dead).reason, ::testing::HasSubstr("moment arm"));
+  EXPECT_FALSE(evaluate(Objective::min_bend, dead).possible);
+  Mechanism large = testing::reference();
+  large.pulley.r1 = 200.0;
+  EXPECT_THAT(evaluate(Objective::max_tension, large).reason, ::testing::HasSubstr("stands in pulley"));
+  EXPECT_EQ(evaluate(Objective::max_tension, large).cost(Objective::max_tension), 1e300);
+}
+
+TEST(Problem, TiesAndConstraintsAreFollowed) {
+  const Problem problem = paper_problem();
+  EXPECT_EQ(mechanism_at(problem, {200, 80, 10}).guides.EB, 80.0);
+  EXPECT_EQ(constraint_violation(problem, {200, 100, 10}), 0.0);
+  EXPECT_GT(constraint_violation(problem, {200, 100.001, 10}), 0.0);
+  EXPECT_FALSE(evaluate_design(problem, Objective::max_tension, {200, 110, 10}).possible);
+}
+
+TEST(Problem, AVariableWithoutEffectIsAnError) {
+  const auto message = [](const std::vector<Setting>& settings) {
+    try {
+      paper_problem(settings);
+    } catch (const InputError& error) {
+      return error.diagnostics().front().message;
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(message({{"optimize.variables", R"(["joint.length_mm", "guides.ED_mm", "body.min_wall_mm"])"},
+                       {"optimize.lower", "[100, 30, 1]"},
+                       {"optimize.upper", "[300, 150, 2]"}}),
+              ::testing::HasSubstr("body.min_wall_mm has no effect on max_tension"));
+  EXPECT_THAT(message({{"optimize.variables", R"(["pulley.EF_mm"])"},
+                       {"optimize.lower", "[50]"},
+                       {"optimize.upper", "[90]"},
+                       {"optimize.tied", "[]"},
+                       {"optimize.constraints", "[]"},
+                       {"guides.friction", "0"}}),
+              ::testing::HasSubstr("pulley.EF_mm has no effect"));
+  EXPECT_EQ(message({}), "accepted");
+}
+
+}  // namespace
+}  // namespace fusee
