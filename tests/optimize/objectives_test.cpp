@@ -74,7 +74,7 @@ TEST(Formulas, DerivativesAreThoseOfDifferences) {
     if (!info.certifiable) continue;
     for (const bool point_pins : {false, true}) {
       for (const auto& [number, jet] : members) {
-        const auto value = [&](double shift) {
+        const auto value = [&, number = number](double shift) {
           FileNumbers<double> shifted = at;
           shifted.*number += shift;
           Domain domain;
