@@ -1,8 +1,10 @@
 /// \file
-/// What a shop's machine will stumble over, found before it does: one Check each, with the layer, the line in the file and the place.
+/// What a shop's machine will stumble over, found before it does: one Check each, with the layer, the line in the file
+/// and the place.
 ///
-/// Contours are what is cut. In a drawing with fusee's layers these are CUT_*, P*_PITCH, P*_FLOOR, BORE, CHECK_10MM and SHEET; in
-/// any other drawing they are all layers but ENGRAVE, NOTES and MARK_*, whose lines may end and cross as they like.
+/// Contours are what is cut. In a drawing with fusee's layers these are CUT_*, P*_PITCH, P*_FLOOR, BORE, CHECK_10MM and
+/// SHEET; in any other drawing they are all layers but ENGRAVE, NOTES and MARK_*, whose lines may end and cross as they
+/// like.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,16 +38,20 @@ bool among(const std::array<std::string_view, n>& names, std::string_view name) 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_mark_layer(std::string_view layer) { return layer == "ENGRAVE" || layer == "NOTES" || layer.starts_with("MARK_"); }
+bool is_mark_layer(std::string_view layer) {
+  return layer == "ENGRAVE" || layer == "NOTES" || layer.starts_with("MARK_");
+}
 
 std::string place(const DrawingPath& path, const Vec2& point) {
-  return fmt::format("layer {}, {} at line {}, at ({}, {}) mm", path.layer, path.entity, path.line, rounded(point.x(), 6), rounded(point.y(), 6));
+  return fmt::format("layer {}, {} at line {}, at ({}, {}) mm", path.layer, path.entity, path.line,
+                     rounded(point.x(), 6), rounded(point.y(), 6));
 }
 
 using Paths = std::vector<const DrawingPath*>;
 
 Paths contours_of(const Drawing& drawing) {
-  const bool ours = std::any_of(drawing.paths.begin(), drawing.paths.end(), [](const DrawingPath& p) { return among(k_contour_layers, p.layer); });
+  const bool ours = std::any_of(drawing.paths.begin(), drawing.paths.end(),
+                                [](const DrawingPath& p) { return among(k_contour_layers, p.layer); });
   Paths contours;
   for (const DrawingPath& path : drawing.paths) {
     if (path.points.empty()) continue;
@@ -55,7 +61,8 @@ Paths contours_of(const Drawing& drawing) {
   return contours;
 }
 
-// Closed ---------------------------------------------------------------------------------------------------------------
+// Closed
+// ---------------------------------------------------------------------------------------------------------------
 
 Check check_contours_closed(const Paths& contours) {
   std::size_t open = 0;
@@ -75,12 +82,14 @@ Check check_ends_meet(const Paths& contours) {
     const double gap = (path->points.front() - path->points.back()).norm();
     if (gap <= widest) continue;
     widest = gap;
-    where = "gap between " + place(*path, path->points.back()) + fmt::format(" and ({}, {}) mm", rounded(path->points.front().x(), 6), rounded(path->points.front().y(), 6));
+    where = "gap between " + place(*path, path->points.back()) +
+            fmt::format(" and ({}, {}) mm", rounded(path->points.front().x(), 6), rounded(path->points.front().y(), 6));
   }
   return at_most("ends_meet", widest, k_joined, "mm", where);
 }
 
-// Lines and crossings --------------------------------------------------------------------------------------------------
+// Lines and crossings
+// --------------------------------------------------------------------------------------------------
 
 /// One edge of a path, from the lower end in (x, y) order to the upper.
 struct Edge {
@@ -138,7 +147,8 @@ Check check_duplicates(const Drawing& drawing) {
   std::string where;
   for (auto& [layer, edges] : edges_by_layer(all)) {
     const std::vector<Edge> repeated = take_duplicates(edges);
-    if (count == 0 && !repeated.empty()) where = "drawn twice: " + place(*repeated.front().path, 0.5 * (repeated.front().left + repeated.front().right));
+    if (count == 0 && !repeated.empty())
+      where = "drawn twice: " + place(*repeated.front().path, 0.5 * (repeated.front().left + repeated.front().right));
     count += repeated.size();
   }
   return exactly("no_duplicate_lines", static_cast<double>(count), 0, "1", where);
@@ -156,8 +166,8 @@ bool touch(const Edge& a, const Edge& b) {
   const int b1 = orientation(a.left, a.right, b.left);
   const int b2 = orientation(a.left, a.right, b.right);
   if (a1 * a2 < 0 && b1 * b2 < 0) return true;
-  return (a1 == 0 && within_box(b, a.left)) || (a2 == 0 && within_box(b, a.right)) || (b1 == 0 && within_box(a, b.left)) ||
-         (b2 == 0 && within_box(a, b.right));
+  return (a1 == 0 && within_box(b, a.left)) || (a2 == 0 && within_box(b, a.right)) ||
+         (b1 == 0 && within_box(a, b.left)) || (b2 == 0 && within_box(a, b.right));
 }
 
 /// Neighbours along a path meet in one point; it is a fault only if the second runs back over the first.
@@ -180,8 +190,9 @@ Vec2 crossing_point(const Edge& a, const Edge& b) {
   return a.left + u * std::clamp(cross(b.left - a.left, v) / turn, 0.0, 1.0);
 }
 
-/// Two edges that should not touch, or nothing. Shamos and Hoey's sweep: a line goes over the edges in (x, y) order and looks only at
-/// neighbours, so that n edges take n log n steps; with exact orientations the order along the line is right up to the first fault, where it stops.
+/// Two edges that should not touch, or nothing. Shamos and Hoey's sweep: a line goes over the edges in (x, y) order and
+/// looks only at neighbours, so that n edges take n log n steps; with exact orientations the order along the line is
+/// right up to the first fault, where it stops.
 class Sweep {
  public:
   Sweep(const std::vector<Edge>& edges, bool within_paths) : edges_(edges), within_paths_(within_paths) {}
@@ -266,7 +277,8 @@ CrossingChecks check_crossings(const Paths& contours) {
     append_edges(edges, *path);
     const auto fault = Sweep(edges, true).first_fault();
     if (!fault) whole.push_back(path);
-    if (fault && crossed++ == 0) self_where = "crosses or touches itself: " + place(*path, crossing_point(fault->first, fault->second));
+    if (fault && crossed++ == 0)
+      self_where = "crosses or touches itself: " + place(*path, crossing_point(fault->first, fault->second));
   }
   std::size_t layers = 0;
   std::string mutual_where;
@@ -274,13 +286,15 @@ CrossingChecks check_crossings(const Paths& contours) {
     take_duplicates(edges);  // they have a check of their own
     const auto fault = Sweep(edges, false).first_fault();
     if (!fault || layers++ > 0) continue;
-    mutual_where = place(*fault->first.path, crossing_point(fault->first, fault->second)) + fmt::format(" meets the {} at line {}", fault->second.path->entity, fault->second.path->line);
+    mutual_where = place(*fault->first.path, crossing_point(fault->first, fault->second)) +
+                   fmt::format(" meets the {} at line {}", fault->second.path->entity, fault->second.path->line);
   }
   return {exactly("no_self_crossing", static_cast<double>(crossed), 0, "1", self_where),
           exactly("no_crossing_contours", static_cast<double>(layers), 0, "1", mutual_where)};
 }
 
-// Sizes ----------------------------------------------------------------------------------------------------------------
+// Sizes
+// ----------------------------------------------------------------------------------------------------------------
 
 /// Least distance of two parallel lines that hold the polygon between them (rotating calipers on its hull).
 double least_width(const Polygon& polygon) {
@@ -307,11 +321,14 @@ Check check_smallest_feature(const Paths& contours) {
     least = width;
     narrow = path;
   }
-  if (narrow == nullptr) return at_least("smallest_feature", 0, k_least_feature - k_drawn, "mm", "there is no closed contour");
-  return at_least("smallest_feature", least, k_least_feature - k_drawn, "mm", "narrow: " + place(*narrow, narrow->points.front()));
+  if (narrow == nullptr)
+    return at_least("smallest_feature", 0, k_least_feature - k_drawn, "mm", "there is no closed contour");
+  return at_least("smallest_feature", least, k_least_feature - k_drawn, "mm",
+                  "narrow: " + place(*narrow, narrow->points.front()));
 }
 
-// Inside ---------------------------------------------------------------------------------------------------------------
+// Inside
+// ---------------------------------------------------------------------------------------------------------------
 
 struct Framed {
   const DrawingPath* path;
@@ -344,24 +361,28 @@ constexpr auto k_inside = std::to_array<Inside>({{"CUT_INNER", "CUT_OUTER"},
                                                  {"P2_FLOOR", "P2_PITCH"}});
 
 Check check_inside(const Drawing& drawing) {
-  // Point against edge comparisons: far more than any drawing that can be cut takes, and the end of the work on any other.
+  // Point against edge comparisons: far more than any drawing that can be cut takes, and the end of the work on any
+  // other.
   std::size_t budget = 300'000'000;
   std::size_t outside = 0;
   std::string where;
-  for (const auto& [inner_layer, outer_layer] : k_inside) {
-    const std::vector<Framed> outers = framed(drawing, outer_layer);
+  for (const Inside& pair : k_inside) {
+    const std::vector<Framed> outers = framed(drawing, pair.outer);
     if (outers.empty()) continue;
-    for (const Framed& inner : framed(drawing, inner_layer)) {
+    for (const Framed& inner : framed(drawing, pair.inner)) {
       const bool held = std::any_of(outers.begin(), outers.end(), [&](const Framed& outer) {
         budget -= std::min(budget, std::size_t{1});
         if (budget == 0 || !box_within(inner.box, outer.box)) return false;
-        if (outer_layer == "SHEET") return true;  // a rectangle: its box says all
+        if (pair.outer == "SHEET") return true;  // a rectangle: its box says all
         budget -= std::min(budget, inner.path->points.size() * outer.path->points.size());
-        return budget > 0 && std::all_of(inner.path->points.begin(), inner.path->points.end(), [&](const Vec2& p) { return contains(outer.path->points, p); });
+        return budget > 0 && std::all_of(inner.path->points.begin(), inner.path->points.end(),
+                                         [&](const Vec2& p) { return contains(outer.path->points, p); });
       });
-      if (budget == 0) return exactly("nothing_outside", static_cast<double>(outside + 1), 0, "1", "the drawing has too many contours to tell");
+      if (budget == 0)
+        return exactly("nothing_outside", static_cast<double>(outside + 1), 0, "1",
+                       "the drawing has too many contours to tell");
       if (held || outside++ > 0) continue;
-      where = fmt::format("not inside {}: {}", outer_layer, place(*inner.path, inner.path->points.front()));
+      where = fmt::format("not inside {}: {}", pair.outer, place(*inner.path, inner.path->points.front()));
     }
   }
   return exactly("nothing_outside", static_cast<double>(outside), 0, "1", where);

@@ -52,14 +52,17 @@ BodyLayout layout_to_cut(const Product& product) {
   mechanism.material.hole_compensation = 0;
   mechanism.material.elephant_foot = 0;
   BodyLayout layout = resolve_layout(mechanism, product.synthesis);
-  if (layout.bore.kind == Bore::round || layout.bore.kind == Bore::horn) layout.bore.outline = circle_within(layout.bore.outline);
+  if (layout.bore.kind == Bore::round || layout.bore.kind == Bore::horn)
+    layout.bore.outline = circle_within(layout.bore.outline);
   for (Polygon& hole : layout.bore.screw_holes) hole = circle_within(hole);
   return layout;
 }
 
 Polygon offset_edges(const Polygon& polygon, double distance) {
   const std::size_t n = polygon.size();
-  const auto outward = [&](std::size_t i) -> Vec2 { return -turned_left(polygon[(i + 1) % n] - polygon[i]).normalized(); };
+  const auto outward = [&](std::size_t i) -> Vec2 {
+    return -turned_left(polygon[(i + 1) % n] - polygon[i]).normalized();
+  };
   Polygon moved;
   moved.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -90,7 +93,8 @@ bool contains(const Polygon& polygon, const Vec2& p) {
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const Vec2& a = polygon[i];
     const Vec2& b = polygon[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+      inside = !inside;
   }
   return inside;
 }
@@ -111,7 +115,8 @@ bool Material2d::holds(const Vec2& point, double margin) const {
     if (contains(hole.points, point) || near_an_edge(hole.points, point, margin)) return false;
   }
   return std::all_of(outlines_.begin(), outlines_.end(), [&](const Edges& outline) {
-    return !beyond(outline.low, outline.high, point, 0) && contains(outline.points, point) && !near_an_edge(outline.points, point, margin);
+    return !beyond(outline.low, outline.high, point, 0) && contains(outline.points, point) &&
+           !near_an_edge(outline.points, point, margin);
   });
 }
 

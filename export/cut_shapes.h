@@ -9,14 +9,17 @@
 
 namespace fusee {
 
-/// The body's sizes without shrinkage and hole compensation, which are a print's; round holes as near to circles as drawings go.
+/// The body's sizes without shrinkage and hole compensation, which are a print's; round holes as near to circles as
+/// drawings go.
 BodyLayout layout_to_cut(const Product& product);
 
-/// Every edge moved outward by `distance` (inward when negative), corners mitred: exact for the polygon. Counter-clockwise in and out. Sense is
-/// lost where an edge is shorter than what is taken away: is_simple() and the area tell.
+/// Every edge moved outward by `distance` (inward when negative), corners mitred: exact for the polygon.
+/// Counter-clockwise in and out. Sense is lost where an edge is shorter than what is taken away: is_simple() and the
+/// area tell.
 Polygon offset_edges(const Polygon& polygon, double distance);
 
-/// Cutter's path for a hole of this outline: half a kerf inside it. Null when the kerf is wider than the hole somewhere.
+/// Cutter's path for a hole of this outline: half a kerf inside it. Null when the kerf is wider than the hole
+/// somewhere.
 std::optional<Polygon> cut_hole(const Polygon& hole, double kerf);
 
 double distance_to_edges(const Polygon& polygon, const Vec2& point);

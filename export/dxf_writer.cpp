@@ -84,7 +84,8 @@ void write_variables(Tags& tags, std::string_view version, const Box& box) {
   tags.integer(70, 4);
 }
 
-// R12 ------------------------------------------------------------------------------------------------------------------
+// R12
+// ------------------------------------------------------------------------------------------------------------------
 
 void write_r12_tables(Tags& tags, const DxfDocument& document) {
   const auto begin_table = [&tags](std::string_view name, int count) {
@@ -155,10 +156,11 @@ std::string r12_text(const DxfDocument& document) {
   return tags.take();
 }
 
-// AC1015 ---------------------------------------------------------------------------------------------------------------
+// AC1015
+// ---------------------------------------------------------------------------------------------------------------
 
-// Everything in AC1015 has a handle and names its owner's. Those that are named from elsewhere are fixed here; table records
-// and entities count on from k_first_free.
+// Everything in AC1015 has a handle and names its owner's. Those that are named from elsewhere are fixed here; table
+// records and entities count on from k_first_free.
 enum Handle : int {
   k_layer_table = 0x1,
   k_ltype_table = 0x2,
@@ -228,7 +230,8 @@ class Ac1015Writer {
   void end_table() { tags_.text(0, "ENDTAB"); }
 
   /// `handle_code` is 5 but for DIMSTYLE, whose 5 was taken.
-  void begin_record(std::string_view type, std::string_view subclass, int owner, std::string_view name, int handle, int handle_code = 5) {
+  void begin_record(std::string_view type, std::string_view subclass, int owner, std::string_view name, int handle,
+                    int handle_code = 5) {
     tags_.text(0, type);
     tags_.handle(handle_code, handle);
     tags_.handle(330, owner);
@@ -476,9 +479,7 @@ std::string dxf_text(const DxfDocument& document, DxfVersion version) {
   return version == DxfVersion::r12 ? r12_text(document) : Ac1015Writer(document).write();
 }
 
-Polygon rectangle(const Vec2& low, const Vec2& high) {
-  return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-}
+Polygon rectangle(const Vec2& low, const Vec2& high) { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
 
 Polygon circle_polygon(const Vec2& centre, double radius) {
   constexpr double k_sagitta = 0.002;

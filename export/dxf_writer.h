@@ -1,6 +1,6 @@
 /// \file
-/// A drawing of polylines as DXF text: AC1015 (AutoCAD 2000) with every table, owner and dictionary that a strict reader
-/// looks for, or R12 (AC1009), which laser shops ask for. Millimetres, nine decimals. No splines, arcs or texts.
+/// A drawing of polylines as DXF text: AC1015 (AutoCAD 2000) with every table, owner and dictionary that a strict
+/// reader looks for, or R12 (AC1009), which laser shops ask for. Millimetres, nine decimals. No splines, arcs or texts.
 #pragma once
 
 #include <string>
@@ -38,7 +38,8 @@ std::string dxf_text(const DxfDocument& document, DxfVersion version);
 
 /// The axis-parallel square or rectangle from `low` to `high`, counter-clockwise.
 Polygon rectangle(const Vec2& low, const Vec2& high);
-/// A circle as a regular polygon, counter-clockwise, its corners *on* the circle; sagitta at most 0.002 mm, 24 corners at least.
+/// A circle as a regular polygon, counter-clockwise, its corners *on* the circle; sagitta at most 0.002 mm, 24 corners
+/// at least.
 Polygon circle_polygon(const Vec2& centre, double radius);
 /// Smallest box around all points; both corners at the origin when there are none.
 struct Box {

@@ -8,7 +8,8 @@ namespace fusee {
 std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet, double gap) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&sizes](std::size_t a, std::size_t b) { return sizes[a].y() > sizes[b].y(); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&sizes](std::size_t a, std::size_t b) { return sizes[a].y() > sizes[b].y(); });
 
   std::vector<NestedPlace> places(sizes.size());
   Vec2 pen(gap, gap);

@@ -14,8 +14,8 @@ struct NestedPlace {
   bool fits = true;            ///< false: larger than a sheet; it has one to itself and stands over
 };
 
-/// Shelves: the tallest first, from left to right, then the next shelf, then the next sheet. `gap` between all and to the edge.
-/// One place a size, in their order.
+/// Shelves: the tallest first, from left to right, then the next shelf, then the next sheet. `gap` between all and to
+/// the edge. One place a size, in their order.
 std::vector<NestedPlace> nest(const std::vector<Vec2>& sizes, const Vec2& sheet, double gap);
 
 }  // namespace fusee

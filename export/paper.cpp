@@ -42,8 +42,10 @@ std::string unit_in_name(const std::string& unit) { return unit.empty() ? "" : u
 std::string column_name(std::string name) {
   std::string plain;
   for (const char c : name) {
-    if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_') plain += c;
-    else if (c == ' ') plain += '_';
+    if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_')
+      plain += c;
+    else if (c == ' ')
+      plain += '_';
   }
   return plain;
 }
@@ -70,8 +72,8 @@ std::string quoted(const std::string& text) {
 std::string claims_csv(const Reproduction& all) {
   std::string csv = "claim,verdict,paper_says,equations_give,holds_where\n";
   for (const Claim& claim : all.claims) {
-    csv += claim.name + "," + std::string(verdict_text(claim.verdict)) + "," + quoted(claim.paper_says) + "," + quoted(claim.equations_give) + "," +
-           quoted(claim_windows_text(claim)) + "\n";
+    csv += claim.name + "," + std::string(verdict_text(claim.verdict)) + "," + quoted(claim.paper_says) + "," +
+           quoted(claim.equations_give) + "," + quoted(claim_windows_text(claim)) + "\n";
   }
   return csv;
 }
@@ -79,16 +81,20 @@ std::string claims_csv(const Reproduction& all) {
 std::string table_4_csv(const Reproduction& all) {
   std::string csv = "symbol,lower_mm,upper_mm,paper_mm,computed_mm\n";
   for (const OptimumRow& row : all.table_4) {
-    csv += row.symbol + "," + fixed(row.lower, 6) + "," + fixed(row.upper, 6) + "," + fixed(row.paper, 6) + "," + fixed(row.computed, 6) + "\n";
+    csv += row.symbol + "," + fixed(row.lower, 6) + "," + fixed(row.upper, 6) + "," + fixed(row.paper, 6) + "," +
+           fixed(row.computed, 6) + "\n";
   }
   return csv;
 }
 
 std::string laws_csv(const Reproduction& all) {
-  std::string csv = "law,nonlinearity_deg,r1_least_mm,r1_most_mm,r2_least_mm,r2_most_mm,bend_radius_mm,tension,torque_mm,torque_ripple\n";
+  std::string csv =
+      "law,nonlinearity_deg,r1_least_mm,r1_most_mm,r2_least_mm,r2_most_mm,bend_radius_mm,tension,torque_mm,torque_"
+      "ripple\n";
   for (const LawCost& law : all.laws) {
     csv += law.law;
-    for (const double value : {law.nonlinearity, law.r1_least, law.r1_most, law.r2_least, law.r2_most, law.bend_radius, law.tension, law.torque, law.torque_ripple}) {
+    for (const double value : {law.nonlinearity, law.r1_least, law.r1_most, law.r2_least, law.r2_most, law.bend_radius,
+                               law.tension, law.torque, law.torque_ripple}) {
       csv += "," + fixed(value, 6);
     }
     csv += "\n";
@@ -100,11 +106,13 @@ std::string mu_windows_text(const MuWindow& window) { return windows_text({"mu",
 
 std::string mu_windows_csv(const Reproduction& all) {
   std::string csv = "r1_mm,EF_mm,mu\n";
-  for (const MuWindow& window : all.mu_windows) csv += fixed(window.r1, 3) + "," + fixed(window.EF, 3) + "," + quoted(mu_windows_text(window)) + "\n";
+  for (const MuWindow& window : all.mu_windows)
+    csv += fixed(window.r1, 3) + "," + fixed(window.EF, 3) + "," + quoted(mu_windows_text(window)) + "\n";
   return csv;
 }
 
-// ---- the page ---------------------------------------------------------------------------------------------------------
+// ---- the page
+// ---------------------------------------------------------------------------------------------------------
 
 std::string row(std::initializer_list<std::string> cells) {
   std::string text = "|";
@@ -113,45 +121,63 @@ std::string row(std::initializer_list<std::string> cells) {
 }
 
 std::string assumptions_text(const PaperAssumptions& a) {
-  return "Not in the paper, and assumed here: its unit of length " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) + " mm, EF " + rounded(a.EF) + " mm (so BG " +
-         rounded(std::hypot(0.5 * a.unit, a.EF), 4) + " mm), μ " + rounded(a.mu) + ", F_c " + rounded(a.tip_force) +
-         " N. From the paper: θ ±30°, a tendon of " + rounded(a.diameter) + " mm and " + rounded(a.modulus) +
+  return "Not in the paper, and assumed here: its unit of length " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) +
+         " mm, EF " + rounded(a.EF) + " mm (so BG " + rounded(std::hypot(0.5 * a.unit, a.EF), 4) + " mm), μ " +
+         rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N. From the paper: θ ±30°, a tendon of " +
+         rounded(a.diameter) + " mm and " + rounded(a.modulus) +
          " MPa, point pins. With these, T_b/F_c, r2 and θ do not depend on the tendon; elongation and error do.\n";
 }
 
 std::string claims_section(const Reproduction& all) {
-  std::string text = "## Claims\n\nA claim \"holds\" when it does for all of the searched μ, r1 and EF, each turned alone; where it does for some of them, the last column says "
-                     "which. These windows are found by search: 41 values, then halving at each border.\n\n";
+  std::string text =
+      "## Claims\n\nA claim \"holds\" when it does for all of the searched μ, r1 and EF, each turned alone; where it "
+      "does for some of them, the last column says "
+      "which. These windows are found by search: 41 values, then halving at each border.\n\n";
   text += row({"claim", "the paper says", "its equations give", "verdict", "it holds for"}) + "|---|---|---|---|---|\n";
   for (const Claim& claim : all.claims) {
-    text += row({spaced(claim.name), claim.paper_says, claim.equations_give, "**" + std::string(verdict_text(claim.verdict)) + "**", claim_windows_text(claim)});
+    text += row({spaced(claim.name), claim.paper_says, claim.equations_give,
+                 "**" + std::string(verdict_text(claim.verdict)) + "**", claim_windows_text(claim)});
   }
   return text;
 }
 
 std::string table_4_section(const Reproduction& all) {
-  std::string text = "## Table 4: the optimum\n\n" + row({"", "lower", "upper", "paper", "certified optimum", "unit"}) + "|---|---|---|---|---|---|\n";
-  for (const OptimumRow& r : all.table_4) text += row({r.symbol, rounded(r.lower), rounded(r.upper), rounded(r.paper), rounded(r.computed, 6), "mm"});
-  text += "\nLargest T_b/F_c there: " + fixed(all.optimum, 4) + "; no design of the box is better by more than a millionth (branch and bound with intervals). "
+  std::string text = "## Table 4: the optimum\n\n" + row({"", "lower", "upper", "paper", "certified optimum", "unit"}) +
+                     "|---|---|---|---|---|---|\n";
+  for (const OptimumRow& r : all.table_4)
+    text += row({r.symbol, rounded(r.lower), rounded(r.upper), rounded(r.paper), rounded(r.computed, 6), "mm"});
+  text += "\nLargest T_b/F_c there: " + fixed(all.optimum, 4) +
+          "; no design of the box is better by more than a millionth (branch and bound with intervals). "
           "With μ = 0 it is one of a whole surface of optima with T_b/F_c = 2: every ED = R/2 with OE low enough.\n";
-  text += "\nThe μ for which Table 4 is the optimum, by r1 and EF:\n\n" + row({"r1 (mm)", "EF (mm)", "μ"}) + "|---|---|---|\n";
-  for (const MuWindow& window : all.mu_windows) text += row({rounded(window.r1), rounded(window.EF), mu_windows_text(window)});
+  text += "\nThe μ for which Table 4 is the optimum, by r1 and EF:\n\n" + row({"r1 (mm)", "EF (mm)", "μ"}) +
+          "|---|---|---|\n";
+  for (const MuWindow& window : all.mu_windows)
+    text += row({rounded(window.r1), rounded(window.EF), mu_windows_text(window)});
   return text;
 }
 
 std::string laws_section(const Reproduction& all) {
-  std::string text = "## Both laws on the paper's optimum\n\n`compensate` is the paper's: P1 round, P2 follows. `linear` makes both non-circular, for the same turn of the motor.\n\n";
-  text += row({"law", "θ(α) off its best line", "r1", "r2", "smallest bend radius", "largest T_b/F_c", "largest torque/F_c", "torque, largest/smallest"}) +
+  std::string text =
+      "## Both laws on the paper's optimum\n\n`compensate` is the paper's: P1 round, P2 follows. `linear` makes both "
+      "non-circular, for the same turn of the motor.\n\n";
+  text += row({"law", "θ(α) off its best line", "r1", "r2", "smallest bend radius", "largest T_b/F_c",
+               "largest torque/F_c", "torque, largest/smallest"}) +
           "|---|---|---|---|---|---|---|---|\n";
   for (const LawCost& law : all.laws) {
-    text += row({law.law, "±" + fixed(law.nonlinearity, 2) + "°", rounded(law.r1_least) + " … " + rounded(law.r1_most) + " mm", rounded(law.r2_least) + " … " + rounded(law.r2_most) + " mm",
-                 rounded(law.bend_radius, 3) + " mm", fixed(law.tension, 4), rounded(law.torque) + " mm", rounded(law.torque_ripple, 3)});
+    text += row({law.law, "±" + fixed(law.nonlinearity, 2) + "°",
+                 rounded(law.r1_least) + " … " + rounded(law.r1_most) + " mm",
+                 rounded(law.r2_least) + " … " + rounded(law.r2_most) + " mm", rounded(law.bend_radius, 3) + " mm",
+                 fixed(law.tension, 4), rounded(law.torque) + " mm", rounded(law.torque_ripple, 3)});
   }
-  return text + "\nA bend radius below zero is a hollow that no tendon lies in: with these r1 and EF the pulley cannot be made.\n";
+  return text +
+         "\nA bend radius below zero is a hollow that no tendon lies in: with these r1 and EF the pulley cannot be "
+         "made.\n";
 }
 
 std::string figures_section(const Reproduction& all) {
-  std::string text = "## Figures\n\n`fusee reproduce -o DIR` draws them and writes their numbers. The paper's text is not part of this project: each is read as said here.\n\n";
+  std::string text =
+      "## Figures\n\n`fusee reproduce -o DIR` draws them and writes their numbers. The paper's text is not part of "
+      "this project: each is read as said here.\n\n";
   text += row({"figure", "read as", "files"}) + "|---|---|---|\n";
   for (const PaperFigure& figure : all.figures) {
     const std::string name = "fig_" + two_digits(figure.number);
@@ -164,7 +190,8 @@ std::string figures_section(const Reproduction& all) {
 std::string manifest_of(const std::vector<OutputFile>& files) {
   nlohmann::ordered_json json = {{"schema", 1}, {"tool", "fusee " FUSEE_VERSION}};
   json["outputs"] = nlohmann::ordered_json::array();
-  for (const OutputFile& file : files) json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  for (const OutputFile& file : files)
+    json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
   return json.dump(2) + "\n";
 }
 
@@ -177,8 +204,9 @@ std::string claim_windows_text(const Claim& claim) {
 }
 
 std::string paper_page(const Reproduction& reproduction) {
-  return "# The paper, claim by claim\n\nWritten by `fusee reproduce`; a test keeps it current. Do not edit.\n\n" + assumptions_text(reproduction.assumptions) + "\n" +
-         claims_section(reproduction) + "\n" + table_4_section(reproduction) + "\n" + laws_section(reproduction) + "\n" + figures_section(reproduction);
+  return "# The paper, claim by claim\n\nWritten by `fusee reproduce`; a test keeps it current. Do not edit.\n\n" +
+         assumptions_text(reproduction.assumptions) + "\n" + claims_section(reproduction) + "\n" +
+         table_4_section(reproduction) + "\n" + laws_section(reproduction) + "\n" + figures_section(reproduction);
 }
 
 std::vector<OutputFile> paper_files(const Reproduction& reproduction) {

@@ -38,15 +38,17 @@ struct Stock {
       : product(made),
         mechanism(made.file.mechanism),
         layout(layout_to_cut(made)),
-        rims(flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth, mechanism.body.flange)),
+        rims(flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth,
+                         mechanism.body.flange)),
         floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
         floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
-        wall(std::max(mechanism.body.min_wall, k_least_wall)) {}
+        wall(std::max(layout.min_wall, k_least_wall)) {}
 
   Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
 };
 
-// Dowels ---------------------------------------------------------------------------------------------------------------
+// Dowels
+// ---------------------------------------------------------------------------------------------------------------
 
 /// What every plate keeps: within both floors, clear of all that is cut out of any of them.
 Material2d common_material(const Stock& stock) {
@@ -62,8 +64,8 @@ Material2d common_material(const Stock& stock) {
   return material;
 }
 
-/// Two places as far apart as can be, at radii that differ by half a dowel at least and not in line with the axis: no turning or flipping that leaves
-/// the bore in place maps them onto themselves.
+/// Two places as far apart as can be, at radii that differ by half a dowel at least and not in line with the axis: no
+/// turning or flipping that leaves the bore in place maps them onto themselves.
 std::optional<std::pair<Vec2, Vec2>> dowel_places(const Stock& stock, const Material2d& material, double diameter) {
   constexpr int k_directions = 48;
   constexpr int k_radii = 24;
@@ -99,18 +101,23 @@ void place_dowels(Plates& plates, const Stock& stock) {
   const Material2d material = common_material(stock);
   for (const double share : {1.0, 0.85, 0.7, 0.5, 0.35}) {
     const double diameter = share * wanted;
-    if (diameter - stock.mechanism.cut.kerf < k_least_feature && share < 1) break;  // the cutter's path would be narrower than it can cut
+    if (diameter - stock.mechanism.cut.kerf < k_least_feature && share < 1)
+      break;  // the cutter's path would be narrower than it can cut
     const auto places = dowel_places(stock, material, diameter);
     if (!places) continue;
     plates.dowels = {places->first, places->second};
     plates.dowel_diameter = diameter;
-    if (share < 1) plates.notes.push_back(fmt::format("dowels of {} mm: there is no room for {} mm", rounded(diameter), rounded(wanted)));
+    if (share < 1)
+      plates.notes.push_back(
+          fmt::format("dowels of {} mm: there is no room for {} mm", rounded(diameter), rounded(wanted)));
     return;
   }
-  plates.notes.push_back(fmt::format("no dowels: there is no room for two of {} mm; align the plates on the shaft", rounded(wanted)));
+  plates.notes.push_back(
+      fmt::format("no dowels: there is no room for two of {} mm; align the plates on the shaft", rounded(wanted)));
 }
 
-// Shapes ---------------------------------------------------------------------------------------------------------------
+// Shapes
+// ---------------------------------------------------------------------------------------------------------------
 
 void note_once(Plates& plates, const std::string& note) {
   if (std::find(plates.notes.begin(), plates.notes.end(), note) == plates.notes.end()) plates.notes.push_back(note);
@@ -120,8 +127,10 @@ class LayerMaker {
  public:
   LayerMaker(Plates& plates, const Stock& stock) : plates_(plates), stock_(stock), kerf_(stock.mechanism.cut.kerf) {}
 
-  /// `channels`: anchors whose channel and pocket are cut into this plate's edge; `pockets`: those whose pocket is a hole in it.
-  void add(const std::string& name, int count, const Polygon& outline, const std::vector<const Anchor*>& channels, const std::vector<const Anchor*>& pockets) {
+  /// `channels`: anchors whose channel and pocket are cut into this plate's edge; `pockets`: those whose pocket is a
+  /// hole in it.
+  void add(const std::string& name, int count, const Polygon& outline, const std::vector<const Anchor*>& channels,
+           const std::vector<const Anchor*>& pockets) {
     PlateLayer layer;
     layer.name = name;
     layer.count = count;
@@ -130,7 +139,8 @@ class LayerMaker {
     for (const Anchor* anchor : channels) cut_channel(layer, *anchor);
     add_hole(layer, stock_.layout.bore.outline, "bore");
     for (const Polygon& hole : stock_.layout.bore.screw_holes) add_hole(layer, hole, "screw hole");
-    for (const Vec2& dowel : plates_.dowels) add_hole(layer, circle_polygon(dowel, 0.5 * plates_.dowel_diameter), "dowel hole");
+    for (const Vec2& dowel : plates_.dowels)
+      add_hole(layer, circle_polygon(dowel, 0.5 * plates_.dowel_diameter), "dowel hole");
     for (const Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
     plates_.layers.push_back(std::move(layer));
   }
@@ -146,7 +156,8 @@ class LayerMaker {
     layer.cut_holes.push_back(*path);
   }
 
-  /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and their corners are the mitres.
+  /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and
+  /// their corners are the mitres.
   void cut_channel(PlateLayer& layer, const Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
@@ -159,11 +170,21 @@ class LayerMaker {
       finished.push_back(part);
       path.push_back(*inner);
     }
-    layer.outer = difference(layer.outer.front(), finished);
-    layer.cut_outer = difference(layer.cut_outer.front(), path);
-    // Slivers that the cut frees fall out; a hole that it closes is no outline.
-    layer.outer.resize(1);
-    layer.cut_outer.resize(1);
+    const std::vector<Polygon> outer = difference(layer.outer.front(), finished);
+    const std::vector<Polygon> cut_outer = difference(layer.cut_outer.front(), path);
+    if (!is_one_plate(outer) || !is_one_plate(cut_outer)) {
+      note_once(plates_, fmt::format("{}: a tendon channel is left out, it would cut the plate in two", layer.name));
+      return;
+    }
+    layer.outer = {outer.front()};
+    layer.cut_outer = {cut_outer.front()};
+  }
+
+  /// The rest must hang together and be open where the tendon comes in; slivers that fall out are no plate.
+  static bool is_one_plate(const std::vector<Polygon>& loops) {
+    constexpr double k_sliver = 1.0;  // mm²
+    return !loops.empty() && is_simple(loops.front()) &&
+           (loops.size() == 1 || std::abs(signed_area(loops[1])) < k_sliver);
   }
 
   Plates& plates_;
@@ -174,7 +195,8 @@ class LayerMaker {
 /// The hub's disc, wide enough to hold the dowels.
 double hub_radius(const Stock& stock, const Plates& plates) {
   double radius = stock.layout.hub_radius;
-  for (const Vec2& dowel : plates.dowels) radius = std::max(radius, dowel.norm() + 0.5 * plates.dowel_diameter + stock.wall);
+  for (const Vec2& dowel : plates.dowels)
+    radius = std::max(radius, dowel.norm() + 0.5 * plates.dowel_diameter + stock.wall);
   return radius;
 }
 
@@ -183,7 +205,8 @@ void add_layers(Plates& plates, const Stock& stock) {
   const int flange = plates_for(stock.layout.flange_thickness, t);
   const int core = plates_for(k_groove_room * stock.mechanism.tendon.diameter, t);
   std::vector<const Anchor*> left, right;
-  for (const Anchor& anchor : stock.product.pulley.anchors) (anchor.side == Side::left ? left : right).push_back(&anchor);
+  for (const Anchor& anchor : stock.product.pulley.anchors)
+    (anchor.side == Side::left ? left : right).push_back(&anchor);
   const bool pockets = stock.layout.pocket_radius > 0;
   if (!pockets) left.clear(), right.clear();
   LayerMaker maker(plates, stock);
@@ -193,11 +216,13 @@ void add_layers(Plates& plates, const Stock& stock) {
   maker.add("P2 CORE", core, stock.floor2, right, {});
   maker.add("FLANGE 2", flange, stock.rims.upper, {}, right);
   if (stock.layout.hub_radius > 0) {
-    maker.add("HUB", plates_for(stock.layout.z_hub - stock.layout.z_top, t), circle_polygon({0, 0}, hub_radius(stock, plates)), {}, {});
+    maker.add("HUB", plates_for(stock.layout.z_hub - stock.layout.z_top, t),
+              circle_polygon({0, 0}, hub_radius(stock, plates)), {}, {});
   }
 }
 
-// Engraving ------------------------------------------------------------------------------------------------------------
+// Engraving
+// ------------------------------------------------------------------------------------------------------------
 
 Material2d material_of(const PlateLayer& layer) {
   Material2d material;
@@ -226,7 +251,8 @@ std::optional<Vec2> label_place(const PlateLayer& layer, const Material2d& mater
       // From the middle outward, left and right in turn.
       const double x = (side % 2 ? 1 : -1) * 0.5 * (side + 1) / 2.0 * (box.size().x() / 20) - 0.5 * size.x();
       if (x < box.low.x() || x + size.x() > box.high.x()) continue;
-            const bool on_mark = !layer.engraving.empty() && x < 0.5 && x + size.x() > -0.5 && y + size.y() > layer.engraving[0][0].y() - 0.5;
+      const bool on_mark =
+          !layer.engraving.empty() && x < 0.5 && x + size.x() > -0.5 && y + size.y() > layer.engraving[0][0].y() - 0.5;
       if (!on_mark && material.holds_box({x, y}, size, k_engraving_margin)) return Vec2(x, y);
     }
   }
@@ -256,7 +282,8 @@ void engrave(Plates& plates, std::size_t index, int total) {
   plates.notes.push_back(layer.name + ": there is no room for the plate's number");
 }
 
-// Notes ----------------------------------------------------------------------------------------------------------------
+// Notes
+// ----------------------------------------------------------------------------------------------------------------
 
 void describe_stack(Plates& plates, const Stock& stock) {
   const double t = stock.mechanism.cut.plate;
@@ -264,16 +291,22 @@ void describe_stack(Plates& plates, const Stock& stock) {
   int first = 1;
   for (const PlateLayer& layer : plates.layers) {
     const int last = first + layer.count - 1;
-    const std::string which = layer.count == 1 ? fmt::format("plate {}", first) : fmt::format("plates {} to {}", first, last);
-    lines.push_back(fmt::format("{}: {} - z {} to {} mm", layer.name, which, rounded((first - 1) * t), rounded(last * t)));
+    const std::string which =
+        layer.count == 1 ? fmt::format("plate {}", first) : fmt::format("plates {} to {}", first, last);
+    lines.push_back(
+        fmt::format("{}: {} - z {} to {} mm", layer.name, which, rounded((first - 1) * t), rounded(last * t)));
     first = last + 1;
   }
   const double room = t * plates.layers[1].count;
   const double d = stock.mechanism.tendon.diameter;
-  lines.push_back(fmt::format("stack from plate 1 upward, numbers facing up, home marks in line; plates of {} mm", rounded(t)));
+  lines.push_back(
+      fmt::format("stack from plate 1 upward, numbers facing up, home marks in line; plates of {} mm", rounded(t)));
   lines.push_back(fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(room), rounded(d)));
-  if (stock.layout.set_screw.present) lines.push_back("the set screw is no part of the plates: drill it across the hub");
-  if (stock.layout.bore.horn_recess > 0) lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep", rounded(stock.layout.bore.horn_recess)));
+  if (stock.layout.set_screw.present)
+    lines.push_back("the set screw is no part of the plates: drill it across the hub");
+  if (stock.layout.bore.horn_recess > 0)
+    lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep",
+                                rounded(stock.layout.bore.horn_recess)));
   plates.notes.insert(plates.notes.begin(), lines.begin(), lines.end());
 }
 
@@ -281,17 +314,21 @@ void describe_stack(Plates& plates, const Stock& stock) {
 void note_small_features(Plates& plates, const Stock& stock) {
   const double narrow = stock.layout.channel_width;
   if (!stock.product.pulley.anchors.empty() && narrow < k_least_feature) {
-    plates.notes.push_back(fmt::format("the tendon channels are {} mm wide, below {} mm: see body.anchor_hole_mm", rounded(narrow), rounded(k_least_feature)));
+    plates.notes.push_back(fmt::format("the tendon channels are {} mm wide, below {} mm: see body.anchor_hole_mm",
+                                       rounded(narrow), rounded(k_least_feature)));
   }
   for (const PlateLayer& layer : plates.layers) {
     for (const Polygon& hole : layer.holes) {
       const double width = bounding_box(hole).size().minCoeff();
-      if (width < k_least_feature) plates.notes.push_back(fmt::format("{}: a hole is {} mm wide, below {} mm", layer.name, rounded(width), rounded(k_least_feature)));
+      if (width < k_least_feature)
+        plates.notes.push_back(
+            fmt::format("{}: a hole is {} mm wide, below {} mm", layer.name, rounded(width), rounded(k_least_feature)));
     }
   }
 }
 
-// Sheets ---------------------------------------------------------------------------------------------------------------
+// Sheets
+// ---------------------------------------------------------------------------------------------------------------
 
 void lay_on_sheets(Plates& plates, const Cut& cut) {
   std::vector<Vec2> sizes;
@@ -312,7 +349,10 @@ void lay_on_sheets(Plates& plates, const Cut& cut) {
     plates.sheets = std::max(plates.sheets, places[i].sheet + 1);
     fits = fits && places[i].fits;
   }
-  if (!fits) plates.notes.push_back(fmt::format("a plate is larger than a sheet of {} x {} mm: see cut.sheet_width_mm, cut.sheet_height_mm", rounded(sheet.x()), rounded(sheet.y())));
+  if (!fits)
+    plates.notes.push_back(
+        fmt::format("a plate is larger than a sheet of {} x {} mm: see cut.sheet_width_mm, cut.sheet_height_mm",
+                    rounded(sheet.x()), rounded(sheet.y())));
 }
 
 }  // namespace
@@ -329,7 +369,8 @@ Plates make_plates(const Product& product) {
   Plates plates;
   place_dowels(plates, stock);
   add_layers(plates, stock);
-  const int total = std::accumulate(plates.layers.begin(), plates.layers.end(), 0, [](int sum, const PlateLayer& layer) { return sum + layer.count; });
+  const int total = std::accumulate(plates.layers.begin(), plates.layers.end(), 0,
+                                    [](int sum, const PlateLayer& layer) { return sum + layer.count; });
   for (std::size_t i = 0; i < plates.layers.size(); ++i) engrave(plates, i, total);
   note_small_features(plates, stock);
   describe_stack(plates, stock);

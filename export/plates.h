@@ -1,5 +1,6 @@
 /// \file
-/// The part as a stack of plates: which there are, what is cut out of each, where its number stands, and how all lie on the sheets. mm.
+/// The part as a stack of plates: which there are, what is cut out of each, where its number stands, and how all lie on
+/// the sheets. mm.
 #pragma once
 
 #include <string>
@@ -14,7 +15,7 @@ enum class LabelKind { name, count, number };
 
 /// Plates of one shape, one upon another. Outlines are about the axis, outer ones counter-clockwise.
 struct PlateLayer {
-  std::string name;                ///< "FLANGE 1", "P1 CORE" …
+  std::string name;  ///< "FLANGE 1", "P1 CORE" …
   int count = 1;
   std::vector<Polygon> outer;      ///< as the finished plate: one, with the tendon's channels cut into it
   std::vector<Polygon> holes;      ///< bore, dowels, pockets
@@ -28,17 +29,18 @@ struct PlateLayer {
 
 struct PlacedPlate {
   std::size_t layer = 0;
-  int number = 1;            ///< counted from the bottom of the stack
-  Vec2 shift = Vec2::Zero(); ///< of the axis, on the drawing
+  int number = 1;             ///< counted from the bottom of the stack
+  Vec2 shift = Vec2::Zero();  ///< of the axis, on the drawing
 };
 
 struct Plates {
   std::vector<PlateLayer> layers;   ///< bottom to top
   std::vector<PlacedPlate> placed;  ///< by number
-  std::vector<Vec2> dowels;         ///< centres; all on different radii and not in line with the axis, so that a plate fits in one way
+  std::vector<Vec2>
+      dowels;  ///< centres; all on different radii and not in line with the axis, so that a plate fits in one way
   double dowel_diameter = 0;
-  int sheets = 1;                   ///< side by side from x = 0, k_sheet_gap between them
-  std::vector<std::string> notes;   ///< which plates make what, and what could not be had
+  int sheets = 1;                  ///< side by side from x = 0, k_sheet_gap between them
+  std::vector<std::string> notes;  ///< which plates make what, and what could not be had
 };
 
 inline constexpr double k_sheet_gap = 20;

@@ -1,6 +1,6 @@
 /// \file
-/// plates.dxf: all plates flat on their sheets, ready to cut. First what is engraved, then every hole, then every outline: what is cut
-/// free may move.
+/// plates.dxf: all plates flat on their sheets, ready to cut. First what is engraved, then every hole, then every
+/// outline: what is cut free may move.
 #include <algorithm>
 
 #include "export/dxf_writer.h"
@@ -30,16 +30,19 @@ void add_engraving(DxfDocument& drawing, const Plates& plates) {
   for (const PlacedPlate& plate : plates.placed) {
     const PlateLayer& layer = plates.layers[plate.layer];
     for (const Polygon& stroke : layer.engraving) drawing.open("ENGRAVE", shifted(stroke, plate.shift));
-    if (layer.label_height > 0) drawing.text("ENGRAVE", plate_label(plates, plate), layer.label + plate.shift, layer.label_height);
+    if (layer.label_height > 0)
+      drawing.text("ENGRAVE", plate_label(plates, plate), layer.label + plate.shift, layer.label_height);
   }
 }
 
 void add_cuts(DxfDocument& drawing, const Plates& plates) {
   for (const PlacedPlate& plate : plates.placed) {
-    for (const Polygon& hole : plates.layers[plate.layer].cut_holes) drawing.closed("CUT_INNER", shifted(hole, plate.shift));
+    for (const Polygon& hole : plates.layers[plate.layer].cut_holes)
+      drawing.closed("CUT_INNER", shifted(hole, plate.shift));
   }
   for (const PlacedPlate& plate : plates.placed) {
-    for (const Polygon& outline : plates.layers[plate.layer].cut_outer) drawing.closed("CUT_OUTER", shifted(outline, plate.shift));
+    for (const Polygon& outline : plates.layers[plate.layer].cut_outer)
+      drawing.closed("CUT_OUTER", shifted(outline, plate.shift));
   }
 }
 
@@ -59,11 +62,13 @@ std::string plates_dxf(const Product& product, DxfVersion version) {
   const Mechanism& mechanism = product.file.mechanism;
   const Plates plates = make_plates(product);
   DxfDocument drawing;
-  drawing.layers = {{"ENGRAVE", 3}, {"CUT_INNER", 5}, {"CUT_OUTER", 1}, {"SHEET", 8, false}, {"NOTES", 8, false}, {"CHECK_10MM", 9, false}};
+  drawing.layers = {{"ENGRAVE", 3},      {"CUT_INNER", 5},    {"CUT_OUTER", 1},
+                    {"SHEET", 8, false}, {"NOTES", 8, false}, {"CHECK_10MM", 9, false}};
   drawing.remarks = plates.notes;
-  drawing.remarks.insert(drawing.remarks.begin(), {mechanism.name + ": plates to cut, true size in mm, not scaled for a print's shrinkage",
-                                                   "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
-                                                       " mm) outside, holes half a kerf inside; the square is 10 mm wide"});
+  drawing.remarks.insert(drawing.remarks.begin(),
+                         {mechanism.name + ": plates to cut, true size in mm, not scaled for a print's shrinkage",
+                          "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
+                              " mm) outside, holes half a kerf inside; the square is 10 mm wide"});
   add_engraving(drawing, plates);
   add_cuts(drawing, plates);
   add_sheets(drawing, plates, mechanism.cut);

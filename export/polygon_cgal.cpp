@@ -50,9 +50,7 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
   return static_cast<int>(CGAL::orientation(Point(a.x(), a.y()), Point(b.x(), b.y()), Point(c.x(), c.y())));
 }
 
-bool is_simple(const Polygon& polygon) {
-  return polygon.size() >= 3 && points_of(polygon).is_simple();
-}
+bool is_simple(const Polygon& polygon) { return polygon.size() >= 3 && points_of(polygon).is_simple(); }
 
 std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>& cutters) {
   CGAL::Polygon_set_2<Exact> rest(exact(plate));
@@ -64,8 +62,9 @@ std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>
     loops.push_back(rounded_points(part.outer_boundary()));
     for (const auto& hole : part.holes()) loops.push_back(rounded_points(hole));
   }
-  std::stable_sort(loops.begin(), loops.end(),
-                   [](const Polygon& a, const Polygon& b) { return std::abs(signed_area(a)) > std::abs(signed_area(b)); });
+  std::stable_sort(loops.begin(), loops.end(), [](const Polygon& a, const Polygon& b) {
+    return std::abs(signed_area(a)) > std::abs(signed_area(b));
+  });
   return loops;
 }
 

@@ -14,7 +14,8 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 /// Does the closed polygon neither cross nor touch itself, with three corners at least?
 bool is_simple(const Polygon& polygon);
 
-/// `plate` without the cutters, all simple polygons: outer outlines counter-clockwise and holes clockwise, the largest first.
+/// `plate` without the cutters, all simple polygons: outer outlines counter-clockwise and holes clockwise, the largest
+/// first.
 std::vector<Polygon> difference(const Polygon& plate, const std::vector<Polygon>& cutters);
 
 }  // namespace fusee

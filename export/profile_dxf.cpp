@@ -1,5 +1,6 @@
 /// \file
-/// profile.dxf: the curves that the pulley is about, at true size about the axis, with marks that say how it sits at home.
+/// profile.dxf: the curves that the pulley is about, at true size about the axis, with marks that say how it sits at
+/// home.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +18,16 @@ constexpr double k_text_height = 2.5;
 constexpr double k_line_pitch = 4.5;
 
 std::vector<DxfLayer> layers() {
-  return {{"P1_PITCH", 1},      {"P2_PITCH", 5},           {"P1_FLOOR", 30},          {"P2_FLOOR", 4},         {"BORE", 3},
-          {"MARK_AXIS", 8, false}, {"MARK_HOME", 6, false}, {"MARK_TAKE_OFF", 2, false}, {"MARK_ANCHOR", 9, false}, {"MARK_TEXT", 8, false},
+  return {{"P1_PITCH", 1},
+          {"P2_PITCH", 5},
+          {"P1_FLOOR", 30},
+          {"P2_FLOOR", 4},
+          {"BORE", 3},
+          {"MARK_AXIS", 8, false},
+          {"MARK_HOME", 6, false},
+          {"MARK_TAKE_OFF", 2, false},
+          {"MARK_ANCHOR", 9, false},
+          {"MARK_TEXT", 8, false},
           {"CHECK_10MM", 8, false}};
 }
 
@@ -83,7 +92,8 @@ void add_take_off(DxfDocument& drawing, const Outline& outline, const TendonPoin
 void add_active_ends(DxfDocument& drawing, const Outline& outline, double d, double depth) {
   for (const std::size_t i : {outline.active_first, outline.active_last}) {
     const OutlinePoint& point = outline.points[i];
-    drawing.open("MARK_TAKE_OFF", {point.position - 0.5 * d * point.normal, point.position + (depth - 0.5 * d) * point.normal});
+    drawing.open("MARK_TAKE_OFF",
+                 {point.position - 0.5 * d * point.normal, point.position + (depth - 0.5 * d) * point.normal});
   }
 }
 
@@ -119,9 +129,11 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
   drawing.remarks = legend;
   drawing.layers = layers();
   add_contours(drawing, synthesis, d, layout);
-  add_axis_and_home(drawing, layout.bore.radius, std::max(reach(synthesis.p1), reach(synthesis.p2)) + layout.groove_depth);
-  const auto home = std::min_element(synthesis.stroke.begin(), synthesis.stroke.end(),
-                                     [](const TransmissionPoint& a, const TransmissionPoint& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
+  add_axis_and_home(drawing, layout.bore.radius,
+                    std::max(reach(synthesis.p1), reach(synthesis.p2)) + layout.groove_depth);
+  const auto home = std::min_element(
+      synthesis.stroke.begin(), synthesis.stroke.end(),
+      [](const TransmissionPoint& a, const TransmissionPoint& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
   if (home != synthesis.stroke.end()) {
     add_take_off(drawing, synthesis.p1, home->t1, "1");
     add_take_off(drawing, synthesis.p2, home->t2, "2");

@@ -1,8 +1,10 @@
 /// \file
-/// DXF in: ASCII, R12 to R2018. Straight and curved entities of model space come out as polylines in mm; open ones whose ends
-/// meet (end_points.h: within 1e-4 mm) on one layer come out joined. What is no line (text, dimensions, hatches …) is named in `ignored`.
+/// DXF in: ASCII, R12 to R2018. Straight and curved entities of model space come out as polylines in mm; open ones
+/// whose ends meet (end_points.h: within 1e-4 mm) on one layer come out joined. What is no line (text, dimensions,
+/// hatches …) is named in `ignored`.
 ///
-/// Any bytes are safe: every number is checked, blocks nest 16 deep at most, and the whole drawing may hold 4 million points.
+/// Any bytes are safe: every number is checked, blocks nest 16 deep at most, and the whole drawing may hold 4 million
+/// points.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
@@ -20,13 +22,13 @@
 namespace fusee {
 namespace {
 
-constexpr double k_sagitta = 0.001;           // of sampled curves, mm
+constexpr double k_sagitta = 0.001;  // of sampled curves, mm
 constexpr std::size_t k_most_points = 4'000'000;
 constexpr std::size_t k_most_inserts = 200'000;
 constexpr std::size_t k_most_tags = 100'000'000;  // gone through while blocks are expanded
 constexpr int k_deepest_block = 16;
-constexpr int k_most_steps = 20'000;          // of one arc
-constexpr double k_farthest = 1e7;            // mm from the origin
+constexpr int k_most_steps = 20'000;  // of one arc
+constexpr double k_farthest = 1e7;    // mm from the origin
 
 struct Tag {
   int code = 0;
@@ -66,10 +68,13 @@ class TagReader {
       int code = 0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
       if (error != std::errc{} || end != text.data() + text.size() || code < -5 || code > 1071) {
-        fail(file_, line_, "a group code (a whole number) should stand here, not " + shown(text), "the file is no DXF, or damaged from here on");
+        fail(file_, line_, "a group code (a whole number) should stand here, not " + shown(text),
+             "the file is no DXF, or damaged from here on");
       }
       const auto value = next_line();
-      if (!value) fail(file_, line_, "the file ends where the value of group " + std::to_string(code) + " should stand", "it was cut short: export it again");
+      if (!value)
+        fail(file_, line_, "the file ends where the value of group " + std::to_string(code) + " should stand",
+             "it was cut short: export it again");
       if (code != 999) return Tag{code, trimmed(*value), line_};
     }
   }
@@ -116,7 +121,8 @@ class Values {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool tiny = error == std::errc::result_out_of_range && text.find("e-") != std::string_view::npos;
     if (!tiny && (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))) {
-      fail(file, tag.line, "a number should stand here (group " + std::to_string(tag.code) + "), not " + shown(tag.value));
+      fail(file, tag.line,
+           "a number should stand here (group " + std::to_string(tag.code) + "), not " + shown(tag.value));
     }
     return tiny ? 0 : value;
   }
@@ -138,7 +144,8 @@ class Values {
     if (!tag) return fallback;
     const double value = parse(file_, *tag);
     if (value != std::floor(value) || std::abs(value) > 1e9) {
-      fail(file_, tag->line, "a whole number should stand here (group " + std::to_string(code) + "), not " + shown(tag->value));
+      fail(file_, tag->line,
+           "a whole number should stand here (group " + std::to_string(code) + "), not " + shown(tag->value));
     }
     return static_cast<int>(value);
   }
@@ -224,7 +231,8 @@ struct Spline {
   std::vector<Vec3> poles;  // (x w, y w, w)
 
   Vec2 at(double t, std::size_t span) const {
-    std::vector<Vec3> d(poles.begin() + static_cast<std::ptrdiff_t>(span) - degree, poles.begin() + static_cast<std::ptrdiff_t>(span) + 1);
+    std::vector<Vec3> d(poles.begin() + static_cast<std::ptrdiff_t>(span) - degree,
+                        poles.begin() + static_cast<std::ptrdiff_t>(span) + 1);
     const auto p = static_cast<std::size_t>(degree);
     for (std::size_t r = 1; r <= p; ++r) {
       for (std::size_t j = p; j >= r; --j) {
@@ -238,7 +246,8 @@ struct Spline {
   }
 
   /// Points after `from` up to and with `to`, halving until the middle lies on the chord.
-  void sample(Polygon& out, std::size_t span, double t0, const Vec2& from, double t1, const Vec2& to, double sagitta, int depth) const {
+  void sample(Polygon& out, std::size_t span, double t0, const Vec2& from, double t1, const Vec2& to, double sagitta,
+              int depth) const {
     const double tm = 0.5 * (t0 + t1);
     const Vec2 middle = at(tm, span);
     // The first halvings are made anyway: an inflection may put the middle on the chord.
@@ -326,8 +335,10 @@ class Reader {
   /// Reads entities, the first of which begins with `tag`, up to group 0 `end`.
   void read_entities(Tag tag, std::vector<Entity>& entities, std::string_view end) {
     while (!is(tag, end)) {
-      if (tag.code != 0) fail(file_, tag.line, "an entity (group 0) should stand here, not group " + std::to_string(tag.code));
-      if (tag.value == "EOF") fail(file_, tag.line, "EOF stands where " + std::string(end) + " should", "the file is damaged");
+      if (tag.code != 0)
+        fail(file_, tag.line, "an entity (group 0) should stand here, not group " + std::to_string(tag.code));
+      if (tag.value == "EOF")
+        fail(file_, tag.line, "EOF stands where " + std::string(end) + " should", "the file is damaged");
       Entity entity{tag.value, tag.line, {}, {}, 1};
       tag = read_tags(entity.tags);
       entity.size += entity.tags.size();
@@ -358,16 +369,26 @@ class Reader {
 
   double unit_in_mm() const {
     switch (units_.value_or(0)) {
-      case 1: return 25.4;
-      case 2: return 304.8;
-      case 5: return 10;
-      case 6: return 1000;
-      case 8: return 25.4e-6;
-      case 9: return 0.0254;
-      case 10: return 914.4;
-      case 13: return 1e-3;
-      case 14: return 100;
-      default: return 1;
+      case 1:
+        return 25.4;
+      case 2:
+        return 304.8;
+      case 5:
+        return 10;
+      case 6:
+        return 1000;
+      case 8:
+        return 25.4e-6;
+      case 9:
+        return 0.0254;
+      case 10:
+        return 914.4;
+      case 13:
+        return 1e-3;
+      case 14:
+        return 100;
+      default:
+        return 1;
     }
   }
 
@@ -391,7 +412,8 @@ class Reader {
       insert(entity, values, in_place, layer, depth);
       return;
     }
-    if (auto curve = to_curve(entity, values, k_sagitta / in_place.growth())) add(entity, layer, std::move(*curve), in_place);
+    if (auto curve = to_curve(entity, values, k_sagitta / in_place.growth()))
+      add(entity, layer, std::move(*curve), in_place);
   }
 
   void ignore(const Entity& entity, const std::string& why = {}) {
@@ -439,7 +461,9 @@ class Reader {
 
   Curve circle_or_arc(const Entity& entity, const Values& values, double sagitta) {
     const double radius = values.real(40, 0);
-    if (!(radius > 0) || radius > 1e9) fail(file_, entity.line, "the radius of this " + std::string(entity.type) + " is " + shortest(radius), "it must be above 0");
+    if (!(radius > 0) || radius > 1e9)
+      fail(file_, entity.line, "the radius of this " + std::string(entity.type) + " is " + shortest(radius),
+           "it must be above 0");
     if (entity.type == "CIRCLE") return closed_by_full_turn(arc_curve(values.point(10), radius, 0, k_two_pi, sagitta));
     const double from = radians(std::remainder(values.real(50, 0), 360.0));
     const double to = radians(std::remainder(values.real(51, 0), 360.0));
@@ -451,7 +475,8 @@ class Reader {
     const Vec2 major = values.point(11);
     const double ratio = values.real(40, 1);
     if (!(major.norm() > 0) || major.norm() > 1e9 || !(ratio > 0) || ratio > 1) {
-      fail(file_, entity.line, "the axes of this ELLIPSE are " + shortest(major.norm()) + " and " + shortest(ratio) + " times that");
+      fail(file_, entity.line,
+           "the axes of this ELLIPSE are " + shortest(major.norm()) + " and " + shortest(ratio) + " times that");
     }
     const Vec2 minor = turned_left(major) * (values.real(230, 1) < 0 ? -ratio : ratio);
     const double from = std::remainder(values.real(41, 0), k_two_pi);
@@ -487,13 +512,17 @@ class Reader {
   void check_spline(const Entity& entity, const Spline& spline, const std::vector<double>& weights) const {
     const std::size_t poles = spline.poles.size();
     const auto order = static_cast<std::size_t>(spline.degree) + 1;
-    const bool fits = spline.degree >= 1 && spline.degree <= 11 && poles >= order && spline.knots.size() == poles + order &&
-                      std::is_sorted(spline.knots.begin(), spline.knots.end());
+    const bool fits = spline.degree >= 1 && spline.degree <= 11 && poles >= order &&
+                      spline.knots.size() == poles + order && std::is_sorted(spline.knots.begin(), spline.knots.end());
     if (!fits) {
-      fail(file_, entity.line, "this SPLINE of degree " + std::to_string(spline.degree) + " has " + std::to_string(poles) + " control points and " +
-                                   std::to_string(spline.knots.size()) + " knots, which do not fit or are not in order");
+      fail(file_, entity.line,
+           "this SPLINE of degree " + std::to_string(spline.degree) + " has " + std::to_string(poles) +
+               " control points and " + std::to_string(spline.knots.size()) +
+               " knots, which do not fit or are not in order");
     }
-    const bool weighted = weights.empty() || (weights.size() == poles && std::all_of(weights.begin(), weights.end(), [](double w) { return w > 1e-9 && w < 1e9; }));
+    const bool weighted =
+        weights.empty() || (weights.size() == poles &&
+                            std::all_of(weights.begin(), weights.end(), [](double w) { return w > 1e-9 && w < 1e9; }));
     if (!weighted) fail(file_, entity.line, "the weights of this SPLINE are not one positive number a control point");
   }
 
@@ -511,11 +540,15 @@ class Reader {
     return curve;
   }
 
-  void insert(const Entity& entity, const Values& values, const Placement& placement, const std::string& layer, int depth) {
+  void insert(const Entity& entity, const Values& values, const Placement& placement, const std::string& layer,
+              int depth) {
     const std::string name(values.text(2));
     const auto block = blocks_.find(name);
-    if (block == blocks_.end()) fail(file_, entity.line, "this INSERT names the block " + shown(name) + ", which the file does not hold");
-    if (depth >= k_deepest_block) fail(file_, entity.line, "blocks are nested more than " + std::to_string(k_deepest_block) + " deep (or in a ring)");
+    if (block == blocks_.end())
+      fail(file_, entity.line, "this INSERT names the block " + shown(name) + ", which the file does not hold");
+    if (depth >= k_deepest_block)
+      fail(file_, entity.line,
+           "blocks are nested more than " + std::to_string(k_deepest_block) + " deep (or in a ring)");
     const int columns = std::max(1, values.integer(70, 1));
     const int rows = std::max(1, values.integer(71, 1));
     Placement own;
@@ -524,13 +557,16 @@ class Reader {
     const Eigen::Matrix2d scaled = own.linear * Vec2(values.real(41, 1), values.real(42, 1)).asDiagonal();
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
-        if (++inserts_ > k_most_inserts) fail(file_, entity.line, "the drawing inserts more than " + std::to_string(k_most_inserts) + " blocks");
+        if (++inserts_ > k_most_inserts)
+          fail(file_, entity.line, "the drawing inserts more than " + std::to_string(k_most_inserts) + " blocks");
         Placement whole;
         whole.linear = placement.linear * scaled;
-        whole.shift = placement(values.point(10) + own.linear * Vec2(column * step.x(), row * step.y())) - whole.linear * block->second.base;
+        whole.shift = placement(values.point(10) + own.linear * Vec2(column * step.x(), row * step.y())) -
+                      whole.linear * block->second.base;
         for (const Entity& part : block->second.entities) {
           expanded_ += part.size;
-          if (expanded_ > k_most_tags) fail(file_, entity.line, "the blocks of the drawing are inserted too often to be expanded");
+          if (expanded_ > k_most_tags)
+            fail(file_, entity.line, "the blocks of the drawing are inserted too often to be expanded");
           draw(part, whole, layer, depth + 1);
         }
       }
@@ -541,12 +577,15 @@ class Reader {
   void add(const Entity& entity, const std::string& layer, Curve curve, const Placement& placement) {
     DrawingPath path{layer, std::string(entity.type), entity.line, curve.closed, {}};
     points_ += curve.points.size();
-    if (points_ > k_most_points) fail(file_, entity.line, "the drawing has more than " + std::to_string(k_most_points) + " points");
+    if (points_ > k_most_points)
+      fail(file_, entity.line, "the drawing has more than " + std::to_string(k_most_points) + " points");
     path.points.reserve(curve.points.size());
     for (const Vec2& p : curve.points) {
       const Vec2 placed = placement(p);
       if (!(placed.cwiseAbs().maxCoeff() <= k_farthest)) {
-        fail(file_, entity.line, "this " + path.entity + " reaches (" + rounded(placed.x()) + ", " + rounded(placed.y()) + ") mm, further than 10 km");
+        fail(file_, entity.line,
+             "this " + path.entity + " reaches (" + rounded(placed.x()) + ", " + rounded(placed.y()) +
+                 ") mm, further than 10 km");
       }
       if (path.points.empty() || placed != path.points.back()) path.points.push_back(placed);
     }
@@ -576,7 +615,8 @@ class Reader {
   std::size_t expanded_ = 0;  // tags
 };
 
-// Chains → loops -------------------------------------------------------------------------------------------------------
+// Chains → loops
+// -------------------------------------------------------------------------------------------------------
 
 /// One end of an open path.
 struct End {
@@ -584,7 +624,8 @@ struct End {
   bool last = false;
 };
 
-/// Joins open paths of one layer where exactly two ends meet; a place where three or more meet stays open, for nobody knows which go on.
+/// Joins open paths of one layer where exactly two ends meet; a place where three or more meet stays open, for nobody
+/// knows which go on.
 class Joiner {
  public:
   explicit Joiner(std::vector<DrawingPath>& paths) : paths_(paths), used_(paths.size(), false) {}
@@ -661,8 +702,10 @@ class Joiner {
 };
 
 void refuse_other_formats(std::string_view bytes, const std::string& file) {
-  if (bytes.starts_with("AutoCAD Binary DXF")) fail(file, 0, "this is a binary DXF", "save it as ASCII DXF (R12, or 2000 and later)");
-  if (bytes.starts_with("AC10")) fail(file, 0, "this is a DWG drawing", "save it as ASCII DXF (R12, or 2000 and later)");
+  if (bytes.starts_with("AutoCAD Binary DXF"))
+    fail(file, 0, "this is a binary DXF", "save it as ASCII DXF (R12, or 2000 and later)");
+  if (bytes.starts_with("AC10"))
+    fail(file, 0, "this is a DWG drawing", "save it as ASCII DXF (R12, or 2000 and later)");
   if (trimmed(bytes.substr(0, 64)).empty()) fail(file, 0, "the file is empty");
 }
 

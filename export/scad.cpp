@@ -1,6 +1,7 @@
 /// \file
-/// pulley.scad: the part as an OpenSCAD program that a person can read and change. Its arrays are the two groove floors; all else is
-/// computed from the parameters at its top, by the same formulas as src/solid, which this program must agree with.
+/// pulley.scad: the part as an OpenSCAD program that a person can read and change. Its arrays are the two groove
+/// floors; all else is computed from the parameters at its top, by the same formulas as src/solid, which this program
+/// must agree with.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 namespace fusee {
 namespace {
 
-// OpenSCAD's exact arithmetic takes about a millisecond a point: fewer points than the mesh has, and no edge further from the curve than this.
+// OpenSCAD's exact arithmetic takes about a millisecond a point: fewer points than the mesh has, and no edge further
+// from the curve than this.
 constexpr double k_sagitta = 0.015;
 constexpr double k_widest_turn = radians(8);
 
@@ -37,23 +39,28 @@ std::string point_text(const Vec2& p) { return "[" + decimal(p.x()) + ", " + dec
 
 std::string points_text(const Polygon& points) {
   std::string text = "[";
-  for (std::size_t i = 0; i < points.size(); ++i) text += (i == 0 ? "" : i % 8 == 0 ? ",\n    " : ", ") + point_text(points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    text += (i == 0 ? "" : i % 8 == 0 ? ",\n    " : ", ") + point_text(points[i]);
   return text + "]";
 }
 
-/// Points that stay: all extremes in x and y, for the box must not shrink, and between them as many as both curves need.
+/// Points that stay: all extremes in x and y, for the box must not shrink, and between them as many as both curves
+/// need.
 std::vector<std::size_t> kept_points(const Outline& p1, const Outline& p2, const Polygon& middle) {
   const std::size_t n = p1.points.size();
   std::set<std::size_t> fixed_points{0};
   for (const Polygon& curve : {parallel(p1, 0), parallel(p2, 0), middle}) {
     for (const Vec2& direction : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) {
-      const auto furthest = std::max_element(curve.begin(), curve.end(), [&](const Vec2& a, const Vec2& b) { return a.dot(direction) < b.dot(direction); });
+      const auto furthest = std::max_element(curve.begin(), curve.end(), [&](const Vec2& a, const Vec2& b) {
+        return a.dot(direction) < b.dot(direction);
+      });
       fixed_points.insert(static_cast<std::size_t>(furthest - curve.begin()));
     }
   }
   const auto too_far = [&](std::size_t from, std::size_t to) {
     const double turn = p1.points[to].psi - p1.points[from].psi;
-    const double chord = std::max((p1.points[to].position - p1.points[from].position).norm(), (p2.points[to].position - p2.points[from].position).norm());
+    const double chord = std::max((p1.points[to].position - p1.points[from].position).norm(),
+                                  (p2.points[to].position - p2.points[from].position).norm());
     return turn > k_widest_turn || chord * turn / 8 > k_sagitta;
   };
   std::vector<std::size_t> kept{0};
@@ -69,7 +76,10 @@ std::string floor_array(const char* name, const Outline& outline, double d, cons
   std::string text = fmt::format("{} = [", name);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const Vec2& p = floor[kept[k]];
-    text += (k == 0 ? "\n  " : k % 4 == 0 ? ",\n  " : ", ") + fmt::format("[{}, {}, {}]", decimal(p.x()), decimal(p.y()), decimal(degrees(outline.points[kept[k]].psi)));
+    text += (k == 0       ? "\n  "
+             : k % 4 == 0 ? ",\n  "
+                          : ", ") +
+            fmt::format("[{}, {}, {}]", decimal(p.x()), decimal(p.y()), decimal(degrees(outline.points[kept[k]].psi)));
   }
   return text + "];\n";
 }
@@ -87,7 +97,8 @@ struct RimMargins {
 
 RimMargins rim_margins(const FlangeRims& rims, const Outline& p1, const Outline& p2, double lip, Flange kind) {
   const double r1 = circumradius(rims.lip1), r2 = circumradius(rims.lip2);
-  if (kind == Flange::round) return {circumradius(rims.lower) - r1, circumradius(rims.middle) - std::max(r1, r2), circumradius(rims.upper) - r2};
+  if (kind == Flange::round)
+    return {circumradius(rims.lower) - r1, circumradius(rims.middle) - std::max(r1, r2), circumradius(rims.upper) - r2};
   const Vec2& n = p1.points[0].normal;
   const double h1 = p1.points[0].position.dot(n), h2 = p2.points[0].position.dot(n);
   const double blend = 0.5;
@@ -99,12 +110,18 @@ const char* name_of(Groove groove) { return groove == Groove::u ? "u" : groove =
 
 const char* name_of(Bore bore) {
   switch (bore) {
-    case Bore::round: return "round";
-    case Bore::d: return "d";
-    case Bore::hex: return "hex";
-    case Bore::square: return "square";
-    case Bore::keyway: return "keyway";
-    case Bore::horn: return "horn";
+    case Bore::round:
+      return "round";
+    case Bore::d:
+      return "d";
+    case Bore::hex:
+      return "hex";
+    case Bore::square:
+      return "square";
+    case Bore::keyway:
+      return "keyway";
+    case Bore::horn:
+      return "horn";
   }
   return "round";
 }
@@ -113,7 +130,10 @@ const char* name_of(Bore bore) {
 double shaft_diameter(const BoreLayout& bore, double compensation) {
   const bool arcs = bore.kind == Bore::d || bore.kind == Bore::keyway;
   double radius = distance_to_edges(bore.outline, Vec2::Zero());
-  if (arcs) radius = std::min_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) { return a.norm() < b.norm(); })->norm();
+  if (arcs)
+    radius = std::min_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) {
+               return a.norm() < b.norm();
+             })->norm();
   return 2 * radius - compensation;
 }
 
@@ -121,7 +141,8 @@ std::string parameters(const Product& product) {
   const Mechanism& mechanism = product.file.mechanism;
   const Body& body = mechanism.body;
   const BodyLayout& layout = product.pulley.layout;
-  std::string text = fmt::format(R"(// {} - a compound pulley for two tendons, in mm.
+  std::string text = fmt::format(
+      R"(// {} - a compound pulley for two tendons, in mm.
 // Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies towards +y.
 // Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law and stay as they are.
 // The engraved letters and marks of the printed part are left out.
@@ -158,10 +179,12 @@ knot_pocket = {}; // [0:0.1:20]
 facets = 24; // [12:4:96]
 
 )",
-                                 on_one_line(mechanism.name), decimal(shaft_diameter(layout.bore, mechanism.material.hole_compensation)), decimal(mechanism.material.hole_compensation),
-                                 decimal(2 * layout.hub_radius), decimal(layout.z_hub - layout.z_top), layout.set_screw.present ? "true" : "false",
-                                 layout.set_screw.nut_trap ? "true" : "false", decimal(layout.groove_depth), decimal(degrees(body.groove_angle)), name_of(body.groove),
-                                 decimal(layout.flange_thickness), decimal(layout.elephant_foot), decimal(layout.channel_width), decimal(2 * layout.pocket_radius));
+      on_one_line(mechanism.name), decimal(shaft_diameter(layout.bore, mechanism.material.hole_compensation)),
+      decimal(mechanism.material.hole_compensation), decimal(2 * layout.hub_radius),
+      decimal(layout.z_hub - layout.z_top), layout.set_screw.present ? "true" : "false",
+      layout.set_screw.nut_trap ? "true" : "false", decimal(layout.groove_depth), decimal(degrees(body.groove_angle)),
+      name_of(body.groove), decimal(layout.flange_thickness), decimal(layout.elephant_foot),
+      decimal(layout.channel_width), decimal(2 * layout.pocket_radius));
   return text;
 }
 
@@ -171,15 +194,21 @@ std::string hidden_numbers(const Product& product) {
   const SynthesisResult& synthesis = product.synthesis;
   const double d = mechanism.tendon.diameter;
   const FlangeRims rims = flange_rims(synthesis.p1, synthesis.p2, d, layout.groove_depth, mechanism.body.flange);
-  const RimMargins margins = rim_margins(rims, synthesis.p1, synthesis.p2, layout.groove_depth - 0.5 * d, mechanism.body.flange);
+  const RimMargins margins =
+      rim_margins(rims, synthesis.p1, synthesis.p2, layout.groove_depth - 0.5 * d, mechanism.body.flange);
   const BoreLayout& bore = layout.bore;
-  const double bore_top = std::max_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); })->y();
+  const double bore_top = std::max_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) {
+                            return a.y() < b.y();
+                          })->y();
   const SetScrewLayout& screw = layout.set_screw;
   const double middle = 0.5 * (layout.z_top + layout.z_hub);
-  const double bore_edge = 0.5 * (shaft_diameter(bore, mechanism.material.hole_compensation) + mechanism.material.hole_compensation);
+  const double bore_edge =
+      0.5 * (shaft_diameter(bore, mechanism.material.hole_compensation) + mechanism.material.hole_compensation);
   const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
-  const double hub_wall = std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5);
-  std::string text = fmt::format(R"(/* [Hidden] */
+  const double hub_wall =
+      std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5);
+  std::string text = fmt::format(
+      R"(/* [Hidden] */
 tendon = {};          // its diameter
 seat_ratio = {};      // seat radius of a u groove per tendon diameter
 flange_shape = "{}";  // follow: along the groove; round
@@ -199,28 +228,37 @@ hub_wall = {};        // the hub grows with the bore so that this is left outsid
 print_scale = {};     // a print shrinks by as much
 
 )",
-                                 decimal(d), decimal(mechanism.body.seat_ratio), mechanism.body.flange == Flange::follow ? "follow" : "round", decimal(margins.lower),
-                                 decimal(margins.middle), decimal(margins.upper), name_of(bore.kind), decimal(bore_top), decimal(bore.kind == Bore::keyway ? 2 * bore.outline.back().cwiseAbs().x() : 0),
-                                 decimal(screw.hole_diameter), decimal(degrees(screw.angle)), decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width),
-                                 decimal(screw.nut_thickness), decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
-  text += "horn_recess = " + decimal(bore.horn_recess) + ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
+      decimal(d), decimal(mechanism.body.seat_ratio), mechanism.body.flange == Flange::follow ? "follow" : "round",
+      decimal(margins.lower), decimal(margins.middle), decimal(margins.upper), name_of(bore.kind), decimal(bore_top),
+      decimal(bore.kind == Bore::keyway ? 2 * bore.outline.back().cwiseAbs().x() : 0), decimal(screw.hole_diameter),
+      decimal(degrees(screw.angle)), decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width),
+      decimal(screw.nut_thickness), decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
+  text += "horn_recess = " + decimal(bore.horn_recess) +
+          ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
   text += "horn_holes = [";
-  for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) text += (k == 0 ? "" : ",\n  ") + points_text(bore.screw_holes[k]);
+  for (std::size_t k = 0; k < bore.screw_holes.size(); ++k)
+    text += (k == 0 ? "" : ",\n  ") + points_text(bore.screw_holes[k]);
   return text + "];\n\n";
 }
 
 std::string arrays(const Product& product) {
   const SynthesisResult& synthesis = product.synthesis;
   const double d = product.file.mechanism.tendon.diameter;
-  const FlangeRims rims = flange_rims(synthesis.p1, synthesis.p2, d, product.pulley.layout.groove_depth, product.file.mechanism.body.flange);
+  const FlangeRims rims = flange_rims(synthesis.p1, synthesis.p2, d, product.pulley.layout.groove_depth,
+                                      product.file.mechanism.body.flange);
   const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims.middle);
-  std::string text = "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks the same way.\n";
+  std::string text =
+      "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks "
+      "the same way.\n";
   text += floor_array("P1", synthesis.p1, d, kept);
   text += floor_array("P2", synthesis.p2, d, kept);
-  text += "\n// Where tendons are tied off: groove (1 or 2), middle of the knot pocket, outline of channel and pocket.\ntie_offs = [";
+  text +=
+      "\n// Where tendons are tied off: groove (1 or 2), middle of the knot pocket, outline of channel and "
+      "pocket.\ntie_offs = [";
   bool first = true;
   for (const Anchor& anchor : product.pulley.anchors) {
-    text += fmt::format("{}\n  [{}, {}, {}]", first ? "" : ",", anchor.side == Side::left ? 1 : 2, point_text(anchor.pocket), points_text(anchor.channel));
+    text += fmt::format("{}\n  [{}, {}, {}]", first ? "" : ",", anchor.side == Side::left ? 1 : 2,
+                        point_text(anchor.pocket), points_text(anchor.channel));
     first = false;
   }
   return text + "];\n\n";

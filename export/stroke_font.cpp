@@ -67,7 +67,8 @@ constexpr auto k_glyphs = std::to_array<std::pair<char, std::string_view>>({
 
 std::string_view glyph(char c) {
   const char capital = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const auto* found = std::find_if(k_glyphs.begin(), k_glyphs.end(), [capital](const auto& g) { return g.first == capital; });
+  const auto* found =
+      std::find_if(k_glyphs.begin(), k_glyphs.end(), [capital](const auto& g) { return g.first == capital; });
   return found == k_glyphs.end() ? std::string_view{} : found->second;
 }
 

@@ -39,7 +39,6 @@ class TextScanner {
   Place place() const;
   /// First byte of the next line.
   std::size_t next_line_offset() const { return next_; }
-  std::size_t bytes_left() const { return source_.bytes.size() - next_; }
 
   /// "expected `expected`, found 'word'" at the word read last.
   [[noreturn]] void fail(std::string_view expected) const;

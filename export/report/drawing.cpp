@@ -27,8 +27,9 @@ Vec2 turned(const Vec2& v, double angle) {
 
 double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_two_pi); }
 
-/// Outward normal of the line through `point` that touches the circle and has it on its inner side: the tendon passes the
-/// circle's outer side, away from `point` along the direction of travel. `sign` is mirror_sign of the side; NaN inside the circle.
+/// Outward normal of the line through `point` that touches the circle and has it on its inner side: the tendon passes
+/// the circle's outer side, away from `point` along the direction of travel. `sign` is mirror_sign of the side; NaN
+/// inside the circle.
 double tangent_normal(const Vec2& centre, double rho, const Vec2& point, bool point_above, double sign) {
   const Vec2 to_point = point - centre;
   const double opening = std::acos(rho / to_point.norm());
@@ -66,12 +67,15 @@ std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Ou
   return best;
 }
 
-/// Vertices from `first` to the anchor's end of the active arc; just `first` when it already lies at or beyond that end.
+/// Vertices from `first` to the anchor's end of the active arc; just `first` when it already lies at or beyond that
+/// end.
 std::vector<std::size_t> wound_indices(const Outline& outline, std::size_t first) {
   const std::size_t n = outline.points.size();
   const std::size_t last = outline.anchor_end();
   const bool forward = outline.side == Side::left;
-  const auto steps_between = [&](std::size_t from, std::size_t to) { return forward ? (to + n - from) % n : (from + n - to) % n; };
+  const auto steps_between = [&](std::size_t from, std::size_t to) {
+    return forward ? (to + n - from) % n : (from + n - to) % n;
+  };
   const std::size_t active_steps = steps_between(forward ? outline.active_first : outline.active_last, last);
   const std::size_t steps = steps_between(first, last);
   std::vector<std::size_t> indices{first};
@@ -200,8 +204,8 @@ View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis) {
 std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, double alpha) {
   const Vec2 axis = pulley_axis(mechanism);
   const Vec2 centre = view(axis);
-  std::string svg = "<g class=\"pulley\" transform=\"rotate(" + svg_number(degrees(alpha)) + " " + svg_number(centre.x()) + " " +
-                    svg_number(centre.y()) + ")\">";
+  std::string svg = "<g class=\"pulley\" transform=\"rotate(" + svg_number(degrees(alpha)) + " " +
+                    svg_number(centre.x()) + " " + svg_number(centre.y()) + ")\">";
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     std::vector<Vec2> points = closed_copy(positions(*outline));
     for (Vec2& point : points) point += axis;
@@ -215,7 +219,8 @@ std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synt
 std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism, Side side) {
   const double width = std::max(2.0, mechanism.tendon.diameter * view.scale);
   // Dashes as long as the line is wide: where tendon 2 covers tendon 1, both are seen.
-  const std::string dashes = side == Side::right ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width) : "";
+  const std::string dashes =
+      side == Side::right ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width) : "";
   std::string svg = "<g class=\"tendon\" style=\"stroke-width:" + svg_number(width) + dashes + "\">";
   svg += curve(ink(side), view, trace.free_path) + curve(ink(side), view, trace.wound_path);
   return svg + "</g>" + svg_circle("take-off", view(trace.take_off), 3);
@@ -247,7 +252,8 @@ std::string point_names(const Mechanism& mechanism, const View& view, double the
 }
 
 std::string scene(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose) {
-  std::string svg = joint_group(mechanism, view, pose.theta) + pulley_group(mechanism, synthesis, view, pose.alpha) + pins(mechanism, view);
+  std::string svg = joint_group(mechanism, view, pose.theta) + pulley_group(mechanism, synthesis, view, pose.alpha) +
+                    pins(mechanism, view);
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     if (const auto trace = trace_tendon(mechanism, *outline, pose.alpha, pose.theta)) {
       svg += tendon_group(*trace, view, mechanism, outline->side);
@@ -256,15 +262,16 @@ std::string scene(const Mechanism& mechanism, const SynthesisResult& synthesis, 
   return svg + point_names(mechanism, view, pose.theta);
 }
 
-Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& whole, const View& detail,
-                        const Pose& pose) {
-  const std::string angles = "θ = " + readable(degrees(pose.theta), 1) + "°, α = " + readable(degrees(pose.alpha), 1) + "°";
+Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& whole,
+                        const View& detail, const Pose& pose) {
+  const std::string angles =
+      "θ = " + readable(degrees(pose.theta), 1) + "°, α = " + readable(degrees(pose.alpha), 1) + "°";
   Figure figure{k_panel_width, k_panel_height + k_detail_height, "The mechanism at " + angles, {}, {}};
   figure.body = svg_words("heading", {4, 18}, angles) + scene(mechanism, synthesis, whole, pose) +
                 scale_bar(whole, {6, k_panel_height - 8});
   // An svg within the svg cuts off what does not belong to the detail.
-  figure.body += "<svg x=\"1\" y=\"" + svg_number(k_panel_height) + "\" width=\"" + svg_number(k_panel_width - 2) + "\" height=\"" +
-                 svg_number(k_detail_height - 1) + "\">" + scene(mechanism, synthesis, detail, pose) +
+  figure.body += "<svg x=\"1\" y=\"" + svg_number(k_panel_height) + "\" width=\"" + svg_number(k_panel_width - 2) +
+                 "\" height=\"" + svg_number(k_detail_height - 1) + "\">" + scene(mechanism, synthesis, detail, pose) +
                  scale_bar(detail, {10, k_detail_height - 14}) + "</svg>";
   const Vec2 low(1, k_panel_height), high(k_panel_width - 1, k_panel_height + k_detail_height - 1);
   figure.body += svg_path("frame", {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, true);
@@ -291,7 +298,8 @@ std::string width_dimension(const View& view, double low, double high, double bo
   const Vec2 right(view({high, 0}).x(), bottom_px);
   const Vec2 tick(0, 5);
   return svg_line("dimension", left, right) + svg_line("dimension", left - tick, left + tick) +
-         svg_line("dimension", right - tick, right + tick) + svg_words("small middle", 0.5 * (left + right) + Vec2(0, 17), words);
+         svg_line("dimension", right - tick, right + tick) +
+         svg_words("small middle", 0.5 * (left + right) + Vec2(0, 17), words);
 }
 
 std::vector<Vec2> arc_points(const Outline& outline, std::size_t first, std::size_t last) {
@@ -307,7 +315,8 @@ std::string anchors(const View& view, const Pulley& pulley, Side side) {
   std::string svg;
   for (const Anchor& anchor : pulley.anchors) {
     if (anchor.side != side) continue;
-    svg += curve("hole", view, anchor.channel, true) + svg_circle("hole", view(anchor.pocket), pulley.layout.pocket_radius * view.scale);
+    svg += curve("hole", view, anchor.channel, true) +
+           svg_circle("hole", view(anchor.pocket), pulley.layout.pocket_radius * view.scale);
     const Vec2 place = view(anchor.pocket);
     svg += svg_words("soft halo middle", place + Vec2(0, 4), anchor.wound_end ? "a" : "s");
   }
@@ -365,10 +374,11 @@ std::string profile_legend(const Outline& outline) {
 
 }  // namespace
 
-// The tendon as a taut string over what is drawn: first the tangent from C to the pin, then the common tangent of the pin and the
-// pitch polygon, then along the polygon. Only α and θ come from the transmission; that the path's length stays the same over the
-// stroke is therefore a test of synthesis and drawing together.
-std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha, double theta) {
+// The tendon as a taut string over what is drawn: first the tangent from C to the pin, then the common tangent of the
+// pin and the pitch polygon, then along the polygon. Only α and θ come from the transmission; that the path's length
+// stays the same over the stroke is therefore a test of synthesis and drawing together.
+std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha,
+                                        double theta) {
   if (outline.points.size() < 3) return std::nullopt;
   const double sign = mirror_sign(outline.side);
   const double rho = mechanism.guide_pitch_radius();
@@ -395,7 +405,8 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
   return trace;
 }
 
-std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<Pose>& poses) {
+std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                                      const std::vector<Pose>& poses) {
   const View whole = mechanism_view(mechanism, synthesis, poses);
   const View detail = pulley_view(mechanism, synthesis);
   std::vector<Figure> figures;
@@ -419,11 +430,14 @@ Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const 
   figure.body = svg_words("heading", {4, 18}, name + ", seen from +z at home") + profile_legend(outline);
   figure.body += curve("flange", view, lip, true) + curve("floor main", view, floor, true);
   figure.body += anchors(view, pulley, outline.side) + bore(view, pulley.layout) + axes(view, reach);
-  figure.body += curve("closing " + ink(outline.side), view, arc_points(outline, outline.active_last, outline.active_first));
-  figure.body += curve("curve whole " + ink(outline.side), view, arc_points(outline, outline.active_first, outline.active_last));
+  figure.body +=
+      curve("closing " + ink(outline.side), view, arc_points(outline, outline.active_last, outline.active_first));
+  figure.body +=
+      curve("curve whole " + ink(outline.side), view, arc_points(outline, outline.active_first, outline.active_last));
   figure.body += radius_dimension(view, outline.points[outline.active_first].position) +
                  radius_dimension(view, outline.points[outline.active_last].position);
-  const std::string words = "overall " + readable(high - low, 2) + " mm, active arc " + readable(degrees(active_turn(outline)), 1) + "°";
+  const std::string words =
+      "overall " + readable(high - low, 2) + " mm, active arc " + readable(degrees(active_turn(outline)), 1) + "°";
   figure.body += width_dimension(view, low, high, k_profile_height - 24, words);
   return figure;
 }

@@ -16,7 +16,9 @@ void put_varint(std::string& bytes, std::uint32_t value) {
   bytes += static_cast<char>(value);
 }
 
-std::uint32_t zigzag(int value) { return value >= 0 ? 2u * static_cast<std::uint32_t>(value) : 2u * static_cast<std::uint32_t>(-value) - 1u; }
+std::uint32_t zigzag(int value) {
+  return value >= 0 ? 2u * static_cast<std::uint32_t>(value) : 2u * static_cast<std::uint32_t>(-value) - 1u;
+}
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -25,7 +27,8 @@ std::string base64(std::string_view bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
     for (std::size_t k = 0; k < 4; ++k) text += k <= count ? k_digits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;

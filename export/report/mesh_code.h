@@ -11,8 +11,8 @@ namespace fusee {
 
 /// Every triangle of the mesh, in order. Positions are rounded to `step`: at most step/2 in each coordinate.
 ///
-/// bytes: for each corner a varint `newest − index`, where `newest` is the number of vertices met so far; 0 is a new vertex, and three
-/// zigzag varints follow: its coordinates less those of the vertex met before, in steps.
+/// bytes: for each corner a varint `newest − index`, where `newest` is the number of vertices met so far; 0 is a new
+/// vertex, and three zigzag varints follow: its coordinates less those of the vertex met before, in steps.
 struct MeshCode {
   std::string base64;
   std::size_t vertices = 0;

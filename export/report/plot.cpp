@@ -93,7 +93,9 @@ Frame make_frame(const Plot& plot) {
   return frame;
 }
 
-std::string axis_words(const PlotAxis& axis) { return axis.unit.empty() ? axis.label : axis.label + " (" + axis.unit + ")"; }
+std::string axis_words(const PlotAxis& axis) {
+  return axis.unit.empty() ? axis.label : axis.label + " (" + axis.unit + ")";
+}
 
 std::string x_axis(const Plot& plot, const Frame& frame) {
   const double step = frame.x_ticks.size() > 1 ? step_of(frame.x_ticks) : frame.x.span();
@@ -121,10 +123,14 @@ std::string y_axis(const Plot& plot, const Frame& frame) {
 
 std::string_view ink_class(Ink ink) {
   switch (ink) {
-    case Ink::p1: return "p1";
-    case Ink::p2: return "p2";
-    case Ink::third: return "third";
-    case Ink::main: break;
+    case Ink::p1:
+      return "p1";
+    case Ink::p2:
+      return "p2";
+    case Ink::third:
+      return "third";
+    case Ink::main:
+      break;
   }
   return "main";
 }
@@ -134,7 +140,8 @@ std::string series_classes(const PlotSeries& series) {
 }
 
 std::string legend(const Plot& plot) {
-  const auto named = std::count_if(plot.series.begin(), plot.series.end(), [](const auto& s) { return !s.name.empty(); });
+  const auto named =
+      std::count_if(plot.series.begin(), plot.series.end(), [](const auto& s) { return !s.name.empty(); });
   std::string svg;
   double x = 2;
   for (const PlotSeries& series : plot.series) {
@@ -155,7 +162,8 @@ std::string curves(const Plot& plot, const Frame& frame) {
     for (const Vec2& value : series.points) {
       Vec2 at = frame(value);
       const double margin = 0.02 * frame.height;
-      if (at.y() < frame.top - margin || at.y() > frame.bottom() + margin) at.y() = std::numeric_limits<double>::quiet_NaN();
+      if (at.y() < frame.top - margin || at.y() > frame.bottom() + margin)
+        at.y() = std::numeric_limits<double>::quiet_NaN();
       points.push_back(at);
     }
     svg += "<path class=\"" + series_classes(series) + "\"";
@@ -186,8 +194,10 @@ std::string marks(const Plot& plot, const Frame& frame) {
     svg += svg_circle("dot " + ink, at, 3.5);
     const double width = words_width(mark.words, k_small_font);
     const bool at_right_edge = at.x() + 8 + width > frame.right();
-    const double y = at.y() < frame.top + 18 ? at.y() + 18 : at.y() - 8;
-    svg += svg_words(at_right_edge ? "small halo end" : "small halo", {at.x() + (at_right_edge ? -7 : 7), y}, mark.words);
+    const bool at_top = at.y() < frame.top + 18;
+    const double gap = at_top ? 12 : 7;
+    svg += svg_words(at_right_edge ? "small halo end" : "small halo",
+                     {at.x() + (at_right_edge ? -gap : gap), at.y() + (at_top ? 4 : -8)}, mark.words);
   }
   return svg;
 }
@@ -195,10 +205,12 @@ std::string marks(const Plot& plot, const Frame& frame) {
 /// What the read-out needs to turn places back into values.
 std::string readout_attributes(const Plot& plot, const Frame& frame) {
   std::string values;
-  for (const double value : {frame.left, frame.top, frame.width, frame.height, frame.x.low, frame.x.high, frame.y.low, frame.y.high}) {
+  for (const double value :
+       {frame.left, frame.top, frame.width, frame.height, frame.x.low, frame.x.high, frame.y.low, frame.y.high}) {
     values += (values.empty() ? "" : " ") + shortest(value);
   }
-  return " data-plot=\"" + values + "\" data-x=\"" + safe_text(plot.x.unit) + "\" data-y=\"" + safe_text(plot.y.unit) + "\"";
+  return " data-plot=\"" + values + "\" data-x=\"" + safe_text(plot.x.unit) + "\" data-y=\"" + safe_text(plot.y.unit) +
+         "\"";
 }
 
 }  // namespace
@@ -227,8 +239,8 @@ int tick_decimals(double step) {
   return std::clamp(static_cast<int>(-std::floor(std::log10(std::abs(step)) + 1e-9)), 0, 12);
 }
 
-// The height of the narrowest strip of a given slope about the points is a convex function of the slope: its minimum is found by
-// thirds, between the least and the largest slope of any chord between neighbours.
+// The height of the narrowest strip of a given slope about the points is a convex function of the slope: its minimum is
+// found by thirds, between the least and the largest slope of any chord between neighbours.
 BestLine best_line(const std::vector<Vec2>& points) {
   const auto strip = [&](double slope) {
     Range range;

@@ -14,18 +14,19 @@ namespace fusee {
 enum class Ink { main, p1, p2, third };
 
 struct PlotAxis {
-  std::string label;        ///< "pulley angle α"
-  std::string unit;         ///< "mm", "°" … or "" for a plain number
-  std::optional<double> low;   ///< force the end of the axis
+  std::string label;          ///< "pulley angle α"
+  std::string unit;           ///< "mm", "°" … or "" for a plain number
+  std::optional<double> low;  ///< force the end of the axis
   std::optional<double> high;
-  double least_span = 0;    ///< an axis is never stretched beyond this, so that rounding noise does not look like a result
+  double least_span =
+      0;  ///< an axis is never stretched beyond this, so that rounding noise does not look like a result
 };
 
 struct PlotSeries {
-  std::string name;           ///< in the legend; "": not in the legend, no read-out
+  std::string name;  ///< in the legend; "": not in the legend, no read-out
   Ink ink = Ink::main;
-  std::vector<Vec2> points;   ///< a point that is not finite breaks the line
-  bool thin = false;          ///< secondary
+  std::vector<Vec2> points;  ///< a point that is not finite breaks the line
+  bool thin = false;         ///< secondary
 };
 
 /// A horizontal line: a limit, with its words at the right end.
@@ -54,8 +55,8 @@ struct Plot {
 
 Figure plot_figure(const Plot& plot);
 
-/// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k, or for
-/// `unit` "°" also 15, 30, 45, 90. Needs finite low < high.
+/// Evenly spaced round numbers, the first <= low and the last >= high; about `count` of them. Steps are 1, 2, 5 × 10^k,
+/// or for `unit` "°" also 15, 30, 45, 90. Needs finite low < high.
 std::vector<double> nice_ticks(double low, double high, int count, const std::string& unit = {});
 /// The straight line that leaves the points least (minimax), and by how much: |y − (offset + slope x)| <= deviation.
 struct BestLine {

@@ -3,21 +3,19 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 
 #include "export/report/drawing.h"
 #include "export/report/mesh_code.h"
-#include "export/report/plot.h"
+#include "export/report/report_parts.h"
+#include "export/report/report_plots.h"
 #include "export/report/tables.h"
 #include "export/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/export/export.h"
-#include "fusee/transmission/tension.h"
-#include "report_parts.h"
 
 namespace fusee {
 namespace {
@@ -28,7 +26,8 @@ constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
 using Parts = std::map<std::string, std::string, std::less<>>;
 
-/// Replaces every {{name}} of the template once; what is put in is not looked at again, so that no text of a user can name a part.
+/// Replaces every {{name}} of the template once; what is put in is not looked at again, so that no text of a user can
+/// name a part.
 std::string filled(std::string_view page, const Parts& parts) {
   std::string html;
   for (std::size_t at = 0;;) {
@@ -55,20 +54,19 @@ std::string list(std::string_view tag, const std::vector<std::string>& items) {
 
 // Verdict -------------------------------------------------------------------------------------------------------------
 
-const Check* find_check(const Product& product, std::string_view name) {
-  const auto found = std::find_if(product.checks.begin(), product.checks.end(), [&](const Check& check) { return check.name == name; });
-  return found == product.checks.end() ? nullptr : &*found;
+std::string limit_words(const Check* check) {
+  return check ? " (limit " + with_unit(check->limit, check->unit) + ")" : "";
 }
-
-std::string limit_words(const Check* check) { return check ? " (limit " + with_unit(check->limit, check->unit) + ")" : ""; }
 
 std::string as_built_words(const Product& product) {
   if (product.as_built.points.empty()) return "No tendon was wound on this part.";
   const RewindResult& built = product.as_built;
   return "With tendons wound on the mesh itself, the joint follows the declared θ(α) within " +
-         with_unit(degrees(built.max_theta_error), "deg") + limit_words(find_check(product, "theta_error")) + ", worst at α = " +
-         readable(degrees(built.max_theta_error_at), 1) + "°, and the tendon length is right within " + with_unit(built.max_slack, "mm") +
-         limit_words(find_check(product, "slack")) + ", worst at α = " + readable(degrees(built.max_slack_at), 1) + "°.";
+         with_unit(degrees(built.max_theta_error), "deg") + limit_words(find_check(product, "theta_error")) +
+         ", worst at α = " + readable(degrees(built.max_theta_error_at), 1) +
+         "°, and the tendon length is right within " + with_unit(built.max_slack, "mm") +
+         limit_words(find_check(product, "slack")) + ", worst at α = " + readable(degrees(built.max_slack_at), 1) +
+         "°.";
 }
 
 std::string verdict_words(const Product& product) {
@@ -82,20 +80,36 @@ std::string verdict_words(const Product& product) {
   const std::string count = std::to_string(product.checks.size());
   if (product.checks.empty()) return "Nothing was checked on this part.";
   if (failed.empty()) {
-    return "Checked: the pulley as built follows θ(α) within " + with_unit(degrees(product.as_built.max_theta_error), "deg") +
+    const bool paper = product.file.mechanism.pulley.method == Method::paper;
+    return std::string(paper ? "Made by the paper’s drawing: " : "Checked: ") +
+           "the pulley as built follows θ(α) within " + with_unit(degrees(product.as_built.max_theta_error), "deg") +
            limit_words(find_check(product, "theta_error")) + " and keeps the tendon’s length within " +
            with_unit(product.as_built.max_slack, "mm") + limit_words(find_check(product, "slack")) +
-           (product.file.mechanism.pulley.method == Method::paper ? " (method “paper”: reported, not judged)" : "") + ". All " + count +
-           " checks hold.";
+           (paper ? " (reported, not judged)" : "") + ". All " + count + " checks hold.";
   }
   std::string words = "Not to be made as it is: " + std::to_string(failed.size()) + " of " + count + " checks failed. ";
   for (std::size_t i = 0; i < failed.size(); ++i) words += (i ? "; " : "") + failed[i];
   return words + ".";
 }
 
+struct Verdict {
+  std::string style;  ///< class in page.css
+  std::string sign;
+  std::string words;
+};
+
+Verdict verdict_of(const Product& product) {
+  const std::string words = verdict_words(product);
+  if (product.checks.empty() || !all_ok(product.checks)) return {"bad", "✕", words};
+  if (product.file.mechanism.pulley.method == Method::paper) return {"noted", "!", words};
+  return {"good", "✓", words};
+}
+
 std::string warnings(const Product& product) {
   std::vector<std::string> all = product.synthesis.warnings;
-  for (const Diagnostic& diagnostic : product.file.warnings) all.push_back(diagnostic.message);
+  for (const Diagnostic& diagnostic : product.file.warnings) {
+    all.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : ": " + diagnostic.hint));
+  }
   if (all.empty()) return "";
   return "<section class=\"warnings\">" + list("ul", all) + "</section>";
 }
@@ -137,16 +151,20 @@ class KeyNumbers {
 
 std::string_view law_words(Law law) {
   switch (law) {
-    case Law::compensate: return "P1 round, P2 follows";
-    case Law::linear: return "θ = α / ratio";
-    case Law::table: return "θ(α) from a table";
+    case Law::compensate:
+      return "P1 round, P2 follows";
+    case Law::linear:
+      return "θ = α / ratio";
+    case Law::table:
+      return "θ(α) from a table";
   }
   return "";
 }
 
 void add_law(KeyNumbers& numbers, const Product& product) {
   const PulleyDrive& drive = product.file.mechanism.pulley;
-  numbers.add("Law", std::string(law_words(drive.law)), drive.method == Method::paper ? "the paper’s polar drawing" : "");
+  numbers.add("Law", std::string(law_words(drive.law)),
+              drive.method == Method::paper ? "the paper’s polar drawing" : "");
   if (drive.law == Law::linear) numbers.add("Ratio α / θ", readable_rounded(drive.ratio));
   if (drive.law == Law::compensate) {
     numbers.add("r1", with_unit(drive.r1, "mm", 5), "pitch");
@@ -154,9 +172,10 @@ void add_law(KeyNumbers& numbers, const Product& product) {
     numbers.add("r1", range_words(stroke_range(product.synthesis, [](const auto& p) { return p.t1.p; }), 3, "mm"));
   }
   numbers.add("r2", range_words(stroke_range(product.synthesis, [](const auto& p) { return p.t2.p; }), 3, "mm"));
-  numbers.add("Pulley angle α", range_words({degrees(stroke_range(product.synthesis, [](const auto& p) { return p.alpha; }).low),
-                                             degrees(stroke_range(product.synthesis, [](const auto& p) { return p.alpha; }).high)},
-                                            2, "°"));
+  numbers.add("Pulley angle α",
+              range_words({degrees(stroke_range(product.synthesis, [](const auto& p) { return p.alpha; }).low),
+                           degrees(stroke_range(product.synthesis, [](const auto& p) { return p.alpha; }).high)},
+                          2, "°"));
 }
 
 void add_part(KeyNumbers& numbers, const Pulley& pulley) {
@@ -164,9 +183,11 @@ void add_part(KeyNumbers& numbers, const Pulley& pulley) {
   if (pulley.mesh.triangles.empty()) return;
   const Bounds box = bounds(pulley.mesh);
   const Vec3 size = box.high - box.low;
-  numbers.add("Size of the part", readable(size.x(), 1) + " × " + readable(size.y(), 1) + " × " + readable(size.z(), 1) + " mm");
+  numbers.add("Size of the part",
+              readable(size.x(), 1) + " × " + readable(size.y(), 1) + " × " + readable(size.z(), 1) + " mm");
   const double volume = enclosed_volume(pulley.mesh) / 1000;
-  numbers.add("Volume", readable_rounded(volume, 3) + " cm³", readable_rounded(volume * k_pla_density, 2) + " g if solid PLA");
+  numbers.add("Volume", readable_rounded(volume, 3) + " cm³",
+              readable_rounded(volume * k_pla_density, 2) + " g if solid PLA");
 }
 
 std::string key_numbers(const Product& product) {
@@ -174,15 +195,21 @@ std::string key_numbers(const Product& product) {
   const Guides& guides = mechanism.guides;
   KeyNumbers numbers;
   numbers.add("R = OC", with_unit(mechanism.joint.R, "mm", 6));
-  numbers.add("Joint angle θ", range_words({degrees(mechanism.joint.theta_min), degrees(mechanism.joint.theta_max)}, 1, "°"));
+  numbers.add("Joint angle θ",
+              range_words({degrees(mechanism.joint.theta_min), degrees(mechanism.joint.theta_max)}, 1, "°"));
   numbers.add("EB, ED", readable_rounded(guides.EB, 6) + ", " + readable_rounded(guides.ED, 6) + " mm");
-  numbers.add("OE", with_unit(guides.OE, "mm", 6), guides.OE < 0 ? "pins above the joint" : guides.OE > 0 ? "pins below the joint" : "");
+  numbers.add("OE", with_unit(guides.OE, "mm", 6),
+              guides.OE < 0   ? "pins above the joint"
+              : guides.OE > 0 ? "pins below the joint"
+                              : "");
   numbers.add("EF", with_unit(mechanism.pulley.EF, "mm", 6));
   numbers.add("Pin radius", with_unit(guides.radius, "mm"), "μ " + readable_rounded(guides.mu, 3));
   add_law(numbers, product);
-  numbers.add("Tendon", "⌀ " + with_unit(mechanism.tendon.diameter, "mm"), readable_rounded(mechanism.tendon.modulus / 1000, 3) + " GPa");
+  numbers.add("Tendon", "⌀ " + with_unit(mechanism.tendon.diameter, "mm"),
+              readable_rounded(mechanism.tendon.modulus / 1000, 3) + " GPa");
   numbers.add("Pretension", with_unit(mechanism.tendon.pretension, "N"), "tendon 1 at home");
-  if (mechanism.load.tip_force != 0) numbers.add("Tip force", with_unit(mechanism.load.tip_force, "N"), "across OC, against +θ");
+  if (mechanism.load.tip_force != 0)
+    numbers.add("Tip force", with_unit(mechanism.load.tip_force, "N"), "across OC, against +θ");
   add_part(numbers, product.pulley);
   return numbers.html();
 }
@@ -193,34 +220,38 @@ std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortes
 
 /// Plane, half height and least radius of a groove, for its tint.
 std::string groove_words(const BodyLayout& layout, double z) {
-  const double inside = 1.1 * std::max(layout.bore.radius, layout.hub_radius);
-  return vector_words(layout.scale * Vec3(z, 0.98 * layout.groove_half_width, inside));
+  return vector_words(layout.scale * Vec3(z, 0.98 * layout.groove_half_width, 1.1 * layout.bore.radius));
 }
 
 std::string part_view(const Product& product) {
   const auto code = encode_mesh(product.pulley.mesh);
   if (!code) return "<p>There is no mesh to show.</p>";
   const BodyLayout& layout = product.pulley.layout;
-  std::string html = "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
-                     vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-                     std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(layout, layout.z_p1) + "\" data-groove2=\"" +
-                     groove_words(layout, layout.z_p2) + "\"></canvas>";
-  html += "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button data-view=\"top\">Top</button>"
-          "<button data-view=\"side\">Side</button><button data-view=\"below\">Below</button>"
-          "<button data-view=\"half\" aria-pressed=\"false\">Cut open</button></div>"
-          "<p class=\"missing\">This view needs WebGL 2, which is off or missing here. The same part is in pulley.stl, pulley.3mf and pulley.obj; "
-          "its profiles are drawn below.</p></div>";
-  html += "<p class=\"hint\">Drag to turn, shift-drag to move, pinch or wheel (after a click) to zoom; arrow keys, + and −. " +
-          std::to_string(code->triangles) + " triangles. P1 is the lower groove, P2 the upper one.</p>";
+  std::string html =
+      "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
+      vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
+      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(layout, layout.z_p1) +
+      "\" data-groove2=\"" + groove_words(layout, layout.z_p2) + "\"></canvas>";
+  html +=
+      "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button "
+      "data-view=\"top\">Top</button>"
+      "<button data-view=\"side\">Side</button><button data-view=\"below\">Below</button>"
+      "<button data-view=\"half\" aria-pressed=\"false\">Cut open</button></div>"
+      "<p class=\"missing\">This view needs WebGL 2, which is off or missing here. The same part is in pulley.stl, "
+      "pulley.3mf and pulley.obj; its profiles are drawn below.</p></div>";
+  html +=
+      "<p class=\"hint\">Drag to turn, shift-drag to move, pinch or wheel (after a click) to zoom; arrow keys, + and "
+      "−. " +
+      std::to_string(code->triangles) + " triangles. P1 is the lower groove, P2 the upper one.</p>";
   return html + "<script type=\"text/plain\" id=\"mesh\">" + code->base64 + "</script>";
 }
 
 // Mechanism -----------------------------------------------------------------------------------------------------------
 
 Pose pose_near(const SynthesisResult& synthesis, double theta) {
-  const auto nearest = std::min_element(synthesis.stroke.begin(), synthesis.stroke.end(), [&](const auto& a, const auto& b) {
-    return std::abs(a.theta - theta) < std::abs(b.theta - theta);
-  });
+  const auto nearest = std::min_element(
+      synthesis.stroke.begin(), synthesis.stroke.end(),
+      [&](const auto& a, const auto& b) { return std::abs(a.theta - theta) < std::abs(b.theta - theta); });
   return {nearest->alpha, nearest->theta};
 }
 
@@ -239,129 +270,24 @@ std::vector<Pose> poses(const Product& product) {
 
 std::string mechanism_panels(const Product& product) {
   std::string html;
-  for (const Figure& figure : mechanism_figures(product.file.mechanism, product.synthesis, poses(product))) html += in_div(figure);
+  for (const Figure& figure : mechanism_figures(product.file.mechanism, product.synthesis, poses(product)))
+    html += in_div(figure);
   return html;
 }
 
-// Plots ---------------------------------------------------------------------------------------------------------------
-
-const PlotAxis k_alpha_axis{"pulley angle α", "°", {}, {}, 1e-6};
-
-template <typename Value>
-std::vector<Vec2> over_alpha(const SynthesisResult& synthesis, Value value) {
-  std::vector<Vec2> points;
-  for (const TransmissionPoint& point : synthesis.stroke) points.emplace_back(degrees(point.alpha), value(point));
-  return points;
-}
-
-Plot radius_plot(const Product& product) {
-  Plot plot{"Pitch radii", k_alpha_axis, {"moment arm about G", "mm", {}, {}, 0.1}, {}, {}, {}};
-  plot.series = {{"r1", Ink::p1, over_alpha(product.synthesis, [](const auto& p) { return p.t1.p; })},
-                 {"r2", Ink::p2, over_alpha(product.synthesis, [](const auto& p) { return p.t2.p; })}};
-  return plot;
-}
-
-std::string line_words(const BestLine& line) {
-  return "best line θ = " + readable(line.offset, 2) + "° + " + readable_rounded(line.slope, 4) + " α";
-}
-
-Plot theta_plot(const std::vector<Vec2>& theta, const BestLine& line) {
-  Plot plot{"Joint angle", k_alpha_axis, {"joint angle θ", "°", {}, {}, 0.1}, {}, {}, {}};
-  plot.series = {{"θ(α)", Ink::main, theta}};
-  if (theta.empty()) return plot;
-  const auto on_line = [&](const Vec2& point) { return Vec2(point.x(), line.offset + line.slope * point.x()); };
-  plot.series.push_back({line_words(line), Ink::third, {on_line(theta.front()), on_line(theta.back())}, true});
-  return plot;
-}
-
-Plot deviation_plot(const std::vector<Vec2>& theta, const BestLine& line) {
-  Plot plot{"Deviation from the best line: ±" + readable_rounded(line.deviation, 3) + "°", k_alpha_axis,
-            {"θ less the line", "°", {}, {}, 0.01}, {}, {}, {}};
-  PlotSeries series{"θ − line", Ink::main, {}};
-  for (const Vec2& point : theta) series.points.emplace_back(point.x(), point.y() - line.offset - line.slope * point.x());
-  plot.series = {series};
-  return plot;
-}
-
-/// Points of the arc (active or closing), a gap where the other one is.
-PlotSeries curvature_series(const Outline& outline, bool active) {
-  const bool left = outline.side == Side::left;
-  PlotSeries series{std::string(left ? "P1" : "P2") + (active ? " active" : ""), left ? Ink::p1 : Ink::p2, {}, !active};
-  if (!active) series.name.clear();
-  for (std::size_t i = 0; i < outline.points.size(); ++i) {
-    const OutlinePoint& point = outline.points[i];
-    series.points.emplace_back(degrees(point.psi), outline.is_active(i) == active ? point.curvature_radius : k_nan);
-  }
-  return series;
-}
-
-Plot curvature_plot(const Product& product) {
-  Plot plot{"Radius of curvature of the pitch curves (thin: closing arc)", {"direction of the normal ψ", "°", {}, {}, 1e-6}, {"radius of curvature", "mm", 0.0, {}, 0.1},
-            {}, {}, {}};
-  double largest = 0;
-  for (const bool active : {false, true}) {
-    for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
-      plot.series.push_back(curvature_series(*outline, active));
-      if (!active) continue;
-      for (const Vec2& point : plot.series.back().points) largest = std::fmax(largest, point.y());
-    }
-  }
-  // The closing arc may be nearly straight; what the tendon lies on is what counts.
-  if (largest > 0) plot.y.high = 1.6 * largest;
-  const Tendon& tendon = product.file.mechanism.tendon;
-  if (tendon.bend_ratio > 0) plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest bend advised for this tendon"}};
-  return plot;
-}
-
-std::string transmission_plots(const Product& product) {
-  const std::vector<Vec2> theta = over_alpha(product.synthesis, [](const auto& p) { return degrees(p.theta); });
-  const BestLine line = best_line(theta);
-  return in_div(plot_figure(radius_plot(product))) + in_div(plot_figure(theta_plot(theta, line))) +
-         in_div(plot_figure(deviation_plot(theta, line))) + in_div(plot_figure(curvature_plot(product)));
-}
-
-std::vector<PlotLimit> both_limits(const Check* check) {
-  if (!check) return {};
-  return {{check->limit, "limit"}, {-check->limit, "limit"}};
-}
-
-/// A single curve over α of what the wound tendons gave, between its limits, its worst point named.
-Plot as_built_plot(const Product& product, const std::string& title, const PlotAxis& y, const Check* check,
-                   const std::function<double(const RewindPoint&)>& value) {
-  Plot plot{title, k_alpha_axis, y, {{title, Ink::main, {}}}, both_limits(check), {}};
-  Vec2 worst(0, 0);
-  for (const RewindPoint& point : product.as_built.points) {
-    const Vec2 place(degrees(point.alpha), value(point));
-    plot.series[0].points.push_back(place);
-    if (std::abs(place.y()) > std::abs(worst.y())) worst = place;
-  }
-  if (worst.y() != 0) plot.marks = {{worst, with_unit(worst.y(), y.unit), Ink::main}};
-  return plot;
-}
-
-std::string as_built_plots(const Product& product) {
-  if (product.as_built.points.empty()) return "";
-  const Plot error = as_built_plot(product, "Error of the joint angle", {"θ as built less θ declared", "°", {}, {}, 1e-4},
-                                   find_check(product, "theta_error"), [](const auto& p) { return degrees(p.theta - p.theta_declared); });
-  const Plot slack = as_built_plot(product, "Slack of tendon 2", {"slack (+), stretch (−)", "mm", {}, {}, 1e-4},
-                                   find_check(product, "slack"), [](const auto& p) { return p.slack; });
-  return in_div(plot_figure(error)) + in_div(plot_figure(slack));
+std::string all_in_divs(const std::vector<Plot>& plots) {
+  std::string html;
+  for (const Plot& plot : plots) html += in_div(plot_figure(plot));
+  return html;
 }
 
 std::string forces_section(const Product& product) {
-  const Mechanism& mechanism = product.file.mechanism;
-  if (mechanism.load.tip_force == 0) return "";
-  const auto force = [&](auto value) {
-    return over_alpha(product.synthesis, [&](const auto& p) { return value(paper_forces(mechanism, p)); });
-  };
-  Plot tension{"Tension of tendon 2 under the tip force", k_alpha_axis, {"tension", "N", 0.0, {}, 0.1}, {}, {}, {}};
-  tension.series = {{"T2, above the pin", Ink::p2, force([](const PaperForces& f) { return f.T2; })},
-                    {"Tb, below the pin (with friction)", Ink::main, force([](const PaperForces& f) { return f.Tb; })}};
-  Plot stretch{"Joint angle lost by stretch", k_alpha_axis, {"Δθ", "°", {}, {}, 1e-3}, {}, {}, {}};
-  stretch.series = {{"Δθ", Ink::p2, force([](const PaperForces& f) { return degrees(f.theta_error); })}};
-  return "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" + safe_text(with_unit(mechanism.load.tip_force, "N")) +
-         " at the tip, across OC, tendon 1 slack: the paper’s equations 6 to 11.</p><div class=\"plots\">" + in_div(plot_figure(tension)) +
-         in_div(plot_figure(stretch)) + "</div></section>";
+  const std::vector<Plot> plots = force_plots(product);
+  if (plots.empty()) return "";
+  return "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" +
+         safe_text(with_unit(product.file.mechanism.load.tip_force, "N")) +
+         " at the tip, across OC, tendon 1 slack: the paper’s equations 6 to 11.</p><div class=\"plots\">" +
+         all_in_divs(plots) + "</div></section>";
 }
 
 // Making --------------------------------------------------------------------------------------------------------------
@@ -372,32 +298,40 @@ std::string tendon_row(const TendonLength& tendon) {
   const double cut = std::ceil((tendon.between_knots + 2 * k_knot_allowance) / 5) * 5;
   return "<tr><td>" + std::string(left ? "Tendon 1" : "Tendon 2") + "</td><td>" +
          (left ? "C → pin B → P1, lower groove" : "C → pin D → P2, upper groove") + "</td><td class=\"number\">" +
-         readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" + readable(cut, 0) + " mm</td><td class=\"number\">" +
-         readable(degrees(tendon.spare_lap), 0) + "°</td></tr>";
+         readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" + readable(cut, 0) +
+         " mm</td><td class=\"number\">" + readable(degrees(tendon.spare_lap), 0) + "°</td></tr>";
 }
 
 std::string tendon_table(const Product& product) {
   std::string rows;
   for (const TendonLength& tendon : tendon_lengths(product)) rows += tendon_row(tendon);
   if (rows.empty()) return "";
-  return "<h3>Tendons</h3><div class=\"scroll\"><table><thead><tr><th></th><th>Path</th><th class=\"number\">Knot to knot</th>"
-         "<th class=\"number\">Cut at</th><th class=\"number\">Left on the pulley at full pay-out</th></tr></thead><tbody>" +
-         rows + "</tbody></table></div><p class=\"hint\">From C to the knot’s pocket, taut, with the joint and the pulley at home. The cut leaves "
-         "60 mm at each end for knots.</p>";
+  return "<h3>Tendons</h3><div class=\"scroll\"><table><thead><tr><th></th><th>Path</th><th class=\"number\">Knot to "
+         "knot</th>"
+         "<th class=\"number\">Cut at</th><th class=\"number\">Left on the pulley at full "
+         "pay-out</th></tr></thead><tbody>" +
+         rows +
+         "</tbody></table></div><p class=\"hint\">From C to the knot’s pocket, taut, with the joint and the pulley at "
+         "home. The cut leaves 60 mm at each end for knots.</p>";
 }
 
 std::vector<std::string> steps(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
-  std::vector<std::string> items{"Print it standing on its lower flange, as it lies in the files: the groove walls need no support. Use enough walls that grooves and "
-                                 "anchors are solid."};
+  std::vector<std::string> items{
+      "Print it standing on its lower flange, as it lies in the files: the groove walls need no support. Use enough "
+      "walls that grooves and anchors are solid."};
   if (layout.scale != 1) {
-    items.push_back("The files are already " + readable((layout.scale - 1) * 100, 2) + " % larger, for the shrinkage of " +
-                    product.file.mechanism.material.name + ": do not scale again.");
+    items.push_back("The files are already " + readable((layout.scale - 1) * 100, 2) +
+                    " % larger, for the shrinkage of " + product.file.mechanism.material.name +
+                    ": do not scale again.");
   }
   items.push_back("Measure the bore and the groove with callipers before going on.");
-  items.push_back("Put the pulley on its shaft with P1 below and the home mark pointing to +y: the way that C lies from O at home.");
-  items.push_back("Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the outer side of pin B to C; tendon 2 "
-                  "likewise from P2 over pin D.");
+  items.push_back(
+      "Put the pulley on its shaft with P1 below and the home mark pointing to +y: the way that C lies from O at "
+      "home.");
+  items.push_back(
+      "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
+      "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
   items.push_back("Tighten both until tendon 1 carries " + with_unit(product.file.mechanism.tendon.pretension, "N") +
                   " at home, then turn the pulley over the whole stroke: neither may go slack.");
   return items;
@@ -415,13 +349,15 @@ std::string files_table() {
                               {"profile.csv, transmission.csv", "the curves and the stroke as tables"},
                               {"manifest.json", "the checks and the files’ hashes, for programs"}};
   std::string html = "<h3>Files beside this one</h3><div class=\"scroll\"><table><tbody>";
-  for (const File& file : k_files) html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
+  for (const File& file : k_files)
+    html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
   return html + "</tbody></table></div>";
 }
 
 std::string making(const Product& product) {
   std::string html = list("ol", steps(product)) + tendon_table(product);
-  if (!product.pulley.layout.notes.empty()) html += "<h3>Sizes chosen automatically</h3>" + list("ul", product.pulley.layout.notes);
+  if (!product.pulley.layout.notes.empty())
+    html += "<h3>Sizes chosen automatically</h3>" + list("ul", product.pulley.layout.notes);
   return html + files_table();
 }
 
@@ -435,7 +371,8 @@ std::string source_words(const MechanismFile& file) {
 
 std::string conditions(const Product& product) {
   std::string html = "<h3>Over the stroke</h3>" + conditions_table(product.synthesis.conditions, true);
-  if (!product.pulley.conditions.empty()) html += "<h3>Of the body</h3>" + conditions_table(product.pulley.conditions, false);
+  if (!product.pulley.conditions.empty())
+    html += "<h3>Of the body</h3>" + conditions_table(product.pulley.conditions, false);
   return html;
 }
 
@@ -450,33 +387,34 @@ std::string profiles(const Product& product) {
 }  // namespace
 
 std::string report_html(const Product& product) {
-  const bool good = !product.checks.empty() && all_ok(product.checks);
+  const Verdict verdict = verdict_of(product);
   const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
-  return filled(embedded::page_html, {
-                                         {"tool", std::string(k_tool)},
-                                         {"name", name},
-                                         {"figure_css", std::string(embedded::figure_css)},
-                                         {"page_css", std::string(embedded::page_css)},
-                                         {"readout_js", std::string(embedded::readout_js)},
-                                         {"viewer_js", std::string(embedded::viewer_js)},
-                                         {"source", source_words(product.file)},
-                                         {"verdict_class", good ? "good" : "bad"},
-                                         {"verdict_sign", good ? "✓" : "✕"},
-                                         {"verdict", safe_text(verdict_words(product))},
-                                         {"warnings", warnings(product)},
-                                         {"key_numbers", key_numbers(product)},
-                                         {"part", part_view(product)},
-                                         {"mechanism", mechanism_panels(product)},
-                                         {"transmission_plots", transmission_plots(product)},
-                                         {"as_built_words", safe_text(as_built_words(product))},
-                                         {"as_built_plots", as_built_plots(product)},
-                                         {"forces", forces_section(product)},
-                                         {"profiles", profiles(product)},
-                                         {"checks", checks_tables(product.checks)},
-                                         {"conditions", conditions(product)},
-                                         {"making", making(product)},
-                                         {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},
-                                     });
+  return filled(embedded::page_html,
+                {
+                    {"tool", std::string(k_tool)},
+                    {"name", name},
+                    {"figure_css", std::string(embedded::figure_css)},
+                    {"page_css", std::string(embedded::page_css)},
+                    {"readout_js", std::string(embedded::readout_js)},
+                    {"viewer_js", std::string(embedded::viewer_js)},
+                    {"source", source_words(product.file)},
+                    {"verdict_class", verdict.style},
+                    {"verdict_sign", verdict.sign},
+                    {"verdict", safe_text(verdict.words)},
+                    {"warnings", warnings(product)},
+                    {"key_numbers", key_numbers(product)},
+                    {"part", part_view(product)},
+                    {"mechanism", mechanism_panels(product)},
+                    {"transmission_plots", all_in_divs(transmission_plots(product))},
+                    {"as_built_words", safe_text(as_built_words(product))},
+                    {"as_built_plots", all_in_divs(as_built_plots(product))},
+                    {"forces", forces_section(product)},
+                    {"profiles", profiles(product)},
+                    {"checks", checks_tables(product.checks)},
+                    {"conditions", conditions(product)},
+                    {"making", making(product)},
+                    {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},
+                });
 }
 
 }  // namespace fusee

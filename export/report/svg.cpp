@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "export/report/report_parts.h"
 #include "fusee/base/text.h"
-#include "report_parts.h"
 
 namespace fusee {
 namespace {
@@ -34,7 +34,8 @@ std::string superscript(int number) {
 std::string svg_element(const Figure& figure, std::string_view namespace_attribute, std::string_view style) {
   std::string svg = "<svg class=\"figure\"";
   svg += namespace_attribute;
-  svg += " viewBox=\"0 0 " + svg_number(figure.width) + " " + svg_number(figure.height) + "\" role=\"img\"" + figure.attributes;
+  svg += " viewBox=\"0 0 " + svg_number(figure.width) + " " + svg_number(figure.height) + "\" role=\"img\"" +
+         figure.attributes;
   svg += "><title>" + safe_text(figure.title) + "</title>";
   svg += style;
   return svg + figure.body + "</svg>\n";
@@ -45,8 +46,8 @@ std::string svg_element(const Figure& figure, std::string_view namespace_attribu
 std::string inline_svg(const Figure& figure) { return svg_element(figure, "", ""); }
 
 std::string standalone_svg(const Figure& figure) {
-  const std::string size = " xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(figure.width) + "\" height=\"" +
-                           svg_number(figure.height) + "\"";
+  const std::string size = " xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(figure.width) +
+                           "\" height=\"" + svg_number(figure.height) + "\"";
   const std::string style = "<style>" + std::string(embedded::figure_css) + "</style>";
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + svg_element(figure, size, style);
 }
@@ -91,16 +92,18 @@ std::string svg_path(std::string_view classes, const std::vector<Vec2>& points, 
   return "<path class=\"" + std::string(classes) + "\" d=\"" + path_data(points, closed) + "\"/>";
 }
 
-std::string svg_line(std::string_view classes, const Vec2& from, const Vec2& to) { return svg_path(classes, {from, to}); }
+std::string svg_line(std::string_view classes, const Vec2& from, const Vec2& to) {
+  return svg_path(classes, {from, to});
+}
 
 std::string svg_circle(std::string_view classes, const Vec2& centre, double radius) {
-  return "<circle class=\"" + std::string(classes) + "\" cx=\"" + svg_number(centre.x()) + "\" cy=\"" + svg_number(centre.y()) +
-         "\" r=\"" + svg_number(radius) + "\"/>";
+  return "<circle class=\"" + std::string(classes) + "\" cx=\"" + svg_number(centre.x()) + "\" cy=\"" +
+         svg_number(centre.y()) + "\" r=\"" + svg_number(radius) + "\"/>";
 }
 
 std::string svg_words(std::string_view classes, const Vec2& at, std::string_view words) {
-  return "<text class=\"" + std::string(classes) + "\" x=\"" + svg_number(at.x()) + "\" y=\"" + svg_number(at.y()) + "\">" +
-         safe_text(words) + "</text>";
+  return "<text class=\"" + std::string(classes) + "\" x=\"" + svg_number(at.x()) + "\" y=\"" + svg_number(at.y()) +
+         "\">" + safe_text(words) + "</text>";
 }
 
 double words_width(std::string_view words, double font_size) {

@@ -10,7 +10,8 @@
 
 namespace fusee {
 
-/// A finished picture. Its colours are the classes of figure.css, so that it follows the page into dark mode and onto paper.
+/// A finished picture. Its colours are the classes of figure.css, so that it follows the page into dark mode and onto
+/// paper.
 struct Figure {
   double width = 0;
   double height = 0;
@@ -38,7 +39,8 @@ std::string svg_words(std::string_view classes, const Vec2& at, std::string_view
 /// Width that `words` will take at `font_size` in a sans-serif face, estimated from the count of characters.
 double words_width(std::string_view words, double font_size);
 
-/// Every point needed to stay within `tolerance` of the line (Douglas and Peucker): pictures need fewer points than parts.
+/// Every point needed to stay within `tolerance` of the line (Douglas and Peucker): pictures need fewer points than
+/// parts.
 std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance);
 
 /// A number as a person reads it: a true minus sign, "–" for what is not finite.

@@ -81,7 +81,8 @@ constexpr PlainName k_prefixes[] = {{"obj_", "pulley.obj"},
 /// "2" for "convex_floor_P2" and "tendon_on_pin_D" when `pattern` is theirs; ' ' without a wildcard; 0: not theirs.
 char matched_side(std::string_view name, std::string_view pattern) {
   if (name == pattern) return ' ';
-  if (name.size() != pattern.size() || name.substr(0, name.size() - 1) != pattern.substr(0, pattern.size() - 1)) return 0;
+  if (name.size() != pattern.size() || name.substr(0, name.size() - 1) != pattern.substr(0, pattern.size() - 1))
+    return 0;
   const std::string_view allowed = pattern.back() == '#' ? "12" : pattern.back() == '@' ? "BD" : "";
   const std::size_t found = allowed.find(name.back());
   return found == std::string_view::npos ? '\0' : "12"[found];
@@ -129,10 +130,13 @@ struct CheckGroup {
   std::vector<Check> checks;
 };
 
-std::string row_start(bool ok) { return ok ? "<tr><td class=\"state\">✓</td>" : "<tr class=\"failed\"><td class=\"state\">✕</td>"; }
+std::string row_start(bool ok) {
+  return ok ? "<tr><td class=\"state\">✓</td>" : "<tr class=\"failed\"><td class=\"state\">✕</td>";
+}
 
 std::string group_table(const CheckGroup& group) {
-  std::string html = "<div><h3>" + safe_text(group.title) + "</h3><div class=\"scroll\"><table><thead><tr><th></th><th></th>"
+  std::string html = "<div><h3>" + safe_text(group.title) +
+                     "</h3><div class=\"scroll\"><table><thead><tr><th></th><th></th>"
                      "<th class=\"number\">Value</th><th class=\"number\">Limit</th></tr></thead><tbody>";
   for (const Check& check : group.checks) {
     html += row_start(check.ok) + name_cell(check.name, check.ok ? "" : check.where) +
@@ -190,7 +194,9 @@ std::string checks_tables(const std::vector<Check>& checks) {
 std::string conditions_table(const std::vector<Condition>& conditions, bool over_stroke) {
   std::string html = "<div class=\"scroll\"><table><thead><tr><th></th><th>Condition</th>";
   if (over_stroke) html += "<th class=\"number\">Tightest at α</th>";
-  html += "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th class=\"number\">Margin</th></tr></thead><tbody>";
+  html +=
+      "<th class=\"number\">Value</th><th class=\"number\">Limit</th><th "
+      "class=\"number\">Margin</th></tr></thead><tbody>";
   for (const Condition& condition : conditions) {
     // A condition without numbers: there is a dead centre or there is none.
     const bool plain = condition.value == condition.limit;
@@ -199,7 +205,8 @@ std::string conditions_table(const std::vector<Condition>& conditions, bool over
     if (over_stroke) html += cell("number", plain && condition.ok ? "" : readable(degrees(condition.alpha), 1) + "°");
     html += cell("number", plain ? "" : safe_text(with_unit(condition.value, condition.unit, 4))) +
             cell("number", plain ? "" : limit_words(condition.value, condition.limit, condition.ok, condition.unit)) +
-            cell("number", plain ? "" : safe_text(with_unit(condition.ok ? distance : -distance, condition.unit))) + "</tr>";
+            cell("number", plain ? "" : safe_text(with_unit(condition.ok ? distance : -distance, condition.unit))) +
+            "</tr>";
   }
   return html + "</tbody></table></div>";
 }

@@ -31,7 +31,8 @@ struct BuildOptions {
   DxfVersion dxf = DxfVersion::ac1015;
   std::filesystem::path folder;  ///< where the files go
   bool force = false;
-  bool dry_run = false;  ///< everything but publishing; what has to be read back is staged in the system's temporary folder
+  /// Everything but publishing; what has to be read back is staged in the system's temporary folder.
+  bool dry_run = false;
   /// Called before each step with what it does. What it throws stops the build, and nothing is left behind.
   std::function<void(std::string_view step)> before_step;
 };
@@ -45,7 +46,8 @@ struct BuildResult {
   bool published = false;
 };
 
-/// Mechanism → checked pulley in every format. Infeasible designs and failed checks are values; InputError and OutputError as their names say.
+/// Mechanism → checked pulley in every format. Infeasible designs and failed checks are values; InputError and OutputError
+/// as their names say.
 /// A build whose check failed is published only where there is no earlier run to lose, or with `force`.
 /// What is checked is what was written: every mesh and drawing is read back from the disk.
 BuildResult build(const MechanismFile& file, const BuildOptions& options);
@@ -62,11 +64,11 @@ Part read_part(const std::filesystem::path& path);
 /// check_mesh or check_drawing.
 std::vector<Check> check_part(const Part& part);
 
-/// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them, or on a drawing's P1_FLOOR and P2_FLOOR (without
-/// them on the P*_PITCH curves). InputError when there is no such groove.
+/// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them, or on a drawing's P1_FLOOR and
+/// P2_FLOOR (without them on the P*_PITCH curves). InputError when there is no such groove.
 RewindResult rewind_part(const Mechanism& mechanism, const Part& part);
-/// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as "theta_error_reported" and
-/// "slack_reported", held only against 180 deg and the joint's length.
+/// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as "theta_error_reported"
+/// and "slack_reported", held only against 180 deg and the joint's length.
 std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built, const AsBuiltLimits& limits);
 
 }  // namespace fusee

@@ -185,14 +185,14 @@ std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const
   std::vector<ToleranceEffect> effects;
   for (const Dimension& dimension : dimensions()) {
     const Spread derived = by_derivative(alphas, joint, dimension, options.tolerance);
-    const Spread sampled = spread_of(alphas, joint, options.samples, [&] { return dimension.changed(made, real, sigma * numbers.next()); });
+    const Spread sampled = spread_of(alphas, joint, options.samples, [&] { return altered(made, real, dimension, sigma * numbers.next()); });
     effects.push_back(effect(std::string(dimension.key), alphas, derived, sampled));
     add_squares(all, derived);
   }
   const Spread sampled = spread_of(alphas, joint, options.samples, [&] {
     std::vector<double> changes;
     for (std::size_t i = 0; i < dimensions().size(); ++i) changes.push_back(sigma * numbers.next());
-    return all_changed(made, real, changes);
+    return altered(made, real, changes);
   });
   effects.push_back(effect("all", alphas, all, sampled));
   return effects;

@@ -52,50 +52,45 @@ double by_diameter(const PinPlace& pin, const LowerPath& lower, Side side, doubl
   return 0.5 * (by_pin_radius(pin, lower, side, theta, alpha) + by_offset(pin, lower, side, theta, alpha));
 }
 
-/// What can come out otherwise: numbers of the mechanism, and both pitch curves by an offset.
-struct Change {
-  Mechanism mounted;
-  double offset = 0;
-};
-
-void change_length(Change& to, double by) { to.mounted.joint.R += by; }
-void change_left(Change& to, double by) { to.mounted.guides.EB += by; }
-void change_right(Change& to, double by) { to.mounted.guides.ED += by; }
-void change_height(Change& to, double by) { to.mounted.guides.OE += by; }
-void change_radius(Change& to, double by) { to.mounted.guides.radius += by; }
-void change_pulley(Change& to, double by) { to.mounted.pulley.EF += by; }
-void change_offset(Change& to, double by) { to.offset += by; }
+void alter_length(Alteration& joint, double by) { joint.mounted.joint.R += by; }
+void alter_left(Alteration& joint, double by) { joint.mounted.guides.EB += by; }
+void alter_right(Alteration& joint, double by) { joint.mounted.guides.ED += by; }
+void alter_height(Alteration& joint, double by) { joint.mounted.guides.OE += by; }
+void alter_radius(Alteration& joint, double by) { joint.mounted.guides.radius += by; }
+void alter_pulley_place(Alteration& joint, double by) { joint.mounted.pulley.EF += by; }
+void alter_offset(Alteration& joint, double by) { joint.offset += by; }
 /// The groove's floor stays where it is: a thicker tendon lies further out on pulley and pin.
-void change_diameter(Change& to, double by) {
-  to.mounted.tendon.diameter += by;
-  to.offset += 0.5 * by;
+void alter_diameter(Alteration& joint, double by) {
+  joint.mounted.tendon.diameter += by;
+  joint.offset += 0.5 * by;
 }
 
-RigidJoint joint_of(const MadePulleys& made, const Change& change) { return {made.offset_by(change.offset), change.mounted}; }
-
-template <void (*apply)(Change&, double)>
-RigidJoint changed_by(const MadePulleys& made, const Mechanism& mechanism, double by) {
-  Change change{mechanism, 0.0};
-  apply(change, by);
-  return joint_of(made, change);
-}
+RigidJoint joint_of(const MadePulleys& made, const Alteration& joint) { return {made.offset_by(joint.offset), joint.mounted}; }
 
 }  // namespace
 
 const std::vector<Dimension>& dimensions() {
-  static const std::vector<Dimension> all = {
-      {"joint.length_mm", changed_by<change_length>, by_length},      {"guides.EB_mm", changed_by<change_left>, by_pin<Side::left>},
-      {"guides.ED_mm", changed_by<change_right>, by_pin<Side::right>}, {"guides.OE_mm", changed_by<change_height>, by_height},
-      {"guides.radius_mm", changed_by<change_radius>, by_pin_radius},  {"pulley.EF_mm", changed_by<change_pulley>, by_pulley_place},
-      {"tendon.diameter_mm", changed_by<change_diameter>, by_diameter}, {"print_offset", changed_by<change_offset>, by_offset}};
+  static const std::vector<Dimension> all = {{"joint.length_mm", alter_length, by_length},
+                                             {"guides.EB_mm", alter_left, by_pin<Side::left>},
+                                             {"guides.ED_mm", alter_right, by_pin<Side::right>},
+                                             {"guides.OE_mm", alter_height, by_height},
+                                             {"guides.radius_mm", alter_radius, by_pin_radius},
+                                             {"pulley.EF_mm", alter_pulley_place, by_pulley_place},
+                                             {"tendon.diameter_mm", alter_diameter, by_diameter},
+                                             {"print_offset", alter_offset, by_offset}};
   return all;
 }
 
-RigidJoint all_changed(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes) {
-  constexpr std::array appliers = {change_length, change_left, change_right, change_height, change_radius, change_pulley, change_diameter, change_offset};
-  Change change{mechanism, 0.0};
-  for (std::size_t i = 0; i < appliers.size(); ++i) appliers[i](change, changes.at(i));
-  return joint_of(made, change);
+RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const Dimension& dimension, double change) {
+  Alteration joint{mechanism, 0.0};
+  dimension.alter(joint, change);
+  return joint_of(made, joint);
+}
+
+RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes) {
+  Alteration joint{mechanism, 0.0};
+  for (std::size_t i = 0; i < dimensions().size(); ++i) dimensions()[i].alter(joint, changes.at(i));
+  return joint_of(made, joint);
 }
 
 RigidPoint derivative(const RigidJoint& joint, const Dimension& dimension, double alpha) {

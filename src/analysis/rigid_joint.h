@@ -31,19 +31,26 @@ class RigidJoint {
   std::array<double, 2> home_;  ///< length of path, but for a constant
 };
 
+/// A joint that came out otherwise than its pulleys were made for.
+struct Alteration {
+  Mechanism mounted;
+  double offset = 0;  ///< of both pitch curves, mm
+};
+
 /// A length of the joint that may come out otherwise than declared, while the pulleys stay as they were made.
 struct Dimension {
-  std::string_view key;
-  /// The joint that comes of `change` (mm) to what `made` are mounted in.
-  RigidJoint (*changed)(const MadePulleys& made, const Mechanism& mechanism, double change);
+  std::string_view key;  ///< of the field table, or "print_offset"
+  void (*alter)(Alteration& joint, double change);
   /// d (length of tendon `side`'s path)/d change, at fixed θ and α. `theta` and `alpha` of the image.
   double (*lengthens)(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double alpha);
 };
 
 const std::vector<Dimension>& dimensions();
 
-/// Every dimension changed at once, by `changes` in the order of dimensions().
-RigidJoint all_changed(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes);
+/// `made`, as declared for `mechanism`, in what comes of one change (mm) to it …
+RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const Dimension& dimension, double change);
+/// … and of a change to each of dimensions().
+RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes);
 
 /// d/d change of what at() gives, in closed form.
 RigidPoint derivative(const RigidJoint& joint, const Dimension& dimension, double alpha);

@@ -66,7 +66,8 @@ void refuse_switch_values(const std::vector<Option>& options, const std::vector<
     if (word == "--") return;
     for (const Option& option : options) {
       const std::string name(option.name());
-      if (option.value.empty() && word.rfind(name + "=", 0) == 0) throw UsageError(name + " is a switch and takes no value");
+      if (option.value.empty() && word.rfind(name + "=", 0) == 0)
+        throw UsageError(name + " is a switch and takes no value");
     }
   }
 }
@@ -88,7 +89,8 @@ void check_count(const Command& command, const std::vector<std::string>& given) 
 
 void check_values(const Option& option, const std::vector<std::string>& values) {
   const std::string name(option.name());
-  if (values.size() > 1 && !option.repeatable) throw UsageError(name + " is given " + std::to_string(values.size()) + " times");
+  if (values.size() > 1 && !option.repeatable)
+    throw UsageError(name + " is given " + std::to_string(values.size()) + " times");
   for (const std::string& value : values) {
     if (value.empty() || value.rfind("--", 0) == 0) throw value_missing(option);
   }
@@ -114,7 +116,8 @@ UsageError::UsageError(std::string message, std::string hint)
 const std::vector<Option>& common_options() {
   static const std::vector<Option> options = {
       {"--json", "", "stdout holds one JSON document and nothing else"},
-      {"--set", "KEY=VALUE", "use VALUE for a key of the mechanism file, such as\npulley.r1_mm=18; may be given several times", true},
+      {"--set", "KEY=VALUE",
+       "use VALUE for a key of the mechanism file, such as\npulley.r1_mm=18; may be given several times", true},
       {"--force", "", "overwrite files that fusee did not write"},
       {"--dry-run", "", "do everything, but leave no file behind"},
       {"-q,--quiet", "", "no warnings and no progress; errors are still shown"},
@@ -173,7 +176,8 @@ std::vector<std::string> Arguments::texts(std::string_view option) const {
   return found == values_.end() ? std::vector<std::string>() : found->second;
 }
 
-double Arguments::number(std::string_view option, double fallback, double least, double most, std::string_view unit) const {
+double Arguments::number(std::string_view option, double fallback, double least, double most,
+                         std::string_view unit) const {
   const std::optional<std::string> given = text(option);
   if (!given) return fallback;
   double value = 0;
@@ -194,7 +198,8 @@ std::vector<Setting> Arguments::settings() const {
   for (const std::string& text : found->second) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-      throw UsageError("--set takes table.key=value; '" + text + "' is not of that form", "for example: --set pulley.r1_mm=18");
+      throw UsageError("--set takes table.key=value; '" + text + "' is not of that form",
+                       "for example: --set pulley.r1_mm=18");
     }
     settings.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }

@@ -26,8 +26,8 @@ class UsageError : public std::runtime_error {
 };
 
 struct Option {
-  std::string_view flags;    ///< "-o,--out"; the last one names it
-  std::string_view value;    ///< "DIR"; "" for a switch
+  std::string_view flags;  ///< "-o,--out"; the last one names it
+  std::string_view value;  ///< "DIR"; "" for a switch
   std::string_view meaning;
   bool repeatable = false;
 

@@ -7,7 +7,9 @@ namespace fusee::cli {
 namespace {
 
 /// Counts and plain numbers have the unit "1", which nobody wants to read.
-std::string with_unit(double value, const std::string& unit) { return rounded(value) + (unit == "1" ? "" : " " + unit); }
+std::string with_unit(double value, const std::string& unit) {
+  return rounded(value) + (unit == "1" ? "" : " " + unit);
+}
 
 }  // namespace
 
@@ -27,7 +29,8 @@ AsBuiltLimits limits_from(const Arguments& arguments) {
 }
 
 std::string as_built_text(const RewindResult& as_built) {
-  return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, slack within " + rounded(as_built.max_slack, 2) + " mm";
+  return "theta within " + rounded(degrees(as_built.max_theta_error), 2) + " deg, slack within " +
+         rounded(as_built.max_slack, 2) + " mm";
 }
 
 Json to_json(const RewindResult& as_built) {
@@ -40,8 +43,8 @@ Json to_json(const RewindResult& as_built) {
 std::string checks_table(const std::vector<Check>& checks) {
   std::vector<std::vector<std::string>> rows;
   for (const Check& check : checks) {
-    rows.push_back({check.ok ? "ok" : "FAILED", check.name, rounded(check.value), rounded(check.limit), check.unit == "1" ? "" : check.unit,
-                    check.where});
+    rows.push_back({check.ok ? "ok" : "FAILED", check.name, rounded(check.value), rounded(check.limit),
+                    check.unit == "1" ? "" : check.unit, check.where});
   }
   return table({{""}, {"check"}, {"value", Align::right}, {"limit", Align::right}, {"unit"}, {"where"}}, rows);
 }
@@ -49,8 +52,9 @@ std::string checks_table(const std::vector<Check>& checks) {
 void add_failures(const std::vector<Check>& checks, Reply& reply) {
   for (const Check& check : checks) {
     if (check.ok) continue;
-    reply.diagnostics.push_back(note(Severity::error, "check '" + check.name + "' failed: " + with_unit(check.value, check.unit) + ", limit " +
-                                           with_unit(check.limit, check.unit) + (check.where.empty() ? "" : "; " + check.where)));
+    reply.diagnostics.push_back(note(
+        Severity::error, "check '" + check.name + "' failed: " + with_unit(check.value, check.unit) + ", limit " +
+                             with_unit(check.limit, check.unit) + (check.where.empty() ? "" : "; " + check.where)));
   }
 }
 

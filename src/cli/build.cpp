@@ -109,18 +109,19 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   const bool has_curves = product.synthesis.made();
   const std::vector<Condition>& conditions = has_curves ? product.pulley.conditions : product.synthesis.conditions;
   add_obstacles(product.file.path, conditions, reply);
-  const std::vector<Change>& advice = product.synthesis.advice;
-  if (!has_curves) add_advice(advice, reply);
+  const std::vector<Change>& advice = has_curves ? product.pulley.advice : product.synthesis.advice;
+  add_advice(advice, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
-  reply.fields["advice"] = to_json(has_curves ? std::vector<Change>() : advice);
+  reply.fields["advice"] = to_json(advice);
 }
 
 void add_failed_checks(const BuildResult& built, const BuildOptions& options, Reply& reply) {
   reply.exit = Exit::check_failed;
   add_failures(built.product.checks, reply);
   if (!built.published && !options.dry_run) {
-    reply.diagnostics.push_back(note(Severity::note, "the files of the earlier run in " + options.folder.string() + " were kept",
+    reply.diagnostics.push_back(note(Severity::note,
+                                     "the files of the earlier run in " + options.folder.string() + " were kept",
                                      "--force replaces them with the faulty ones"));
   }
 }

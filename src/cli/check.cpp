@@ -7,7 +7,8 @@ namespace {
 
 std::string what_it_is(const Part& part) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&part)) {
-    return "a mesh of " + std::to_string(mesh->triangles.size()) + " triangles and " + std::to_string(mesh->vertices.size()) + " vertices";
+    return "a mesh of " + std::to_string(mesh->triangles.size()) + " triangles and " +
+           std::to_string(mesh->vertices.size()) + " vertices";
   }
   const auto& drawing = std::get<Drawing>(part);
   return "a drawing (" + drawing.version + ") of " + std::to_string(drawing.paths.size()) + " paths";
@@ -21,7 +22,8 @@ Reply run_check(const Arguments& arguments, Console& console) {
   const std::vector<Check> checks = check_part(part);
   Reply reply;
   const bool ok = all_ok(checks);
-  reply.text = file + ": " + what_it_is(part) + "\n\n" + checks_table(checks) + "\n" + (ok ? "valid" : "not valid") + "\n";
+  reply.text =
+      file + ": " + what_it_is(part) + "\n\n" + checks_table(checks) + "\n" + (ok ? "valid" : "not valid") + "\n";
   reply.fields["file"] = file;
   reply.fields["kind"] = std::holds_alternative<Drawing>(part) ? "drawing" : "mesh";
   reply.fields["checks"] = to_json(checks);

@@ -36,6 +36,8 @@ Command analyze_command();
 Command build_command();
 Command check_command();
 Command rewind_command();
+Command optimize_command();
+Command reproduce_command();
 Command calibrate_command();
 
 /// All of them, in the order in which a person meets them.

@@ -33,7 +33,8 @@ std::string printable(std::string text) {
 std::string colored(std::string text, Severity severity) {
   const auto paint = [&text](std::string_view word, std::string_view code) {
     const std::size_t at = text.find(word);
-    if (at != std::string::npos) text.replace(at, word.size(), "\x1b[" + std::string(code) + "m" + std::string(word) + "\x1b[0m");
+    if (at != std::string::npos)
+      text.replace(at, word.size(), "\x1b[" + std::string(code) + "m" + std::string(word) + "\x1b[0m");
   };
   if (severity == Severity::error) paint("error:", "1;31");
   if (severity == Severity::warning) paint("warning:", "1;33");

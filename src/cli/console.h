@@ -26,7 +26,8 @@ class Console {
   bool verbose() const { return options_.verbose; }
   /// A diagnostic on stderr. With --quiet only errors.
   void say(const Diagnostic& diagnostic);
-  /// What is being done now: a line that is overwritten on a terminal, a plain line with --verbose elsewhere, nothing otherwise.
+  /// What is being done now: a line that is overwritten on a terminal, a plain line with --verbose elsewhere, nothing
+  /// otherwise.
   void progress(std::string_view step);
   /// Removes the progress line.
   void end_progress();
@@ -38,11 +39,13 @@ class Console {
   bool progress_shown_ = false;
 };
 
-/// All of `text` to stdout. False when it could not be delivered (a full disk, a closed or broken pipe); errno says why.
+/// All of `text` to stdout. False when it could not be delivered (a full disk, a closed or broken pipe); errno says
+/// why.
 bool write_result(std::string_view text);
 
-/// Standard descriptors that are closed are filled, so that no output file is opened in their place and receives messages.
-/// A write to a filled one fails for stdout and is swallowed for stderr. A broken pipe becomes an error instead of a signal.
+/// Standard descriptors that are closed are filled, so that no output file is opened in their place and receives
+/// messages. A write to a filled one fails for stdout and is swallowed for stderr. A broken pipe becomes an error
+/// instead of a signal.
 void make_streams_safe();
 
 }  // namespace fusee::cli

@@ -21,9 +21,10 @@ void write_signal_safe(int descriptor, std::string_view text) {
 [[noreturn]] void leave() {
   write_signal_safe(STDERR_FILENO, "fusee: error: interrupted\n");
   if (json_wanted) {
-    write_signal_safe(STDOUT_FILENO,
-                      "{\"schema\": 1, \"ok\": false, \"exit\": 130, \"errors\": [{\"file\": \"\", \"line\": 0, \"column\": 0, "
-                      "\"message\": \"interrupted\", \"hint\": \"\"}]}\n");
+    write_signal_safe(
+        STDOUT_FILENO,
+        "{\"schema\": 1, \"ok\": false, \"exit\": 130, \"errors\": [{\"file\": \"\", \"line\": 0, \"column\": 0, "
+        "\"message\": \"interrupted\", \"hint\": \"\"}]}\n");
   }
   ::_exit(130);
 }
@@ -50,6 +51,8 @@ void catch_interrupts(bool json) {
 
 InterruptsDeferred::InterruptsDeferred() { deferred = 1; }
 InterruptsDeferred::~InterruptsDeferred() { deferred = 0; }
+
+bool is_interrupted() { return interrupted != 0; }
 
 void stop_if_interrupted() {
   if (interrupted) throw Interrupted();

@@ -11,7 +11,8 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From here on a signal ends the program at once with exit 130, but for the places below. `json`: with a document on stdout.
+/// From here on a signal ends the program at once with exit 130, but for the places below. `json`: with a document on
+/// stdout.
 void catch_interrupts(bool json);
 
 /// While one of these lives something stands on the disk that has to be removed: a signal is only noted, and
@@ -24,5 +25,7 @@ class InterruptsDeferred {
   InterruptsDeferred& operator=(const InterruptsDeferred&) = delete;
 };
 void stop_if_interrupted();
+/// For a search that has an answer whenever it is stopped.
+bool is_interrupted();
 
 }  // namespace fusee::cli

@@ -24,7 +24,8 @@ Json of_severity(const std::vector<Diagnostic>& diagnostics, bool errors) {
 }  // namespace
 
 std::string document(const Reply& reply, const std::string& command) {
-  Json json = {{"schema", 1}, {"command", command}, {"ok", reply.exit == Exit::done}, {"exit", static_cast<int>(reply.exit)}};
+  Json json = {
+      {"schema", 1}, {"command", command}, {"ok", reply.exit == Exit::done}, {"exit", static_cast<int>(reply.exit)}};
   json["errors"] = of_severity(reply.diagnostics, true);
   json["warnings"] = of_severity(reply.diagnostics, false);
   json.update(reply.fields);
@@ -60,7 +61,8 @@ Json to_json(const std::vector<Condition>& conditions) {
 Json to_json(const std::vector<Change>& advice) {
   Json list = Json::array();
   for (const Change& change : advice) {
-    list.push_back({{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}});
+    list.push_back(
+        {{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}});
   }
   return list;
 }

@@ -14,7 +14,16 @@ namespace fusee::cli {
 
 using Json = nlohmann::ordered_json;
 
-enum class Exit { done = 0, bug = 1, usage = 2, bad_input = 3, infeasible = 4, check_failed = 5, cannot_write = 6, interrupted = 130 };
+enum class Exit {
+  done = 0,
+  bug = 1,
+  usage = 2,
+  bad_input = 3,
+  infeasible = 4,
+  check_failed = 5,
+  cannot_write = 6,
+  interrupted = 130
+};
 
 struct Reply {
   Exit exit = Exit::done;

@@ -8,18 +8,19 @@ namespace fusee::cli {
 namespace {
 
 std::string table_4_text(const Reproduction& all) {
-  std::string text = "Table 4: paper and certified optimum, max T_b/F_c " + fixed(all.optimum, 4) + " (gap " + rounded(all.relative_gap, 1) + ")\n";
+  std::string text = "Table 4: paper and certified optimum, max T_b/F_c " + fixed(all.optimum, 4) + "\n";
   for (const OptimumRow& row : all.table_4) {
     std::string symbol = row.symbol;
     symbol.resize(8, ' ');
-    text += "  " + symbol + rounded(row.paper) + " mm, computed " + rounded(row.computed, 6) + " mm (bounds " + rounded(row.lower) + " and " + rounded(row.upper) + ")\n";
+    text += "  " + symbol + rounded(row.paper) + " mm, computed " + rounded(row.computed, 6) + " mm (bounds " +
+            rounded(row.lower) + " and " + rounded(row.upper) + ")\n";
   }
   return text;
 }
 
 std::string claim_text(const Claim& claim) {
-  return "\n" + claim.name + ": " + std::string(verdict_text(claim.verdict)) + "\n  paper      " + claim.paper_says + "\n  equations  " + claim.equations_give +
-         "\n  holds for  " + claim_windows_text(claim) + "\n";
+  return "\n" + claim.name + ": " + std::string(verdict_text(claim.verdict)) + "\n  paper      " + claim.paper_says +
+         "\n  equations  " + claim.equations_give + "\n  holds for  " + claim_windows_text(claim) + "\n";
 }
 
 std::string laws_text(const Reproduction& all) {
@@ -27,14 +28,16 @@ std::string laws_text(const Reproduction& all) {
   for (const LawCost& law : all.laws) {
     std::string name = law.law;
     name.resize(11, ' ');
-    text += "  " + name + "theta within " + fixed(law.nonlinearity, 2) + " deg of a line, r2 up to " + rounded(law.r2_most) + " mm, bend radius " + rounded(law.bend_radius, 3) +
-            " mm, T_b/F_c " + fixed(law.tension, 4) + ", torque/F_c " + rounded(law.torque) + " mm\n";
+    text += "  " + name + "theta within " + fixed(law.nonlinearity, 2) + " deg of a line, r2 up to " +
+            rounded(law.r2_most) + " mm, bend radius " + rounded(law.bend_radius, 3) + " mm, T_b/F_c " +
+            fixed(law.tension, 4) + ", torque/F_c " + rounded(law.torque) + " mm\n";
   }
   return text;
 }
 
 std::string assumed_text(const PaperAssumptions& a) {
-  return "assumed: unit " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) + " mm, EF " + rounded(a.EF) + " mm, mu " + rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N\n\n";
+  return "assumed: unit " + rounded(a.unit) + " mm, r1 " + rounded(a.r1) + " mm, EF " + rounded(a.EF) + " mm, mu " +
+         rounded(a.mu) + ", F_c " + rounded(a.tip_force) + " N\n\n";
 }
 
 Json windows_json(const std::vector<WindowsOf>& windows) {
@@ -42,7 +45,8 @@ Json windows_json(const std::vector<WindowsOf>& windows) {
   for (const WindowsOf& of : windows) {
     json[of.parameter] = Json::array();
     for (const Window& window : of.windows) {
-      json[of.parameter].push_back({{"low", window.low}, {"high", window.high}, {"open_low", window.open_low}, {"open_high", window.open_high}});
+      json[of.parameter].push_back(
+          {{"low", window.low}, {"high", window.high}, {"open_low", window.open_low}, {"open_high", window.open_high}});
     }
   }
   return json;
@@ -51,7 +55,8 @@ Json windows_json(const std::vector<WindowsOf>& windows) {
 Json reproduction_json(const Reproduction& all) {
   const PaperAssumptions& a = all.assumptions;
   Json json;
-  json["assumptions"] = {{"unit_mm", a.unit}, {"r1_mm", a.r1}, {"EF_mm", a.EF}, {"mu", a.mu}, {"tip_force_N", a.tip_force}};
+  json["assumptions"] = {
+      {"unit_mm", a.unit}, {"r1_mm", a.r1}, {"EF_mm", a.EF}, {"mu", a.mu}, {"tip_force_N", a.tip_force}};
   json["optimum"] = all.optimum;
   json["relative_gap"] = all.relative_gap;
   for (const OptimumRow& row : all.table_4) {
@@ -65,11 +70,17 @@ Json reproduction_json(const Reproduction& all) {
                               {"windows", windows_json(claim.windows)}});
   }
   for (const LawCost& law : all.laws) {
-    json["laws"].push_back({{"law", law.law}, {"nonlinearity_deg", law.nonlinearity}, {"r2_most_mm", law.r2_most}, {"bend_radius_mm", law.bend_radius},
-                            {"tension", law.tension}, {"torque_mm", law.torque}});
+    json["laws"].push_back({{"law", law.law},
+                            {"nonlinearity_deg", law.nonlinearity},
+                            {"r2_most_mm", law.r2_most},
+                            {"bend_radius_mm", law.bend_radius},
+                            {"tension", law.tension},
+                            {"torque_mm", law.torque}});
   }
   for (const MuWindow& window : all.mu_windows) {
-    json["mu_windows"].push_back({{"r1_mm", window.r1}, {"EF_mm", window.EF}, {"windows", windows_json({{"mu", "", 0, 0, window.windows}})["mu"]}});
+    json["mu_windows"].push_back({{"r1_mm", window.r1},
+                                  {"EF_mm", window.EF},
+                                  {"windows", windows_json({{"mu", "", 0, 0, window.windows}})["mu"]}});
   }
   return json;
 }
@@ -108,13 +119,14 @@ Reply run_reproduce(const Arguments& arguments, Console& console) {
 Command reproduce_command() {
   return {"reproduce",
           "",
-          "the paper's tables and figures beside what this program computes",
+          "the paper, claim by claim",
           "Computes the table and the figures of the paper that this program began with,\n"
           "from its own equations, and holds each of its claims against them: holds, holds\n"
           "only if ..., does not hold. Numbers that the paper does not give are assumed and\n"
           "named; the windows in which a claim holds are searched for.",
           {{"-o,--out", "DIR", "figures as SVG, numbers as CSV, and the page paper.md"}},
-          {{"fusee reproduce", "the claims, one by one"}, {"fusee reproduce -o paper", "with figures and numbers; read paper/paper.md"}},
+          {{"fusee reproduce", "the claims, one by one"},
+           {"fusee reproduce -o paper", "with figures and numbers; read paper/paper.md"}},
           run_reproduce};
 }
 

@@ -15,8 +15,9 @@ std::string points_table(const std::vector<RewindPoint>& points, bool all) {
   std::vector<std::vector<std::string>> cells;
   for (std::size_t row = 0; row < rows; ++row) {
     const RewindPoint& point = points[rows < 2 ? 0 : row * (points.size() - 1) / (rows - 1)];
-    cells.push_back({fixed(degrees(point.alpha), 2), fixed(degrees(point.theta_declared), 3), fixed(degrees(point.theta), 3),
-                     fixed(degrees(point.theta - point.theta_declared), 4), fixed(point.slack, 4)});
+    cells.push_back({fixed(degrees(point.alpha), 2), fixed(degrees(point.theta_declared), 3),
+                     fixed(degrees(point.theta), 3), fixed(degrees(point.theta - point.theta_declared), 4),
+                     fixed(point.slack, 4)});
   }
   return table({{"alpha_deg", Align::right},
                 {"declared_deg", Align::right},
@@ -59,7 +60,8 @@ Reply run_rewind(const Arguments& arguments, Console& console) {
   const std::vector<Check> checks = as_built_checks(spec.mechanism, as_built, limits);
   Reply reply;
   reply.diagnostics = spec.warnings;
-  reply.text = file + ": " + as_built_text(as_built) + "\n\n" + points_table(as_built.points, console.verbose()) + "\n" + checks_table(checks);
+  reply.text = file + ": " + as_built_text(as_built) + "\n\n" + points_table(as_built.points, console.verbose()) +
+               "\n" + checks_table(checks);
   reply.fields["file"] = file;
   reply.fields["as_built"] = to_json(as_built);
   reply.fields["checks"] = to_json(checks);

@@ -68,8 +68,9 @@ Reply failed(Exit exit, Diagnostic diagnostic) {
 }
 
 Reply bug(const std::string& what) {
-  return failed(Exit::bug, note(Severity::error, what + ": this is a bug in fusee",
-                                      "please report it with the command line, the mechanism file and the output of 'fusee --version'"));
+  return failed(Exit::bug,
+                note(Severity::error, what + ": this is a bug in fusee",
+                     "please report it with the command line, the mechanism file and the output of 'fusee --version'"));
 }
 
 /// The one place where exceptions become exit codes.
@@ -99,7 +100,9 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
 }  // namespace
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {new_command(), explain_command(), analyze_command(), build_command(), check_command(), rewind_command(), calibrate_command()};
+  static const std::vector<Command> all = {new_command(),    explain_command(), analyze_command(),  build_command(),
+                                           check_command(),  rewind_command(),  optimize_command(), reproduce_command(),
+                                           calibrate_command()};
   return all;
 }
 
@@ -112,7 +115,8 @@ int run(const std::vector<std::string>& words) {
   for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);
   console.end_progress();
   if (!write_result(json ? document(reply, command_name) : reply.text)) {
-    console.say(note(Severity::error, std::string("the result could not be written to stdout: ") + std::strerror(errno)));
+    console.say(
+        note(Severity::error, std::string("the result could not be written to stdout: ") + std::strerror(errno)));
     return static_cast<int>(reply.exit == Exit::done ? Exit::cannot_write : reply.exit);
   }
   return static_cast<int>(reply.exit);

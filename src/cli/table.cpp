@@ -27,7 +27,8 @@ std::string table(const std::vector<Column>& columns, const std::vector<std::vec
   std::string text;
   const auto add_line = [&](const auto& cell) {
     std::string line;
-    for (std::size_t i = 0; i < columns.size(); ++i) line += (i ? "  " : "") + padded(cell(i), widths[i], columns[i].align);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      line += (i ? "  " : "") + padded(cell(i), widths[i], columns[i].align);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   };
   add_line([&](std::size_t i) { return columns[i].title; });

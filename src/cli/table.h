@@ -15,7 +15,8 @@ struct Column {
   Align align = Align::left;
 };
 
-/// A title line and one line a row, columns two spaces apart, without trailing blanks. Widths count characters, not bytes.
+/// A title line and one line a row, columns two spaces apart, without trailing blanks. Widths count characters, not
+/// bytes.
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace fusee::cli

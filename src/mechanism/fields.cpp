@@ -279,7 +279,7 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::groove_angle, degrees, radians>(
       {"body.groove_angle_deg", "", "50", "full angle between the walls of a groove"}, "deg", 0, 120));
   table.push_back(number<body, &Body::groove_depth>(
-      {"body.groove_depth_mm", "", "0", "from a groove's floor to its lip; 0: twice the tendon's diameter"}, "mm", 0,
+      {"body.groove_depth_mm", "", "0", "from a groove's floor to its lip; 0: twice the tendon's diameter, at least 0.8 mm"}, "mm", 0,
       50));
   table.push_back(number<body, &Body::seat_ratio>(
       {"body.seat_ratio", "", "0.55", "seat radius of a u groove per tendon diameter"}, "", 0.5, 2));
@@ -312,7 +312,7 @@ void add_body(std::vector<Field>& table) {
       {"body.nut_trap", "", "true",
        "the set screw goes through a nut that is slid into the hub; false: its thread is cut into the hub"}));
   table.push_back(number<body, &Body::anchor_hole>(
-      {"body.anchor_hole_mm", "", "0", "width of the channel to a tendon's knot; 0: tendon diameter + 0.3 mm"}, "mm", 0,
+      {"body.anchor_hole_mm", "", "0", "width of the channel to a tendon's knot; 0: tendon diameter + 0.3 mm, at least 0.6 mm"}, "mm", 0,
       50));
   table.push_back(number<body, &Body::knot_pocket>(
       {"body.knot_pocket_mm", "", "0",
@@ -322,8 +322,8 @@ void add_body(std::vector<Field>& table) {
       {"body.marks", "", "\"engraved\"", "home mark, clocking mark and labels on the faces"}));
   table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"},
                                                   "mm", 0.05, 5));
-  table.push_back(number<body, &Body::min_wall>({"body.min_wall_mm", "", "1.2", "no wall of the part may be thinner"},
-                                                "mm", 0.1, 50));
+  table.push_back(number<body, &Body::min_wall>({"body.min_wall_mm", "", "0", "no wall of the part may be thinner; 0: 1.2 mm, thinner on small pulleys"},
+                                                "mm", 0, 50));
 }
 
 void add_making(std::vector<Field>& table) {
@@ -337,7 +337,7 @@ void add_making(std::vector<Field>& table) {
   table.push_back(number<material, &Material::hole_compensation>(
       {"material.hole_compensation_mm", "", "0.2", "added to the diameter of holes and the bore"}, "mm", -1, 2));
   table.push_back(number<material, &Material::elephant_foot>(
-      {"material.elephant_foot_mm", "", "0.4", "chamfer at the edge that lies on the printer's bed; 0: none"}, "mm", 0,
+      {"material.elephant_foot_mm", "", "0.4", "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"}, "mm", 0,
       3));
   table.push_back(
       number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));

@@ -6,17 +6,21 @@
 
 #include "optimize/formulas.h"
 
-// A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s: so few, well chosen places do.
-// At one place there are three bounds, each rigorous; the best counts:
+// A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s: so few,
+// well chosen places do. At one place there are three bounds, each rigorous; the best counts:
 //   1. the interval value of f over the box;
-//   2. a linear function that is nowhere above f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i) with g_i the end of the slope's
-//      interval that is on the safe side of that corner. Its least value over the box and the constraints a·x <= b is bounded by
-//      weighting the constraints: any ν >= 0 gives a valid bound, good ones are found by going through the breaks of ν one by one;
-//   3. over point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 r1 e^{μφ}/sin γ1. There b/a, the cotangent of γ, is a quotient of
-//      two linear functions, and is bounded by weights exactly, where 1 and 2 only come near. Without friction whole surfaces of
-//      designs tie, and nothing less sharp could prove it.
+//   2. a linear function that is nowhere above f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i) with g_i the end of
+//   the slope's
+//      interval that is on the safe side of that corner. Its least value over the box and the constraints a·x <= b is
+//      bounded by weighting the constraints: any ν >= 0 gives a valid bound, good ones are found by going through the
+//      breaks of ν one by one;
+//   3. over point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 r1 e^{μφ}/sin γ1. There b/a, the cotangent
+//   of γ, is a quotient of
+//      two linear functions, and is bounded by weights exactly, where 1 and 2 only come near. Without friction whole
+//      surfaces of designs tie, and nothing less sharp could prove it.
 //
-// Everything between RoundingUp's construction and its end is computed with directed rounding, in functions the compiler must not merge.
+// Everything between RoundingUp's construction and its end is computed with directed rounding, in functions the
+// compiler must not merge.
 
 namespace fusee {
 namespace {
@@ -52,12 +56,15 @@ FileNumbers<Jet> constants(const Mechanism& mechanism) {
 DesignNumbers<Jet> numbers_over(const Problem& problem, const std::vector<Jet>& variables) {
   FileNumbers<Jet> numbers = constants(problem.base);
   for (const MovingKey& moving : problem.moving) {
-    const auto slot = std::find_if(k_slots.begin(), k_slots.end(), [&](const NumberSlot& s) { return s.key == moving.key; });
+    const auto slot =
+        std::find_if(k_slots.begin(), k_slots.end(), [&](const NumberSlot& s) { return s.key == moving.key; });
     if (slot == k_slots.end()) continue;
     Jet value(moving.constant);
     for (std::size_t i = 0; i < variables.size(); ++i) {
-      if (moving.a[i] == 1.0) value = moving.constant == 0 && value.count == 0 ? variables[i] : value + variables[i];
-      else if (moving.a[i] != 0) value = value + Jet(moving.a[i]) * variables[i];
+      if (moving.a[i] == 1.0)
+        value = moving.constant == 0 && value.count == 0 ? variables[i] : value + variables[i];
+      else if (moving.a[i] != 0)
+        value = value + Jet(moving.a[i]) * variables[i];
     }
     numbers.*(slot->member) = slot->angle ? value * Jet(pi_interval() / 180.0) : value;
   }
@@ -83,7 +90,8 @@ struct PlaceValue {
 [[gnu::noinline]] PlaceValue value_over(const Problem& problem, Objective objective, const Box& box, double place) {
   const RoundingUp rounding;
   PlaceValue result;
-  result.value = objective_at(objective, numbers_over(problem, variables_over(problem, box)), Jet(place), result.domain);
+  result.value =
+      objective_at(objective, numbers_over(problem, variables_over(problem, box)), Jet(place), result.domain);
   return result;
 }
 
@@ -138,8 +146,8 @@ double constrained_least(const Problem& problem, const Box& box, const Line& lin
 }
 
 /// Bound 2. `corner_value`: f at that corner.
-[[gnu::noinline]] double linear_bound(const Problem& problem, const Box& box, const Jet& over_box, const Interval& corner_value,
-                                      const std::array<bool, Jet::k_most>& at_upper) {
+[[gnu::noinline]] double linear_bound(const Problem& problem, const Box& box, const Jet& over_box,
+                                      const Interval& corner_value, const std::array<bool, Jet::k_most>& at_upper) {
   const RoundingUp rounding;
   Line line;
   line.constant = corner_value.lower();
@@ -178,7 +186,9 @@ double least_difference(const Problem& problem, const Box& box, const Legs& over
   const RoundingUp rounding;
   const bool torque = objective == Objective::motor_torque;
   constexpr double none = -std::numeric_limits<double>::infinity();
-  if (!problem.point_pins || !(torque ? problem.base.pulley.law == Law::compensate : objective == Objective::max_tension)) return none;
+  if (!problem.point_pins ||
+      !(torque ? problem.base.pulley.law == Law::compensate : objective == Objective::max_tension))
+    return none;
   const DesignNumbers<Jet> d = numbers_over(problem, variables_over(problem, box));
   Domain domain;
   const StrokeNumbers<Jet> n = stroke_numbers(d, Jet(place), domain);
@@ -192,7 +202,8 @@ double least_difference(const Problem& problem, const Box& box, const Legs& over
   double q = (over.b.value / over.a.value).lower();
   for (int step = 0; step < 4; ++step) {
     const double least = least_difference(problem, box, over, at_lower, q);
-    const double better = (Interval(q) + Interval(least) / (least >= 0 ? over.a.value.upper() : over.a.value.lower())).lower();
+    const double better =
+        (Interval(q) + Interval(least) / (least >= 0 ? over.a.value.upper() : over.a.value.lower())).lower();
     if (!(better > q)) break;
     q = better;
   }
@@ -202,7 +213,8 @@ double least_difference(const Problem& problem, const Box& box, const Legs& over
 }
 
 /// One piece of the stroke of one design.
-[[gnu::noinline]] Interval value_over_piece(const Problem& problem, Objective objective, const Design& design, double low, double high) {
+[[gnu::noinline]] Interval value_over_piece(const Problem& problem, Objective objective, const Design& design,
+                                            double low, double high) {
   const RoundingUp rounding;
   std::vector<Jet> variables;
   for (const double value : design) variables.emplace_back(value);
@@ -267,7 +279,8 @@ std::vector<double> Bounder::worst_places(const Box& box) const {
   for (int i = 0; i < places; ++i) {
     Domain domain;
     const double value = objective_at(objective_, numbers, i / (places - 1.0), domain);
-    values[static_cast<std::size_t>(i)] = domain.possible && value == value ? value : std::numeric_limits<double>::infinity();
+    values[static_cast<std::size_t>(i)] =
+        domain.possible && value == value ? value : std::numeric_limits<double>::infinity();
   }
   std::vector<std::pair<double, double>> found;  // −value, place
   for (int i = 0; i < places; ++i) {

@@ -20,7 +20,7 @@ struct Box {
 struct BoxBound {
   bool possible = true;  ///< false: no design of the box has a value
   double bound = 0;
-  Design best_corner;          ///< where the linear model of the box is lowest: a design worth trying
+  Design best_corner;                           ///< where the linear model of the box is lowest: a design worth trying
   std::array<double, Jet::k_most> influence{};  ///< |slope| × width of each variable: where a cut helps most
 };
 

@@ -24,16 +24,25 @@ void demand_certifiable(const Problem& problem, Objective objective) {
   for (const ObjectiveInfo& candidate : objectives()) {
     if (candidate.certifiable) names += (names.empty() ? "" : ", ") + std::string(candidate.name);
   }
-  const std::string hint = "certified: " + names + ", with law compensate or linear and without feasible = true; else --method ga";
-  if (!info(objective).certifiable) throw InputError("", std::string(info(objective).name) + " has no interval form: its optimum cannot be certified", hint);
-  if (problem.base.pulley.law == Law::table) throw InputError("", "law = \"table\" has no interval form: its optimum cannot be certified", hint);
-  if (problem.feasible) throw InputError("", "feasible = true has no interval form: the optimum cannot be certified", hint);
+  const std::string hint =
+      "certified: " + names + ", with law compensate or linear and without feasible = true; else --method ga";
+  if (!info(objective).certifiable)
+    throw InputError("", std::string(info(objective).name) + " has no interval form: its optimum cannot be certified",
+                     hint);
+  if (problem.base.pulley.law == Law::table)
+    throw InputError("", "law = \"table\" has no interval form: its optimum cannot be certified", hint);
+  if (problem.feasible)
+    throw InputError("", "feasible = true has no interval form: the optimum cannot be certified", hint);
 }
 
 class Search {
  public:
   Search(const Problem& problem, Objective objective, const CertifiedOptions& options)
-      : problem_(problem), count_(problem.variables.size()), objective_(objective), options_(options), bounder_(problem, objective) {
+      : problem_(problem),
+        count_(problem.variables.size()),
+        objective_(objective),
+        options_(options),
+        bounder_(problem, objective) {
     if (problem.cap) cap_.emplace(problem, problem.cap->objective);
   }
 
@@ -57,7 +66,8 @@ class Search {
  private:
   double tie_limit() const { return best_.empty() ? k_none : best_value_ + options_.tie * std::abs(best_value_); }
 
-  // ---- branch and bound ------------------------------------------------------------------------------------------------
+  // ---- branch and bound
+  // ------------------------------------------------------------------------------------------------
 
   void start() {
     for (const Design& design : options_.first_tries) try_design(design);
@@ -73,8 +83,8 @@ class Search {
     add(root);
   }
 
-  /// Best first, until the least bound left meets the best design. Then as much work again at most for a hundred times less: what is wanted
-  /// is the proof, but a better design on the way is welcome. False when it was stopped before.
+  /// Best first, until the least bound left meets the best design. Then as much work again at most for a hundred times
+  /// less: what is wanted is the proof, but a better design on the way is welcome. False when it was stopped before.
   bool branch() {
     const bool met = branch_until(0.5 * options_.gap, options_.most_boxes);
     if (met) branch_until(0.005 * options_.gap, std::min(options_.most_boxes, 2 * boxes_));
@@ -108,8 +118,10 @@ class Search {
   /// Bounds a box, tries designs of it, and keeps it where it may hold the optimum or a tie.
   void add(Box box) {
     if (!bounded(box)) return;
-    if (box.bound > best_value_) tie_boxes_.push_back(box);
-    else queue_.push(box);
+    if (box.bound > best_value_)
+      tie_boxes_.push_back(box);
+    else
+      queue_.push(box);
   }
 
   /// False when the box holds neither the optimum nor a tie.
@@ -143,7 +155,8 @@ class Search {
     for (const LinearConstraint& constraint : problem_.constraints) {
       double excess = -constraint.b;
       for (std::size_t k = 0; k < count_; ++k) excess += constraint.a[k] * design[k];
-      if (excess > 0 && constraint.a[i] != 0) design[i] = std::clamp(design[i] - excess / constraint.a[i], box.lower[i], box.upper[i]);
+      if (excess > 0 && constraint.a[i] != 0)
+        design[i] = std::clamp(design[i] - excess / constraint.a[i], box.lower[i], box.upper[i]);
     }
     return design;
   }
@@ -166,7 +179,8 @@ class Search {
       const double range = problem_.variables[i].upper - problem_.variables[i].lower;
       const double relative = range > 0 ? (box.upper[i] - box.lower[i]) / range : 0.0;
       // Without slopes, or where they say nothing, the widest; else where the objective changes most.
-      const double promise = bound.best_corner.empty() ? relative : bound.influence[i] + 1e-3 * relative * std::abs(bound.bound);
+      const double promise =
+          bound.best_corner.empty() ? relative : bound.influence[i] + 1e-3 * relative * std::abs(bound.bound);
       if (relative > 0 && promise > most) most = promise, cut = static_cast<int>(i);
     }
     return cut;
@@ -187,7 +201,8 @@ class Search {
     return middle;
   }
 
-  // ---- the answer ------------------------------------------------------------------------------------------------------
+  // ---- the answer
+  // ------------------------------------------------------------------------------------------------------
 
   void finish(CertifiedResult& result) {
     result.best = best_;
@@ -199,7 +214,8 @@ class Search {
   }
 
   std::string commonest_reason() const {
-    const auto most = std::max_element(reasons_.begin(), reasons_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto most = std::max_element(reasons_.begin(), reasons_.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
     return most == reasons_.end() ? "no design was possible" : most->first;
   }
 
@@ -226,7 +242,8 @@ class Search {
       if (box.bound <= tie_limit()) by_size.emplace(relative_size(box), box);
     }
     ties.known = {best_, best_};
-    while (!by_size.empty() && by_size.begin()->first > k_small && static_cast<long>(by_size.size()) < options_.most_tie_boxes) {
+    while (!by_size.empty() && by_size.begin()->first > k_small &&
+           static_cast<long>(by_size.size()) < options_.most_tie_boxes) {
       Box box = by_size.begin()->second;
       by_size.erase(by_size.begin());
       box.cut = widest(box);

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: the paper's equations at one place of the stroke, written once for numbers, intervals and intervals with derivatives:
-/// what is evaluated and what is proven are the same.
+/// Internal: the paper's equations at one place of the stroke, written once for numbers, intervals and intervals with
+/// derivatives: what is evaluated and what is proven are the same.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
@@ -16,6 +16,8 @@ struct DesignNumbers {
   S rho;        ///< ρp
   S stiffness;  ///< A E of the tendon, N
   S theta_min, theta_max;
+  S to_B, to_D;             ///< c: from the pulley's axis to the pins, mm
+  S angle_B, angle_D;       ///< their directions in the right-hand image, rad
   bool linear = false;      ///< law = linear: θ = α/ratio; else compensate
   bool point_pins = false;  ///< ρp = 0: the paper's equations
 };
@@ -30,7 +32,12 @@ FileNumbers<double> file_numbers(const Mechanism& mechanism);
 
 template <typename S>
 DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_pins) {
-  DesignNumbers<S> d{file.R, file.EB, file.ED, file.OE, file.EF, file.r1, file.ratio, file.mu, 0.0, 0.0, file.theta_min, file.theta_max};
+  DesignNumbers<S> d{file.R, file.EB, file.ED,        file.OE,        file.EF, file.r1, file.ratio, file.mu,
+                     0.0,    0.0,     file.theta_min, file.theta_max, 0.0,     0.0,     0.0,        0.0};
+  d.to_B = sqrt(squared(d.EB) + squared(d.EF));
+  d.to_D = sqrt(squared(d.ED) + squared(d.EF));
+  d.angle_B = 0.5 * k_pi - atan(d.EB / d.EF);
+  d.angle_D = 0.5 * k_pi - atan(d.ED / d.EF);
   if (!point_pins) d.rho = file.radius + 0.5 * file.diameter;
   d.stiffness = (0.25 * k_pi) * squared(file.diameter) * file.modulus;
   d.linear = law == Law::linear;
@@ -46,8 +53,8 @@ struct SpanNumbers {
   S free;       ///< C to the pin, mm
 };
 
-// In the link's frame the pin lies a = e cos θ + OE sin θ beside OC and b = R + OE cos θ − e sin θ below C, both linear in the lengths:
-// tan γ = a/b. Over a pin of radius ρ the line is turned by asin(ρ/D), D² = a² + b².
+// In the link's frame the pin lies a = e cos θ + OE sin θ beside OC and b = R + OE cos θ − e sin θ below C, both linear
+// in the lengths: tan γ = a/b. Over a pin of radius ρ the line is turned by asin(ρ/D), D² = a² + b².
 template <typename S>
 SpanNumbers<S> span_numbers(const DesignNumbers<S>& d, const S& e, const S& sine, const S& cosine, Domain& domain) {
   const S a = e * cosine + d.OE * sine;
@@ -59,7 +66,8 @@ SpanNumbers<S> span_numbers(const DesignNumbers<S>& d, const S& e, const S& sine
   const S distance = sqrt(positive_part(squared(a) + squared(b), domain));
   const S q = b / positive_part(a, domain);
   const S gamma = 0.5 * k_pi - atan(q) + asin(unit_part(d.rho / distance, domain));
-  return {1.0 / positive_part(sin(gamma), domain), gamma, sqrt(positive_part(squared(distance) - squared(d.rho), domain))};
+  return {1.0 / positive_part(sin(gamma), domain), gamma,
+          sqrt(positive_part(squared(distance) - squared(d.rho), domain))};
 }
 
 template <typename S>
@@ -74,12 +82,11 @@ struct StrokeNumbers {
 /// Tendon 1 is wanted on its pin too, or the law θ(α) ends. No objective uses its wrap: no derivatives.
 template <typename S>
 void demand_on_pin_B(const DesignNumbers<S>& d, const S& gamma1, const StrokeNumbers<S>& n, Domain& domain) {
-  const auto EB = value_of(d.EB), EF = value_of(d.EF), r1 = value_of(n.r1), rho = value_of(d.rho);
-  const auto to_pin = sqrt(squared(EB) + squared(EF));
+  const auto r1 = value_of(n.r1), rho = value_of(d.rho);
   Domain its_own;
-  const auto off = unit_part((d.point_pins ? r1 : r1 - rho) / to_pin, its_own);
+  const auto off = unit_part((d.point_pins ? r1 : r1 - rho) / value_of(d.to_B), its_own);
   domain.possible = domain.possible && its_own.possible;
-  demand_not_negative(value_of(gamma1) + value_of(n.theta) - (0.5 * k_pi - atan(EB / EF)) + acos(off), domain);
+  demand_not_negative(value_of(gamma1) + value_of(n.theta) - value_of(d.angle_B) + acos(off), domain);
 }
 
 /// `place`: 0 at the lowest, 1 at the highest joint angle.
@@ -98,17 +105,17 @@ StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domai
     n.r1 = d.r1;
     n.r2 = d.r1 * upper1.per_force / n.upper.per_force;  // [4]: r2 = r1 m2/m1
   }
-  const S to_pin = sqrt(squared(d.ED) + squared(d.EF));
   const S beyond = d.point_pins ? n.r2 : n.r2 - d.rho;
-  const S cosine_off = unit_part(beyond / to_pin, domain);
-  n.reach = sqrt(positive_part(squared(to_pin) - squared(beyond), domain));
-  n.phi = n.upper.gamma - n.theta - (0.5 * k_pi - atan(d.ED / d.EF)) + acos(cosine_off);
+  const S cosine_off = unit_part(beyond / d.to_D, domain);
+  n.reach = sqrt(positive_part(squared(d.to_D) - squared(beyond), domain));
+  n.phi = n.upper.gamma - n.theta - d.angle_D + acos(cosine_off);
   demand_not_negative(n.phi, domain);
   demand_on_pin_B(d, upper1.gamma, n, domain);
   return n;
 }
 
-/// What of the objective this place of the stroke alone would give: the objective is the largest over the range. Per newton of tip force.
+/// What of the objective this place of the stroke alone would give: the objective is the largest over the range. Per
+/// newton of tip force.
 template <typename S>
 S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, Domain& domain) {
   const StrokeNumbers<S> n = stroke_numbers(d, place, domain);

@@ -50,12 +50,13 @@ struct PagmoProblem {
 };
 
 std::string commonest(const std::map<std::string, long>& reasons) {
-  const auto most =
-      std::max_element(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most = std::max_element(reasons.begin(), reasons.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == reasons.end() ? "no design keeps the constraints" : most->first;
 }
 
-/// Random designs, those outside of a constraint drawn again: a thin set of possible designs must not be missed at the start.
+/// Random designs, those outside of a constraint drawn again: a thin set of possible designs must not be missed at the
+/// start.
 pagmo::population first_population(const PagmoProblem& pagmo_problem, const GeneticOptions& options) {
   constexpr int k_most_draws = 200;
   pagmo::population population(pagmo::problem(pagmo_problem), 0u, options.seed);
@@ -123,7 +124,8 @@ GeneticResult genetic_optimum(const Problem& problem, Objective objective, const
 
 ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options) {
   if (problem.objectives.size() < 2) {
-    throw InputError("", "a front needs two or three objectives", "for example optimize.objective = [\"max_tension\", \"footprint\"]");
+    throw InputError("", "a front needs two or three objectives",
+                     "for example optimize.objective = [\"max_tension\", \"footprint\"]");
   }
   const PagmoProblem pagmo_problem{&problem, problem.objectives};
   pagmo::population population = first_population(pagmo_problem, options);
@@ -139,7 +141,8 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
   for (const auto i : fronts.front()) {
     if (!(costs[i][0] < k_penalty)) continue;
     FrontPoint point{population.get_x()[i], {}};
-    for (std::size_t k = 0; k < costs[i].size(); ++k) point.values.push_back(info(problem.objectives[k]).largest ? -costs[i][k] : costs[i][k]);
+    for (std::size_t k = 0; k < costs[i].size(); ++k)
+      point.values.push_back(info(problem.objectives[k]).largest ? -costs[i][k] : costs[i][k]);
     result.front.push_back(std::move(point));
   }
   std::sort(result.front.begin(), result.front.end(), [](const FrontPoint& a, const FrontPoint& b) {

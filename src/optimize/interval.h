@@ -1,8 +1,9 @@
 /// \file
 /// Internal: intervals that hold the true value whatever the rounding, and first derivatives carried along with them.
 ///
-/// Boost.Interval's four operations round outward while a RoundingUp lives; they are wrong without one. Elementary functions come from the
-/// C library, whose errors in any rounding mode are at most 2 units in the last place (glibc manual, "Errors in Math Functions"): four are taken.
+/// Boost.Interval's four operations round outward while a RoundingUp lives; they are wrong without one. Elementary
+/// functions come from the C library, whose errors in any rounding mode are at most 2 units in the last place (glibc
+/// manual, "Errors in Math Functions"): four are taken.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +17,12 @@
 namespace fusee {
 
 using RoundedInterval = boost::numeric::interval<
-    double, boost::numeric::interval_lib::policies<boost::numeric::interval_lib::save_state<boost::numeric::interval_lib::rounded_arith_opp<double>>,
-                                                   boost::numeric::interval_lib::checking_base<double>>>;
+    double, boost::numeric::interval_lib::policies<
+                boost::numeric::interval_lib::save_state<boost::numeric::interval_lib::rounded_arith_opp<double>>,
+                boost::numeric::interval_lib::checking_base<double>>>;
 using Interval = boost::numeric::interval_lib::unprotect<RoundedInterval>::type;
-/// Rounds upward while it lives. Keep it and the arithmetic in functions of their own: the compiler may move arithmetic over its ends.
+/// Rounds upward while it lives. Keep it and the arithmetic in functions of their own: the compiler may move arithmetic
+/// over its ends.
 using RoundingUp = RoundedInterval::traits_type::rounding;
 
 /// What a formula's domain does to an interval: a part of it may have to be cut off, or all of it.
@@ -40,11 +43,19 @@ Interval grown(const Interval& x, Function function) {
   return {below(function(x.lower())), above(function(x.upper()))};
 }
 
-inline Interval exp(const Interval& x) { return grown(x, [](double v) { return std::exp(v); }); }
-inline Interval atan(const Interval& x) { return grown(x, [](double v) { return std::atan(v); }); }
-inline Interval asin(const Interval& x) { return grown(x, [](double v) { return std::asin(v); }); }
+inline Interval exp(const Interval& x) {
+  return grown(x, [](double v) { return std::exp(v); });
+}
+inline Interval atan(const Interval& x) {
+  return grown(x, [](double v) { return std::atan(v); });
+}
+inline Interval asin(const Interval& x) {
+  return grown(x, [](double v) { return std::asin(v); });
+}
 inline Interval acos(const Interval& x) { return {below(std::acos(x.upper())), above(std::acos(x.lower()))}; }
-inline Interval sqrt(const Interval& x) { return grown(x, [](double v) { return std::sqrt(std::max(v, 0.0)); }); }
+inline Interval sqrt(const Interval& x) {
+  return grown(x, [](double v) { return std::sqrt(std::max(v, 0.0)); });
+}
 inline Interval pi_interval() { return {below(k_pi), above(k_pi)}; }
 
 /// Angles of the joint lie within ±π, and a little more by rounding.
@@ -63,7 +74,9 @@ inline Interval sin(const Interval& x) {
 }
 inline Interval cos(const Interval& x) { return sin(x + pi_interval() * 0.5); }
 inline Interval squared(const Interval& x) { return boost::numeric::square(x); }
-inline Interval larger(const Interval& a, const Interval& b) { return {std::max(a.lower(), b.lower()), std::max(a.upper(), b.upper())}; }
+inline Interval larger(const Interval& a, const Interval& b) {
+  return {std::max(a.lower(), b.lower()), std::max(a.upper(), b.upper())};
+}
 
 inline Interval positive_part(const Interval& x, Domain& domain) {
   if (!(x.upper() > 0)) domain.possible = false;
@@ -85,7 +98,8 @@ inline void demand_not_negative(const Interval& x, Domain& domain) {
   if (x.upper() < 0) domain.possible = false;
 }
 
-// The same words for plain numbers, so that one formula serves both ----------------------------------------------------
+// The same words for plain numbers, so that one formula serves both
+// ----------------------------------------------------
 
 using std::acos, std::asin, std::atan, std::cos, std::exp, std::sin, std::sqrt;
 inline double squared(double x) { return x * x; }
@@ -105,7 +119,8 @@ inline void demand_not_negative(double x, Domain& domain) {
 inline double value_of(double x) { return x; }
 inline const Interval& value_of(const Interval& x) { return x; }
 
-// First derivatives ----------------------------------------------------------------------------------------------------
+// First derivatives
+// ----------------------------------------------------------------------------------------------------
 
 /// A value over a box and its derivatives by the box's variables, all as intervals.
 struct Jet {

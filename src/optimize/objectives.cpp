@@ -12,11 +12,16 @@ namespace fusee {
 namespace {
 
 constexpr std::array<ObjectiveInfo, 5> k_objectives{{
-    {Objective::max_tension, "max_tension", "N/N", "largest T_b over the range, per newton of tip force [6]-[8]", false, true},
-    {Objective::max_error, "max_error", "deg/N", "largest joint error by stretch over the range, per newton of tip force [9]-[11]", false, true},
-    {Objective::footprint, "footprint", "mm^2", "largest rectangle around link, pins and pulley in any pose", false, true},
-    {Objective::motor_torque, "motor_torque", "N mm/N", "largest T_b r2 over the range, per newton of tip force", false, true},
-    {Objective::min_bend, "min_bend", "mm", "smallest radius of curvature that a tendon is bent to on P1 or P2", true, false},
+    {Objective::max_tension, "max_tension", "N/N", "largest T_b over the range, per newton of tip force [6]-[8]", false,
+     true},
+    {Objective::max_error, "max_error", "deg/N",
+     "largest joint error by stretch over the range, per newton of tip force [9]-[11]", false, true},
+    {Objective::footprint, "footprint", "mm^2", "largest rectangle around link, pins and pulley in any pose", false,
+     true},
+    {Objective::motor_torque, "motor_torque", "N mm/N", "largest T_b r2 over the range, per newton of tip force", false,
+     true},
+    {Objective::min_bend, "min_bend", "mm", "smallest radius of curvature that a tendon is bent to on P1 or P2", true,
+     false},
 }};
 
 /// Places of the stroke that are looked at; where the worst lies between two, it is found by golden section.
@@ -31,7 +36,8 @@ Evaluation impossible(std::string reason) {
   return evaluation;
 }
 
-/// The place of [low, high] where `value` is largest, to about 1e-7 of its width; the value itself is much better known.
+/// The place of [low, high] where `value` is largest, to about 1e-7 of its width; the value itself is much better
+/// known.
 template <typename Value>
 double largest_place(double low, double high, Value value) {
   constexpr double golden = 0.61803398874989485;
@@ -89,10 +95,14 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
   const auto value = [&](double place) {
     const TransmissionPoint point = transmission.at_theta(mechanism.joint.theta_min + place * range);
     const std::string where = " at θ = " + rounded(degrees(point.theta), 3) + "°";
-    if (!(point.t1.lower_reach > 0)) reason = "pin B stands in pulley P1" + where;
-    else if (!(point.t2.lower_reach > 0)) reason = "pin D stands in pulley P2" + where;
-    else if (!(point.t1.wrap >= 0)) reason = "tendon 1 leaves pin B" + where;
-    else if (!(point.t2.wrap >= 0)) reason = "tendon 2 leaves pin D" + where;
+    if (!(point.t1.lower_reach > 0))
+      reason = "pin B stands in pulley P1" + where;
+    else if (!(point.t2.lower_reach > 0))
+      reason = "pin D stands in pulley P2" + where;
+    else if (!(point.t1.wrap >= 0))
+      reason = "tendon 1 leaves pin B" + where;
+    else if (!(point.t2.wrap >= 0))
+      reason = "tendon 2 leaves pin D" + where;
     if (!reason.empty()) return 2.0 * k_impossible;
     const PaperForces forces = paper_forces(loaded, point);
     if (objective == Objective::max_tension) return forces.Tb;
@@ -103,7 +113,8 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
     return objective_at(objective, numbers, place, domain);
   };
   Evaluation evaluation = largest_over_range(mechanism, value);
-  if (!evaluation.possible) evaluation.reason = reason.empty() ? "a force grows without bound: a moment arm is nearly gone" : reason;
+  if (!evaluation.possible)
+    evaluation.reason = reason.empty() ? "a force grows without bound: a moment arm is nearly gone" : reason;
   return evaluation;
 }
 
@@ -146,11 +157,14 @@ double Evaluation::cost(Objective objective) const {
 }
 
 FileNumbers<double> file_numbers(const Mechanism& m) {
-  return {m.joint.R,    m.guides.EB,     m.guides.ED,       m.guides.OE,      m.pulley.EF,       m.pulley.r1,      m.pulley.ratio,
-          m.guides.mu,  m.guides.radius, m.tendon.diameter, m.tendon.modulus, m.joint.theta_min, m.joint.theta_max};
+  return {m.joint.R,        m.guides.EB,       m.guides.ED,      m.guides.OE,     m.pulley.EF,
+          m.pulley.r1,      m.pulley.ratio,    m.guides.mu,      m.guides.radius, m.tendon.diameter,
+          m.tendon.modulus, m.joint.theta_min, m.joint.theta_max};
 }
 
-Evaluation evaluate(Objective objective, const Mechanism& mechanism) { return evaluate(objective, mechanism, has_point_pins(mechanism)); }
+Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
+  return evaluate(objective, mechanism, has_point_pins(mechanism));
+}
 
 Evaluation evaluate(Objective objective, const Mechanism& mechanism, bool point_pins) {
   if (objective == Objective::min_bend) return smallest_bend(mechanism, point_pins);

@@ -21,7 +21,8 @@ struct Affine {
 Affine affine(const Problem& problem, const LinearExpression& expression) {
   Affine sum{std::vector<double>(problem.variables.size(), 0.0), expression.constant};
   for (const LinearTerm& term : expression.terms) {
-    const auto moving = std::find_if(problem.moving.begin(), problem.moving.end(), [&](const MovingKey& m) { return m.key == term.key; });
+    const auto moving = std::find_if(problem.moving.begin(), problem.moving.end(),
+                                     [&](const MovingKey& m) { return m.key == term.key; });
     if (moving == problem.moving.end()) {
       sum.constant += term.factor * find_number_key(term.key)->get(problem.base);
       continue;
@@ -46,7 +47,8 @@ void add_constraint(Problem& problem, const Affine& left, const Affine& right, c
 
 void add_moving_keys(Problem& problem, const Optimization& table) {
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    MovingKey moving{problem.variables[i].key, *find_number_key(problem.variables[i].key), std::vector<double>(problem.variables.size(), 0.0), 0.0};
+    MovingKey moving{problem.variables[i].key, *find_number_key(problem.variables[i].key),
+                     std::vector<double>(problem.variables.size(), 0.0), 0.0};
     moving.a[i] = 1.0;
     problem.moving.push_back(std::move(moving));
   }
@@ -80,13 +82,15 @@ std::vector<Variable> variables_of(const Optimization& table) {
   std::vector<Variable> variables;
   for (std::size_t i = 0; i < table.variables.size(); ++i) {
     const Field& field = *find_number_key(table.variables[i])->field;
-    const std::string symbol = field.symbol.empty() || field.kind == FieldKind::range ? table.variables[i] : std::string(field.symbol);
+    const std::string symbol =
+        field.symbol.empty() || field.kind == FieldKind::range ? table.variables[i] : std::string(field.symbol);
     variables.push_back({table.variables[i], symbol, std::string(field.unit), table.lower[i], table.upper[i]});
   }
   return variables;
 }
 
-/// Whether turning this variable alone ever changes an objective, its possibility or (when demanded) the making of the pulley.
+/// Whether turning this variable alone ever changes an objective, its possibility or (when demanded) the making of the
+/// pulley.
 bool has_effect(const Problem& problem, std::size_t variable) {
   Random random(1);
   bool nothing_is_possible = true;  // then nothing is known of effects either
@@ -97,7 +101,8 @@ bool has_effect(const Problem& problem, std::size_t variable) {
     b[variable] = problem.variables[variable].upper;
     const Mechanism at_a = mechanism_at(problem, a), at_b = mechanism_at(problem, b);
     for (const Objective objective : problem.objectives) {
-      const Evaluation value_a = evaluate(objective, at_a, problem.point_pins), value_b = evaluate(objective, at_b, problem.point_pins);
+      const Evaluation value_a = evaluate(objective, at_a, problem.point_pins),
+                       value_b = evaluate(objective, at_b, problem.point_pins);
       if (value_a.possible != value_b.possible || value_a.value != value_b.value) return true;
       if (value_a.possible) nothing_is_possible = false;
     }
@@ -114,7 +119,8 @@ void demand_effects(const Problem& problem, const std::string& file) {
     const Variable& variable = problem.variables[i];
     if (variable.lower == variable.upper || has_effect(problem, i)) continue;
     std::string names;
-    for (const Objective objective : problem.objectives) names += (names.empty() ? "" : ", ") + std::string(info(objective).name);
+    for (const Objective objective : problem.objectives)
+      names += (names.empty() ? "" : ", ") + std::string(info(objective).name);
     Diagnostic error;
     error.place.file = file;
     error.message = "optimize.variables: " + variable.key + " has no effect on " + names;
@@ -189,11 +195,16 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
 
 Problem make_problem(const MechanismFile& file) {
   const Optimization& table = file.mechanism.optimize;
-  if (file.mechanism.transmission) throw InputError(file.path, "declares [transmission] in place of a mechanism", "only a joint with guides and pulley can be optimised");
+  if (file.mechanism.transmission)
+    throw InputError(file.path, "declares [transmission] in place of a mechanism",
+                     "only a joint with guides and pulley can be optimised");
   if (table.variables.empty()) {
-    throw InputError(file.path, "has no [optimize] variables", "say what may change, for example variables = [\"joint.length_mm\"], lower = [100], upper = [300]");
+    throw InputError(
+        file.path, "has no [optimize] variables",
+        "say what may change, for example variables = [\"joint.length_mm\"], lower = [100], upper = [300]");
   }
-  if (table.objectives.empty()) throw InputError(file.path, "optimize.objective is empty", "name one, for example objective = \"max_tension\"");
+  if (table.objectives.empty())
+    throw InputError(file.path, "optimize.objective is empty", "name one, for example objective = \"max_tension\"");
   Problem problem;
   problem.base = file.mechanism;
   problem.base.optimize = {};  // designs are copied by the thousand
@@ -202,8 +213,10 @@ Problem make_problem(const MechanismFile& file) {
   add_moving_keys(problem, table);
   add_constraints(problem, table);
   problem.feasible = table.feasible;
-  const bool pins_vary = std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& m) { return m.key == "guides.radius_mm"; });
-  problem.point_pins = file.mechanism.pulley.method == Method::paper || (file.mechanism.guides.radius == 0 && !pins_vary);
+  const bool pins_vary = std::any_of(problem.moving.begin(), problem.moving.end(),
+                                     [](const MovingKey& m) { return m.key == "guides.radius_mm"; });
+  problem.point_pins =
+      file.mechanism.pulley.method == Method::paper || (file.mechanism.guides.radius == 0 && !pins_vary);
   demand_effects(problem, file.path);
   return problem;
 }

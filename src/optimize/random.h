@@ -27,7 +27,8 @@ class Random {
 
 inline Design random_design(const Problem& problem, Random& random) {
   Design design;
-  for (const Variable& variable : problem.variables) design.push_back(variable.lower + random.fraction() * (variable.upper - variable.lower));
+  for (const Variable& variable : problem.variables)
+    design.push_back(variable.lower + random.fraction() * (variable.upper - variable.lower));
   return design;
 }
 

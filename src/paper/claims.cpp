@@ -20,11 +20,13 @@ constexpr double k_same_place = 1e-3;
 /// A joint that follows a straight line to this is called linear: what the paper takes the trouble to analyse. deg
 constexpr double k_linear = 0.1;
 
-// ---- predicates -------------------------------------------------------------------------------------------------------
+// ---- predicates
+// -------------------------------------------------------------------------------------------------------
 
 template <typename Value>
 double place_of_largest(const std::vector<StrokePlace>& stroke, Value value) {
-  const auto most = std::max_element(stroke.begin(), stroke.end(), [&](const StrokePlace& a, const StrokePlace& b) { return value(a) < value(b); });
+  const auto most = std::max_element(stroke.begin(), stroke.end(),
+                                     [&](const StrokePlace& a, const StrokePlace& b) { return value(a) < value(b); });
   return static_cast<double>(most - stroke.begin()) / static_cast<double>(stroke.size() - 1);
 }
 
@@ -40,7 +42,8 @@ double tension(const StrokePlace& place) { return place.forces.Tb; }
 double elongation(const StrokePlace& place) { return place.forces.elongation; }
 double joint_error(const StrokePlace& place) { return degrees(place.forces.theta_error); }
 
-CertifiedResult optimum_of(const PaperAssumptions& assumptions, Objective objective, double gap, const KeepGoing& keep_going = {}) {
+CertifiedResult optimum_of(const PaperAssumptions& assumptions, Objective objective, double gap,
+                           const KeepGoing& keep_going = {}) {
   MechanismFile file = paper_problem_file(assumptions);
   file.mechanism.optimize.objectives = {std::string(info(objective).name)};
   const Problem problem = make_problem(file);
@@ -77,10 +80,12 @@ bool is_optimal(const PaperAssumptions& assumptions, Objective objective, const 
     if (there.possible && there.value < enough) return false;
   }
   const auto keep_going = [enough](const SearchProgress& progress) { return progress.best >= enough; };
-  return optimum_of(assumptions, objective, k_same_value, keep_going).lower_bound >= here.value * (1.0 - 2.0 * k_same_value);
+  return optimum_of(assumptions, objective, k_same_value, keep_going).lower_bound >=
+         here.value * (1.0 - 2.0 * k_same_value);
 }
 
-// ---- windows ----------------------------------------------------------------------------------------------------------
+// ---- windows
+// ----------------------------------------------------------------------------------------------------------
 
 std::vector<WindowsOf> windows_of(const PaperAssumptions& assumptions, const Holds& holds) {
   struct Searched {
@@ -89,8 +94,11 @@ std::vector<WindowsOf> windows_of(const PaperAssumptions& assumptions, const Hol
     double PaperAssumptions::*member;
     double low, high;
   };
-  // μ 0 is left out: there whole surfaces tie. r1 from where P2 turns once; EF from a pulley that touches the pins' line.
-  constexpr Searched searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51}, {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0}, {"EF", "mm", &PaperAssumptions::EF, 20.0, 220.0}};
+  // μ 0 is left out: there whole surfaces tie. r1 from where P2 turns once; EF from a pulley that touches the pins'
+  // line.
+  constexpr Searched searched[] = {{"mu", "", &PaperAssumptions::mu, 0.01, 0.51},
+                                   {"r1", "mm", &PaperAssumptions::r1, 2.0, 42.0},
+                                   {"EF", "mm", &PaperAssumptions::EF, 20.0, 220.0}};
   std::vector<WindowsOf> all;
   for (const Searched& one : searched) {
     PaperAssumptions changed = assumptions;
@@ -103,19 +111,23 @@ std::vector<WindowsOf> windows_of(const PaperAssumptions& assumptions, const Hol
   return all;
 }
 
-bool is_everywhere(const WindowsOf& of) { return of.windows.size() == 1 && of.windows[0].open_low && of.windows[0].open_high; }
+bool is_everywhere(const WindowsOf& of) {
+  return of.windows.size() == 1 && of.windows[0].open_low && of.windows[0].open_high;
+}
 
 /// With the windows of the assumed numbers: everywhere, somewhere, nowhere.
 Claim judged(Claim claim, const PaperAssumptions& assumptions, const Holds& holds) {
   claim.windows = windows_of(assumptions, holds);
   const bool here = holds(assumptions);
   const bool everywhere = here && std::all_of(claim.windows.begin(), claim.windows.end(), is_everywhere);
-  const bool somewhere = here || std::any_of(claim.windows.begin(), claim.windows.end(), [](const WindowsOf& of) { return !of.windows.empty(); });
+  const bool somewhere = here || std::any_of(claim.windows.begin(), claim.windows.end(),
+                                             [](const WindowsOf& of) { return !of.windows.empty(); });
   claim.verdict = everywhere ? Verdict::holds : somewhere ? Verdict::holds_only_if : Verdict::does_not_hold;
   return claim;
 }
 
-// ---- the claims -------------------------------------------------------------------------------------------------------
+// ---- the claims
+// -------------------------------------------------------------------------------------------------------
 
 std::string in_mm(double value) { return rounded(value, 5); }
 
@@ -123,9 +135,11 @@ Claim optimum_claim(const Reproduction& so_far) {
   Claim claim;
   claim.name = "optimum_of_table_4";
   const auto& rows = so_far.table_4;
-  claim.paper_says = "the best joint has R " + in_mm(rows[0].paper) + ", EB = ED " + in_mm(rows[1].paper) + ", OE " + in_mm(rows[2].paper) + " mm";
-  claim.equations_give = "R " + in_mm(rows[0].computed) + ", EB = ED " + in_mm(rows[1].computed) + ", OE " + in_mm(rows[2].computed) + " mm with max T_b/F_c " +
-                         fixed(so_far.optimum, 4) + ", proven to " + rounded(so_far.relative_gap, 1);
+  claim.paper_says = "the best joint has R " + in_mm(rows[0].paper) + ", EB = ED " + in_mm(rows[1].paper) + ", OE " +
+                     in_mm(rows[2].paper) + " mm";
+  claim.equations_give = "R " + in_mm(rows[0].computed) + ", EB = ED " + in_mm(rows[1].computed) + ", OE " +
+                         in_mm(rows[2].computed) + " mm with max T_b/F_c " + fixed(so_far.optimum, 4) +
+                         ", proven to a millionth";
   return judged(std::move(claim), so_far.assumptions, table_4_is_optimal);
 }
 
@@ -154,21 +168,27 @@ Claim bounds_claim(const Reproduction& so_far) {
   for (const OptimumRow& row : so_far.table_4) {
     const double range = row.upper - row.lower;
     const bool at = std::min(row.computed - row.lower, row.upper - row.computed) < k_same_place * range;
-    const bool at_half = std::abs(row.computed - 0.5 * so_far.table_4[0].computed) < k_same_place * range && &row == &so_far.table_4[1];
-    claim.equations_give += (claim.equations_give.empty() ? "" : ", ") + row.symbol + (at_half ? " at EB <= R/2" : at ? " at its bound" : " inside");
+    const bool at_half =
+        std::abs(row.computed - 0.5 * so_far.table_4[0].computed) < k_same_place * range && &row == &so_far.table_4[1];
+    claim.equations_give += (claim.equations_give.empty() ? "" : ", ") + row.symbol +
+                            (at_half ? " at EB <= R/2"
+                             : at    ? " at its bound"
+                                     : " inside");
   }
   return judged(std::move(claim), so_far.assumptions, all_at_bounds);
 }
 
 template <typename Value>
-Claim place_claim(const Reproduction& so_far, const std::string& name, const std::string& what, const std::string& unit, Value value) {
+Claim place_claim(const Reproduction& so_far, const std::string& name, const std::string& what, const std::string& unit,
+                  Value value) {
   Claim claim;
   claim.name = name;
   claim.paper_says = "the largest " + what + " is at the negative limit of α";
   const auto stroke = paper_stroke(table_4_mechanism(so_far.assumptions));
   const double place = place_of_largest(stroke, value);
   const auto& worst = stroke[static_cast<std::size_t>(std::lround(place * 60))];
-  claim.equations_give = "largest " + rounded(value(worst), 4) + " " + unit + " at θ = " + rounded(degrees(worst.point.theta), 3) + "°; at the limits " +
+  claim.equations_give = "largest " + rounded(value(worst), 4) + " " + unit +
+                         " at θ = " + rounded(degrees(worst.point.theta), 3) + "°; at the limits " +
                          rounded(value(stroke.front()), 4) + " and " + rounded(value(stroke.back()), 4) + " " + unit;
   return judged(std::move(claim), so_far.assumptions, largest_at_negative_limit(value));
 }
@@ -180,8 +200,10 @@ Claim same_optimum_claim(const Reproduction& so_far) {
   const CertifiedResult least = optimum_of(so_far.assumptions, Objective::max_error, k_same_value);
   const double here = evaluate(Objective::max_error, table_4_mechanism(so_far.assumptions)).value;
   const double force = so_far.assumptions.tip_force;
-  claim.equations_give = "largest error " + rounded(here * force, 5) + "° at Table 4; the least is " + rounded(least.value * force, 5) + "° at R " + in_mm(least.best[0]) +
-                         ", ED " + in_mm(least.best[1]) + ", OE " + in_mm(least.best[2]) + " mm, " + rounded(100.0 * (1.0 - least.value / here), 2) + " % less";
+  claim.equations_give = "largest error " + rounded(here * force, 5) + "° at Table 4; the least is " +
+                         rounded(least.value * force, 5) + "° at R " + in_mm(least.best[0]) + ", ED " +
+                         in_mm(least.best[1]) + ", OE " + in_mm(least.best[2]) + " mm, " +
+                         rounded(100.0 * (1.0 - least.value / here), 2) + " % less";
   return judged(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
     const Lengths at = table_4_lengths(assumptions);
     return is_optimal(assumptions, Objective::max_error, at) && is_optimal(assumptions, Objective::max_tension, at);
@@ -193,8 +215,9 @@ Claim linear_claim(const Reproduction& so_far) {
   claim.name = "the_pulley_linearizes";
   claim.paper_says = "the non-circular P2 linearizes the joint";
   const auto table_4_stroke = paper_stroke(table_4_mechanism(so_far.assumptions), 2000);
-  claim.equations_give = "θ(α) leaves the line that fits best by ±" + fixed(nonlinearity(table_4_stroke), 2) + "°, that of least squares over α by up to " +
-                         fixed(off_least_squares(table_4_stroke), 2) + "°: a round P1 alone decides θ(α), P2 only keeps tendon 2 taut";
+  claim.equations_give = "θ(α) leaves the line that fits best by ±" + fixed(nonlinearity(table_4_stroke), 2) +
+                         "°, that of least squares over α by up to " + fixed(off_least_squares(table_4_stroke), 2) +
+                         "°: a round P1 alone decides θ(α), P2 only keeps tendon 2 taut";
   return judged(std::move(claim), so_far.assumptions, [](const PaperAssumptions& assumptions) {
     const auto stroke = paper_stroke(table_4_mechanism(assumptions));
     return !stroke.empty() && nonlinearity(stroke) < k_linear;
@@ -217,9 +240,11 @@ Claim drawing_claim(const Reproduction& so_far) {
   }
   const double half = 0.5 * mechanism.tendon.diameter;
   const RewindResult wound = rewind(mechanism, parallel(drawn.p1, -half), parallel(drawn.p2, -half));
-  const auto [low, high] = std::minmax_element(wound.points.begin(), wound.points.end(), [](const auto& a, const auto& b) { return a.slack < b.slack; });
-  claim.equations_give = "a string wound on that drawing misses by " + rounded(low->slack, 2) + " to " + rounded(high->slack, 2) +
-                         " mm of tendon 2: r2 is the distance of the tendon's line, the profile is the envelope of those lines";
+  const auto [low, high] = std::minmax_element(wound.points.begin(), wound.points.end(),
+                                               [](const auto& a, const auto& b) { return a.slack < b.slack; });
+  claim.equations_give =
+      "a string wound on that drawing misses by " + rounded(low->slack, 2) + " to " + rounded(high->slack, 2) +
+      " mm of tendon 2: r2 is the distance of the tendon's line, the profile is the envelope of those lines";
   return claim;
 }
 

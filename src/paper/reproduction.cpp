@@ -19,7 +19,8 @@ constexpr double k_upper[] = {3.0, 1.5, 0.5};
 /// Of the linear law that needs the same turn of the motor.
 double same_stroke_ratio(const Mechanism& mechanism) {
   const Transmission transmission(mechanism);
-  return (transmission.alpha_max() - transmission.alpha_min()) / (mechanism.joint.theta_max - mechanism.joint.theta_min);
+  return (transmission.alpha_max() - transmission.alpha_min()) /
+         (mechanism.joint.theta_max - mechanism.joint.theta_min);
 }
 
 LawCost law_cost(const Mechanism& mechanism, const std::string& name) {
@@ -124,7 +125,8 @@ std::vector<StrokePlace> paper_stroke(const Mechanism& mechanism, int steps) {
   return stroke;
 }
 
-/// The best line in the sense of the largest distance: with curves as plain as these it is found by ternary search over its slope.
+/// The best line in the sense of the largest distance: with curves as plain as these it is found by ternary search over
+/// its slope.
 double nonlinearity(const std::vector<StrokePlace>& stroke) {
   const auto deviation = [&stroke](double slope) {
     double low = 1e300, high = -1e300;
@@ -135,7 +137,8 @@ double nonlinearity(const std::vector<StrokePlace>& stroke) {
     }
     return 0.5 * (high - low);
   };
-  const double mean = (stroke.back().point.theta - stroke.front().point.theta) / (stroke.back().point.alpha - stroke.front().point.alpha);
+  const double mean = (stroke.back().point.theta - stroke.front().point.theta) /
+                      (stroke.back().point.alpha - stroke.front().point.alpha);
   double low = 0.5 * mean, high = 1.5 * mean;
   for (int i = 0; i < 100; ++i) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
@@ -152,7 +155,8 @@ double off_least_squares(const std::vector<StrokePlace>& stroke) {
   }
   const double slope = (n * xy - x * y) / (n * xx - x * x), offset = (y - slope * x) / n;
   double most = 0;
-  for (const StrokePlace& place : stroke) most = std::max(most, std::abs(place.point.theta - offset - slope * place.point.alpha));
+  for (const StrokePlace& place : stroke)
+    most = std::max(most, std::abs(place.point.theta - offset - slope * place.point.alpha));
   return degrees(most);
 }
 
@@ -164,7 +168,8 @@ std::vector<LawCost> law_costs(const PaperAssumptions& assumptions) {
   return {law_cost(compensate, "compensate"), law_cost(linear, "linear")};
 }
 
-Reproduction reproduce_paper(const PaperAssumptions& assumptions, const std::function<void(std::string_view step)>& before_step) {
+Reproduction reproduce_paper(const PaperAssumptions& assumptions,
+                             const std::function<void(std::string_view step)>& before_step) {
   const auto step = [&before_step](std::string_view what) {
     if (before_step) before_step(what);
   };
@@ -177,7 +182,8 @@ Reproduction reproduce_paper(const PaperAssumptions& assumptions, const std::fun
   all.relative_gap = optimum.relative_gap;
   for (std::size_t i = 0; i < 3; ++i) {
     const Variable& variable = problem.variables[i];
-    all.table_4.push_back({i == 1 ? "EB = ED" : variable.symbol, variable.lower, variable.upper, k_table_4[i] * assumptions.unit, optimum.best[i]});
+    all.table_4.push_back({i == 1 ? "EB = ED" : variable.symbol, variable.lower, variable.upper,
+                           k_table_4[i] * assumptions.unit, optimum.best[i]});
   }
   step("Fig. 7: the genetic algorithm");
   all.figures = paper_figures(assumptions, genetic_optimum(problem, Objective::max_tension));

@@ -40,12 +40,18 @@ std::string windows_text(const WindowsOf& of) {
   std::string text;
   for (const Window& window : of.windows) {
     text += text.empty() ? "" : " and ";
-    if (window.open_low && window.open_high) text += "all of " + rounded(window.low, 3) + " to " + rounded(window.high, 3);
-    else if (window.open_low) text += "up to " + rounded(window.high, 3);
-    else if (window.open_high) text += "from " + rounded(window.low, 3);
-    else text += rounded(window.low, 3) + " to " + rounded(window.high, 3);
+    if (window.open_low && window.open_high)
+      text += "all of " + rounded(window.low, 3) + " to " + rounded(window.high, 3);
+    else if (window.open_low)
+      text += "up to " + rounded(window.high, 3);
+    else if (window.open_high)
+      text += "from " + rounded(window.low, 3);
+    else
+      text += rounded(window.low, 3) + " to " + rounded(window.high, 3);
   }
-  if (text.empty()) return "nowhere in " + rounded(of.searched_low, 3) + " to " + rounded(of.searched_high, 3) + (of.unit.empty() ? "" : " " + of.unit);
+  if (text.empty())
+    return "nowhere in " + rounded(of.searched_low, 3) + " to " + rounded(of.searched_high, 3) +
+           (of.unit.empty() ? "" : " " + of.unit);
   return text + (of.unit.empty() ? "" : " " + of.unit);
 }
 

@@ -9,7 +9,8 @@ namespace {
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
 Check same_count(const TriangleMesh& reference, const TriangleMesh& other) {
-  return exactly("triangles", static_cast<double>(other.triangles.size()), static_cast<double>(reference.triangles.size()), "1");
+  return exactly("triangles", static_cast<double>(other.triangles.size()),
+                 static_cast<double>(reference.triangles.size()), "1");
 }
 
 double largest_distance(const TriangleMesh& a, const TriangleMesh& b) {
@@ -25,16 +26,18 @@ double largest_distance(const TriangleMesh& a, const TriangleMesh& b) {
   return largest;
 }
 
-/// The largest distance from a vertex of `from` to the nearest of `to`; infinite beyond `reach`. Sorted along x, so that only
-/// the few within reach are looked at.
+/// The largest distance from a vertex of `from` to the nearest of `to`; infinite beyond `reach`. Sorted along x, so
+/// that only the few within reach are looked at.
 double farthest_from(const TriangleMesh& to, const TriangleMesh& from, double reach) {
   std::vector<Vec3> sorted = to.vertices;
   std::sort(sorted.begin(), sorted.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
   double farthest = 0;
   for (const Vec3& vertex : from.vertices) {
-    auto near = std::lower_bound(sorted.begin(), sorted.end(), vertex.x() - reach, [](const Vec3& v, double x) { return v.x() < x; });
+    auto near = std::lower_bound(sorted.begin(), sorted.end(), vertex.x() - reach,
+                                 [](const Vec3& v, double x) { return v.x() < x; });
     double nearest = k_infinite;
-    for (; near != sorted.end() && near->x() <= vertex.x() + reach; ++near) nearest = std::min(nearest, (*near - vertex).norm());
+    for (; near != sorted.end() && near->x() <= vertex.x() + reach; ++near)
+      nearest = std::min(nearest, (*near - vertex).norm());
     farthest = std::max(farthest, nearest);
   }
   return farthest;
@@ -44,11 +47,13 @@ double farthest_from(const TriangleMesh& to, const TriangleMesh& from, double re
 
 std::vector<Check> same_mesh(const TriangleMesh& reference, const TriangleMesh& other) {
   // Text holds the shortest decimal number that gives the same float, which as a double is another one.
-  return {same_count(reference, other), at_most("deviation", largest_distance(reference, rounded_to_float(other)), 0.0, "mm")};
+  return {same_count(reference, other),
+          at_most("deviation", largest_distance(reference, rounded_to_float(other)), 0.0, "mm")};
 }
 
 std::vector<Check> near_mesh(const TriangleMesh& reference, const TriangleMesh& other, double tolerance) {
-  const double deviation = std::max(farthest_from(reference, other, tolerance), farthest_from(other, reference, tolerance));
+  const double deviation =
+      std::max(farthest_from(reference, other, tolerance), farthest_from(other, reference, tolerance));
   return {same_count(reference, other), at_most("deviation", deviation, tolerance, "mm")};
 }
 

@@ -71,6 +71,7 @@ bool design(Workshop& shop) {
   if (!product.synthesis.made()) return false;
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
+  if (!product.pulley.made()) product.pulley.advice = body_advice(mechanism);
   return product.pulley.made();
 }
 
@@ -144,8 +145,9 @@ void work(Workshop& shop) {
 }  // namespace
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"pulley.stl",  "pulley.obj", "pulley.3mf",  "pulley.drc",       "pulley.scad",  "profile.dxf",
-                                                 "plates.dxf", "profile.csv", "transmission.csv", "report.html", "manifest.json"};
+  static const std::vector<std::string> names = {"pulley.stl",       "pulley.obj",  "pulley.3mf",   "pulley.drc",
+                                                 "pulley.scad",      "profile.dxf", "plates.dxf",   "profile.csv",
+                                                 "transmission.csv", "report.html", "manifest.json"};
   return names;
 }
 

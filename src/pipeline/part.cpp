@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t k_largest_file = std::size_t{512} << 20;
 
 bool has_ending(std::string name, std::string_view ending) {
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
@@ -61,8 +62,9 @@ RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) 
   const DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
   const DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
   if (!pitch1 || !pitch2) {
-    throw InputError("", "the drawing has no closed contours on the layers P1_FLOOR and P2_FLOOR (nor on P1_PITCH and P2_PITCH)",
-                     "name the layers of the two groove floors so; 'fusee build' writes such a profile.dxf");
+    throw InputError(
+        "", "the drawing has no closed contours on the layers P1_FLOOR and P2_FLOOR (nor on P1_PITCH and P2_PITCH)",
+        "name the layers of the two groove floors so; 'fusee build' writes such a profile.dxf");
   }
   // A centre line that lies on the pitch curve: a tendon without thickness, over pins thicker by its radius.
   Mechanism centre_line = mechanism;
@@ -73,7 +75,9 @@ RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) 
 
 /// The loops of a mesh that is inside out, as if it were not.
 std::vector<Polygon> outward(std::vector<Polygon> loops) {
-  const auto by_size = [](const Polygon& a, const Polygon& b) { return std::abs(signed_area(a)) < std::abs(signed_area(b)); };
+  const auto by_size = [](const Polygon& a, const Polygon& b) {
+    return std::abs(signed_area(a)) < std::abs(signed_area(b));
+  };
   if (signed_area(*std::max_element(loops.begin(), loops.end(), by_size)) >= 0) return loops;
   for (Polygon& loop : loops) std::reverse(loop.begin(), loop.end());
   return loops;
@@ -83,7 +87,8 @@ std::vector<Polygon> outward(std::vector<Polygon> loops) {
 Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
   const std::vector<Polygon> loops = section(mesh, z * scale);
   if (loops.empty()) {
-    throw InputError("", "the mesh has no section at z = " + rounded(z * scale) + " mm, where the mechanism has a groove",
+    throw InputError("",
+                     "the mesh has no section at z = " + rounded(z * scale) + " mm, where the mechanism has a groove",
                      "z must run along the pulley's axis from the bed at 0, in mm");
   }
   Polygon floor = outer_loop(outward(loops));
@@ -116,7 +121,8 @@ RewindResult rewind_part(const Mechanism& declared, const Part& part) {
   return rewind_drawing(mechanism, std::get<Drawing>(part));
 }
 
-std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built, const AsBuiltLimits& limits) {
+std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built,
+                                   const AsBuiltLimits& limits) {
   const double error = degrees(as_built.max_theta_error);
   const std::string error_at = "at alpha = " + rounded(degrees(as_built.max_theta_error_at)) + " deg";
   const std::string slack_at = "at alpha = " + rounded(degrees(as_built.max_slack_at)) + " deg";

@@ -30,24 +30,25 @@ struct Knots {
   }
 };
 
-/// 1 at the ends of the arc, 0 away from them.
-double near_ends(double u, double turn) {
-  const double ramp = std::min(0.4, radians(60.0) / turn);
-  const double way_in = std::min(1.0, std::min(u, 1.0 - u) / ramp);
-  return 1.0 - way_in * way_in * (3.0 - 2.0 * way_in);
+/// The share that an end's curvature still has at `turn` past it: 1 at the end, 0 after a sixth of a turn, or sooner where the
+/// end is so flat that a sixth of a turn of it would lead far away.
+double share_of(const CurvePoint& end, double turn, double whole) {
+  const double ramp = std::min(0.4 * whole, radians(60.0) * std::min(1.0, end.h / end.radius));
+  const double way = std::min(1.0, turn / ramp);
+  return 1.0 - way * way * (3.0 - 2.0 * way);
 }
 
 Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_radius) {
   Knots knots;
+  const double whole = end.psi - begin.psi;
   for (int i = 0; i <= k_segments; ++i) {
     const double u = static_cast<double>(i) / k_segments;
-    const double sine = std::sin(k_pi * u);
-    knots.psi.push_back(begin.psi + (end.psi - begin.psi) * u);
-    const double of_ends = begin.radius + (end.radius - begin.radius) * u;
+    const double of_begin = share_of(begin, whole * u, whole);
+    const double of_end = share_of(end, whole * (1.0 - u), whole);
     const double about_axis = begin.h + (end.h - begin.h) * u;
-    const double near = near_ends(u, end.psi - begin.psi);
-    knots.rest.push_back(near * of_ends + (1.0 - near) * about_axis);
-    knots.window.push_back(sine * sine);
+    knots.psi.push_back(begin.psi + whole * u);
+    knots.rest.push_back(of_begin * begin.radius + of_end * end.radius + (1.0 - of_begin - of_end) * about_axis);
+    knots.window.push_back((1.0 - of_begin) * (1.0 - of_end));
     knots.least.push_back(std::min(least_radius, knots.rest.back()));
   }
   return knots;

@@ -224,14 +224,17 @@ Condition law_grows(const Mechanism& mechanism, const Transmission& transmission
   return condition;
 }
 
-/// With gentle bends where there is room for them, sharper ones where not.
+/// As round as there is room for, with sharper bends where there is not.
 std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
+  const CurvePoint& end = samples.back().curve;
   CurvePoint next_turn = samples.front().curve;
   next_turn.psi += k_two_pi;
-  const double half = 0.5 * mechanism.tendon.diameter;
-  const double gentle = half + 2.0 * mechanism.tendon.diameter;
-  auto closing = ClosingArc::between(samples.back().curve, next_turn, gentle);
-  return closing ? closing : ClosingArc::between(samples.back().curve, next_turn, half + k_least_floor_radius);
+  const double diameter = mechanism.tendon.diameter;
+  const double around = 0.5 * (end.h + next_turn.h);
+  for (const double least : {0.5 * around, 0.25 * around, 2.5 * diameter, 0.5 * diameter + k_least_floor_radius}) {
+    if (auto closing = ClosingArc::between(end, next_turn, least)) return closing;
+  }
+  return std::nullopt;
 }
 
 SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs) {

@@ -7,7 +7,7 @@
 namespace fusee {
 namespace {
 
-constexpr int k_points = 720;
+constexpr int k_points = 1440;
 /// A groove floor keeps at least this radius of curvature, mm.
 constexpr double k_least_floor_radius = 0.05;
 
@@ -28,16 +28,17 @@ double closing_radius(const PolarPoint& begin, const PolarPoint& end, double u) 
   return std::clamp(cubic, 0.8 * std::min(begin.r, end.r), std::max(begin.r, end.r));
 }
 
-/// The stroke in the image, as evenly spaced in the joint angle as the samples are many.
-std::vector<PolarPoint> active_points(const Mechanism& mechanism, const TakeOffs& take_offs, int count) {
+/// The stroke in the image, evenly spaced in the pulley's angle, which is the drawing's.
+std::vector<PolarPoint> active_points(const TakeOffs& take_offs) {
+  const Transmission& transmission = take_offs.transmission();
   const double sign = mirror_sign(take_offs.side());
-  const double begin = sign > 0 ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
-  const double end = sign > 0 ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
-  const TakeOff home = take_offs.at(0.0);
-  const double home_normal = home.curve.psi;
+  const double begin = sign > 0 ? transmission.alpha_min() : -transmission.alpha_max();
+  const double end = sign > 0 ? transmission.alpha_max() : -transmission.alpha_min();
+  const double home_normal = take_offs.at(0.0).curve.psi;
   std::vector<PolarPoint> points;
-  for (int i = 0; i <= count; ++i) {
-    const TakeOff at = take_offs.at(begin + (end - begin) * i / count);
+  for (int i = 0; i <= k_points; ++i) {
+    TakeOff at;
+    at.stroke = transmission.at_alpha(sign * (begin + (end - begin) * i / k_points));
     const TendonPoint& tendon = take_offs.tendon(at);
     points.push_back({home_normal + sign * at.stroke.alpha, tendon.p, sign * tendon.dp});
   }
@@ -120,7 +121,7 @@ double hollow(const Polygon& hull, const std::vector<PolarPoint>& points) {
 
 PolarCurve::PolarCurve(const Mechanism& mechanism, const TakeOffs& take_offs)
     : rounding_(0.5 * mechanism.tendon.diameter + k_least_floor_radius) {
-  const std::vector<PolarPoint> active = active_points(mechanism, take_offs, k_points);
+  const std::vector<PolarPoint> active = active_points(take_offs);
   active_begin_ = normal_of(active.front());
   active_end_ = normal_of(active.back());
   const Polygon hull = convex_hull(closed_drawing(active));
@@ -140,7 +141,8 @@ Vec2 PolarCurve::position(double psi) const {
 CurvePoint PolarCurve::at(double psi) const {
   constexpr double probe = radians(1.0);
   const Vec2 x = position(psi);
-  const double radius = (position(psi + probe) - position(psi - probe)).norm() / (2.0 * probe);
+  // Beside a bridge the side without it tells how the curve bends.
+  const double radius = std::min((position(psi + probe) - x).norm(), (x - position(psi - probe)).norm()) / probe;
   return {psi, x.dot(unit(psi)), x.dot(turned_left(unit(psi))), radius};
 }
 

@@ -8,6 +8,8 @@ namespace {
 
 /// However coarse the tolerance, a chord turns no further: a string wound on the polygon is then right to 5e-5 of its length.
 constexpr double k_largest_turn = radians(2.0);
+/// Between two probes of the curvature: the radius of a nearly straight piece doubles within half a degree.
+constexpr double k_probe = radians(0.2);
 /// Directions nearer than this are one: a strip between them would be a sliver.
 constexpr double k_smallest_turn = radians(0.1);
 
@@ -28,7 +30,7 @@ double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi,
 /// Directions from `begin` up to (not with) `end`, as dense as the curves ask.
 void append_directions(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, double begin, double end,
                        const SamplingOptions& options) {
-  const int probes = std::max(8, static_cast<int>(std::ceil((end - begin) / radians(1.0))));
+  const int probes = std::max(8, static_cast<int>(std::ceil((end - begin) / k_probe)));
   std::vector<double> count(static_cast<std::size_t>(probes) + 1, 0.0);  // chords needed from `begin` to each probe
   double previous = 1.0 / allowed_turn(left, right, begin, options);
   for (int i = 1; i <= probes; ++i) {

@@ -12,9 +12,7 @@ namespace {
 
 /// How far outward of a pitch curve the body's outermost parallel curve lies: the flange's lip, and a little more.
 double flange_reach(const Mechanism& mechanism) {
-  const double diameter = mechanism.tendon.diameter;
-  const double depth = mechanism.body.groove_depth > 0 ? mechanism.body.groove_depth : 2.0 * diameter;
-  return depth + diameter;
+  return mechanism.groove_depth() + mechanism.tendon.diameter;
 }
 
 std::vector<TransmissionPoint> stroke_table(const Transmission& transmission, int steps) {

@@ -35,6 +35,7 @@ class TakeOffs {
     return side_ == Side::left ? take_off.stroke.t1 : take_off.stroke.t2;
   }
   Side side() const { return side_; }
+  const Transmission& transmission() const { return *transmission_; }
   const PinPlace& place() const { return transmission_->place(side_); }
 
  private:

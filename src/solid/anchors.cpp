@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
@@ -12,7 +13,15 @@ namespace {
 
 // The mouth begins this many tendon diameters past the arc that the tendon leaves from.
 constexpr double k_lap_ratio = 1.6;
+// What counts as a tendon's diameter there is at least this share of the channel's width.
+constexpr double k_least_lap = 0.6;
 constexpr int k_fillet_steps = 6;
+// The straight of a near tie-off is at most this many fillets long.
+constexpr double k_near_fillets = 6.0;
+// Between a channel and the floor that a tendon lies on.
+constexpr double k_floor_gap = 0.05;
+// Pockets are placed against a floor of about this many points: no more are needed to keep a wall.
+constexpr std::size_t k_floor_points = 256;
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -62,16 +71,26 @@ class ClosingArc {
 
 class AnchorSearch {
  public:
-  AnchorSearch(const AnchorSite& site, bool wound_end, double wanted)
-      : site_(site),
-        arc_(site.outline, wound_end),
-        wanted_(wanted),
-        floor_(parallel(site.outline, -0.5 * site.tendon_diameter)) {}
+  AnchorSearch(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach)
+      : site_(site), arc_(site.outline, wound_end), wanted_(wanted), reach_(reach) {
+    const Outline& outline = site.outline;
+    const Polygon all = parallel(outline, -0.5 * site.tendon_diameter);
+    const std::size_t stride = std::max<std::size_t>(1, all.size() / k_floor_points);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i % stride != 0 && i != outline.active_first && i != outline.active_last) continue;
+      floor_.push_back(all[i]);
+      if (outline.is_active(i)) active_floor_.push_back(all[i]);
+    }
+    for (std::size_t i = 0; i < floor_.size(); ++i) {
+      const Vec2 inward = turned_left(floor_[(i + 1) % floor_.size()] - floor_[i]).normalized();
+      sides_.push_back({inward, inward.dot(floor_[i])});
+    }
+  }
 
   // From short paths to long ones, so that the first with all the room wanted is the one to take.
   std::optional<AnchorPath> run() {
     constexpr std::array<double, 6> turns{70, 85, 55, 100, 115, 40};
-    const double d = site_.tendon_diameter;
+    const double d = std::max(site_.tendon_diameter, k_least_lap * site_.width);
     for (const double lap : {k_lap_ratio, 2.5, 4.0, 6.0, 9.0}) {
       if (lap * d > arc_.length()) break;
       for (const double turn : turns) {
@@ -82,21 +101,29 @@ class AnchorSearch {
   }
 
  private:
-  // True when a path with all the room wanted was found.
+  // True when a path with all the room wanted was found. A longer straight runs through all that a shorter one meets.
   bool try_straights(const Station& station, double turn) {
     const double step = 0.5 * site_.width;
-    const double longest = 2.0 * floor_radius();
+    const double longest = reach_ == AnchorReach::near ? k_near_fillets * site_.fillet : 2.0 * floor_radius();
     for (double straight = 0.6 * site_.width; straight < longest; straight += step) {
       AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, straight, 0};
       const Vec2 pocket = path.pocket();
-      const double depth = depth_inside(floor_, pocket);
+      const double depth = depth_of(pocket);
       if (depth < -site_.width) break;
+      if (reach_ == AnchorReach::near && path.heading().dot(pocket) > 0) break;
       path.room = room_at(pocket, depth, straight);
-      if (!(path.room >= 0.55 * site_.width) || (best_ && path.room <= best_->room) || !channel_fits(path)) continue;
+      if (!(path.room >= 0.55 * site_.width) || (best_ && path.room <= best_->room)) continue;
+      if (!channel_fits(path)) break;
       best_ = path;
       if (path.room >= wanted_) return true;
     }
     return false;
+  }
+
+  double depth_of(const Vec2& point) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Side& side : sides_) least = std::min(least, side.inward.dot(point) - side.offset);
+    return least;
   }
 
   double floor_radius() const {
@@ -121,18 +148,26 @@ class AnchorSearch {
         if (gap(bar, hole) < site_.wall) return false;
       }
     }
-    for (std::size_t i = 0; i < floor_.size(); ++i) {
-      if (!site_.outline.is_active(i)) continue;
-      const Bar point{floor_[i], floor_[i], 0.05};
-      if (std::any_of(bars.begin(), bars.end(), [&point](const Bar& bar) { return gap(bar, point) < 0; })) return false;
-    }
-    return true;
+    const double clear = 0.5 * site_.width + k_floor_gap;
+    return std::none_of(active_floor_.begin(), active_floor_.end(), [&](const Vec2& point) {
+      return std::any_of(bars.begin(), bars.end(),
+                         [&](const Bar& bar) { return distance_to_segment(point, bar.a, bar.b) < clear; });
+    });
   }
+
+  // A half-plane that the floor lies in.
+  struct Side {
+    Vec2 inward;
+    double offset = 0;
+  };
 
   const AnchorSite& site_;
   ClosingArc arc_;
   double wanted_;
+  AnchorReach reach_;
   Polygon floor_;
+  std::vector<Vec2> active_floor_;
+  std::vector<Side> sides_;
   std::optional<AnchorPath> best_;
 };
 
@@ -158,10 +193,10 @@ std::vector<Bar> AnchorPath::bars(double width) const {
   return result;
 }
 
-std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted) {
+std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach) {
   demand(site.fillet > 0.5 * site.width,
          "a channel of " + std::to_string(site.width) + " mm with a fillet of " + std::to_string(site.fillet));
-  return AnchorSearch(site, wound_end, wanted).run();
+  return AnchorSearch(site, wound_end, wanted, reach).run();
 }
 
 int pocket_facets(double radius) {

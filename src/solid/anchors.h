@@ -43,8 +43,9 @@ struct AnchorSite {
 };
 
 /// The path with the most room for a pocket of radius `wanted`, the shortest of those with all of it; null when no
-/// channel fits at all.
-std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted);
+/// channel fits at all. `near`: only short channels that do not pass the axis.
+enum class AnchorReach { near, anywhere };
+std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach);
 
 /// The keyhole in the groove's plane: channel and pocket of `radius`, counter-clockwise. `facets` on the pocket.
 struct Keyhole {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {
@@ -11,6 +12,7 @@ namespace {
 
 // How far a rim stands outside what it must contain: more than any facet's sagitta, less than anyone would see.
 constexpr double k_rim_margin = 0.2;
+constexpr double k_hub_sagitta = 0.01;
 // Width of the blend where the middle flange changes from following one lip to following the other.
 constexpr double k_blend = 0.5;
 
@@ -19,6 +21,14 @@ Polygon circle_like(const Outline& outline, double radius) {
   Polygon points;
   points.reserve(outline.points.size());
   for (const OutlinePoint& point : outline.points) points.push_back(radius * point.normal);
+  return points;
+}
+
+// The hub's own circle, as fine as it needs to be.
+Polygon circle(double radius) {
+  const int sides = std::max(24, static_cast<int>(std::ceil(k_pi / std::acos(1.0 - k_hub_sagitta / radius))));
+  Polygon points;
+  for (int k = 0; k < sides; ++k) points.push_back(radius * unit(k_two_pi * (k + 0.37) / sides));
   return points;
 }
 
@@ -94,8 +104,7 @@ class StackBuilder {
     if (kind_ == Flange::round) add(layout_.z_p2 + half, rims_.upper);
     add(layout_.z_top, rims_.upper);
     if (layout_.hub_radius > 0) {
-      add(layout_.z_top, circle_like(p2_, layout_.hub_radius));
-      add(layout_.z_hub, circle_like(p2_, layout_.hub_radius));
+      stack_.hub = Shaft{circle(layout_.hub_radius), layout_.z_top, layout_.z_hub};
     }
     add_bore();
     return std::move(stack_);

@@ -54,13 +54,15 @@ void mark_inside(Triangulation& triangulation) {
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Polygon>& loops) {
+std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Polygon>& loops,
+                                                      const std::vector<Vec2>& inner) {
   Triangulation triangulation;
   std::uint32_t count = 0;
   for (const Polygon& loop : loops) {
     insert_loop(triangulation, loop, count);
     count += static_cast<std::uint32_t>(loop.size());
   }
+  for (const Vec2& point : inner) triangulation.insert({point.x(), point.y()})->info() = count++;
   demand(triangulation.number_of_vertices() == count, "a flat face has coinciding corners");
   mark_inside(triangulation);
   std::vector<std::array<std::uint32_t, 3>> triangles;

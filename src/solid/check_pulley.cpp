@@ -124,14 +124,14 @@ class GrooveGauge {
     return worst;
   }
 
+  // Of an arc between two points whose normals are known, whatever its curvature does between them: chord · turn / 8.
   double sagitta() const {
     double largest = 0;
     const auto& points = outline_.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const OutlinePoint &a = points[i], &b = points[(i + 1) % points.size()];
-      const double turn = std::remainder(b.psi - a.psi, k_two_pi);
-      const double radius = 0.5 * (a.curvature_radius + b.curvature_radius) - 0.5 * d_;
-      largest = std::max(largest, radius * (1.0 - std::cos(0.5 * turn)));
+      const std::size_t j = (i + 1) % points.size();
+      const double turn = std::remainder(points[j].psi - points[i].psi, k_two_pi);
+      largest = std::max(largest, (floor_[j] - floor_[i]).norm() * turn / 8.0);
     }
     return largest;
   }
@@ -206,8 +206,8 @@ std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mecha
   checks.push_back(
       at_most("volume_deviation", std::abs(volume / pulley.expected_volume - 1.0), k_volume_tolerance, "1",
               fmt::format("{} mm³ in place of {} mm³", rounded(volume, 9), rounded(pulley.expected_volume, 9))));
-  GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, mechanism.body.min_wall);
-  GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, mechanism.body.min_wall);
+  GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
+  GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
   return checks;
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "fusee/base/text.h"
-#include "solid/bore.h"
 #include "solid/hub.h"
 #include "solid/plane_distance.h"
 #include "solid/set_screw.h"
@@ -18,8 +17,9 @@ namespace {
 // Between a flange and a pin that must not touch: print tolerance and a pulley that runs out a little.
 constexpr double k_pin_gap = 0.5;
 
-// Numbers to advise: rounded to what people write, on the side that works.
-double rounded_down(double value) { return 0.1 * std::floor(value / 0.1 + 1e-9); }
+// Numbers that people write down are rounded.
+constexpr double k_grain = 1e-9;
+
 double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
 
 const char* name_of(Side side) { return side == Side::left ? "P1" : "P2"; }
@@ -50,38 +50,27 @@ class Conditions {
   }
 
  private:
-  // What stands after the fact, the numbers to change, is said only where it is needed.
-  void add(std::string name, double value, double limit, bool ok, std::string fact, const std::string& advice) {
-    if (!ok && !advice.empty()) fact += ": " + advice;
+  void add(std::string name, double value, double limit, bool ok, std::string message) {
     Condition condition;
     condition.name = std::move(name);
     condition.ok = ok;
     condition.value = value;
     condition.limit = limit;
     condition.unit = "mm";
-    condition.message = std::move(fact);
+    condition.message = std::move(message);
     result_.push_back(std::move(condition));
   }
-  void add_least(std::string name, double value, double least, std::string fact, const std::string& advice) {
-    add(std::move(name), value, least, value >= least, std::move(fact), advice);
+  void add_least(std::string name, double value, double least, std::string message) {
+    add(std::move(name), value, least, value >= least - k_grain, std::move(message));
   }
-  void add_most(std::string name, double value, double most, std::string fact, const std::string& advice) {
-    add(std::move(name), value, most, value <= most, std::move(fact), advice);
+  void add_most(std::string name, double value, double most, std::string message) {
+    add(std::move(name), value, most, value <= most + k_grain, std::move(message));
   }
 
   void add_groove() {
     add_least("groove_depth", layout_.groove_depth, d_,
-              fmt::format("the groove is {} mm deep for a tendon of {} mm", rounded(layout_.groove_depth), rounded(d_)),
-              fmt::format("make body.groove_depth_mm ≥ {}, or 0 (automatic)", rounded(d_)));
-    const double foot = layout_.elephant_foot, flange = layout_.flange_thickness;
-    add_least("flange_thickness", flange, foot + 0.2,
-              fmt::format("the lower flange is {} mm thick, the chamfer at the bed takes {} mm of it", rounded(flange),
-                          rounded(foot)),
-              fmt::format("make body.flange_thickness_mm ≥ {}, or material.elephant_foot_mm ≤ {}", rounded(foot + 0.2),
-                          rounded(std::max(0.0, flange - 0.2))));
-    const double deepest = layout_.groove_depth - 0.1;
-    add_most("elephant_foot", foot, deepest, fmt::format("the chamfer at the bed is {} mm wide", rounded(foot)),
-             fmt::format("make material.elephant_foot_mm ≤ {}, or the groove deeper", rounded(deepest)));
+              fmt::format("the groove is {} mm deep (body.groove_depth_mm) for a tendon of {} mm",
+                          rounded(layout_.groove_depth), rounded(d_)));
   }
 
   Polygon floor(const Outline& outline) const { return parallel(outline, -0.5 * d_); }
@@ -95,54 +84,23 @@ class Conditions {
     return least;
   }
 
-  // The wall grows as the bore shrinks, facet by facet: found by halving.
-  double largest_bore(const Polygon& floor_polygon) const {
-    double low = 0, high = body_.bore_diameter;
-    for (int k = 0; k < 40; ++k) {
-      const double middle = 0.5 * (low + high);
-      const BoreLayout bore = bore_layout(body_, middle, mechanism_.material.hole_compensation);
-      (wall_to(floor_polygon, bore).thickness >= body_.min_wall ? low : high) = middle;
-    }
-    return rounded_down(low);
-  }
-
   void add_bore_wall(const Outline& outline) {
-    const Polygon floor_polygon = floor(outline);
-    const Wall wall = wall_to(floor_polygon, layout_.bore);
-    add_least(fmt::format("bore_wall_{}", name_of(outline.side)), wall.thickness, body_.min_wall,
-              fmt::format("the bore leaves a wall of {} mm to {}'s floor at {:.0f}°", rounded(wall.thickness, 3),
-                          name_of(outline.side), degrees(wall.angle)),
-              fmt::format("{}", fmt::join(bore_advice(floor_polygon, wall), ", or ")));
-  }
-
-  std::vector<std::string> bore_advice(const Polygon& floor_polygon, const Wall& wall) const {
-    std::vector<std::string> advice;
-    if (body_.bore != Bore::horn && body_.bore_diameter > 0) {
-      if (const double bore = largest_bore(floor_polygon); bore > 0)
-        advice.push_back(fmt::format("make body.bore_diameter_mm ≤ {:.1f}", bore));
-    }
-    const double thinner = 0.01 * std::floor(100.0 * wall.thickness);
-    if (thinner >= 0.1) advice.push_back(fmt::format("body.min_wall_mm ≤ {:.2f}", thinner));
-    if (mechanism_.pulley.law == Law::compensate && mechanism_.pulley.r1 > 0) {
-      // Outlines grow about in proportion to r1.
-      const double reach = inradius(floor_polygon) + 0.5 * d_;
-      const double needed = mechanism_.pulley.r1 * (reach + body_.min_wall - wall.thickness) / reach;
-      advice.push_back(fmt::format("pulley.r1_mm ≥ {:.1f}", rounded_up(needed)));
-    }
-    return advice;
+    const Wall wall = wall_to(floor(outline), layout_.bore);
+    add_least(fmt::format("bore_wall_{}", name_of(outline.side)), wall.thickness, layout_.min_wall,
+              fmt::format("the bore leaves a wall of {} mm to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
+                          rounded(wall.thickness, 3), name_of(outline.side), degrees(wall.angle),
+                          rounded(layout_.min_wall, 3)));
   }
 
   void add_horn() {
     if (body_.bore != Bore::horn) return;
-    const double deepest = layout_.z_hub - body_.min_wall;
-    add_most("horn_recess", layout_.bore.horn_recess, deepest,
+    add_most("horn_recess", layout_.bore.horn_recess, layout_.z_hub - layout_.min_wall,
              fmt::format("the recess of horn {} is {} mm deep, the pulley {} mm high", body_.horn,
-                         rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)),
-             "make body.flange_thickness_mm or body.groove_depth_mm larger");
+                         rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)));
     const double gap = horn_gap();
     add_least("horn_holes", gap, 0.2,
-              fmt::format("the holes of horn {} leave {} mm between them", body_.horn, rounded(gap, 3)),
-              "make material.hole_compensation_mm smaller, or take another body.horn");
+              fmt::format("the holes of horn {} leave {} mm between them (material.hole_compensation_mm)", body_.horn,
+                          rounded(gap, 3)));
   }
 
   // The thinnest web between a horn's holes, as circles.
@@ -173,15 +131,14 @@ class Conditions {
   void add_hub() {
     if (layout_.hub_radius <= 0) return;
     const double diameter = 2.0 * layout_.hub_radius, wall = layout_.hub_radius - layout_.bore.radius;
-    add_least("hub_wall", wall, body_.min_wall,
-              fmt::format("a hub of {} mm leaves a wall of {} mm about the bore", rounded(diameter), rounded(wall, 3)),
-              fmt::format("make body.hub_diameter_mm ≥ {:.1f}, or 0 (automatic)",
-                          rounded_up(2.0 * (layout_.bore.radius + body_.min_wall))));
+    add_least("hub_wall", wall, layout_.min_wall,
+              fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves a wall of {} mm about the bore, it takes {} mm "
+                          "(body.min_wall_mm)",
+                          rounded(diameter), rounded(wall, 3), rounded(layout_.min_wall, 3)));
     const double limit = 2.0 * (inradius(rims_.upper) - k_hub_margin);
     add_most("hub_on_flange", diameter, limit,
-             fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm", rounded(limit),
-                         rounded(diameter)),
-             fmt::format("make body.hub_diameter_mm ≤ {:.1f}, or 0 (automatic)", rounded_down(limit)));
+             fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",
+                         rounded(limit), rounded(diameter)));
   }
 
   // Only a set screw that was asked for by name can be impossible.
@@ -190,62 +147,47 @@ class Conditions {
     const double diameter = 2.0 * layout_.hub_radius, needed = 2.0 * hub_radius_for_named_screw();
     if (!layout_.set_screw.present) {
       add("set_screw_wall", diameter, needed, false,
-          fmt::format("there is no place for set screw {}, which needs a hub of {:.1f} mm and a side of it without a "
-                      "knot pocket",
-                      body_.set_screw, rounded_up(needed)),
-          "make body.set_screw \"auto\" or a smaller one, body.hub_height_mm ≥ 8, or pulley.r1_mm larger");
+          fmt::format("there is no place for set screw {} (body.set_screw), which needs a hub of {:.1f} mm and a side "
+                      "of it without a knot pocket",
+                      body_.set_screw, rounded_up(needed)));
       return;
     }
     add_least("set_screw_wall", diameter, needed,
-              fmt::format("set screw {} needs a hub of {:.1f} mm, this one has {} mm", body_.set_screw,
-                          rounded_up(needed), rounded(diameter)),
-              fmt::format("make body.hub_diameter_mm ≥ {:.1f}, or 0 (automatic), or body.nut_trap false",
-                          rounded_up(needed)));
-    const double spare = height_to_spare(layout_.set_screw, layout_, body_.min_wall);
-    add_least(
-        "set_screw_height", spare, 0.0,
-        fmt::format("a hub {} mm high has {} mm of height to spare about set screw {}", rounded(body_.hub_height),
-                    rounded(spare, 3), body_.set_screw),
-        fmt::format("make body.hub_height_mm ≥ {:.1f}", rounded_up(body_.hub_height - 2.0 * std::min(0.0, spare))));
+              fmt::format("set screw {} (body.set_screw{}) needs a hub of {:.1f} mm, this one has {} mm "
+                          "(body.hub_diameter_mm)",
+                          body_.set_screw, body_.nut_trap ? ", with body.nut_trap" : "", rounded_up(needed),
+                          rounded(diameter)));
+    const double spare = height_to_spare(layout_.set_screw, layout_, layout_.min_wall);
+    add_least("set_screw_height", spare, 0.0,
+              fmt::format("a hub {} mm high (body.hub_height_mm) has {} mm of height to spare about set screw {}",
+                          rounded(body_.hub_height), rounded(spare, 3), body_.set_screw));
   }
 
   double hub_radius_for_named_screw() const {
     const Screw* screw = find_screw(body_.set_screw);
     if (screw == nullptr) return 0;
     return hub_radius_for(
-        set_screw_layout(*screw, body_.nut_trap, mechanism_.material.hole_compensation, body_.min_wall, layout_),
-        layout_.bore.radius, body_.min_wall);
+        set_screw_layout(*screw, body_.nut_trap, mechanism_.material.hole_compensation, layout_.min_wall, layout_),
+        layout_.bore.radius, layout_.min_wall);
   }
 
   void add_anchor(const AnchorRoom& room) {
-    std::vector<std::string> advice;
-    if (room.bore_that_fits > 0)
-      advice.push_back(fmt::format("make body.bore_diameter_mm ≤ {:.1f}", room.bore_that_fits));
-    if (room.min_wall_that_fits > 0)
-      advice.push_back(fmt::format("make body.min_wall_mm ≤ {:.2f}", room.min_wall_that_fits));
-    if (body_.knot_pocket > 0 && room.room > 0) {
-      advice.push_back(
-          fmt::format("make body.knot_pocket_mm ≤ {:.1f}, or 0 (automatic)", rounded_down(2.0 * room.room)));
-    }
-    if (advice.empty())
-      advice.emplace_back("make the pulley larger (pulley.r1_mm) or the tendon thinner (tendon.diameter_mm)");
     add_least(fmt::format("anchor_{}", name_of(room.side)), 2.0 * room.room, 2.0 * room.least,
-              fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed",
-                          name_of(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3)),
-              fmt::format("{}", fmt::join(advice, ", or ")));
+              fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed "
+                          "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm)",
+                          name_of(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
+                          rounded(layout_.min_wall, 3)));
   }
 
   void add_channel() {
     const double width = layout_.channel_width;
     add_least("channel_width", width, d_,
-              fmt::format("the tie-off channels are {} mm wide for a tendon of {} mm", rounded(width), rounded(d_)),
-              fmt::format("make body.anchor_hole_mm ≥ {}, or 0 (automatic)", rounded(d_ + 0.2)));
-    constexpr double least = 0.4;
+              fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
+                          rounded(width), rounded(d_)));
     const double below = layout_.z_p1 - 0.5 * width;
-    add_least(
-        "channel_floor", below, least,
-        fmt::format("the tie-off channels leave {} mm of the lower flange", rounded(below, 3)),
-        fmt::format("make body.anchor_hole_mm ≤ {:.1f}, or 0 (automatic)", rounded_down(2.0 * (layout_.z_p1 - least))));
+    add_least("channel_floor", below, 0.4,
+              fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of the lower flange",
+                          rounded(width), rounded(below, 3)));
   }
 
   // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.
@@ -267,13 +209,9 @@ class Conditions {
 
   void add_pin(const char* condition_name, const char* pin_name, const Vec2& pin, const char* key) {
     const double clear = pin.norm() - mechanism_.guides.radius - reach_towards(pin);
-    const double needed = pin.norm() + k_pin_gap - clear;
-    const auto leg = [needed](double other) { return std::sqrt(std::max(0.0, needed * needed - other * other)); };
     add_least(condition_name, clear, k_pin_gap,
-              fmt::format("pin {} comes within {} mm of the flanges", pin_name, rounded(clear, 3)),
-              fmt::format("make pulley.EF_mm ≥ {:.1f}, or {} ≥ {:.1f}, or body.groove_depth_mm ≤ {:.1f}",
-                          rounded_up(leg(pin.x())), key, rounded_up(leg(pin.y())),
-                          rounded_down(layout_.groove_depth - (k_pin_gap - clear))));
+              fmt::format("pin {} ({}, pulley.EF_mm) comes within {} mm of the flanges, it takes {} mm", pin_name, key,
+                          rounded(clear, 3), k_pin_gap));
   }
 
   const Mechanism& mechanism_;

@@ -1,5 +1,5 @@
 /// \file
-/// Can this body be made? Each condition names the number to change, and to what.
+/// Can this body be made? Each condition says what is wrong and names the numbers that it is about.
 #pragma once
 
 #include "solid/plan.h"
@@ -18,9 +18,6 @@ struct AnchorRoom {
   Side side = Side::left;
   double room = 0;   ///< radius of the largest pocket found, 0: not even the channel fits
   double least = 0;  ///< radius below which there is no use in it
-  /// Numbers with which there would be room; 0: none was found.
-  double min_wall_that_fits = 0;
-  double bore_that_fits = 0;
 };
 
 /// All conditions of a planned body. Those of the tie-offs are added from `rooms`.

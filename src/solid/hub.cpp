@@ -37,7 +37,7 @@ class HubChooser {
   bool take_screw(bool nut_trap) {
     const Screw* screw = find_screw(automatic_screw() ? "M3" : body_.set_screw);
     if (screw == nullptr) return false;
-    const double wall = body_.min_wall;
+    const double wall = layout_.min_wall;
     const SetScrewLayout candidate =
         set_screw_layout(*screw, nut_trap, mechanism_.material.hole_compensation, wall, layout_);
     const double needed = hub_radius_for(candidate, layout_.bore.radius, wall);
@@ -52,7 +52,7 @@ class HubChooser {
   }
 
   void take_plain() {
-    const double radius = body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : plain_hub_radius(layout_, body_.min_wall);
+    const double radius = body_.hub_diameter > 0 ? 0.5 * body_.hub_diameter : plain_hub_radius(layout_, layout_.min_wall);
     if (body_.hub_diameter > 0 || (radius <= limit_ && body_.bore != Bore::horn)) {
       layout_.hub_radius = radius;
       return;

@@ -56,6 +56,13 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> renumbered;
   renumbered.reserve(mesh.vertices.size());
   for (const Vec3& vertex : mesh.vertices) {
+    // NaN equals nothing: in the map each would be a new entry under the same hash, and a file of them would take for
+    // ever.
+    if (vertex.hasNaN()) {
+      renumbered.push_back(static_cast<std::uint32_t>(welded.vertices.size()));
+      welded.vertices.push_back(vertex);
+      continue;
+    }
     const auto [place, fresh] = places.try_emplace(key_of(vertex), static_cast<std::uint32_t>(welded.vertices.size()));
     if (fresh) welded.vertices.push_back(vertex);
     renumbered.push_back(place->second);

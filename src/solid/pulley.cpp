@@ -85,8 +85,10 @@ class FeatureCutter {
   }
 
   TriangleMesh anchor_tool(const PlannedAnchor& anchor, int variant) const {
-    const Keyhole shape = keyhole(anchor.path, layout_.channel_width, layout_.pocket_radius,
-                                  pocket_facets(layout_.pocket_radius) + variant);
+    AnchorPath path = anchor.path;
+    path.straight *= 1.0 - 0.003 * variant;
+    const double radius = layout_.pocket_radius;
+    const Keyhole shape = keyhole(path, layout_.channel_width, radius, pocket_facets(radius) + variant);
     const double half = channel_half_height(variant);
     if (anchor.side == Side::left) return keyhole_tool(shape, -k_overshoot, layout_.z_p1 - half, layout_.z_p1 + half);
     return keyhole_tool(shape, layout_.z_hub + k_overshoot, layout_.z_p2 + half, layout_.z_p2 - half);
@@ -135,6 +137,7 @@ std::string Pulley::brief() const {
   for (const Condition& condition : conditions) {
     if (!condition.ok) text += "; " + condition.message;
   }
+  if (!advice.empty()) text += "; " + advice_sentence(advice);
   return text;
 }
 

@@ -1,8 +1,11 @@
 #include "solid/rings.h"
 
+#include <algorithm>
+
 #include "fusee/base/diagnostics.h"
 #include "solid/caps.h"
 #include "solid/nearest_float.h"
+#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
@@ -13,6 +16,46 @@ Vec3 lifted(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
 // of two equal ones.
 bool rises_forward(const Ring& a, const Ring& b, std::size_t i, std::size_t j) {
   return (a.points[i] - b.points[j]).squaredNorm() <= (a.points[j] - b.points[i]).squaredNorm();
+}
+
+// A finely sampled rim and a coarse hole would be joined by thousands of needles side by side, which every search
+// through the mesh pays for. Loops of half as many points each, further and further inside the rim, lead from the one
+// to the other. A rim of ordinary fineness needs none.
+constexpr std::size_t k_fine_rim = 256;
+
+std::vector<Vec2> points_within(const std::vector<Polygon>& loops) {
+  const Polygon& rim = loops.front();
+  std::vector<Vec2> points;
+  if (rim.size() <= k_fine_rim) return points;
+  const auto middle_of = [](const Polygon& loop) {
+    Vec2 sum = Vec2::Zero();
+    for (const Vec2& point : loop) sum += point;
+    return Vec2(sum / static_cast<double>(loop.size()));
+  };
+  std::vector<Bar> holes;
+  for (std::size_t k = 1; k < loops.size(); ++k) {
+    const Vec2 middle = middle_of(loops[k]);
+    double radius = 0;
+    for (const Vec2& point : loops[k]) radius = std::max(radius, (point - middle).norm());
+    holes.push_back({middle, middle, radius});
+  }
+  const Vec2 centre = middle_of(rim);
+  const double length = perimeter(rim);
+  double depth = 0;
+  for (std::size_t stride = 2; rim.size() / stride >= k_fine_rim / 4; stride *= 2) {
+    const double spacing = length * static_cast<double>(stride) / static_cast<double>(rim.size());
+    depth += spacing;
+    for (std::size_t i = 0; i < rim.size(); i += stride) {
+      const Vec2 inward = centre - rim[i];
+      const Vec2 place = rim[i] + inward * std::min(0.9, depth / inward.norm());
+      const Vec2 point(nearest_float(place.x()), nearest_float(place.y()));
+      if (std::all_of(holes.begin(), holes.end(), [&](const Bar& hole) {
+            return gap({point, point, spacing}, hole) > 0;
+          }))
+        points.push_back(point);
+    }
+  }
+  return points;
 }
 
 class StackMesher {
@@ -66,9 +109,30 @@ class StackMesher {
     }
   }
 
+  struct FlatFace {
+    std::vector<const Polygon*> loops;
+    std::vector<std::uint32_t> firsts;  // number of each loop's first vertex
+
+    void add(const Polygon& loop, std::uint32_t first) {
+      loops.push_back(&loop);
+      firsts.push_back(first);
+    }
+  };
+
+  // The hub's wall and the ledge about it; what remains open is its top.
+  FlatFace add_hub(const Shaft& hub, std::uint32_t top_ring) {
+    const std::uint32_t low = add_loop(hub.outline, hub.low);
+    const std::uint32_t high = add_loop(hub.outline, hub.high);
+    join_shaft(high, low, hub.outline.size());
+    FlatFace ledge{{&stack_.rings.back().points}, {top_ring}};
+    ledge.add(hub.outline, low);
+    close(ledge, true);
+    return {{&hub.outline}, {high}};
+  }
+
   // Every flat face with a hole in it: the top, the bottom, and the recess' ceiling.
   void add_holes(std::uint32_t top_ring) {
-    FlatFace top{{&stack_.rings.back().points}, {top_ring}};
+    FlatFace top = stack_.hub ? add_hub(*stack_.hub, top_ring) : FlatFace{{&stack_.rings.back().points}, {top_ring}};
     FlatFace bottom{{&stack_.rings.front().points}, {0}};
     FlatFace ceiling;
     if (stack_.recess) {
@@ -92,16 +156,6 @@ class StackMesher {
 
   double bottom_height() const { return stack_.rings.front().z; }
 
-  struct FlatFace {
-    std::vector<const Polygon*> loops;
-    std::vector<std::uint32_t> firsts;  // number of each loop's first vertex
-
-    void add(const Polygon& loop, std::uint32_t first) {
-      loops.push_back(&loop);
-      firsts.push_back(first);
-    }
-  };
-
   void close(const FlatFace& face, bool facing_up) {
     std::vector<Polygon> loops;
     std::vector<std::uint32_t> index;
@@ -109,7 +163,10 @@ class StackMesher {
       loops.push_back(*face.loops[k]);
       for (std::uint32_t i = 0; i < loops.back().size(); ++i) index.push_back(face.firsts[k] + i);
     }
-    for (const auto& [a, b, c] : triangulate(loops)) {
+    const std::vector<Vec2> inner = points_within(loops);
+    const auto first_inner = add_loop(inner, mesh_.vertices[index.front()].z());
+    for (std::uint32_t i = 0; i < inner.size(); ++i) index.push_back(first_inner + i);
+    for (const auto& [a, b, c] : triangulate(loops, inner)) {
       if (facing_up) {
         mesh_.triangles.push_back({index[a], index[b], index[c]});
       } else {
@@ -152,6 +209,7 @@ RingStack scaled_to_float(RingStack stack, double scale) {
   };
   for (Shaft& shaft : stack.through) round_shaft(shaft);
   if (stack.recess) round_shaft(*stack.recess);
+  if (stack.hub) round_shaft(*stack.hub);
   return stack;
 }
 
@@ -169,7 +227,9 @@ double volume_of(const RingStack& stack) {
     volume += (b.z - a.z) * areas / 6.0;
   }
   for (const Shaft& shaft : stack.through) volume -= prism_volume(shaft);
-  return stack.recess ? volume - prism_volume(*stack.recess) : volume;
+  if (stack.recess) volume -= prism_volume(*stack.recess);
+  if (stack.hub) volume += prism_volume(*stack.hub);
+  return volume;
 }
 
 }  // namespace fusee

@@ -28,8 +28,9 @@ struct Shaft {
 /// step.
 struct RingStack {
   std::vector<Ring> rings;
+  std::optional<Shaft> hub;     ///< stands on the highest ring
   std::optional<Shaft> recess;  ///< open at the bottom
-  std::vector<Shaft> through;   ///< up to the top, from the bottom or, within the recess, from its ceiling
+  std::vector<Shaft> through;   ///< up to the top of all, from the bottom or, within the recess, from its ceiling
 };
 
 /// Every coordinate times `scale`, rounded to float.

@@ -11,7 +11,8 @@
 namespace fusee {
 namespace {
 
-// A cut triangle: the section enters it over the edge that descends and leaves it over the one that rises, the solid on its left.
+// A cut triangle: the section enters it over the edge that descends and leaves it over the one that rises, the solid on
+// its left.
 struct Cut {
   std::uint64_t from = 0;  // undirected edge
   std::uint64_t to = 0;

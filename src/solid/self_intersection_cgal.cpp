@@ -3,10 +3,13 @@
 #include <CGAL/intersections.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
+#include "fusee/base/units.h"
 #include "solid/self_intersection.h"
 
 namespace fusee {
@@ -88,13 +91,75 @@ class CrossingTest {
   const TriangleMesh& mesh_;
 };
 
+using Extent = std::array<double, 3>;
+
+/// What a facet takes up in some coordinates: facets whose boxes are apart in one of them do not meet.
+struct FacetBox {
+  Extent low, high;
+
+  double area() const { return (high[0] - low[0]) * (high[1] - low[1]); }
+};
+
+FacetBox cartesian_box(const std::array<Vec3, 3>& corners) {
+  const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+  const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
+}
+
+double distance_from_axis(const Vec3& a, const Vec3& b) {
+  const Vec2 from = a.head<2>(), along = b.head<2>() - from;
+  const double length = along.squaredNorm();
+  const double place = length > 0 ? std::clamp(-from.dot(along) / length, 0.0, 1.0) : 0.0;
+  return (from + place * along).norm();
+}
+
+/// Angle about the z axis, distance from it, height: the strips of a fine turned part consist of needles that point at the axis, whose
+/// boxes in x and y overlap by the thousand. The margins are far above the rounding.
+FacetBox polar_box(const std::array<Vec3, 3>& corners) {
+  constexpr double margin = 1e-9;
+  FacetBox box = cartesian_box(corners);
+  const double start = std::atan2(corners[0].y(), corners[0].x());
+  double before = 0, after = 0, farthest = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double turn = std::remainder(std::atan2(corners[k].y(), corners[k].x()) - start, k_two_pi);
+    before = std::min(before, turn);
+    after = std::max(after, turn);
+    nearest = std::min(nearest, distance_from_axis(corners[k], corners[(k + 1) % 3]));
+    farthest = std::max(farthest, corners[k].head<2>().norm());
+  }
+  const bool round_axis = after - before > k_pi - margin;
+  const bool over_cut = start + before < -k_pi || start + after > k_pi;
+  box.low[0] = round_axis || over_cut ? -4.0 : start + before - margin;
+  box.high[0] = round_axis || over_cut ? 4.0 : start + after + margin;
+  box.low[1] = round_axis ? 0.0 : nearest * (1.0 - margin);
+  box.high[1] = farthest * (1.0 + margin);
+  return box;
+}
+
+/// In the coordinates in which the facets crowd each other less.
 std::vector<Box> boxes_of(const TriangleMesh& mesh) {
-  std::vector<Box> boxes;
-  boxes.reserve(mesh.triangles.size());
+  std::vector<std::size_t> facets;
+  std::vector<FacetBox> cartesian, polar;
+  double cartesian_crowd = 0, polar_crowd = 0, reach = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (is_degenerate(mesh, f)) continue;
     const auto& [a, b, c] = mesh.triangles[f];
-    boxes.emplace_back(point(mesh, a).bbox() + point(mesh, b).bbox() + point(mesh, c).bbox(), f);
+    const std::array<Vec3, 3> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+    facets.push_back(f);
+    cartesian.push_back(cartesian_box(corners));
+    polar.push_back(polar_box(corners));
+    cartesian_crowd += cartesian.back().area();
+    polar_crowd += polar.back().area();
+    reach = std::max(reach, polar.back().high[1]);
+  }
+  // Shares of a square about the disc that the mesh fills, and of that disc unrolled.
+  const bool unrolled = polar_crowd / (k_two_pi * reach) < cartesian_crowd / (4.0 * reach * reach);
+  std::vector<Box> boxes;
+  boxes.reserve(facets.size());
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    FacetBox& box = unrolled ? polar[i] : cartesian[i];
+    boxes.emplace_back(box.low.data(), box.high.data(), facets[i]);
   }
   return boxes;
 }

@@ -124,7 +124,7 @@ std::optional<double> fallen_to_zero(double start, double least, double most, Fu
     if ((falls && x >= most) || (!falls && x <= least)) return std::nullopt;
     double next = at.slope < 0 ? x - at.value / at.slope : x + (falls ? stride : -stride);
     if (low_seen && high_seen) {
-      // Kinks can make Newton's steps run in circles: every third one halves what is left.
+      // Kinks can make Newton's steps run in circles: now and then a step halves what is left.
       if (!(next > low && next < high) || i % 12 > 9) next = 0.5 * (low + high);
     } else {
       next = std::clamp(next, x - stride, x + stride);

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseLU>
 #include <algorithm>
+#include <unsupported/Eigen/Splines>
 
 #include "fusee/base/diagnostics.h"
 
@@ -28,32 +29,61 @@ Eigen::VectorXd collocate(const LawSpline::KnotVectorType& places, const LawSpli
   return solver.solve(values);
 }
 
-}  // namespace
-
-Transmission::TableLaw::TableLaw(const std::vector<LawRow>& rows) {
-  demand(rows.size() >= 2, "a table law needs two rows or more, not " + std::to_string(rows.size()));
+/// The spline through all rows, over places from 0 to 1.
+LawSpline interpolated(const std::vector<LawRow>& rows) {
   const auto count = static_cast<Eigen::Index>(rows.size());
-  first_ = rows.front().alpha;
-  span_ = rows.back().alpha - first_;
+  const double first = rows.front().alpha;
+  const double span = rows.back().alpha - first;
   LawSpline::KnotVectorType places(count);
   Eigen::VectorXd values(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    places(i) = (rows[static_cast<std::size_t>(i)].alpha - first_) / span_;
+    places(i) = (rows[static_cast<std::size_t>(i)].alpha - first) / span;
     values(i) = rows[static_cast<std::size_t>(i)].theta;
   }
   places(count - 1) = 1.0;
   const Eigen::Index degree = std::min<Eigen::Index>(5, count - 1);
   LawSpline::KnotVectorType knots;
   Eigen::KnotAveraging(places, degree, knots);
-  spline_ = LawSpline(knots, collocate(places, knots, values, degree).transpose());
+  return LawSpline(knots, collocate(places, knots, values, degree).transpose());
+}
+
+}  // namespace
+
+// The spline is asked for thousands of values: each knot span is kept as the polynomial that it is.
+Transmission::TableLaw::TableLaw(const std::vector<LawRow>& rows) : last_(rows.empty() ? 0.0 : rows.back().alpha) {
+  demand(rows.size() >= 2, "a table law needs two rows or more, not " + std::to_string(rows.size()));
+  const double first = rows.front().alpha;
+  const double span = last_ - first;
+  const LawSpline spline = interpolated(rows);
+  const Eigen::Index degree = spline.degree();
+  for (Eigen::Index i = degree; i + degree + 1 < spline.knots().size(); ++i) {
+    const double begin = spline.knots()(i);
+    if (!(spline.knots()(i + 1) > begin)) continue;
+    const auto derivatives = spline.derivatives(begin, degree);
+    Piece piece{first + begin * span, {}};
+    double factor = 1.0;  // 1 / (k! span^k)
+    for (Eigen::Index k = 0; k <= degree; ++k) {
+      piece.powers[static_cast<std::size_t>(k)] = derivatives(0, k) * factor;
+      factor /= static_cast<double>(k + 1) * span;
+    }
+    pieces_.push_back(piece);
+  }
 }
 
 LawValue Transmission::TableLaw::at(double alpha) const {
-  const double place = (alpha - first_) / span_;
-  const double inside = std::clamp(place, 0.0, 1.0);
-  const auto values = spline_.derivatives(inside, 3);
-  LawValue law{values(0, 0), values(0, 1) / span_, values(0, 2) / (span_ * span_), values(0, 3) / (span_ * span_ * span_)};
-  const double beyond = (place - inside) * span_;
+  const double inside = std::clamp(alpha, first_alpha(), last_alpha());
+  const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), inside,
+                                      [](double value, const Piece& piece) { return value < piece.begin; });
+  const Piece& piece = *(after - 1);
+  const double x = inside - piece.begin;
+  LawValue law;
+  for (std::size_t k = piece.powers.size(); k-- > 0;) {  // Horner, for the value and its derivatives at once
+    law.d3 = law.d3 * x + 3.0 * law.d2;
+    law.d2 = law.d2 * x + 2.0 * law.d1;
+    law.d1 = law.d1 * x + law.theta;
+    law.theta = law.theta * x + piece.powers[k];
+  }
+  const double beyond = alpha - inside;
   if (beyond != 0) {
     law.theta += beyond * (law.d1 + beyond * (law.d2 / 2 + beyond * law.d3 / 6));
     law.d1 += beyond * (law.d2 + beyond * law.d3 / 2);

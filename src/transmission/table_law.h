@@ -2,8 +2,8 @@
 /// A smooth θ(α) through the rows of a table.
 #pragma once
 
+#include <array>
 #include <memory>
-#include <unsupported/Eigen/Splines>
 #include <vector>
 
 #include "fusee/transmission/transmission.h"
@@ -24,13 +24,18 @@ struct Transmission::TableLaw {
  public:
   explicit TableLaw(const std::vector<LawRow>& rows);
   LawValue at(double alpha) const;
-  double first_alpha() const { return first_; }
-  double last_alpha() const { return first_ + span_; }
+  double first_alpha() const { return pieces_.front().begin; }
+  double last_alpha() const { return last_; }
 
  private:
-  Eigen::Spline<double, 1> spline_;
-  double first_ = 0;
-  double span_ = 1;
+  /// The polynomial of one knot span, by powers of α − begin.
+  struct Piece {
+    double begin = 0;
+    std::array<double, 6> powers{};
+  };
+
+  std::vector<Piece> pieces_;
+  double last_ = 0;
 };
 
 }  // namespace fusee

@@ -38,8 +38,8 @@ TEST(RigidJoint, DerivativesAreThoseOfDifferences) {
     const Transmission transmission(mechanism);
     const MadePulleys made(mechanism);
     for (const Dimension& dimension : dimensions()) {
-      const RigidJoint more = dimension.changed(made, mechanism, step);
-      const RigidJoint less = dimension.changed(made, mechanism, -step);
+      const RigidJoint more = altered(made, mechanism, dimension, step);
+      const RigidJoint less = altered(made, mechanism, dimension, -step);
       for (const double theta : {-0.3, 0.15, 0.4}) {
         const double alpha = transmission.alpha(theta);
         const RigidPoint rate = derivative(as_declared(mechanism), dimension, alpha);
@@ -71,7 +71,7 @@ TEST(RigidJoint, AllChangesAtOnceAreEachOnItsOwn) {
   for (std::size_t i = 0; i < dimensions().size(); ++i) {
     std::vector<double> changes(dimensions().size(), 0.0);
     changes[i] = 0.5;
-    EXPECT_EQ(all_changed(made, mechanism, changes).at(alpha).theta, dimensions()[i].changed(made, mechanism, 0.5).at(alpha).theta) << dimensions()[i].key;
+    EXPECT_EQ(altered(made, mechanism, changes).at(alpha).theta, altered(made, mechanism, dimensions()[i], 0.5).at(alpha).theta) << dimensions()[i].key;
   }
 }
 

@@ -12,7 +12,8 @@ namespace {
 using namespace fusee;
 
 const MechanismFile& paper() {
-  static const MechanismFile file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/paper_optimum.toml");
+  static const MechanismFile file =
+      read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/paper_optimum.toml");
   return file;
 }
 
@@ -34,7 +35,8 @@ TriangleMesh torus(std::int64_t triangles) {
     for (std::uint32_t j = 0; j < n; ++j) {
       const double u = k_two_pi * i / n, v = k_two_pi * j / n, r = 20 + 5 * std::cos(v);
       mesh.vertices.emplace_back(r * std::cos(u), r * std::sin(u), 5 * std::sin(v));
-      const std::uint32_t a = i * n + j, b = (i + 1) % n * n + j, c = (i + 1) % n * n + (j + 1) % n, d = i * n + (j + 1) % n;
+      const std::uint32_t a = i * n + j, b = (i + 1) % n * n + j, c = (i + 1) % n * n + (j + 1) % n,
+                          d = i * n + (j + 1) % n;
       mesh.triangles.push_back({a, b, c});
       mesh.triangles.push_back({a, c, d});
     }
@@ -54,7 +56,8 @@ BENCHMARK(body)->Unit(benchmark::kMillisecond);
 
 void checks(benchmark::State& state) {
   for (auto _ : state) {
-    benchmark::DoNotOptimize(check_pulley(paper_pulley().mesh, paper().mechanism, paper_synthesis(), paper_pulley(), 0.01));
+    benchmark::DoNotOptimize(
+        check_pulley(paper_pulley().mesh, paper().mechanism, paper_synthesis(), paper_pulley(), 0.01));
   }
 }
 BENCHMARK(checks)->Unit(benchmark::kMillisecond);

@@ -16,8 +16,10 @@ FILES = {
     "text.dxf": b"this is no drawing\n",
     "triangle.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
 }
+OPTIMIZE = """arm.toml --set optimize.variables='["guides.ED_mm"]' --set optimize.lower='[40]' --set optimize.upper='[60]' """
+OPTIMIZE_OTHER = """optimize arm.toml --set optimize.variables='["%s"]' --set optimize.lower='[0]' --set optimize.upper='[1]'"""
 
-ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind"
+ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind.*optimize.*reproduce"
 
 CASES = [
     # Asking for help.
@@ -31,6 +33,21 @@ CASES = [
     ("explain --help", 0, "usage: fusee explain", "^$"),
     ("check --help", 0, "usage: fusee check FILE", "^$"),
     ("rewind --help", 0, "usage: fusee rewind SPEC FILE", "^$"),
+    ("optimize --help", 0, "usage: fusee optimize SPEC.*--then OBJECTIVE", "^$"),
+    ("reproduce --help", 0, "usage: fusee reproduce.*--out DIR", "^$"),
+    # Optimisation.
+    ("optimize arm.toml", 3, "^$", "has no \\[optimize\\] variables.*for example"),
+    (f"optimize {OPTIMIZE}", 0, "no design is below", ""),
+    (f"optimize {OPTIMIZE} --method genetic", 2, "^$", "--method must be ga, certified or pareto"),
+    (f"optimize {OPTIMIZE} --then footprnt", 2, "^$", "did you mean footprint"),
+    (f"optimize {OPTIMIZE} --method pareto", 3, "^$", "a front needs two or three objectives"),
+    (f"optimize {OPTIMIZE} --set optimize.objective=max_tenson", 3, "^$", 'did you mean "max_tension"'),
+    (f"optimize {OPTIMIZE} --set optimize.lower='[70]'", 3, "^$", "crossed"),
+    (OPTIMIZE_OTHER % "guides.EDD_mm", 3, "^$", "did you mean guides.ED_mm"),
+    (OPTIMIZE_OTHER % "cut.kerf_mm", 3, "^$", "cut.kerf_mm has no effect on max_tension"),
+    (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm < 3"]' ''', 3, "^$", "character 14.*write <= or >="),
+    (f'''optimize {OPTIMIZE} --set optimize.constraints='["guides.ED_mm >= 300"]' ''', 4, "^$", "no design of the box is possible.*a constraint is not kept.*widen"),
+    (f"optimize {OPTIMIZE} --set optimize.objective=min_bend --method certified", 3, "^$", "cannot be certified.*certified: max_tension"),
     # Wrong usage.
     ("", 2, "^$", "no command given.*fusee --help"),
     ("bild arm.toml", 2, "^$", "unknown command 'bild'.*fusee build"),
@@ -99,7 +116,7 @@ CASES = [
     ("analyze missing.toml", 3, "^$", "missing.toml"),
     ("analyze arm.toml --set load.mass_kg=-1", 3, "^$", "mass_kg"),
     ("analyze arm.toml --set tendon.pretension_N=0", 0, "Summary", "warning: both tendons are without tension, alpha = .*nothing holds.*pretension_N >="),
-    ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "at θ = 51.34°, α = .*dead centre.*it would be possible with "),
+    ("analyze arm.toml --set joint.range_deg=[-30,60]", 4, "^$", "at θ = 53.58°, α = 199°.*dead centre.*it would be possible with "),
     ("analyze arm.toml --set tendon.modulus_MPa=30 --set load.tip_force_N=300", 5, "Summary", "past its dead centre at alpha = "),
     ("analyze arm.toml --set load.tip_force_N=900", 5, "Summary", "the tendon breaks at alpha = .*hmpe-1.0"),
     ("analyze arm.toml --set tendon.strength_N=20 --set load.tip_force_N=20", 5, "Summary", "the tendon breaks at alpha = .*tendon.strength_N"),

@@ -9,20 +9,23 @@ namespace fusee {
 namespace {
 
 using testing::check_named;
-using testing::failed;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using testing::failed;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-DrawingPath contour(const std::string& layer, Polygon points, bool closed = true, int line = 7) { return {layer, "LWPOLYLINE", line, closed, std::move(points)}; }
+DrawingPath contour(const std::string& layer, Polygon points, bool closed = true, int line = 7) {
+  return {layer, "LWPOLYLINE", line, closed, std::move(points)};
+}
 
 Polygon square(double x, double y, double size) { return rectangle({x, y}, {x + size, y + size}); }
 
 /// A plate with a hole and a number.
 Drawing plate() {
   Drawing drawing;
-  drawing.paths = {contour("ENGRAVE", {{20, 20}, {22, 24}, {24, 20}}, false), contour("CUT_INNER", circle_polygon({10, 10}, 3)), contour("CUT_OUTER", square(0, 0, 30)),
+  drawing.paths = {contour("ENGRAVE", {{20, 20}, {22, 24}, {24, 20}}, false),
+                   contour("CUT_INNER", circle_polygon({10, 10}, 3)), contour("CUT_OUTER", square(0, 0, 30)),
                    contour("SHEET", rectangle({-5, -5}, {100, 100}))};
   return drawing;
 }
@@ -96,7 +99,8 @@ TEST(CheckDrawing, ANarrowSlotFails) {
   Drawing drawing = plate();
   // 0.7 mm wide and askew: its box is large.
   const Vec2 along = unit(0.5), across = turned_left(along);
-  drawing.paths[1].points = {Vec2(10, 10), Vec2(10, 10) + 8 * along, Vec2(10, 10) + 8 * along + 0.7 * across, Vec2(10, 10) + 0.7 * across};
+  drawing.paths[1].points = {Vec2(10, 10), Vec2(10, 10) + 8 * along, Vec2(10, 10) + 8 * along + 0.7 * across,
+                             Vec2(10, 10) + 0.7 * across};
   const Check check = check_named(check_drawing(drawing), "smallest_feature");
   EXPECT_FALSE(check.ok);
   EXPECT_NEAR(check.value, 0.7, 1e-12);
@@ -125,7 +129,9 @@ TEST(CheckDrawing, ForeignDrawingsAreContoursOnEveryLayer) {
 // The sweep against every pair, on polygons that cross often, sometimes or never.
 TEST(CheckDrawing, TheSweepFindsWhatEveryPairFinds) {
   std::uint32_t state = 1;
-  const auto random = [&state](int most) { return static_cast<int>((state = state * 1664525u + 1013904223u) >> 8) % most; };
+  const auto random = [&state](int most) {
+    return static_cast<int>((state = state * 1664525u + 1013904223u) >> 8) % most;
+  };
   int crossing = 0;
   for (int round = 0; round < 2000; ++round) {
     Polygon points;
@@ -139,7 +145,9 @@ TEST(CheckDrawing, TheSweepFindsWhatEveryPairFinds) {
     if (points.size() < 3) continue;
     bool expected = false;
     const std::size_t n = points.size();
-    const auto on = [](const Vec2& a, const Vec2& b, const Vec2& p) { return cross(b - a, p - a) == 0 && (p - a).dot(p - b) <= 0; };
+    const auto on = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+      return cross(b - a, p - a) == 0 && (p - a).dot(p - b) <= 0;
+    };
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = i + 1; j < n; ++j) {
         const Vec2 &a = points[i], &b = points[(i + 1) % n], &c = points[j], &d = points[(j + 1) % n];
@@ -148,7 +156,8 @@ TEST(CheckDrawing, TheSweepFindsWhatEveryPairFinds) {
         } else if ((j + 1) % n == i) {
           expected |= on(a, b, c) || on(c, d, b);
         } else {
-          const bool proper = cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
+          const bool proper =
+              cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
           expected |= proper || on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b);
         }
       }

@@ -20,9 +20,15 @@ inline std::string tags(const std::vector<std::pair<int, std::string>>& pairs) {
 
 /// A drawing in AC1015 with the given $INSUNITS, blocks and entities, and nothing else.
 inline std::string dxf_of(const std::string& entities, int units = 4, const std::string& blocks = {}) {
-  return tags({{0, "SECTION"}, {2, "HEADER"}, {9, "$ACADVER"}, {1, "AC1015"}, {9, "$INSUNITS"}, {70, std::to_string(units)}, {0, "ENDSEC"}}) +
-         tags({{0, "SECTION"}, {2, "BLOCKS"}}) + blocks + tags({{0, "ENDSEC"}, {0, "SECTION"}, {2, "ENTITIES"}}) + entities +
-         tags({{0, "ENDSEC"}, {0, "EOF"}});
+  return tags({{0, "SECTION"},
+               {2, "HEADER"},
+               {9, "$ACADVER"},
+               {1, "AC1015"},
+               {9, "$INSUNITS"},
+               {70, std::to_string(units)},
+               {0, "ENDSEC"}}) +
+         tags({{0, "SECTION"}, {2, "BLOCKS"}}) + blocks + tags({{0, "ENDSEC"}, {0, "SECTION"}, {2, "ENTITIES"}}) +
+         entities + tags({{0, "ENDSEC"}, {0, "EOF"}});
 }
 
 inline std::vector<DrawingPath> on_layer(const Drawing& drawing, const std::string& layer) {

@@ -1,4 +1,5 @@
-// The drawn tendon is a taut string: tangent to the pin and to the pulley, and as long at one end of the stroke as at the other.
+// The drawn tendon is a taut string: tangent to the pin and to the pulley, and as long at one end of the stroke as at
+// the other.
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -27,7 +28,8 @@ Case made(const Mechanism& mechanism, double tolerance = 0.002) {
 }
 
 std::vector<Case> cases() {
-  return {made(testing::forearm()), made(testing::linear_wrist()), made(testing::unsymmetric()), made(testing::mirrored(testing::unsymmetric()))};
+  return {made(testing::forearm()), made(testing::linear_wrist()), made(testing::unsymmetric()),
+          made(testing::mirrored(testing::unsymmetric()))};
 }
 
 const Outline& outline_of(const Case& c, Side side) { return side == Side::left ? c.synthesis.p1 : c.synthesis.p2; }
@@ -60,7 +62,8 @@ TEST(TendonTrace, TouchesThePinAtItsPitchRadius) {
       EXPECT_NEAR(distance_to_line(pin, trace.off_pin, trace.take_off), rho, 1e-9);
       EXPECT_NEAR((trace.onto_pin - pin).norm(), rho, 1e-9);
       EXPECT_NEAR((trace.off_pin - pin).norm(), rho, 1e-9);
-      for (std::size_t i = 1; i + 1 < trace.free_path.size(); ++i) EXPECT_NEAR((trace.free_path[i] - pin).norm(), rho, 1e-9);
+      for (std::size_t i = 1; i + 1 < trace.free_path.size(); ++i)
+        EXPECT_NEAR((trace.free_path[i] - pin).norm(), rho, 1e-9);
       EXPECT_GT(mirror_sign(side) * (trace.onto_pin - pin).x(), 0) << "it passes the outer side";
     });
   }
@@ -105,8 +108,10 @@ TEST(TendonTrace, AWrongPulleyDoesNotKeepTheLength) {
 
 TEST(TendonTrace, AgreesWithTheTransmissionOnARoundPulley) {
   const Case c = made(testing::forearm());
-  // On a round P1 the take-off point is the foot of the perpendicular: what is free and what is wound can be told apart.
-  const auto first = trace_tendon(c.mechanism, c.synthesis.p1, c.synthesis.stroke.front().alpha, c.synthesis.stroke.front().theta);
+  // On a round P1 the take-off point is the foot of the perpendicular: what is free and what is wound can be told
+  // apart.
+  const auto first =
+      trace_tendon(c.mechanism, c.synthesis.p1, c.synthesis.stroke.front().alpha, c.synthesis.stroke.front().theta);
   ASSERT_TRUE(first.has_value());
   const double start = first->free_length + first->wound_length - c.synthesis.stroke.front().t1.length;
   for_each_trace(c, [&](Side side, const TransmissionPoint& point, const TendonTrace& trace) {
@@ -131,7 +136,8 @@ TEST(MechanismFigures, AreToScale) {
   ASSERT_TRUE(document.load_string(inline_svg(figures[0]).c_str()));
   const auto ends = [](const pugi::xml_node& path) {
     Vec2 from, to;
-    EXPECT_EQ(std::sscanf(path.attribute("d").as_string(), "M%lf %lfL%lf %lf", &from.x(), &from.y(), &to.x(), &to.y()), 4);
+    EXPECT_EQ(std::sscanf(path.attribute("d").as_string(), "M%lf %lfL%lf %lf", &from.x(), &from.y(), &to.x(), &to.y()),
+              4);
     return (to - from).norm();
   };
   const double link = ends(document.select_node("//g[@class='joint-link']/path").node());

@@ -13,11 +13,11 @@
 namespace fusee {
 namespace {
 
-using testing::failed;
-using testing::on_layer;
 using ::testing::Contains;
+using testing::failed;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::on_layer;
 
 Product product_of(const testing::SupportShape& p1, const testing::SupportShape& p2) {
   Product product;
@@ -43,10 +43,13 @@ Product egg_with_anchor() {
   return product;
 }
 
-Drawing drawn(const Product& product, DxfVersion version = DxfVersion::ac1015) { return read_dxf(plates_dxf(product, version), "plates.dxf"); }
+Drawing drawn(const Product& product, DxfVersion version = DxfVersion::ac1015) {
+  return read_dxf(plates_dxf(product, version), "plates.dxf");
+}
 
 const PlateLayer& layer_named(const Plates& plates, const std::string& name) {
-  const auto found = std::find_if(plates.layers.begin(), plates.layers.end(), [&](const PlateLayer& l) { return l.name == name; });
+  const auto found =
+      std::find_if(plates.layers.begin(), plates.layers.end(), [&](const PlateLayer& l) { return l.name == name; });
   if (found == plates.layers.end()) throw std::out_of_range(name);
   return *found;
 }
@@ -66,7 +69,8 @@ TEST(Plates, NoKerfChangesNothing) {
   Product product = egg_with_anchor();
   product.file.mechanism.cut.kerf = 0;
   for (const PlateLayer& layer : make_plates(product).layers) {
-    for (std::size_t i = 0; i < layer.holes.size(); ++i) EXPECT_NEAR(signed_area(layer.holes[i]), signed_area(layer.cut_holes[i]), 1e-9);
+    for (std::size_t i = 0; i < layer.holes.size(); ++i)
+      EXPECT_NEAR(signed_area(layer.holes[i]), signed_area(layer.cut_holes[i]), 1e-9);
     EXPECT_NEAR(signed_area(layer.outer[0]), signed_area(layer.cut_outer[0]), 1e-6);
   }
 }
@@ -111,16 +115,28 @@ TEST(Plates, NoRoomForDowelsIsSaid) {
 TEST(Plates, AChannelIsCutIntoItsCoreAlone) {
   const Product product = egg_with_anchor();
   const Plates with = make_plates(product), without = make_plates(egg());
-  const auto area = [](const Plates& plates, const std::string& name) { return signed_area(layer_named(plates, name).outer[0]); };
+  const auto area = [](const Plates& plates, const std::string& name) {
+    return signed_area(layer_named(plates, name).outer[0]);
+  };
   EXPECT_LT(area(with, "P1 CORE"), area(without, "P1 CORE") - 10);
   EXPECT_DOUBLE_EQ(area(with, "P2 CORE"), area(without, "P2 CORE"));
   // Half a kerf on every side: the channel is cut narrower by a whole kerf.
   const Polygon& cut = layer_named(with, "P1 CORE").cut_outer[0];
   const auto x_near = [&](double x) {
-    return std::count_if(cut.begin(), cut.end(), [x](const Vec2& p) { return std::abs(p.x() - x) < 1e-9 && p.y() < -9; });
+    return std::count_if(cut.begin(), cut.end(),
+                         [x](const Vec2& p) { return std::abs(p.x() - x) < 1e-9 && p.y() < -9; });
   };
   EXPECT_GE(x_near(-8.6), 1);
   EXPECT_GE(x_near(-7.4), 1);
+}
+
+TEST(Plates, AChannelThroughThePlateIsLeftOutAndSaid) {
+  Product product = egg_with_anchor();
+  product.pulley.anchors[0].channel = {{-8.7, -30}, {-7.3, -30}, {-7.3, 30}, {-8.7, 30}};
+  const Plates plates = make_plates(product);
+  EXPECT_THAT(plates.notes, Contains(HasSubstr("it would cut the plate in two")));
+  EXPECT_DOUBLE_EQ(signed_area(layer_named(plates, "P1 CORE").outer[0]),
+                   signed_area(layer_named(make_plates(egg()), "P1 CORE").outer[0]));
 }
 
 class PlatesDrawing : public ::testing::TestWithParam<DxfVersion> {};
@@ -178,7 +194,8 @@ TEST(PlatesDxf, EveryPlateCarriesItsNumber) {
   const Plates plates = make_plates(egg());
   for (const PlacedPlate& plate : plates.placed) {
     EXPECT_GT(plates.layers[plate.layer].label_height, 0);
-    EXPECT_THAT(plate_label(plates, plate), HasSubstr(std::to_string(plate.number) + "/" + std::to_string(plates.placed.size())));
+    EXPECT_THAT(plate_label(plates, plate),
+                HasSubstr(std::to_string(plate.number) + "/" + std::to_string(plates.placed.size())));
   }
 }
 
@@ -208,8 +225,10 @@ TEST(Nesting, PacksWithoutOverlapAndInOneWay) {
     EXPECT_LE(places[i].corner.y() + sizes[i].y(), 58);
     for (std::size_t j = 0; j < i; ++j) {
       if (places[i].sheet != places[j].sheet) continue;
-      const bool apart = places[i].corner.x() + sizes[i].x() + 2 <= places[j].corner.x() || places[j].corner.x() + sizes[j].x() + 2 <= places[i].corner.x() ||
-                         places[i].corner.y() + sizes[i].y() + 2 <= places[j].corner.y() || places[j].corner.y() + sizes[j].y() + 2 <= places[i].corner.y();
+      const bool apart = places[i].corner.x() + sizes[i].x() + 2 <= places[j].corner.x() ||
+                         places[j].corner.x() + sizes[j].x() + 2 <= places[i].corner.x() ||
+                         places[i].corner.y() + sizes[i].y() + 2 <= places[j].corner.y() ||
+                         places[j].corner.y() + sizes[j].y() + 2 <= places[i].corner.y();
       EXPECT_TRUE(apart) << i << " and " << j;
     }
   }

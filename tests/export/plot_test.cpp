@@ -86,7 +86,8 @@ Plot sample_plot() {
   plot.title = "Radius";
   plot.x = {"pulley angle α", "°", {}, {}, 0};
   plot.y = {"r", "mm", {}, {}, 0};
-  plot.series = {{"r1", Ink::p1, {{-90, 16}, {0, 17.5}, {92.3, 14.8}}, false}, {"r2", Ink::p2, {{-90, 15}, {92.3, 15}}, false}};
+  plot.series = {{"r1", Ink::p1, {{-90, 16}, {0, 17.5}, {92.3, 14.8}}, false},
+                 {"r2", Ink::p2, {{-90, 15}, {92.3, 15}}, false}};
   return plot;
 }
 

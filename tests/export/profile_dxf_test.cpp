@@ -9,9 +9,9 @@ namespace fusee {
 namespace {
 
 using testing::failed;
-using testing::on_layer;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::on_layer;
 
 Product product_of(const testing::SupportShape& p1, const testing::SupportShape& p2) {
   Product product;
@@ -76,7 +76,9 @@ TEST(ProfileDxf, TheTakeOffIsWhereTheTendonLeaves) {
   const auto marks = on_layer(read_dxf(profile_dxf(product, DxfVersion::ac1015), "profile.dxf"), "MARK_TAKE_OFF");
   // The tendon's line begins at the contact and runs up.
   const auto begins_at = [&](const Vec2& p) {
-    return std::any_of(marks.begin(), marks.end(), [&](const DrawingPath& m) { return (m.points[0] - p).norm() < 0.01 && m.points.size() == 2 && m.points[1].y() > p.y(); });
+    return std::any_of(marks.begin(), marks.end(), [&](const DrawingPath& m) {
+      return (m.points[0] - p).norm() < 0.01 && m.points.size() == 2 && m.points[1].y() > p.y();
+    });
   };
   EXPECT_TRUE(begins_at(16 * unit(radians(171.3))));
   EXPECT_TRUE(begins_at(20 * unit(radians(7.9))));

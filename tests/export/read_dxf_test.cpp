@@ -11,9 +11,9 @@ namespace fusee {
 namespace {
 
 using testing::dxf_of;
-using testing::tags;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::tags;
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& layer = "cut") {
   const auto text = [](double v) { return std::to_string(v); };
@@ -73,7 +73,8 @@ TEST(ReadDxf, CirclesAndArcsStayWithinAMicron) {
   EXPECT_TRUE(circle.closed);
   EXPECT_LE(worst_distance_from_circle(circle.points, {3, 4}, 25), 0.00101);
 
-  const DrawingPath arc = only_path(tags({{0, "ARC"}, {8, "cut"}, {10, "0"}, {20, "0"}, {40, "10"}, {50, "350"}, {51, "100"}}));
+  const DrawingPath arc =
+      only_path(tags({{0, "ARC"}, {8, "cut"}, {10, "0"}, {20, "0"}, {40, "10"}, {50, "350"}, {51, "100"}}));
   EXPECT_FALSE(arc.closed);
   EXPECT_LE(worst_distance_from_circle(arc.points, {0, 0}, 10), 0.00101);
   EXPECT_NEAR((arc.points.front() - 10 * unit(radians(350))).norm(), 0, 1e-12);
@@ -82,14 +83,31 @@ TEST(ReadDxf, CirclesAndArcsStayWithinAMicron) {
 }
 
 TEST(ReadDxf, AnArcDrawnFromBelowIsMirrored) {
-  const DrawingPath arc =
-      only_path(tags({{0, "ARC"}, {8, "cut"}, {10, "1"}, {20, "0"}, {40, "1"}, {50, "0"}, {51, "90"}, {210, "0"}, {220, "0"}, {230, "-1"}}));
+  const DrawingPath arc = only_path(tags({{0, "ARC"},
+                                          {8, "cut"},
+                                          {10, "1"},
+                                          {20, "0"},
+                                          {40, "1"},
+                                          {50, "0"},
+                                          {51, "90"},
+                                          {210, "0"},
+                                          {220, "0"},
+                                          {230, "-1"}}));
   EXPECT_NEAR((arc.points.front() - Vec2(-2, 0)).norm(), 0, 1e-12);
   EXPECT_NEAR((arc.points.back() - Vec2(-1, 1)).norm(), 0, 1e-12);
 }
 
 TEST(ReadDxf, TwoHalfCirclesByBulgeAreACircle) {
-  const DrawingPath path = only_path(tags({{0, "LWPOLYLINE"}, {8, "cut"}, {90, "2"}, {70, "1"}, {10, "-5"}, {20, "0"}, {42, "1"}, {10, "5"}, {20, "0"}, {42, "1"}}));
+  const DrawingPath path = only_path(tags({{0, "LWPOLYLINE"},
+                                           {8, "cut"},
+                                           {90, "2"},
+                                           {70, "1"},
+                                           {10, "-5"},
+                                           {20, "0"},
+                                           {42, "1"},
+                                           {10, "5"},
+                                           {20, "0"},
+                                           {42, "1"}}));
   EXPECT_TRUE(path.closed);
   EXPECT_LE(worst_distance_from_circle(path.points, {0, 0}, 5), 0.00101);
   EXPECT_NEAR(signed_area(path.points), k_pi * 25, 0.02) << "a positive bulge turns left";
@@ -97,30 +115,64 @@ TEST(ReadDxf, TwoHalfCirclesByBulgeAreACircle) {
 
 TEST(ReadDxf, AnOldPolylineHasItsBulgesToo) {
   const std::string vertex = tags({{0, "VERTEX"}, {8, "cut"}});
-  const DrawingPath path = only_path(tags({{0, "POLYLINE"}, {8, "cut"}, {66, "1"}, {70, "1"}}) + vertex + tags({{10, "-5"}, {20, "0"}, {42, "-1"}}) + vertex +
+  const DrawingPath path = only_path(tags({{0, "POLYLINE"}, {8, "cut"}, {66, "1"}, {70, "1"}}) + vertex +
+                                     tags({{10, "-5"}, {20, "0"}, {42, "-1"}}) + vertex +
                                      tags({{10, "5"}, {20, "0"}, {42, "-1"}, {0, "SEQEND"}, {8, "cut"}}));
   EXPECT_EQ(path.entity, "POLYLINE");
   EXPECT_NEAR(signed_area(path.points), -k_pi * 25, 0.02);
 }
 
 TEST(ReadDxf, AnEllipseHasItsArea) {
-  const DrawingPath path =
-      only_path(tags({{0, "ELLIPSE"}, {8, "cut"}, {10, "0"}, {20, "0"}, {11, "0"}, {21, "10"}, {40, "0.5"}, {41, "0"}, {42, "6.283185307179586"}}));
+  const DrawingPath path = only_path(tags({{0, "ELLIPSE"},
+                                           {8, "cut"},
+                                           {10, "0"},
+                                           {20, "0"},
+                                           {11, "0"},
+                                           {21, "10"},
+                                           {40, "0.5"},
+                                           {41, "0"},
+                                           {42, "6.283185307179586"}}));
   EXPECT_TRUE(path.closed);
   EXPECT_NEAR(signed_area(path.points), k_pi * 50, 0.05);
 }
 
 TEST(ReadDxf, ARationalSplineDrawsAQuarterCircle) {
   const std::string root = "0.70710678118654752";
-  const DrawingPath path = only_path(tags({{0, "SPLINE"}, {8, "cut"}, {71, "2"}, {40, "0"}, {40, "0"}, {40, "0"}, {40, "1"}, {40, "1"}, {40, "1"},
-                                           {41, "1"}, {41, root}, {41, "1"}, {10, "7"}, {20, "0"}, {10, "7"}, {20, "7"}, {10, "0"}, {20, "7"}}));
+  const DrawingPath path = only_path(tags({{0, "SPLINE"},
+                                           {8, "cut"},
+                                           {71, "2"},
+                                           {40, "0"},
+                                           {40, "0"},
+                                           {40, "0"},
+                                           {40, "1"},
+                                           {40, "1"},
+                                           {40, "1"},
+                                           {41, "1"},
+                                           {41, root},
+                                           {41, "1"},
+                                           {10, "7"},
+                                           {20, "0"},
+                                           {10, "7"},
+                                           {20, "7"},
+                                           {10, "0"},
+                                           {20, "7"}}));
   EXPECT_LE(worst_distance_from_circle(path.points, {0, 0}, 7), 0.0011);
   EXPECT_NEAR((path.points.back() - Vec2(0, 7)).norm(), 0, 1e-12);
 }
 
 TEST(ReadDxf, BlocksArePlacedTurnedAndRepeated) {
-  const std::string block = tags({{0, "BLOCK"}, {8, "0"}, {2, "hole"}, {10, "1"}, {20, "0"}}) + line(1, 0, 3, 0, "0") + tags({{0, "ENDBLK"}});
-  const std::string insert = tags({{0, "INSERT"}, {8, "cut"}, {2, "hole"}, {10, "100"}, {20, "50"}, {41, "2"}, {42, "2"}, {50, "90"}, {71, "2"}, {45, "10"}});
+  const std::string block =
+      tags({{0, "BLOCK"}, {8, "0"}, {2, "hole"}, {10, "1"}, {20, "0"}}) + line(1, 0, 3, 0, "0") + tags({{0, "ENDBLK"}});
+  const std::string insert = tags({{0, "INSERT"},
+                                   {8, "cut"},
+                                   {2, "hole"},
+                                   {10, "100"},
+                                   {20, "50"},
+                                   {41, "2"},
+                                   {42, "2"},
+                                   {50, "90"},
+                                   {71, "2"},
+                                   {45, "10"}});
   const Drawing drawing = read(dxf_of(insert, 4, block));
   ASSERT_EQ(drawing.paths.size(), 2u);
   EXPECT_EQ(drawing.paths[0].layer, "cut") << "layer 0 in a block is the insert's";
@@ -137,7 +189,8 @@ TEST(ReadDxf, UnitsBecomeMillimetres) {
 }
 
 TEST(ReadDxf, WhatIsNoLineIsNamed) {
-  const Drawing drawing = read(dxf_of(tags({{0, "TEXT"}, {8, "x"}, {1, "hello"}, {0, "HATCH"}, {8, "x"}, {0, "TEXT"}, {8, "x"}}) + line(0, 0, 1, 0)));
+  const Drawing drawing = read(dxf_of(
+      tags({{0, "TEXT"}, {8, "x"}, {1, "hello"}, {0, "HATCH"}, {8, "x"}, {0, "TEXT"}, {8, "x"}}) + line(0, 0, 1, 0)));
   EXPECT_THAT(drawing.ignored, ElementsAre("HATCH", "TEXT"));
 }
 
@@ -160,12 +213,15 @@ TEST(ReadDxf, WrittenPointsComeBack) {
   }
 }
 
-// Refusals -------------------------------------------------------------------------------------------------------------
+// Refusals
+// -------------------------------------------------------------------------------------------------------------
 
 TEST(ReadDxf, RefusesWithTheLine) {
-  EXPECT_THAT(message_of(dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, "zero"}}))), HasSubstr("test.dxf:30: error: a number should stand here (group 10), not 'zero'"));
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, "zero"}}))),
+              HasSubstr("test.dxf:30: error: a number should stand here (group 10), not 'zero'"));
   EXPECT_THAT(message_of(dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, "nan"}, {20, "inf"}}))), HasSubstr("test.dxf:30"));
-  EXPECT_THAT(message_of(dxf_of(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "-1"}}))), HasSubstr("test.dxf:26: error: the radius of this CIRCLE is -1"));
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "-1"}}))),
+              HasSubstr("test.dxf:26: error: the radius of this CIRCLE is -1"));
   EXPECT_THAT(message_of(dxf_of("LINE\n0\n")), HasSubstr("test.dxf:25: error: a group code"));
   EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "gone"}}))), HasSubstr("block 'gone'"));
   EXPECT_THAT(message_of(dxf_of(line(0, 0, 1e9, 0))), HasSubstr("further than 10 km"));
@@ -181,32 +237,43 @@ TEST(ReadDxf, RefusesWhatIsNoAsciiDxf) {
 
 TEST(ReadDxf, RefusesAFileThatWasCutShort) {
   const std::string whole = dxf_of(line(0, 0, 1, 0));
-  for (std::size_t size = 0; size + 4 < whole.size(); ++size) EXPECT_NE(message_of(whole.substr(0, size)), "no error") << size;
+  for (std::size_t size = 0; size + 4 < whole.size(); ++size)
+    EXPECT_NE(message_of(whole.substr(0, size)), "no error") << size;
 }
 
 TEST(ReadDxf, BlocksThatHoldThemselvesEnd) {
-  const std::string block = tags({{0, "BLOCK"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "ENDBLK"}});
+  const std::string block =
+      tags({{0, "BLOCK"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "ENDBLK"}});
   EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "a"}}), 4, block)), HasSubstr("nested"));
 }
 
 TEST(ReadDxf, BlocksThatMultiplyWithoutEndAreRefused) {
   std::string blocks = tags({{0, "BLOCK"}, {2, "0"}}) + line(0, 0, 1, 0) + tags({{0, "ENDBLK"}});
   for (int k = 1; k < 10; ++k) {
-    blocks += tags({{0, "BLOCK"}, {2, std::to_string(k)}, {0, "INSERT"}, {2, std::to_string(k - 1)}, {70, "100"}, {71, "100"}, {0, "ENDBLK"}});
+    blocks += tags({{0, "BLOCK"},
+                    {2, std::to_string(k)},
+                    {0, "INSERT"},
+                    {2, std::to_string(k - 1)},
+                    {70, "100"},
+                    {71, "100"},
+                    {0, "ENDBLK"}});
   }
   EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "9"}}), 4, blocks)), HasSubstr("inserts more than"));
 }
 
-/// Everything that the fuzzer once fell over, and a few hundred damaged drawings: an answer or an InputError, nothing else.
+/// Everything that the fuzzer once fell over, and a few hundred damaged drawings: an answer or an InputError, nothing
+/// else.
 TEST(ReadDxf, AnyBytesAreSafe) {
   std::vector<std::string> seeds;
-  for (const auto& entry : std::filesystem::directory_iterator(FUSEE_SOURCE_DIR "/tests/fuzz/dxf")) seeds.push_back(read_file(entry.path(), 1 << 20));
+  for (const auto& entry : std::filesystem::directory_iterator(FUSEE_SOURCE_DIR "/tests/fuzz/corpus/dxf"))
+    seeds.push_back(read_file(entry.path(), 1 << 20));
   ASSERT_GE(seeds.size(), 3u);
   std::mt19937 random(1);
   for (const std::string& seed : seeds) {
     for (int round = 0; round < 100; ++round) {
       std::string bytes = seed;
-      for (int k = 0; k < round && !bytes.empty(); ++k) bytes[random() % bytes.size()] = "0123456789.-\nEA"[random() % 15];
+      for (int k = 0; k < round && !bytes.empty(); ++k)
+        bytes[random() % bytes.size()] = "0123456789.-\nEA"[random() % 15];
       try {
         check_drawing(read(bytes));
       } catch (const InputError&) {

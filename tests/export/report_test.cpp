@@ -1,4 +1,5 @@
-// report.html: one well-formed page that asks for nothing from outside, says everything, and survives any text and any number.
+// report.html: one well-formed page that asks for nothing from outside, says everything, and survives any text and any
+// number.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -55,12 +56,14 @@ Product sample(Mechanism mechanism = testing::forearm()) {
   product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit}};
   product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
   for (const TransmissionPoint& point : product.synthesis.stroke) {
-    product.as_built.points.push_back({point.alpha, point.theta, point.theta + radians(0.004) * std::sin(point.alpha), 0.002});
+    product.as_built.points.push_back(
+        {point.alpha, point.theta, point.theta + radians(0.004) * std::sin(point.alpha), 0.002});
   }
   product.as_built.max_theta_error = radians(0.004);
   product.as_built.max_slack = 0.002;
-  product.checks = {exactly("open_edges", 0, 0, "1"), at_most("theta_error", 0.004, 0.05, "deg"), at_most("slack", 0.002, 0.05, "mm"),
-                    at_least("wall", 1.9, 1.2, "mm"), at_most("obj_deviation", 0, 0.01, "mm")};
+  product.checks = {exactly("open_edges", 0, 0, "1"), at_most("theta_error", 0.004, 0.05, "deg"),
+                    at_most("slack", 0.002, 0.05, "mm"), at_least("wall", 1.9, 1.2, "mm"),
+                    at_most("obj_deviation", 0, 0.01, "mm")};
   return product;
 }
 
@@ -86,7 +89,8 @@ std::string shown(const std::string& html) {
 TEST(Report, IsAWellFormedPage) {
   const auto document = parsed(report_html(sample()));
   EXPECT_STREQ(document.child("html").child("body").child("header").child("h1").text().as_string(), "forearm");
-  for (const char* id : {"numbers", "part", "mechanism", "curves", "built", "profiles", "checks", "feasibility", "making"}) {
+  for (const char* id :
+       {"numbers", "part", "mechanism", "curves", "built", "profiles", "checks", "feasibility", "making"}) {
     EXPECT_EQ(document.select_nodes(("//section[@id='" + std::string(id) + "']").c_str()).size(), 1u) << id;
   }
   EXPECT_GE(document.select_nodes("//svg").size(), 12u);
@@ -121,7 +125,8 @@ TEST(Report, NamesEveryCheckAndCondition) {
   }
   EXPECT_THAT(checks, HasSubstr("pulley.obj"));
   const std::string conditions = words_of(document.select_node("//section[@id='feasibility']").node());
-  for (const Condition& condition : product.synthesis.conditions) EXPECT_THAT(conditions, HasSubstr(plain_name(condition.name)));
+  for (const Condition& condition : product.synthesis.conditions)
+    EXPECT_THAT(conditions, HasSubstr(plain_name(condition.name)));
   EXPECT_THAT(conditions, HasSubstr("Wall to bore"));
 }
 
@@ -207,7 +212,8 @@ TEST(Report, APartThatWasNotMadeHasAReportToo) {
   const std::string html = report_html(product);
   const auto document = parsed(html);
   EXPECT_THAT(shown(html), Not(ContainsRegex("[^a-z](nan|inf)[^a-z]")));
-  EXPECT_STREQ(document.select_node("//section[contains(@class, 'verdict')]").node().attribute("class").as_string(), "verdict bad");
+  EXPECT_STREQ(document.select_node("//section[contains(@class, 'verdict')]").node().attribute("class").as_string(),
+               "verdict bad");
 }
 
 TEST(PlainNames, SidesAreFilledIn) {

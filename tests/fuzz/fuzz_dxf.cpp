@@ -1,4 +1,4 @@
-// Any bytes as a drawing: read, then checked. Corpus: tests/fuzz/dxf, which read_dxf_test.cpp replays.
+// Any bytes as a drawing: read, then checked. Corpus: tests/fuzz/corpus/dxf, which read_dxf_test.cpp replays.
 #include <cstddef>
 #include <cstdint>
 

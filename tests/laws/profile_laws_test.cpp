@@ -65,5 +65,31 @@ TEST(ProfileLaws, NoTendonTouchesTheClosingArc) {
   });
 }
 
+/// How far the outline lies inside a much finer sample of the same curve, at most.
+double deepest_chord(const Outline& outline, const Outline& fine) {
+  double deepest = 0;
+  std::size_t corner = 0;
+  for (const OutlinePoint& point : fine.points) {
+    // Both run the same way round: the corner that supports this normal is never far from the last one's.
+    const auto reach = [&](std::size_t i) { return outline.points[i % outline.points.size()].position.dot(point.normal); };
+    while (reach(corner + 1) > reach(corner)) ++corner;
+    while (corner > 0 && reach(corner - 1) > reach(corner)) --corner;
+    deepest = std::max(deepest, point.position.dot(point.normal) - reach(corner));
+  }
+  return deepest;
+}
+
+TEST(ProfileLaws, ChordsStayWithinTheTolerance) {
+  expect_law(100, [](const Mechanism& mechanism) {
+    constexpr double tolerance = 0.01;
+    const SynthesisResult result = synthesise(mechanism, {.tolerance = tolerance, .advice = false});
+    if (!result.made()) return false;
+    const SynthesisResult fine = synthesise(mechanism, {.tolerance = 1e-5, .advice = false});
+    RC_ASSERT(deepest_chord(result.p1, fine.p1) <= tolerance);
+    RC_ASSERT(deepest_chord(result.p2, fine.p2) <= tolerance);
+    return true;
+  });
+}
+
 }  // namespace
 }  // namespace fusee

@@ -10,18 +10,27 @@ namespace {
 
 TEST(Edit, KeepsCommentsOrderAndLayout) {
   const std::string text =
-      "# Größe µ: a comment\nschema = 1\n\n[guides]   # first\n  EB_mm=50 # B\n\tED_mm = 5e1\nOE_mm =   -40.0   # minus – a dash\n"
-      "[joint]\nrange_deg = [ -30.0 , 30.0 ] # both\nlength_mm = 100.0 # R\n[pulley]\nEF_mm = 80\nr1_mm = 16\n[tendon]\ndiameter_mm = 1\n";
-  const std::string edited = edit_values(
-      text, {{"joint.length_mm", 123.25}, {"guides.ED_mm", 61.5}, {"guides.OE_mm", 3.0}, {"joint.range_deg[1]", 25.0}, {"guides.EB_mm", 61.5}});
+      "# Größe µ: a comment\nschema = 1\n\n[guides]   # first\n  EB_mm=50 # B\n\tED_mm = 5e1\nOE_mm =   -40.0   # "
+      "minus – a dash\n"
+      "[joint]\nrange_deg = [ -30.0 , 30.0 ] # both\nlength_mm = 100.0 # R\n[pulley]\nEF_mm = 80\nr1_mm = "
+      "16\n[tendon]\ndiameter_mm = 1\n";
+  const std::string edited = edit_values(text, {{"joint.length_mm", 123.25},
+                                                {"guides.ED_mm", 61.5},
+                                                {"guides.OE_mm", 3.0},
+                                                {"joint.range_deg[1]", 25.0},
+                                                {"guides.EB_mm", 61.5}});
   EXPECT_EQ(edited,
-            "# Größe µ: a comment\nschema = 1\n\n[guides]   # first\n  EB_mm=61.5 # B\n\tED_mm = 61.5\nOE_mm =   3   # minus – a dash\n"
-            "[joint]\nrange_deg = [ -30.0 , 25 ] # both\nlength_mm = 123.25 # R\n[pulley]\nEF_mm = 80\nr1_mm = 16\n[tendon]\ndiameter_mm = 1\n");
+            "# Größe µ: a comment\nschema = 1\n\n[guides]   # first\n  EB_mm=61.5 # B\n\tED_mm = 61.5\nOE_mm =   3   # "
+            "minus – a dash\n"
+            "[joint]\nrange_deg = [ -30.0 , 25 ] # both\nlength_mm = 123.25 # R\n[pulley]\nEF_mm = 80\nr1_mm = "
+            "16\n[tendon]\ndiameter_mm = 1\n");
 }
 
 TEST(Edit, WritesKeysThatWereLeftToTheirDefault) {
-  const std::string edited = edit_values(k_good_file, {{"guides.friction", 0.2}, {"body.min_wall_mm", 1.5}, {"body.mark_depth_mm", 0.5}});
-  EXPECT_EQ(edited, replaced(k_good_file, "[guides]\n", "[guides]\nfriction = 0.2\n") + "\n[body]\nmin_wall_mm = 1.5\nmark_depth_mm = 0.5\n");
+  const std::string edited =
+      edit_values(k_good_file, {{"guides.friction", 0.2}, {"body.min_wall_mm", 1.5}, {"body.mark_depth_mm", 0.5}});
+  EXPECT_EQ(edited, replaced(k_good_file, "[guides]\n", "[guides]\nfriction = 0.2\n") +
+                        "\n[body]\nmin_wall_mm = 1.5\nmark_depth_mm = 0.5\n");
   const Mechanism mechanism = parse_mechanism(edited, "f.toml");
   EXPECT_EQ(mechanism.guides.mu, 0.2);
   EXPECT_EQ(mechanism.body.min_wall, 1.5);
@@ -31,7 +40,8 @@ TEST(Edit, ReachesInlineTables) {
   const std::string text =
       "schema = 1\njoint = {length_mm = 100, range_deg = [-30, 30]}\nguides = { EB_mm = 50, ED_mm = 50, OE_mm = -40 }\n"
       "pulley = {EF_mm = 80, r1_mm = 16}\ntendon.diameter_mm = 1\n";
-  const std::string edited = edit_values(text, {{"joint.length_mm", 90.0}, {"guides.friction", 0.3}, {"tendon.diameter_mm", 2.0}});
+  const std::string edited =
+      edit_values(text, {{"joint.length_mm", 90.0}, {"guides.friction", 0.3}, {"tendon.diameter_mm", 2.0}});
   const Mechanism mechanism = parse_mechanism(edited, "f.toml");
   EXPECT_EQ(mechanism.joint.R, 90.0);
   EXPECT_EQ(mechanism.guides.mu, 0.3);

@@ -36,9 +36,11 @@ struct Twin {
 
 /// Another search, in another language, found nothing better.
 TEST(Certified, IsAsGoodAsAnotherGlobalSearch) {
-  for (const Twin& twin : {Twin{"0.1", "20", "60", 2.0946211056}, Twin{"0.3", "20", "60", 2.7183719990}, Twin{"0.2", "10", "60", 2.4398285638},
-                           Twin{"0.2", "20", "120", 2.2840168692}, Twin{"0.0", "20", "60", 2.0}}) {
-    const Problem problem = paper_problem({{"guides.friction", twin.mu}, {"pulley.r1_mm", twin.r1}, {"pulley.EF_mm", twin.EF}});
+  for (const Twin& twin :
+       {Twin{"0.1", "20", "60", 2.0946211056}, Twin{"0.3", "20", "60", 2.7183719990},
+        Twin{"0.2", "10", "60", 2.4398285638}, Twin{"0.2", "20", "120", 2.2840168692}, Twin{"0.0", "20", "60", 2.0}}) {
+    const Problem problem =
+        paper_problem({{"guides.friction", twin.mu}, {"pulley.r1_mm", twin.r1}, {"pulley.EF_mm", twin.EF}});
     const CertifiedResult result = certified_optimum(problem, Objective::max_tension);
     EXPECT_TRUE(result.proven) << twin.mu;
     EXPECT_NEAR(result.value, twin.value, 1e-6 * twin.value) << twin.mu << " " << twin.r1 << " " << twin.EF;
@@ -77,13 +79,14 @@ TEST(Certified, ASecondObjectiveBreaksTies) {
 
 /// Over every box and for every certifiable objective, law and kind of pin the bound is below all designs of it.
 TEST(Bound, IsBelowEveryDesignOfTheBox) {
-  const std::vector<std::vector<Setting>> kinds = {{},
-                                                   {{"guides.radius_mm", "3"}},
-                                                   {{"pulley.law", "linear"}, {"pulley.ratio", "3"}},
-                                                   {{"guides.friction", "0"}},
-                                                   {{"optimize.variables", R"(["joint.range_deg[0]", "pulley.r1_mm", "guides.friction"])"},
-                                                    {"optimize.lower", "[-40, 10, 0.0]"},
-                                                    {"optimize.upper", "[-20, 30, 0.4]"}}};
+  const std::vector<std::vector<Setting>> kinds = {
+      {},
+      {{"guides.radius_mm", "3"}},
+      {{"pulley.law", "linear"}, {"pulley.ratio", "3"}},
+      {{"guides.friction", "0"}},
+      {{"optimize.variables", R"(["joint.range_deg[0]", "pulley.r1_mm", "guides.friction"])"},
+       {"optimize.lower", "[-40, 10, 0.0]"},
+       {"optimize.upper", "[-20, 30, 0.4]"}}};
   Random random(7);
   long compared = 0;
   for (const auto& settings : kinds) {
@@ -107,7 +110,8 @@ TEST(Bound, IsBelowEveryDesignOfTheBox) {
         const BoxBound bound = bounder.bound(box, 1e300);
         for (int k = 0; k < 20; ++k) {
           Design design(3);
-          for (std::size_t i = 0; i < 3; ++i) design[i] = whole.lower[i] + random.fraction() * (whole.upper[i] - whole.lower[i]);
+          for (std::size_t i = 0; i < 3; ++i)
+            design[i] = whole.lower[i] + random.fraction() * (whole.upper[i] - whole.lower[i]);
           const Evaluation evaluation = evaluate_design(problem, info.objective, design);
           if (!evaluation.possible) continue;
           ++compared;
@@ -120,8 +124,8 @@ TEST(Bound, IsBelowEveryDesignOfTheBox) {
   EXPECT_GT(compared, 5000);
 }
 
-/// Halving the box brings the bound nearer by a factor of four: it is of second order, or the search could not end. Around ED 45.17 the
-/// tension at μ = 0.3 has its least value inside the box.
+/// Halving the box brings the bound nearer by a factor of four: it is of second order, or the search could not end.
+/// Around ED 45.17 the tension at μ = 0.3 has its least value inside the box.
 TEST(Bound, IsOfSecondOrder) {
   const Problem problem = paper_problem({{"optimize.constraints", "[]"}, {"guides.friction", "0.3"}});
   const Bounder bounder(problem, Objective::max_tension);
@@ -170,7 +174,8 @@ TEST(Certified, ABoxWithoutAPossibleDesignIsProvenEmpty) {
 }
 
 TEST(Certified, DeadCentreEverywhereIsSaid) {
-  const Problem problem = paper_problem({{"optimize.lower", "[100, 30, 45]"}, {"optimize.upper", "[300, 31, 50]"}, {"joint.range_deg", "[-60, 60]"}});
+  const Problem problem = paper_problem(
+      {{"optimize.lower", "[100, 30, 45]"}, {"optimize.upper", "[300, 31, 50]"}, {"joint.range_deg", "[-60, 60]"}});
   const CertifiedResult result = certified_optimum(problem, Objective::max_tension);
   EXPECT_FALSE(result.found);
   EXPECT_THAT(result.reason, ::testing::HasSubstr("moment arm"));
@@ -185,7 +190,8 @@ TEST(Certified, SaysWhatItCannotProve) {
     }
     return std::string("accepted");
   };
-  EXPECT_THAT(hint_of({{"optimize.objective", "min_bend"}}, Objective::min_bend), ::testing::HasSubstr("certified: max_tension"));
+  EXPECT_THAT(hint_of({{"optimize.objective", "min_bend"}}, Objective::min_bend),
+              ::testing::HasSubstr("certified: max_tension"));
   EXPECT_THAT(hint_of({{"optimize.feasible", "true"}}, Objective::max_tension), ::testing::HasSubstr("feasible"));
 }
 
@@ -242,7 +248,8 @@ TEST(Pareto, NoPointOfTheFrontIsBetterInEverything) {
     EXPECT_GT(result.front[i].values[1], result.front[i + 1].values[1]);
   }
   for (const FrontPoint& point : result.front) {
-    EXPECT_NEAR(evaluate_design(problem, Objective::footprint, point.design).value, point.values[1], 1e-9 * point.values[1]);
+    EXPECT_NEAR(evaluate_design(problem, Objective::footprint, point.design).value, point.values[1],
+                1e-9 * point.values[1]);
   }
   EXPECT_THROW(pareto_front(paper_problem()), InputError);
 }

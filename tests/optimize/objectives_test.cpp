@@ -34,16 +34,22 @@ TEST(Objectives, AreThePapersChainOfForces) {
     for (const Method method : {Method::exact, Method::paper}) {
       mechanism.pulley.method = method;
       const auto value = [&mechanism](Objective objective) { return evaluate(objective, mechanism).value; };
-      EXPECT_NEAR(value(Objective::max_tension), largest(mechanism, [](const auto&, const auto& f) { return f.Tb; }), 1e-6);
-      EXPECT_NEAR(value(Objective::motor_torque), largest(mechanism, [](const auto& p, const auto& f) { return f.Tb * p.t2.p; }), 1e-4);
-      EXPECT_NEAR(value(Objective::max_error), largest(mechanism, [](const auto& p, const auto& f) { return degrees(f.elongation / p.t2.m); }), 1e-9);
+      EXPECT_NEAR(value(Objective::max_tension), largest(mechanism, [](const auto&, const auto& f) { return f.Tb; }),
+                  1e-6);
+      EXPECT_NEAR(value(Objective::motor_torque),
+                  largest(mechanism, [](const auto& p, const auto& f) { return f.Tb * p.t2.p; }), 1e-4);
+      EXPECT_NEAR(value(Objective::max_error),
+                  largest(mechanism, [](const auto& p, const auto& f) { return degrees(f.elongation / p.t2.m); }),
+                  1e-9);
     }
   }
 }
 
 TEST(Objectives, ScaleAsTheirUnitsSay) {
   const Mechanism small = testing::forearm(), large = testing::scaled(small, 3.0);
-  const auto ratio = [&](Objective objective) { return evaluate(objective, large).value / evaluate(objective, small).value; };
+  const auto ratio = [&](Objective objective) {
+    return evaluate(objective, large).value / evaluate(objective, small).value;
+  };
   EXPECT_NEAR(ratio(Objective::max_tension), 1.0, 1e-9);
   EXPECT_NEAR(ratio(Objective::footprint), 9.0, 1e-8);
   EXPECT_NEAR(ratio(Objective::motor_torque), 3.0, 1e-8);
@@ -54,16 +60,21 @@ TEST(Objectives, ScaleAsTheirUnitsSay) {
 TEST(Formulas, DerivativesAreThoseOfDifferences) {
   const FileNumbers<double> at = file_numbers(testing::forearm());
   using Member = std::pair<double FileNumbers<double>::*, Jet FileNumbers<Jet>::*>;
-  const std::vector<Member> members = {{&FileNumbers<double>::R, &FileNumbers<Jet>::R},           {&FileNumbers<double>::EB, &FileNumbers<Jet>::EB},
-                                       {&FileNumbers<double>::ED, &FileNumbers<Jet>::ED},         {&FileNumbers<double>::OE, &FileNumbers<Jet>::OE},
-                                       {&FileNumbers<double>::EF, &FileNumbers<Jet>::EF},         {&FileNumbers<double>::r1, &FileNumbers<Jet>::r1},
-                                       {&FileNumbers<double>::mu, &FileNumbers<Jet>::mu},         {&FileNumbers<double>::radius, &FileNumbers<Jet>::radius},
-                                       {&FileNumbers<double>::diameter, &FileNumbers<Jet>::diameter}, {&FileNumbers<double>::theta_min, &FileNumbers<Jet>::theta_min}};
+  const std::vector<Member> members = {{&FileNumbers<double>::R, &FileNumbers<Jet>::R},
+                                       {&FileNumbers<double>::EB, &FileNumbers<Jet>::EB},
+                                       {&FileNumbers<double>::ED, &FileNumbers<Jet>::ED},
+                                       {&FileNumbers<double>::OE, &FileNumbers<Jet>::OE},
+                                       {&FileNumbers<double>::EF, &FileNumbers<Jet>::EF},
+                                       {&FileNumbers<double>::r1, &FileNumbers<Jet>::r1},
+                                       {&FileNumbers<double>::mu, &FileNumbers<Jet>::mu},
+                                       {&FileNumbers<double>::radius, &FileNumbers<Jet>::radius},
+                                       {&FileNumbers<double>::diameter, &FileNumbers<Jet>::diameter},
+                                       {&FileNumbers<double>::theta_min, &FileNumbers<Jet>::theta_min}};
   for (const ObjectiveInfo& info : objectives()) {
     if (!info.certifiable) continue;
     for (const bool point_pins : {false, true}) {
       for (const auto& [number, jet] : members) {
-        const auto value = [&](double shift) {
+        const auto value = [&, number = number](double shift) {
           FileNumbers<double> shifted = at;
           shifted.*number += shift;
           Domain domain;
@@ -72,10 +83,12 @@ TEST(Formulas, DerivativesAreThoseOfDifferences) {
         const double step = 1e-5;
         const double difference = (value(step) - value(-step)) / (2 * step);
         const RoundingUp rounding;
-        FileNumbers<Jet> jets{at.R, at.EB, at.ED, at.OE, at.EF, at.r1, at.ratio, at.mu, at.radius, at.diameter, at.modulus, at.theta_min, at.theta_max};
+        FileNumbers<Jet> jets{at.R,  at.EB,     at.ED,       at.OE,      at.EF,        at.r1,       at.ratio,
+                              at.mu, at.radius, at.diameter, at.modulus, at.theta_min, at.theta_max};
         jets.*jet = Jet::variable(at.*number, 0, 1);
         Domain domain;
-        const Jet result = objective_at(info.objective, design_numbers(jets, Law::compensate, point_pins), Jet(0.1), domain);
+        const Jet result =
+            objective_at(info.objective, design_numbers(jets, Law::compensate, point_pins), Jet(0.1), domain);
         const double slope = result.count == 0 ? 0.0 : result.slope[0].lower();
         EXPECT_NEAR(slope, difference, 1e-6 * (1 + std::abs(difference))) << info.name;
       }
@@ -138,8 +151,12 @@ TEST(Problem, AVariableWithoutEffectIsAnError) {
                        {"optimize.lower", "[100, 30, 1]"},
                        {"optimize.upper", "[300, 150, 2]"}}),
               ::testing::HasSubstr("body.min_wall_mm has no effect on max_tension"));
-  EXPECT_THAT(message({{"optimize.variables", R"(["pulley.EF_mm"])"}, {"optimize.lower", "[50]"}, {"optimize.upper", "[90]"}, {"optimize.tied", "[]"},
-                       {"optimize.constraints", "[]"}, {"guides.friction", "0"}}),
+  EXPECT_THAT(message({{"optimize.variables", R"(["pulley.EF_mm"])"},
+                       {"optimize.lower", "[50]"},
+                       {"optimize.upper", "[90]"},
+                       {"optimize.tied", "[]"},
+                       {"optimize.constraints", "[]"},
+                       {"guides.friction", "0"}}),
               ::testing::HasSubstr("pulley.EF_mm has no effect"));
   EXPECT_EQ(message({}), "accepted");
 }

@@ -63,11 +63,16 @@ TEST_F(Paper, TheWindowOfMuIsTrue) {
   const WindowsOf& mu = claim("optimum_of_table_4").windows.front();
   ASSERT_EQ(mu.windows.size(), 1u);
   const Window window = mu.windows.front();
-  for (const auto& [value, inside] : {std::pair{window.low - 0.002, false}, {window.low + 0.002, true}, {window.high - 0.002, true}, {window.high + 0.002, false}}) {
+  for (const auto& [value, inside] : {std::pair{window.low - 0.002, false},
+                                      {window.low + 0.002, true},
+                                      {window.high - 0.002, true},
+                                      {window.high + 0.002, false}}) {
     PaperAssumptions assumptions;
     assumptions.mu = value;
-    const CertifiedResult best = certified_optimum(make_problem(paper_problem_file(assumptions)), Objective::max_tension);
-    const bool table_4 = std::abs(best.best[0] - 100) < 1e-3 && std::abs(best.best[1] - 50) < 1e-3 && std::abs(best.best[2] + 40) < 1e-3;
+    const CertifiedResult best =
+        certified_optimum(make_problem(paper_problem_file(assumptions)), Objective::max_tension);
+    const bool table_4 =
+        std::abs(best.best[0] - 100) < 1e-3 && std::abs(best.best[1] - 50) < 1e-3 && std::abs(best.best[2] + 40) < 1e-3;
     EXPECT_EQ(table_4, inside) << value;
   }
 }

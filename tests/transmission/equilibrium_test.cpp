@@ -136,8 +136,13 @@ TEST(Equilibrium, BalancesTheJointEverywhere) {
   mechanism.load.mass = 0.4;
   mechanism.load.lever = 60.0;
   mechanism.load.tilt = radians(90.0);
-  for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, {6.0}))) {
+  const std::vector<JointStep> steps = cycles(mechanism, {6.0});
+  const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), steps);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const EquilibriumPoint& point = points[i];
     ASSERT_EQ(point.status, EquilibriumStatus::held);
+    // Level at home: the weight's lever is that of a cosine.
+    EXPECT_NEAR(point.load_torque, 100.0 * steps[i].tip_force + 0.4 * 9.80665 * 60.0 * std::cos(point.theta), 1e-9);
     const double m1 = upper_span(pin_place(mechanism, Side::left, 2.5), -point.theta).m;
     const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
     EXPECT_NEAR(point.t2.upper * m2 - point.t1.upper * m1, point.load_torque, 1e-8);
@@ -213,7 +218,8 @@ TEST(Equilibrium, StiffnessIsThatOfDifferences) {
   // A torque a little larger at the same α: what sticks stays stuck; without friction everything passes.
   const double step = 1e-3;
   for (const double friction : {0.0, 0.25}) {
-    const Mechanism mechanism = with(unsymmetric(), 20.0, friction, 3000.0);
+    Mechanism mechanism = with(unsymmetric(), 20.0, friction, 3000.0);
+    mechanism.load = {0.0, 0.0, 2.0, 150.0, radians(20.0)};  // a weight that tips the joint over
     for (const double theta : {-0.3, 0.0, 0.4}) {
       JointMotion motion(joint_model(mechanism));
       const double alpha = Transmission(mechanism).alpha(theta);

@@ -13,7 +13,8 @@ namespace fusee {
 /// paper.md alone: what stands in profiles/paper.md.
 std::string paper_page(const Reproduction& reproduction);
 
-/// fig_04.svg and fig_04.csv …, table_4.csv, claims.csv, laws.csv, mu_windows.csv, paper.md, and manifest.json, which names them.
+/// fig_04.svg and fig_04.csv …, table_4.csv, claims.csv, laws.csv, mu_windows.csv, paper.md, and manifest.json, which
+/// names them.
 std::vector<OutputFile> paper_files(const Reproduction& reproduction);
 
 /// "mu 0.132 to 0.249; r1 up to 21 mm": where a claim holds, for a person.

@@ -9,6 +9,7 @@
 /// Every number here has one row in the field table (fields.h): its key, unit, range, default and meaning.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -89,9 +90,9 @@ enum class Marks { engraved, raised, none };
 /// The printed body. 0 stands for "automatic" where the field table says so; solid/layout.h resolves it.
 struct Body {
   Groove groove = Groove::u;
-  double groove_angle = 0;  ///< full angle between the walls, rad
-  double groove_depth = 0;  ///< lip above the floor; 0: 2 d
-  double seat_ratio = 0;    ///< seat radius of a U groove per tendon diameter
+  double groove_angle = 0;      ///< full angle between the walls, rad
+  double groove_depth = 0;      ///< lip above the floor; 0: 2 d, at least 0.8 mm
+  double seat_ratio = 0;        ///< seat radius of a U groove per tendon diameter
   Flange flange = Flange::follow;
   double flange_thickness = 0;  ///< at the lip
   double hub_diameter = 0;      ///< 0: from the bore and the set screw
@@ -102,11 +103,11 @@ struct Body {
   std::string horn;          ///< bore = horn: a name of catalogue.h
   std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
-  double anchor_hole = 0;  ///< width of the tie-off channel; 0: d + 0.3
-  double knot_pocket = 0;  ///< diameter; 0: 3.5 d
+  double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
+  double knot_pocket = 0;       ///< diameter; 0: 3.5 d, or what there is room for
   Marks marks = Marks::engraved;
   double mark_depth = 0;
-  double min_wall = 0;
+  double min_wall = 0;          ///< 0: 1.2 mm, thinner on small pulleys
 
   bool operator==(const Body&) const = default;
 };
@@ -115,7 +116,7 @@ struct Material {
   std::string name;
   double shrinkage = 0;          ///< fraction by which a print comes out smaller
   double hole_compensation = 0;  ///< added to the diameter of holes, mm
-  double elephant_foot = 0;      ///< chamfer at the bed, mm
+  double elephant_foot = 0;      ///< chamfer at the bed, at most; a thin lip gets a smaller one, mm
 
   bool operator==(const Material&) const = default;
 };
@@ -178,6 +179,8 @@ struct Mechanism {
 
   /// Pin radius to the tendon's centre line: ρp of mechanics, mm.
   double guide_pitch_radius() const { return guides.radius + 0.5 * tendon.diameter; }
+  /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
+  double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
 };
 
 }  // namespace fusee

@@ -1,5 +1,6 @@
 /// \file
-/// The global optimum, proven: branch and bound with outward-rounded intervals over the variables and the stroke.
+/// The global optimum, proven: branch and bound with outward-rounded intervals over the variables and the stroke. Constraints are kept to
+/// 1e-12 of their largest term, in the bound and in the designs.
 #pragma once
 
 #include "fusee/optimize/problem.h"
@@ -23,28 +24,29 @@ struct DesignBox {
 /// Where all designs lie that are within `tie` of the optimum: none lies outside of `boxes`.
 struct TieSet {
   std::vector<DesignBox> boxes;
-  DesignBox hull;   ///< around all boxes
-  DesignBox known;  ///< around designs that were evaluated and do tie: the set reaches at least this far
-  double share = 0; ///< volume of the boxes in that of the whole box
+  DesignBox hull;    ///< around all boxes
+  DesignBox known;   ///< around designs that were evaluated and do tie: the set reaches at least this far
+  double share = 0;  ///< volume of the boxes in that of the whole box
   /// Some variable can move by more than a twentieth of its range within the set.
   bool wide = false;
 };
 
 struct CertifiedResult {
-  bool found = false;        ///< false: no design keeps all conditions (proven when `proven`)
-  bool proven = false;       ///< the gap was reached
+  bool found = false;   ///< false: no design keeps all conditions (proven when `proven`)
+  bool proven = false;  ///< the gap was reached
   Design best;
-  double value = 0;          ///< of the best design, rounded up over the whole range
-  double theta = 0;          ///< where in the range, rad
-  double lower_bound = 0;    ///< no design is better than this, rounded down
+  double value = 0;        ///< of the best design, rounded up over the whole range
+  double theta = 0;        ///< where in the range, rad
+  double lower_bound = 0;  ///< no design is better than this, rounded down
   double relative_gap = 0;
   TieSet ties;
-  long boxes = 0;            ///< examined
-  long evaluations = 0;      ///< of formulas at one angle, over intervals
-  std::string reason;        ///< when nothing was found: the commonest cause
+  long boxes = 0;        ///< examined
+  long evaluations = 0;  ///< of formulas at one angle, over intervals
+  std::string reason;    ///< when nothing was found: the commonest cause
 };
 
-/// Needs an objective that is certifiable, law compensate or linear, no `feasible`: else InputError, naming what can be certified.
+/// Needs an objective that is certifiable, law compensate or linear, no `feasible`: else InputError, naming what can be
+/// certified.
 CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options = {});
 
 }  // namespace fusee

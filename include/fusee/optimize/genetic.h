@@ -1,5 +1,6 @@
 /// \file
-/// Optima by evolution (pagmo): the paper's genetic algorithm, and NSGA-II for two or three objectives. Seeded: the same bytes every run.
+/// Optima by evolution (pagmo): the paper's genetic algorithm, and NSGA-II for two or three objectives. Seeded: the
+/// same bytes every run.
 #pragma once
 
 #include "fusee/optimize/problem.h"
@@ -7,7 +8,7 @@
 namespace fusee {
 
 struct GeneticOptions {
-  unsigned population = 48;   ///< a multiple of 4
+  unsigned population = 48;  ///< a multiple of 4
   unsigned generations = 100;
   unsigned seed = 1;
   KeepGoing keep_going;

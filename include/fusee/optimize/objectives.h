@@ -1,5 +1,6 @@
 /// \file
-/// What can be made small (or large): plain functions of a mechanism. Forces and errors are per newton of tip force, by the paper's chain [1]-[11].
+/// What can be made small (or large): plain functions of a mechanism. Forces and errors are per newton of tip force, by
+/// the paper's chain [1]-[11].
 #pragma once
 
 #include <span>
@@ -14,26 +15,27 @@ enum class Objective { max_tension, max_error, footprint, motor_torque, min_bend
 
 struct ObjectiveInfo {
   Objective objective;
-  std::string_view name;     ///< in the mechanism file
+  std::string_view name;  ///< in the mechanism file
   std::string_view unit;
   std::string_view meaning;
-  bool largest = false;      ///< is made large, not small
-  bool certifiable = true;   ///< its equations have an interval form
+  bool largest = false;     ///< is made large, not small
+  bool certifiable = true;  ///< its equations have an interval form
 };
 
 std::span<const ObjectiveInfo> objectives();
 const ObjectiveInfo& info(Objective objective);
 Objective find_objective(std::string_view name);  ///< a name that the mechanism file accepts
 
-/// Pins of radius 0 and method = "paper" are the paper's: points, the tendon without thickness. Else ρp = radius + diameter/2.
+/// Pins of radius 0 and method = "paper" are the paper's: points, the tendon without thickness. Else ρp = radius +
+/// diameter/2.
 bool has_point_pins(const Mechanism& mechanism);
 
 /// The value of an objective, or why there is none. Never NaN, never infinite where possible.
 struct Evaluation {
   bool possible = false;
   double value = 0;
-  double theta = 0;         ///< where in the range it is taken, rad
-  std::string reason;       ///< when not possible
+  double theta = 0;    ///< where in the range it is taken, rad
+  std::string reason;  ///< when not possible
 
   /// Smaller is better, for every objective; 1e300 when not possible.
   double cost(Objective objective) const;

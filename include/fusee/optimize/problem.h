@@ -74,9 +74,9 @@ double constraint_violation(const Problem& problem, const Design& design);
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design);
 /// How far a search has come; returning false stops it, and it answers with what it has.
 struct SearchProgress {
-  double done = 0;        ///< 0 … 1, a guess
-  double best = 0;        ///< value of the best design, in the objective's unit
-  double lower_bound = 0; ///< certified only
+  double done = 0;         ///< 0 … 1, a guess
+  double best = 0;         ///< value of the best design, in the objective's unit
+  double lower_bound = 0;  ///< certified only
   long evaluations = 0;
 };
 using KeepGoing = std::function<bool(const SearchProgress&)>;

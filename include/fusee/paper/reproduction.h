@@ -1,8 +1,9 @@
 /// \file
-/// The paper's tables, figures and claims, computed: what it says, what its own equations [1]-[12] give, and under which assumed numbers.
+/// The paper's tables, figures and claims, computed: what it says, what its own equations [1]-[12] give, and under
+/// which assumed numbers.
 ///
-/// The paper prints no r1, EF, BG, F_c, μ and no unit of length: they stand in PaperAssumptions. The windows of these numbers in which a
-/// claim holds are searched for, not typed in.
+/// The paper prints no r1, EF, BG, F_c, μ and no unit of length: they stand in PaperAssumptions. The windows of these
+/// numbers in which a claim holds are searched for, not typed in.
 #pragma once
 
 #include <functional>
@@ -15,13 +16,13 @@
 namespace fusee {
 
 struct PaperAssumptions {
-  double unit = 100;        ///< what the paper's length 1 is, mm
-  double r1 = 20;           ///< mm
-  double EF = 60;           ///< mm
+  double unit = 100;  ///< what the paper's length 1 is, mm
+  double r1 = 20;     ///< mm
+  double EF = 60;     ///< mm
   double mu = 0.2;
-  double tip_force = 20;    ///< F_c, N
-  double diameter = 4;      ///< the paper's tendon, mm
-  double modulus = 3000;    ///< the paper's tendon, MPa
+  double tip_force = 20;  ///< F_c, N
+  double diameter = 4;    ///< the paper's tendon, mm
+  double modulus = 3000;  ///< the paper's tendon, MPa
 };
 
 /// The mechanism of the paper over point pins with these lengths, in mm, and its optimisation problem.
@@ -32,7 +33,7 @@ MechanismFile paper_problem_file(const PaperAssumptions& assumptions);
 struct Window {
   double low = 0;
   double high = 0;
-  bool open_low = false;   ///< it holds at the end of what was searched
+  bool open_low = false;  ///< it holds at the end of what was searched
   bool open_high = false;
 };
 struct WindowsOf {
@@ -47,7 +48,7 @@ enum class Verdict { holds, holds_only_if, does_not_hold };
 std::string_view verdict_text(Verdict verdict);
 
 struct Claim {
-  std::string name;         ///< snake_case
+  std::string name;  ///< snake_case
   std::string paper_says;
   std::string equations_give;
   Verdict verdict = Verdict::does_not_hold;
@@ -78,12 +79,12 @@ struct PaperFigure {
 /// Both laws on the paper's optimum.
 struct LawCost {
   std::string law;
-  double nonlinearity = 0;     ///< largest distance of θ(α) from its best line, deg
+  double nonlinearity = 0;                                      ///< largest distance of θ(α) from its best line, deg
   double r1_least = 0, r1_most = 0, r2_least = 0, r2_most = 0;  ///< mm
-  double bend_radius = 0;      ///< smallest on P1 or P2; negative: hollow, mm
-  double tension = 0;          ///< largest T_b/F_c
-  double torque = 0;           ///< largest T_b r2/F_c, mm
-  double torque_ripple = 0;    ///< largest over smallest torque
+  double bend_radius = 0;                                       ///< smallest on P1 or P2; negative: hollow, mm
+  double tension = 0;                                           ///< largest T_b/F_c
+  double torque = 0;                                            ///< largest T_b r2/F_c, mm
+  double torque_ripple = 0;                                     ///< largest over smallest torque
 };
 
 /// Where Table 4 is the optimum, for other r1 and EF.
@@ -96,7 +97,7 @@ struct MuWindow {
 struct Reproduction {
   PaperAssumptions assumptions;
   std::vector<OptimumRow> table_4;
-  double optimum = 0;        ///< max T_b/F_c, certified
+  double optimum = 0;  ///< max T_b/F_c, certified
   double relative_gap = 0;
   std::vector<Claim> claims;
   std::vector<PaperFigure> figures;

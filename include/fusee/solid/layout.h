@@ -2,6 +2,7 @@
 /// The body's sizes with every "automatic" resolved: one place that solid, OpenSCAD, plates and report read.
 ///
 /// Bottom to top along z: flange 1 | groove P1 | middle flange | groove P2 | flange 2 | hub. z = 0 is the bed. mm, rad.
+/// These are the finished part's sizes; the mesh's coordinates are `scale` times them.
 #pragma once
 
 #include <string>
@@ -52,6 +53,7 @@ struct BodyLayout {
   double channel_width = 0;         ///< of the tie-off channels
   double channel_fillet = 0;        ///< radius at which a channel leaves the floor's tangent, to its centre line
   double pocket_radius = 0;         ///< of the knot pockets
+  double min_wall = 0;              ///< no wall is thinner
   double elephant_foot = 0;
   double mark_depth = 0;
   double scale = 1;                 ///< all x, y, z of the mesh are times this: 1/(1 − shrinkage)

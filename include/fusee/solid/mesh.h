@@ -17,7 +17,7 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// By the divergence theorem; positive when the faces look outward. mm³.
+/// By the divergence theorem; positive when the faces look outward. Indices must be in range. mm³.
 double enclosed_volume(const TriangleMesh& mesh);
 struct Bounds {
   Vec3 low, high;

@@ -26,7 +26,8 @@ struct Pulley {
   BodyLayout layout;
   TriangleMesh mesh;                  ///< coordinates are floats already
   std::vector<Anchor> anchors;
-  std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too; messages name the number to change
+  std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too
+  std::vector<Change> advice;         ///< body_advice() of an impossible one, when somebody asked for it
   double expected_volume = 0;         ///< exact volume of the discretised part, by areas of sections, mm³
   int expected_euler = 0;             ///< V − E + F
 
@@ -35,6 +36,11 @@ struct Pulley {
 };
 
 Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis);
+
+/// Do all conditions of curves and body hold? Makes no mesh.
+bool body_possible(const Mechanism& mechanism);
+/// The nearest change of each single number, of the joint or written for the body, with which body_possible() holds. Hundreds of tries.
+std::vector<Change> body_advice(const Mechanism& mechanism);
 
 /// What a mesh of this pulley must be, measured on `mesh` (usually one read back from a file): check_mesh, then Euler number, volume, deviation
 /// from the analytic surface within `tolerance`, smallest wall, groove depth and width.

@@ -40,6 +40,7 @@ class MadePulleys {
   double offset_ = 0;
 };
 
+/// Plain values: a joint with other pins, another stiffness, runout … is this one with a member changed, or with another `lower`.
 struct JointModel {
   std::array<PinPlace, 2> pins;                              ///< left, right, as mounted
   std::function<std::array<LowerPath, 2>(double alpha)> lower;

@@ -1,0 +1,15 @@
+/// \file
+/// The text files beside this one, compiled in by embed.cmake.
+#pragma once
+
+#include <string_view>
+
+namespace fusee::embedded {
+
+extern const std::string_view page_html;  ///< the page, with {{parts}} to be filled in
+extern const std::string_view page_css;
+extern const std::string_view figure_css;  ///< of every Figure
+extern const std::string_view viewer_js;   ///< the part in 3-D
+extern const std::string_view readout_js;  ///< values under the pointer in plots
+
+}  // namespace fusee::embedded

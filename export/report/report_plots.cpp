@@ -1,0 +1,160 @@
+#include "export/report/report_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "export/report/tables.h"
+#include "fusee/transmission/tension.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+
+const PlotAxis k_alpha_axis{"pulley angle α", "°", {}, {}, 1e-6};
+
+template <typename Value>
+std::vector<Vec2> over_alpha(const SynthesisResult& synthesis, Value value) {
+  std::vector<Vec2> points;
+  for (const TransmissionPoint& point : synthesis.stroke) points.emplace_back(degrees(point.alpha), value(point));
+  return points;
+}
+
+Plot radius_plot(const Product& product) {
+  Plot plot{"Pitch radii", k_alpha_axis, {"moment arm about G", "mm", {}, {}, 0.1}, {}, {}, {}};
+  plot.series = {{"r1", Ink::p1, over_alpha(product.synthesis, [](const auto& p) { return p.t1.p; })},
+                 {"r2", Ink::p2, over_alpha(product.synthesis, [](const auto& p) { return p.t2.p; })}};
+  return plot;
+}
+
+std::string line_words(const BestLine& line) {
+  return "best line θ = " + readable(line.offset, 2) + "° + " + readable_rounded(line.slope, 4) + " α";
+}
+
+Plot theta_plot(const std::vector<Vec2>& theta, const BestLine& line) {
+  Plot plot{"Joint angle", k_alpha_axis, {"joint angle θ", "°", {}, {}, 0.1}, {}, {}, {}};
+  plot.series = {{"θ(α)", Ink::main, theta}};
+  if (theta.empty()) return plot;
+  const auto on_line = [&](const Vec2& point) { return Vec2(point.x(), line.offset + line.slope * point.x()); };
+  plot.series.push_back({line_words(line), Ink::third, {on_line(theta.front()), on_line(theta.back())}, true});
+  return plot;
+}
+
+Plot deviation_plot(const std::vector<Vec2>& theta, const BestLine& line) {
+  Plot plot{"Deviation from the best line: ±" + readable_rounded(line.deviation, 3) + "°",
+            k_alpha_axis,
+            {"θ less the line", "°", {}, {}, 0.01},
+            {},
+            {},
+            {}};
+  PlotSeries series{"θ − line", Ink::main, {}};
+  for (const Vec2& point : theta)
+    series.points.emplace_back(point.x(), point.y() - line.offset - line.slope * point.x());
+  plot.series = {series};
+  return plot;
+}
+
+/// Points of the arc (active or closing), a gap where the other one is.
+PlotSeries curvature_series(const Outline& outline, bool active) {
+  const bool left = outline.side == Side::left;
+  PlotSeries series{std::string(left ? "P1" : "P2") + (active ? " active" : ""), left ? Ink::p1 : Ink::p2, {}, !active};
+  if (!active) series.name.clear();
+  for (std::size_t i = 0; i < outline.points.size(); ++i) {
+    const OutlinePoint& point = outline.points[i];
+    series.points.emplace_back(degrees(point.psi), outline.is_active(i) == active ? point.curvature_radius : k_nan);
+  }
+  return series;
+}
+
+/// The closing arc may be nearly straight, and a bridged hollow of the polar drawing is: what most of the tendon lies
+/// on counts.
+std::optional<double> highest_shown(std::vector<double> radii) {
+  if (radii.empty()) return std::nullopt;
+  std::sort(radii.begin(), radii.end());
+  const double usual = radii[radii.size() * 9 / 10];
+  return std::min(1.6 * radii.back(), 3 * usual);
+}
+
+Plot curvature_plot(const Product& product) {
+  Plot plot{"Radius of curvature of the pitch curves (thin: closing arc)",
+            {"direction of the normal ψ", "°", {}, {}, 1e-6},
+            {"radius of curvature", "mm", 0.0, {}, 0.1},
+            {},
+            {},
+            {}};
+  std::vector<double> active_radii;
+  for (const bool active : {false, true}) {
+    for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
+      plot.series.push_back(curvature_series(*outline, active));
+      if (!active) continue;
+      for (const Vec2& point : plot.series.back().points) {
+        if (std::isfinite(point.y())) active_radii.push_back(point.y());
+      }
+    }
+  }
+  plot.y.high = highest_shown(active_radii);
+  const Tendon& tendon = product.file.mechanism.tendon;
+  if (tendon.bend_ratio > 0)
+    plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest bend advised for this tendon"}};
+  return plot;
+}
+
+std::vector<PlotLimit> both_limits(const Check* check) {
+  if (!check) return {};
+  return {{check->limit, "limit"}, {-check->limit, "limit"}};
+}
+
+/// A single curve over α of what the wound tendons gave, between its limits, its worst point named.
+Plot as_built_plot(const Product& product, const std::string& title, const PlotAxis& y, const Check* check,
+                   const std::function<double(const RewindPoint&)>& value) {
+  Plot plot{title, k_alpha_axis, y, {{title, Ink::main, {}}}, both_limits(check), {}};
+  Vec2 worst(0, 0);
+  for (const RewindPoint& point : product.as_built.points) {
+    const Vec2 place(degrees(point.alpha), value(point));
+    plot.series[0].points.push_back(place);
+    if (std::abs(place.y()) > std::abs(worst.y())) worst = place;
+  }
+  if (worst.y() != 0) plot.marks = {{worst, with_unit(worst.y(), y.unit), Ink::main}};
+  return plot;
+}
+
+}  // namespace
+
+const Check* find_check(const Product& product, std::string_view name) {
+  const auto found = std::find_if(product.checks.begin(), product.checks.end(),
+                                  [&](const Check& check) { return check.name == name; });
+  return found == product.checks.end() ? nullptr : &*found;
+}
+
+std::vector<Plot> transmission_plots(const Product& product) {
+  const std::vector<Vec2> theta = over_alpha(product.synthesis, [](const auto& p) { return degrees(p.theta); });
+  const BestLine line = best_line(theta);
+  return {radius_plot(product), theta_plot(theta, line), deviation_plot(theta, line), curvature_plot(product)};
+}
+
+std::vector<Plot> as_built_plots(const Product& product) {
+  if (product.as_built.points.empty()) return {};
+  return {as_built_plot(product, "Error of the joint angle", {"θ as built less θ declared", "°", {}, {}, 1e-4},
+                        find_check(product, "theta_error"),
+                        [](const auto& p) { return degrees(p.theta - p.theta_declared); }),
+          as_built_plot(product, "Slack of tendon 2", {"slack (+), stretch (−)", "mm", {}, {}, 1e-4},
+                        find_check(product, "slack"), [](const auto& p) { return p.slack; })};
+}
+
+std::vector<Plot> force_plots(const Product& product) {
+  const Mechanism& mechanism = product.file.mechanism;
+  if (mechanism.load.tip_force == 0) return {};
+  const auto force = [&](auto value) {
+    return over_alpha(product.synthesis, [&](const auto& p) { return value(paper_forces(mechanism, p)); });
+  };
+  Plot tension{"Tension of tendon 2 under the tip force", k_alpha_axis, {"tension", "N", 0.0, {}, 0.1}, {}, {}, {}};
+  tension.series = {{"T2, above the pin", Ink::p2, force([](const PaperForces& f) { return f.T2; })},
+                    {"Tb, below the pin (with friction)", Ink::main, force([](const PaperForces& f) { return f.Tb; })}};
+  Plot stretch{"Joint angle lost by stretch", k_alpha_axis, {"Δθ", "°", {}, {}, 1e-3}, {}, {}, {}};
+  stretch.series = {{"Δθ", Ink::p2, force([](const PaperForces& f) { return degrees(f.theta_error); })}};
+  return {tension, stretch};
+}
+
+}  // namespace fusee

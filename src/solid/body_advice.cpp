@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "fusee/mechanism/fields.h"
+#include "fusee/solid/pulley.h"
+#include "solid/plan.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_mm", "body.hub_diameter_mm",
+                                 "body.hub_height_mm",   "body.bore_diameter_mm",    "body.anchor_hole_mm",
+                                 "body.knot_pocket_mm",  "body.min_wall_mm"};
+
+double number_of(const Mechanism& mechanism, const std::string& key) { return find_field(key)->get(mechanism, 0); }
+
+// Numbers that were written: a change of what is automatic would be no advice, and 0 is not a small number but
+// "automatic".
+std::vector<std::string> written_keys(const Mechanism& mechanism) {
+  std::vector<std::string> keys;
+  std::copy_if(k_body_keys.begin(), k_body_keys.end(), std::back_inserter(keys),
+               [&mechanism](const std::string& key) { return number_of(mechanism, key) > 0; });
+  return keys;
+}
+
+// A number for which no other value was found may still be left to the program.
+void add_automatic(std::vector<Change>& changes, const Mechanism& mechanism, const std::string& key) {
+  const auto is_it = [&key](const Change& change) { return change.key == key; };
+  if (std::any_of(changes.begin(), changes.end(), is_it)) return;
+  Mechanism automatic = mechanism;
+  const Field& field = *find_field(key);
+  field.set(automatic, 0, 0.0);
+  if (body_possible(automatic))
+    changes.push_back({key, number_of(mechanism, key), 0.0, std::string(field.unit), key + " = 0 (automatic)"});
+}
+
+}  // namespace
+
+bool body_possible(const Mechanism& mechanism) {
+  const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
+  return synthesis.made() && plan_body(mechanism, synthesis).possible();
+}
+
+std::vector<Change> body_advice(const Mechanism& mechanism) {
+  const std::vector<std::string> keys = written_keys(mechanism);
+  const auto possible = [&keys](const Mechanism& changed) {
+    return written_keys(changed).size() == keys.size() && body_possible(changed);
+  };
+  std::vector<Change> changes = nearest_changes(mechanism, possible, keys);
+  for (const std::string& key : keys) add_automatic(changes, mechanism, key);
+  return changes;
+}
+
+}  // namespace fusee

@@ -1,0 +1,115 @@
+"""fusee optimize: NEW.toml keeps what a person wrote, the same seed gives the same bytes, Ctrl-C leaves the best so far."""
+
+import json
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import harness
+
+PROBLEM = """# my joint – keep this
+schema = 1
+[joint]
+length_mm = 150.0   # R
+range_deg = [-30.0, 30.0]
+[guides]
+EB_mm = 50.0
+ED_mm = 50.0
+OE_mm = -10.0
+radius_mm = 0
+friction = 0.2      # measured
+[pulley]
+EF_mm = 60.0
+r1_mm = 20.0
+[tendon]
+diameter_mm = 1.0
+[optimize]
+objective = "max_tension"
+variables = ["joint.length_mm", "guides.ED_mm", "guides.OE_mm"]
+lower = [100.0, 30.0, -40.0]
+upper = [300.0, 150.0, 50.0]
+tied = ["guides.EB_mm = guides.ED_mm"]
+constraints = ["guides.EB_mm <= 0.5 * joint.length_mm"]
+"""
+
+
+class Optimize(harness.Scratch):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "problem.toml").write_text(PROBLEM)
+
+    def answer(self, words, code=0):
+        done = self.fusee(f"optimize problem.toml --json {words}")
+        self.assertEqual(done.returncode, code, done.stdout.decode() + done.stderr.decode())
+        return json.loads(done.stdout)
+
+    def test_the_papers_optimum_is_proven(self):
+        answer = self.answer("")
+        self.assertEqual(answer["method"], "certified")
+        self.assertEqual(answer["design"], {"joint.length_mm": 100, "guides.ED_mm": 50, "guides.OE_mm": -40, "guides.EB_mm": 50})
+        self.assertAlmostEqual(answer["value"], 2.3673443, 7)
+        self.assertTrue(answer["proven"])
+        self.assertLessEqual(answer["lower_bound"], answer["value"])
+        self.assertLessEqual(answer["relative_gap"], 1e-6)
+
+    def test_new_file_keeps_comments_and_order(self):
+        self.answer("-o new.toml")
+        expected = PROBLEM
+        for key, value in [("length_mm = 150.0", "length_mm = 100"), ("EB_mm = 50.0", "EB_mm = 50"), ("ED_mm = 50.0", "ED_mm = 50"), ("OE_mm = -10.0", "OE_mm = -40")]:
+            expected = expected.replace(key, value)
+        self.assertEqual((self.folder / "new.toml").read_text(), expected)
+        self.assertEqual(self.fusee("optimize problem.toml -o new.toml").returncode, 6)
+        self.assertEqual(self.fusee("optimize problem.toml -o new.toml --force").returncode, 0)
+        self.assertAlmostEqual(json.loads(self.fusee("optimize new.toml --json").stdout)["value_before"], 2.3673443, 7)
+
+    def test_a_file_of_dotted_keys_still_gets_its_numbers(self):
+        (self.folder / "dotted.toml").write_text(
+            "schema = 1\njoint = {length_mm = 100, range_deg = [-30, 30]}\nguides.EB_mm = 50\nguides.ED_mm = 50\nguides.OE_mm = -40\n"
+            "pulley = {EF_mm = 60, r1_mm = 20}\ntendon.diameter_mm = 1\n"
+            "optimize = {variables = ['guides.radius_mm', 'guides.OE_mm'], lower = [1, -40], upper = [5, 0]}\n")
+        done = self.fusee("optimize dotted.toml -o new.toml --json")
+        self.assertEqual(done.returncode, 0, done.stderr.decode())
+        again = json.loads(self.fusee("optimize new.toml --json").stdout)
+        self.assertAlmostEqual(again["value_before"], json.loads(done.stdout)["value"], 8)
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        first = self.fusee("optimize problem.toml --json --method ga --seed 3").stdout
+        self.assertEqual(first, self.fusee("optimize problem.toml --json --method ga --seed 3").stdout)
+        self.assertNotEqual(first, self.fusee("optimize problem.toml --json --method ga --seed 4").stdout)
+        generations = json.loads(first)["generations"]
+        self.assertEqual(len(generations), 101)
+        self.assertGreaterEqual(generations[0]["best"], generations[-1]["best"])
+
+    def test_front(self):
+        objectives = """'optimize.objective=["max_tension", "footprint"]'"""
+        answer = self.answer(f"--set {objectives} --front points --generations 20")
+        self.assertEqual(answer["method"], "pareto")
+        files = sorted((self.folder / "points").iterdir())
+        self.assertEqual(len(files), len(answer["front"]))
+        self.assertIn("# my joint", files[0].read_text())
+
+    def test_ties_are_reported_and_broken(self):
+        answer = self.answer("--set guides.friction=0")
+        self.assertTrue(answer["ties"]["wide"])
+        self.assertIn("--then", json.dumps(answer["warnings"]))
+        broken = self.answer("--set guides.friction=0 --then footprint")
+        self.assertEqual(broken["then"]["objective"], "footprint")
+        self.assertLessEqual(broken["value"], 2.003)
+
+    def test_interrupt_leaves_the_best_so_far(self):
+        running = subprocess.Popen([harness.PROGRAM, "optimize", "problem.toml", "--json", "--method", "ga", "--generations", "100000", "-o", "best.toml"],
+                                   cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(1.0)
+        running.send_signal(signal.SIGINT)
+        out, _ = running.communicate(timeout=30)
+        self.assertEqual(running.returncode, 130)
+        answer = json.loads(out)
+        self.assertTrue(answer["stopped"])
+        self.assertLess(answer["value"], 2.6)
+        self.assertTrue(re.search(r"^length_mm = [0-9.]+   # R$", (self.folder / "best.toml").read_text(), re.M))
+
+
+if __name__ == "__main__":
+    harness.main()

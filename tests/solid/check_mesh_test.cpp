@@ -1,0 +1,200 @@
+// Each check of a mesh is seen failing, alone where that can be, on a solid broken on purpose.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "fusee/base/diagnostics.h"
+#include "solid/broken.h"
+
+namespace fusee {
+namespace {
+
+using testing::check_named;
+using testing::cube;
+using testing::failed;
+using testing::joined;
+using testing::turned_inside_out;
+
+TEST(CheckMesh, CubeIsASolid) {
+  EXPECT_EQ(failed(check_mesh(cube(10))), "");
+  EXPECT_DOUBLE_EQ(enclosed_volume(cube(10)), 1000.0);
+  EXPECT_EQ(bounds(cube(2, {1, 2, 3})).low, Vec3(1, 2, 3));
+  EXPECT_EQ(bounds(cube(2, {1, 2, 3})).high, Vec3(3, 4, 5));
+}
+
+TEST(CheckMesh, MissingFacet) {
+  TriangleMesh mesh = cube(10);
+  mesh.triangles.erase(mesh.triangles.begin() + 4);
+  const auto checks = check_mesh(mesh);
+  EXPECT_EQ(failed(checks), "open_edges inverted_parts");
+  EXPECT_EQ(check_named(checks, "open_edges").value, 3);
+  EXPECT_EQ(check_named(checks, "open_edges").where.substr(0, 6), "facet ");
+}
+
+TEST(CheckMesh, FlippedFacetIsNamedWithItsPlace) {
+  TriangleMesh mesh = cube(9);
+  std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
+  const auto checks = check_mesh(mesh);
+  EXPECT_EQ(failed(checks), "flipped_facets inverted_parts");
+  EXPECT_EQ(check_named(checks, "flipped_facets").where, "facet 0 at (3.000, 3.000, 0.000) mm");
+}
+
+TEST(CheckMesh, InsideOut) { EXPECT_EQ(failed(check_mesh(turned_inside_out(cube(10)))), "inverted_parts"); }
+
+TEST(CheckMesh, OneOfTwoPartsInsideOut) {
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(5, {20, 0, 0})))), "");
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), turned_inside_out(cube(5, {20, 0, 0}))))), "inverted_parts");
+}
+
+TEST(CheckMesh, ACavityFacesInward) {
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), turned_inside_out(cube(4, {3, 3, 3}))))), "");
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(4, {3, 3, 3})))), "inverted_parts");
+}
+
+TEST(CheckMesh, DuplicateFacet) {
+  TriangleMesh mesh = cube(10);
+  mesh.triangles.push_back(mesh.triangles[7]);
+  const auto checks = check_mesh(mesh);
+  EXPECT_EQ(failed(checks), "duplicate_facets edges_of_more_than_two_facets inverted_parts");
+  EXPECT_EQ(check_named(checks, "duplicate_facets").value, 1);
+}
+
+TEST(CheckMesh, DegenerateFacet) {
+  // A vertex in the middle of an edge, with a facet of no area that closes the gap.
+  TriangleMesh mesh = cube(10);
+  mesh.vertices.emplace_back(5, 5, 0);
+  mesh.triangles[0] = {0, 2, 8};
+  mesh.triangles.push_back({0, 8, 1});
+  mesh.triangles.push_back({1, 8, 2});
+  const auto checks = check_mesh(mesh);
+  // Its neighbours touch along the edge that it hides.
+  EXPECT_EQ(failed(checks), "degenerate_facets self_intersections");
+  EXPECT_EQ(check_named(checks, "degenerate_facets").where.substr(0, 8), "facet 13");
+}
+
+TEST(CheckMesh, CrossingParts) {
+  const auto checks = check_mesh(joined(cube(10), cube(10, {4.5, 4.25, 4.125})));
+  EXPECT_EQ(failed(checks), "self_intersections");
+  EXPECT_NE(check_named(checks, "self_intersections").where.find("crosses facet"), std::string::npos);
+}
+
+TEST(CheckMesh, APartThatOnlyTouchesAlsoCrosses) {
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(2, {4, 4, 10})))), "self_intersections");
+}
+
+TEST(CheckMesh, AFacetFoldedOntoItsNeighbour) {
+  // The top's corner is pulled into the top's plane beyond the opposite edge: facets overlap in one plane and share an
+  // edge.
+  TriangleMesh mesh = cube(10);
+  mesh.vertices[7] = {2, 2, 10};
+  EXPECT_NE(failed(check_mesh(mesh)).find("self_intersections"), std::string::npos);
+}
+
+TEST(CheckMesh, TwoCubesOnOneEdge) {
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(10, {10, 10, 0})))),
+            "edges_of_more_than_two_facets inverted_parts");
+}
+
+TEST(CheckMesh, TwoCubesOnOneCorner) {
+  EXPECT_EQ(failed(check_mesh(joined(cube(10), cube(10, {10, 10, 10})))), "pinched_vertices");
+}
+
+TEST(CheckMesh, VerticesNumberedPerFacetAreWelded) {
+  TriangleMesh soup;
+  const TriangleMesh mesh = cube(10);
+  for (const auto& triangle : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t index : triangle) soup.vertices.push_back(mesh.vertices[index]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_EQ(failed(check_mesh(soup)), "");
+  EXPECT_EQ(weld(soup).vertices.size(), 8u);
+}
+
+TEST(CheckMesh, NothingAtAll) {
+  const auto checks = check_mesh({});
+  EXPECT_EQ(failed(checks),
+            "facets degenerate_facets duplicate_facets open_edges edges_of_more_than_two_facets flipped_facets "
+            "pinched_vertices inverted_parts "
+            "self_intersections");
+  EXPECT_EQ(check_named(checks, "open_edges").where, "not looked at: there are no facets");
+}
+
+TEST(CheckMesh, IndicesOutOfRange) {
+  TriangleMesh mesh = cube(10);
+  mesh.triangles[3][1] = 4'000'000'000u;
+  const auto checks = check_mesh(mesh);
+  EXPECT_EQ(check_named(checks, "indices_out_of_range").value, 1);
+  EXPECT_FALSE(check_named(checks, "self_intersections").ok);
+}
+
+TEST(CheckMesh, NotANumberAndInfinity) {
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    TriangleMesh mesh = cube(10);
+    mesh.vertices[5].y() = value;
+    const auto checks = check_mesh(mesh);
+    EXPECT_EQ(check_named(checks, "vertices_not_finite").where, "vertex 5");
+    EXPECT_FALSE(check_named(checks, "open_edges").ok);
+  }
+}
+
+TEST(CheckMesh, HugeAndTinyCoordinatesAreDecidedExactly) {
+  EXPECT_EQ(failed(check_mesh(cube(1e30))), "");
+  EXPECT_EQ(failed(check_mesh(cube(1e-30))), "");
+  EXPECT_EQ(failed(check_mesh(joined(cube(1e-30), cube(1e30, {1, 1, 1})))), "");
+}
+
+// A cone of many facets about one vertex and a heap of facets in one place end too.
+TEST(CheckMesh, AHeapOfEqualFacetsEnds) {
+  TriangleMesh mesh = cube(10);
+  for (int k = 0; k < 2000; ++k) mesh.triangles.push_back(mesh.triangles[0]);
+  EXPECT_EQ(check_named(check_mesh(mesh), "duplicate_facets").value, 2000);
+}
+
+TEST(Section, OfACube) {
+  const auto loops = section(cube(10), 4);
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_DOUBLE_EQ(signed_area(loops[0]), 100.0);
+  EXPECT_TRUE(section(cube(10), 10.5).empty());
+  EXPECT_TRUE(section(cube(10), -0.5).empty());
+}
+
+TEST(Section, ThroughVerticesAndFlatFaces) {
+  // A plane through a flat face cuts just below it.
+  EXPECT_DOUBLE_EQ(signed_area(outer_loop(section(cube(10), 10))), 100.0);
+  EXPECT_TRUE(section(cube(10), 0).empty());
+}
+
+TEST(Section, HolesRunClockwise) {
+  const auto loops = section(joined(cube(10), turned_inside_out(cube(4, {3, 3, 3}))), 5);
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_DOUBLE_EQ(signed_area(loops[0]) + signed_area(loops[1]), 84.0);
+  EXPECT_DOUBLE_EQ(signed_area(outer_loop(loops)), 100.0);
+}
+
+TEST(Section, AnOpenMeshHasNoLoopWhereItIsOpen) {
+  TriangleMesh mesh = cube(10);
+  mesh.triangles.erase(mesh.triangles.begin() + 4);
+  EXPECT_TRUE(section(mesh, 2).empty());
+  EXPECT_THROW(outer_loop(section(mesh, 2)), InputError);
+}
+
+TEST(Section, BadIndicesAreSkipped) {
+  TriangleMesh mesh = cube(10);
+  mesh.triangles.push_back({0, 1, 99});
+  EXPECT_DOUBLE_EQ(signed_area(outer_loop(section(mesh, 4))), 100.0);
+}
+
+TEST(RoundedToFloat, EveryCoordinate) {
+  TriangleMesh mesh;
+  for (int k = 0; k < 100; ++k) mesh.vertices.emplace_back(0.1 + k, 8.7320158389 + k, 1e-3 * k + 0.7);
+  for (const Vec3& vertex : rounded_to_float(mesh).vertices) {
+    for (int k = 0; k < 3; ++k) {
+      volatile float narrow = static_cast<float>(vertex[k]);
+      EXPECT_EQ(vertex[k], static_cast<double>(narrow));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fusee

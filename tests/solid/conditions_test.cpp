@@ -1,0 +1,155 @@
+// Impossible parts are refused; with another number, and with each that is advised, they are made.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fusee/mechanism/fields.h"
+#include "fusee/solid/pulley.h"
+#include "support/mechanisms.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using testing::circle;
+using testing::plain_mechanism;
+using testing::pulley_of;
+
+// A joint with the file's default body.
+Mechanism forearm() {
+  Mechanism mechanism = testing::forearm();
+  mechanism.body = plain_mechanism().body;
+  return mechanism;
+}
+
+const SynthesisResult& round_pulley() {
+  static const SynthesisResult shape = pulley_of(circle(20), circle(18));
+  return shape;
+}
+
+const Condition& condition_named(const Pulley& pulley, const std::string& name) {
+  for (const Condition& condition : pulley.conditions) {
+    if (condition.name == name) return condition;
+  }
+  throw std::out_of_range("no condition named " + name);
+}
+
+TEST(Conditions, AllHoldForTheDefaultBody) {
+  const Pulley pulley = make_pulley(plain_mechanism(), round_pulley());
+  for (const Condition& condition : pulley.conditions) {
+    EXPECT_TRUE(condition.ok) << condition.message;
+  }
+}
+
+// A body that is refused for one number, and with another in its place is made.
+struct OneNumber {
+  const char* condition;
+  double Body::*number;
+  double bad;
+  double good;
+};
+
+void expect_refused_for(const OneNumber& one, Mechanism mechanism = plain_mechanism()) {
+  SCOPED_TRACE(one.condition);
+  mechanism.body.*one.number = one.bad;
+  const Pulley refused = make_pulley(mechanism, round_pulley());
+  EXPECT_FALSE(refused.made());
+  EXPECT_FALSE(condition_named(refused, one.condition).ok);
+  EXPECT_NE(refused.brief().find(condition_named(refused, one.condition).message), std::string::npos);
+  mechanism.body.*one.number = one.good;
+  const Pulley made = make_pulley(mechanism, round_pulley());
+  EXPECT_TRUE(made.made()) << made.brief();
+}
+
+TEST(Conditions, ExplicitNumbersThatDoNotFitAreRefused) {
+  expect_refused_for({"bore_wall_P2", &Body::bore_diameter, 40, 8});
+  expect_refused_for({"anchor_P2", &Body::min_wall, 8, 2});
+  expect_refused_for({"anchor_P2", &Body::knot_pocket, 25, 3});
+  expect_refused_for({"groove_depth", &Body::groove_depth, 0.9, 1.1});
+  expect_refused_for({"channel_width", &Body::anchor_hole, 0.8, 1.2});
+  expect_refused_for({"channel_floor", &Body::anchor_hole, 8, 1.2});
+}
+
+TEST(Conditions, HubOverTheFlangeAndHubWithoutWall) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.set_screw = "none";
+  expect_refused_for({"hub_on_flange", &Body::hub_diameter, 60, 20}, mechanism);
+  expect_refused_for({"hub_wall", &Body::hub_diameter, 6, 12}, mechanism);
+}
+
+TEST(Conditions, SetScrewThatIsAskedForMustFit) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.set_screw = "M4";
+  expect_refused_for({"set_screw_height", &Body::hub_height, 4, 16}, mechanism);
+}
+
+TEST(Conditions, PinInTheFlanges) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.guides.ED = 15;
+  mechanism.pulley.EF = 15;
+  EXPECT_FALSE(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").ok);
+  mechanism.pulley.EF = 25;
+  EXPECT_TRUE(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").ok);
+}
+
+TEST(Conditions, ChamferAtTheBedTakesWhatTheLipBears) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.flange_thickness = 0.5;
+  const BodyLayout layout = axial_layout(mechanism);
+  EXPECT_DOUBLE_EQ(layout.elephant_foot, 0.3);
+  EXPECT_EQ(layout.notes.size(), 1u);
+  EXPECT_TRUE(make_pulley(mechanism, round_pulley()).made());
+}
+
+// Every change that is advised leads to a body; a little less of it does not.
+TEST(BodyAdvice, EachChangeAloneMakesItPossible) {
+  struct Case {
+    double Body::*number;
+    double value;
+    const char* key;
+  };
+  for (const Case& bad : {Case{&Body::bore_diameter, 30, "body.bore_diameter_mm"},
+                          Case{&Body::hub_diameter, 60, "body.hub_diameter_mm"}}) {
+    Mechanism mechanism = forearm();
+    mechanism.body.*bad.number = bad.value;
+    ASSERT_FALSE(body_possible(mechanism));
+    const std::vector<Change> advice = body_advice(mechanism);
+    EXPECT_TRUE(std::any_of(advice.begin(), advice.end(), [&](const Change& change) { return change.key == bad.key; }));
+    for (const Change& change : advice) {
+      const Field* field = find_field(change.key);
+      if (field == nullptr || field->kind != FieldKind::number) continue;
+      EXPECT_GE(change.to, field->least) << change.text;
+      Mechanism changed = mechanism;
+      field->set(changed, 0, change.to);
+      EXPECT_TRUE(body_possible(changed)) << change.text;
+      field->set(changed, 0, change.to + 0.02 * (change.from - change.to));
+      if (change.to != 0) {
+        EXPECT_FALSE(body_possible(changed)) << change.text;
+      }
+    }
+  }
+}
+
+// What is automatic is made to fit, with a note, before anything is refused.
+TEST(Conditions, AutomaticSizesShrinkWithANote) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.tendon.diameter = 0.4;
+  const SynthesisResult small = pulley_of(circle(6), circle(5.5));
+  const Pulley pulley = make_pulley(mechanism, small);
+  ASSERT_TRUE(pulley.made()) << pulley.brief();
+  EXPECT_FALSE(pulley.layout.notes.empty());
+  EXPECT_FALSE(pulley.layout.set_screw.present);
+}
+
+TEST(Conditions, LayoutAgreesWithThePulley) {
+  const Pulley pulley = make_pulley(plain_mechanism(), round_pulley());
+  const BodyLayout layout = resolve_layout(plain_mechanism(), round_pulley());
+  const BodyLayout axial = axial_layout(plain_mechanism());
+  EXPECT_EQ(layout.z_hub, pulley.layout.z_hub);
+  EXPECT_EQ(layout.pocket_radius, pulley.layout.pocket_radius);
+  EXPECT_EQ(axial.z_p1, pulley.layout.z_p1);
+  EXPECT_EQ(axial.z_p2, pulley.layout.z_p2);
+}
+
+}  // namespace
+}  // namespace fusee
