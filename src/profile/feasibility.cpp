@@ -4,13 +4,12 @@
 #include <functional>
 
 #include "fusee/base/text.h"
+#include "profile/pitch_curve.h"
 
 namespace fusee {
 namespace {
 
 constexpr int k_samples = 192;
-/// A groove floor that bends more sharply is an edge, not a seat. mm
-constexpr double k_least_floor_radius = 0.05;
 /// Arc that the closing arc must leave for the tendon's lap and its tie-off at the wound end, in tendon diameters.
 constexpr double k_anchor_lap = 5.0;
 

@@ -10,6 +10,9 @@
 
 namespace fusee {
 
+/// A groove floor that bends more sharply is an edge, not a seat. mm
+inline constexpr double k_least_floor_radius = 0.05;
+
 /// Convex, closed, in the right-hand image of its side.
 class PitchCurve {
  public:

@@ -8,8 +8,6 @@ namespace fusee {
 namespace {
 
 constexpr int k_points = 1440;
-/// A groove floor keeps at least this radius of curvature, mm.
-constexpr double k_least_floor_radius = 0.05;
 
 struct PolarPoint {
   double angle = 0;
