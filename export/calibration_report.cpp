@@ -11,7 +11,7 @@
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/export/calibration.h"
-#include "report_parts.h"
+#include "export/report/report_parts.h"
 
 namespace fusee {
 namespace {
