@@ -40,6 +40,12 @@ class MadePulleys {
   double offset_ = 0;
 };
 
+/// What a pulley holds of the tendon that lies on it.
+enum class WoundTendon {
+  keeps_strain,  ///< the strain it was wound at, until it is paid out: friction on the pulley holds it
+  at_home,       ///< home's strain, whatever the tension while winding: the tendon's marks stay at their places of the groove
+};
+
 /// Plain values: a joint with other pins, another stiffness, runout … is this one with a member changed, or with another `lower`.
 struct JointModel {
   std::array<PinPlace, 2> pins;                              ///< left, right, as mounted
@@ -48,6 +54,8 @@ struct JointModel {
   double EA = 0;          ///< stiffness of a tendon's section: tension per strain, N
   double mu = 0;          ///< of the pins
   double pretension = 0;  ///< of tendon 1 at home, unloaded, N
+  double slack = 0;       ///< material of each tendon beyond what the pretension leaves, mm
+  WoundTendon wound = WoundTendon::keeps_strain;
   double weight = 0;      ///< mass · g · lever, N·mm
   double tilt = 0;        ///< θ at which the link points straight up, rad
   double theta_least = 0; ///< between here and theta_most both tendons have a moment arm about O, rad
