@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calibration/lower_path_table.h"
+
 namespace fusee {
 namespace {
 
@@ -11,14 +13,19 @@ namespace {
 /// straight from home is the least that can be assumed.
 constexpr int k_approach = 24;
 
+/// What sensors and play may add to the angles that were logged, rad.
+constexpr double k_beyond = 0.1;
+
 constexpr double k_least_stiffness = 1e-3;  // of the declared EA
 
 /// What the motor sensor hides.
 double shaft_angle(double alpha, const Imperfections& at) {
+  if (at.motor_eccentricity_sin == 0 && at.motor_eccentricity_cos == 0) return alpha + at.motor_offset;
   return alpha + at.motor_offset + at.motor_eccentricity_sin * std::sin(alpha) + at.motor_eccentricity_cos * (std::cos(alpha) - 1.0);
 }
 
 double wound_angle(double shaft, const Imperfections& at) {
+  if (at.profile_sin == 0 && at.profile_cos == 0) return shaft;
   const double turns = at.profile_harmonic * shaft;
   return shaft + at.profile_sin * std::sin(turns) + at.profile_cos * (std::cos(turns) - 1.0);
 }
@@ -27,6 +34,20 @@ double wound_angle(double shaft, const Imperfections& at) {
 Imperfections without_sensors(Imperfections at) {
   at.zero = at.gain = at.joint_eccentricity_sin = at.joint_eccentricity_cos = at.lag = 0;
   return at;
+}
+
+/// What the tendons' paths depend on.
+Imperfections geometry(const Imperfections& at) {
+  Imperfections key;
+  key.joint_length = at.joint_length;
+  key.radius_offset = at.radius_offset;
+  key.pulley_scale = at.pulley_scale;
+  key.runout_x = at.runout_x;
+  key.runout_y = at.runout_y;
+  key.guide_radius = at.guide_radius;
+  key.guide_outward = at.guide_outward;
+  key.guide_down = at.guide_down;
+  return key;
 }
 
 double tip_force(const Run& run, const Sample& sample, const Mechanism& declared) {
@@ -89,14 +110,12 @@ Mechanism mounted(const Mechanism& declared, const Imperfections& at) {
   return mechanism;
 }
 
-// What is wound holds home's strain. With the strain of the moment the same numbers give a joint that yields under load by 15 % more where much
-// is wound; six joints measured on a rig with other numerics (tests/data/rig) decide for this one, with residuals at the sensors' noise for
-// both loads, directions and all places.
-JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
+namespace {
+
+/// Pulleys made for `declared` and imperfect themselves, seen from pins as mounted.
+JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
   const MadePulleys larger = made.offset_by(at.radius_offset / (1.0 + at.pulley_scale));
   JointModel model = joint_model(larger, mounted(declared, at));
-  model.wound = WoundTendon::at_home;
-  model.slack = 0.5 * at.slack;
   // The pulley's centre off the axis is, to a tendon, a pin that moves the other way; a pulley larger by a factor, pins that stand
   // closer by it.
   const bool as_made = at.pulley_scale == 0 && at.runout_x == 0 && at.runout_y == 0;
@@ -122,6 +141,16 @@ JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, c
       return paths;
     };
   }
+  return model;
+}
+
+// What is wound holds home's strain. With the strain of the moment the same numbers give a joint that yields under load by 15 % more where much
+// is wound; six joints measured on a rig with other numerics (tests/data/rig) decide for this one, with residuals at the sensors' noise for
+// both loads, directions and all places.
+void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& at) {
+  set_statics(model, mounted(declared, at));
+  model.wound = WoundTendon::at_home;
+  model.slack = 0.5 * at.slack;
   if (at.gravity_cos != 0 || at.gravity_sin != 0) {
     // weight · sin(tilt − θ) is added to what is declared.
     const double cos_part = model.weight * std::sin(model.tilt) + at.gravity_cos;
@@ -129,6 +158,19 @@ JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, c
     model.weight = std::hypot(cos_part, sin_part);
     model.tilt = std::atan2(cos_part, -sin_part);
   }
+}
+
+void look_paths_up(JointModel& model, double least, double most) {
+  const auto table = std::make_shared<const LowerPathTable>(model, least, most);
+  model.lower = [table](double alpha) { return table->paths(alpha); };
+  model.expected = [table](double alpha) { return table->expected(alpha); };
+}
+
+}  // namespace
+
+JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
+  JointModel model = imperfect_geometry(made, declared, at);
+  set_imperfect_statics(model, declared, at);
   return model;
 }
 
@@ -146,6 +188,28 @@ std::vector<double> bench_clock(const Measurement& measurement) {
 Forward::Forward(const Mechanism& declared, const Measurement& measurement)
     : declared_(declared), measurement_(measurement), clock_(bench_clock(measurement)), first_temperature_(first_temperature(measurement)) {
   if (!declared.transmission) made_.emplace(declared);
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) {
+      alpha_least_ = std::min(alpha_least_, sample.alpha);
+      alpha_most_ = std::max(alpha_most_, sample.alpha);
+    }
+  }
+}
+
+JointMotion Forward::at_home(const Imperfections& at) {
+  const Imperfections key = geometry(at);
+  Geometry* known = nullptr;
+  for (Geometry& latest : latest_geometry_) {
+    if (latest.model && latest.key == key) known = &latest;
+  }
+  if (known == nullptr) {
+    known = &latest_geometry_[next_geometry_++ % latest_geometry_.size()];
+    *known = {key, imperfect_geometry(*made_, declared_, key)};
+    look_paths_up(*known->model, alpha_least_ - k_beyond, alpha_most_ + k_beyond);
+  }
+  JointModel model = *known->model;
+  set_imperfect_statics(model, declared_, at);
+  return JointMotion(std::move(model));
 }
 
 TendonChange Forward::change(std::size_t index, const Sample& sample, const Imperfections& at) const {
@@ -207,9 +271,9 @@ const Readings& Forward::mechanism(const Imperfections& imperfections) {
   Motion& place = latest_[next_++ % latest_.size()];
   place.key = key;
   place.theta.clear();
-  std::optional<JointMotion> at_home;
-  if (made_) at_home.emplace(imperfect_model(*made_, declared_, key));
-  for (std::size_t i = 0; i < measurement_.runs.size(); ++i) place.theta.push_back(at_home ? elastic(i, *at_home, key) : geared(i, key));
+  std::optional<JointMotion> home;
+  if (made_) home.emplace(at_home(key));
+  for (std::size_t i = 0; i < measurement_.runs.size(); ++i) place.theta.push_back(home ? elastic(i, *home, key) : geared(i, key));
   return place.theta;
 }
 

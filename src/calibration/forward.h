@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,7 +32,8 @@ class Play {
   double output_;
 };
 
-/// The joint on its bench. Keeps the latest motions of the mechanism, since sensors do not change them.
+/// The joint on its bench. Keeps the latest motions of the mechanism, since sensors do not change them, and the
+/// latest geometries, which few of the effects change. For one thread.
 class Forward {
  public:
   Forward(const Mechanism& declared, const Measurement& measurement);
@@ -45,7 +47,13 @@ class Forward {
     Readings theta;
   };
 
+  struct Geometry {
+    Imperfections key;
+    std::optional<JointModel> model;
+  };
+
   const Readings& mechanism(const Imperfections& imperfections);
+  JointMotion at_home(const Imperfections& imperfections);
   std::vector<double> elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections) const;
   std::vector<double> geared(std::size_t run, const Imperfections& imperfections) const;
   TendonChange change(std::size_t run, const Sample& sample, const Imperfections& imperfections) const;
@@ -55,8 +63,12 @@ class Forward {
   std::vector<double> clock_;
   double first_temperature_ = 0;
   std::optional<MadePulleys> made_;
+  double alpha_least_ = 0;
+  double alpha_most_ = 0;
   std::array<Motion, 4> latest_;
   std::size_t next_ = 0;
+  std::array<Geometry, 4> latest_geometry_;
+  std::size_t next_geometry_ = 0;
 };
 
 /// The joint as declared but for what acts beyond the tendons' paths: an imperfect mechanism, mounted.

@@ -235,7 +235,6 @@ double energy_of_spans(const TendonHistory& tendon, double EA) {
 
 struct JointMotion::State {
   JointModel model;
-  std::shared_ptr<const std::array<UpperSpanTable, 2>> upper;  ///< of both tendons' images; snapshots share it
   std::array<TendonHistory, 2> tendons;
   std::array<double, 2> released{};  ///< so far, mm
   double theta = 0;
@@ -255,8 +254,6 @@ struct JointMotion::State {
 };
 
 JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
-  upper = std::make_shared<const std::array<UpperSpanTable, 2>>(
-      std::array{UpperSpanTable(model.pins[0], -model.theta_most, -model.theta_least), UpperSpanTable(model.pins[1], model.theta_least, model.theta_most)});
   const std::array<LowerPath, 2> paths = model.lower(0.0);
   const double arm1 = upper_span(model.pins[0], 0.0).m;
   const double arm2 = upper_span(model.pins[1], 0.0).m;
@@ -267,7 +264,7 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
 }
 
 std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
-  return {tried(tendons[0], at[0], (*upper)[0], model.pins[0].rho, model.mu, at_theta), tried(tendons[1], at[1], (*upper)[1], model.pins[1].rho, model.mu, at_theta)};
+  return {tried(tendons[0], at[0], model.upper->left, model.pins[0].rho, model.mu, at_theta), tried(tendons[1], at[1], model.upper->right, model.pins[1].rho, model.mu, at_theta)};
 }
 
 Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {

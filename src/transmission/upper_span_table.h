@@ -2,6 +2,7 @@
 /// A tendon's upper span over all joint angles, looked up: the geometry that an equilibrium asks for many times at every step.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fusee/transmission/tendon_path.h"
@@ -30,6 +31,13 @@ class UpperSpanTable {
   double least_;
   double step_;
   std::vector<Knot> knots_;
+};
+
+/// Of the left tendon's image and of the right one.
+struct UpperSpans {
+  UpperSpans(const std::array<PinPlace, 2>& pins, double theta_least, double theta_most)
+      : left(pins[0], -theta_most, -theta_least), right(pins[1], theta_least, theta_most) {}
+  UpperSpanTable left, right;
 };
 
 }  // namespace fusee

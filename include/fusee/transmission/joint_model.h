@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/transmission/transmission.h"
@@ -46,6 +47,8 @@ enum class WoundTendon {
   at_home,       ///< home's strain, whatever the tension while winding: the tendon's marks stay at their places of the groove
 };
 
+struct UpperSpans;  // both upper spans over the joint's angles, looked up
+
 /// Plain values: a joint with other pins, another stiffness, runout … is this one with a member changed, or with another `lower`.
 struct JointModel {
   std::array<PinPlace, 2> pins;                              ///< left, right, as mounted
@@ -60,6 +63,7 @@ struct JointModel {
   double tilt = 0;        ///< θ at which the link points straight up, rad
   double theta_least = 0; ///< between here and theta_most both tendons have a moment arm about O, rad
   double theta_most = 0;
+  std::shared_ptr<const UpperSpans> upper;  ///< of these pins between these angles
 
   /// What the weight turns the joint with, against +θ, N·mm; and its derivative.
   double weight_torque(double theta) const { return weight * std::sin(tilt - theta); }
@@ -75,5 +79,7 @@ double section_stiffness(const Tendon& tendon);
 JointModel joint_model(const Mechanism& mechanism);
 /// The pulleys `made`, turned in the mechanism `mounted`, whose own [pulley] law is not looked at.
 JointModel joint_model(const MadePulleys& made, const Mechanism& mounted);
+/// EA, friction, pretension and weight of `mounted` in a model of the same geometry.
+void set_statics(JointModel& model, const Mechanism& mounted);
 
 }  // namespace fusee
