@@ -48,7 +48,7 @@ std::vector<Fault> faults() {
        [](H& h, double s, const C& c, const J&) { h.profile_error = s, h.profile_phase = c.angle, h.profile_harmonic = c.share < 0.5 ? 2 : 3; }, {}},
       {"tendon_stretch", 1.0, 12.0, [](H& h, double s, const C&, const J& j) { h.modulus = j.declared.tendon.modulus / (1.0 + s); }, {}},
       {"slack", 0.1, 3.0, [](H& h, double s, const C&, const J&) { h.slack = s; }, {}},
-      {"creep", 0.5, 6.0, [](H& h, double s, const C&, const J&) { h.creep = s; }, {}},
+      {"creep", 0.3, 3.0, [](H& h, double s, const C&, const J&) { h.creep = s; }, {}},
       {"tendon_slip", 0.1, 2.0,
        [](H& h, double s, const C& c, const J&) { h.slip = s, h.slip_side = 1, h.slip_run = 1, h.slip_at = 0.3 + 0.4 * c.share; }, {}},
       {"thermal_expansion", 2e-5, 4e-4, [](H& h, double s, const C&, const J&) { h.expansion = s; }, {}},
@@ -184,8 +184,9 @@ bool finite(const std::vector<Log>& logs) {
 void set_sensors(Case& made) {
   made.sensors.noise = k_noise;
   made.sensors.seed = hash_of(made.truth) + made.seed;
-  if (made.truth == "nothing_coloured_noise") made.sensors.colour = 0.6;
-  if (made.truth == "nothing_coarse_sensor") made.sensors.quantum = radians(0.05);
+  // Two plain sensors, one whose noise has a memory, one that is coarse, and so on.
+  if (made.truth == "nothing_coloured_noise" || made.seed % 4 == 3) made.sensors.colour = 0.6;
+  if (made.truth == "nothing_coarse_sensor" || made.seed % 4 == 0) made.sensors.quantum = radians(0.04);
   // Some benches log the temperature whether it matters or not.
   const bool matters = std::find(made.faults.begin(), made.faults.end(), "thermal_expansion") != made.faults.end();
   made.sensors.temperature = matters || made.seed % 2 == 1;
@@ -246,7 +247,8 @@ MadeJoint random_joint(Random& random) {
       joint.pulley.ratio = std::round(10.0 * random.between(3.2, 4.2)) / 10.0;
     }
     joint.tendon.diameter = part(0.009, 0.02);
-    joint.tendon.modulus = 1000.0 * std::round(random.between(15, 40));
+    // From a braided polymer to a wire rope.
+    joint.tendon.modulus = 1000.0 * std::round(std::exp(random.between(std::log(6.0), std::log(40.0))));
     joint.tendon.pretension = std::round((2.0 + 0.05 * R) * random.between(0.8, 1.3));
     try {
       return make_joint(joint);

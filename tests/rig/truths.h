@@ -42,7 +42,7 @@ struct Case {
   std::vector<Log> logs;
 };
 
-/// Joint, size and character by the seed; a joint on which the fault cannot be made visible is drawn again. The truth stays the same
+/// Joint, size, character and kind of sensor by the seed; a joint on which the fault cannot be made visible is drawn again. The truth stays the same
 /// joint whatever other truths there are.
 Case make_case(const Truth& truth, std::uint64_t seed, Protocol protocol);
 
