@@ -1,5 +1,5 @@
-// The known-truth matrix: makes joints whose faults are known, calibrates them, prints what was said. On standard output Markdown, on
-// standard error the progress.
+// The known-truth matrix: makes joints whose faults are known, calibrates them, prints what was said. On standard
+// output Markdown, on standard error the progress.
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,10 +31,13 @@ constexpr const char* k_usage =
     "  --list              the truths\n";
 
 constexpr const char* k_full_words =
-    "Five runs a joint: no load, a load, no load and fast, half the load, the load reversed. Each fault moves the reading by 3 to 15 times\n"
-    "the sensor's noise of 0.02 deg, rms over all rows; every fourth sensor's noise has a memory, every fourth is coarse (0.04 deg).\n";
+    "Five runs a joint: no load, a load, no load and fast, half the load, the load reversed. Each fault moves the "
+    "reading by 3 to 15 times\n"
+    "the sensor's noise of 0.02 deg, rms over all rows; every fourth sensor's noise has a memory, every fourth is "
+    "coarse (0.04 deg).\n";
 constexpr const char* k_single_words =
-    "One unloaded run of two cycles a joint. Each fault moves the reading by 3 to 15 times the sensor's noise of 0.02 deg, rms over all\n"
+    "One unloaded run of two cycles a joint. Each fault moves the reading by 3 to 15 times the sensor's noise of 0.02 "
+    "deg, rms over all\n"
     "rows; every fourth sensor's noise has a memory, every fourth is coarse (0.04 deg).\n";
 
 struct Request {
@@ -92,7 +95,8 @@ struct Job {
 std::vector<Job> jobs_of(const Request& request) {
   std::vector<Job> jobs;
   for (const Truth& truth : all_truths()) {
-    if (!request.only.empty() && std::find(request.only.begin(), request.only.end(), truth.name) == request.only.end()) continue;
+    if (!request.only.empty() && std::find(request.only.begin(), request.only.end(), truth.name) == request.only.end())
+      continue;
     // A slip needs a loaded second run.
     if (request.protocol == Protocol::single && truth.name == "tendon_slip") continue;
     for (std::uint64_t seed = 1; seed <= request.seeds; ++seed) jobs.push_back({truth, seed});
@@ -181,13 +185,15 @@ int run(const std::vector<std::string>& words) {
   }
   std::optional<ScratchFolder> scratch;
   if (request->csv.empty()) scratch.emplace();
-  const std::vector<Judgement> all = work(jobs, *request, scratch ? scratch->path() : std::filesystem::path(request->csv));
+  const std::vector<Judgement> all =
+      work(jobs, *request, scratch ? scratch->path() : std::filesystem::path(request->csv));
   if (!request->calibration) return 0;
   std::fputs(matrix(all).c_str(), stdout);
   std::fputs(request->protocol == Protocol::full ? k_full_words : k_single_words, stdout);
   if (all.size() < jobs.size()) return 1;
   const Rates found = rates(all);
-  const bool fine = 100 * found.miss <= request->most_missed && 100 * std::max(found.false_blame, found.false_blame_outside) <= request->most_blamed;
+  const bool fine = 100 * found.miss <= request->most_missed &&
+                    100 * std::max(found.false_blame, found.false_blame_outside) <= request->most_blamed;
   return fine ? 0 : 4;
 }
 
