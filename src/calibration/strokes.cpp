@@ -15,8 +15,7 @@ double reversal_threshold(const std::vector<Sample>& samples, double quantum) {
     most = std::max(most, samples[i].alpha);
     if (i > 1) bends.push_back(std::abs(samples[i].alpha - 2 * samples[i - 1].alpha + samples[i - 2].alpha));
   }
-  // Second differences of white noise have √6 of its spread; a median of their size is .674 of that.
-  const double noise = median_of(std::move(bends)) / (0.6745 * std::sqrt(6.0));
+  const double noise = white_noise_of(std::move(bends));
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
@@ -121,6 +120,9 @@ double median_of(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+// Second differences of white noise have √6 of its spread; a median of their size is .674 of that.
+double white_noise_of(std::vector<double> second_differences) { return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0)); }
 
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time) {
   if (samples.size() < 3) return {};

@@ -19,4 +19,7 @@ std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_ti
 /// The value in the middle; 0 for none. Reorders its copy.
 double median_of(std::vector<double> values);
 
+/// Spread of white noise, from the sizes of second differences of a smooth curve that it lies on.
+double white_noise_of(std::vector<double> second_differences);
+
 }  // namespace fusee

@@ -16,6 +16,8 @@
 
 namespace fusee {
 
+/// Separators: comma, semicolon, tab or blanks, whichever the header has. Lines end with LF, CR LF or CR. Angles are in degrees and time in s,
+/// unless the column's name ends in _rad, _ms or _us.
 struct MeasurementOptions {
   std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
 };
@@ -51,14 +53,15 @@ struct Run {
 
 struct Measurement {
   std::vector<Run> runs;
-  double alpha_quantum = 0;  ///< smallest step seen, rad
+  double alpha_quantum = 0;  ///< step of the sensor, rad; 0 when it is finer than can be told
   double theta_quantum = 0;
   std::string load_unit;     ///< of the load column, from its name: "N", "Nm", "Nmm"; "" without one
   std::vector<std::string> notes;        ///< what was dropped, repaired or suspected, with file and line
   std::vector<std::string> not_testable; ///< reasons why nothing can be concluded; empty when it can
 };
 
-/// Reads and checks all files. InputError (file, line, what to change) for what cannot be read; `not_testable` for what can be read but not used.
+/// Reads and checks all files. InputError (file, line, what to change) for what cannot be read and for a run given twice; `not_testable`
+/// for what can be read but not used. Files of any length: of all together a million rows are kept, evenly, and a note says so.
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {});
 
 /// One run from text; `name` stands in the messages. InputError. Notes and reasons go to `into`.
@@ -71,10 +74,11 @@ const std::vector<std::pair<std::string, std::string>>& column_roles();
 /// Adds the reasons to `not_testable`.
 void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 
-/// Scatter of θ between repeats at the same α, direction, load and speed, before any fit.
+/// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or where there are none,
+/// of runs that repeat one another. Single wild rows do not count.
 struct NoiseFloor {
-  double rms = 0;               ///< rad, the quantum included in quadrature
-  double degrees_of_freedom = 0;
+  double rms = 0;               ///< rad; never below the error of the sensor's own step, quantum/√12
+  double degrees_of_freedom = 0;  ///< of rms², colour and shared strokes allowed for
   bool from_repeats = false;    ///< false: no repeats; taken from differences of neighbours, a lower bound
 };
 NoiseFloor noise_floor(const Measurement& measurement);
