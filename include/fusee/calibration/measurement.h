@@ -70,8 +70,8 @@ Run parse_run(std::string_view text, const std::string& name, const MeasurementO
 /// The roles that a column can have, and the column that has each unless the options say otherwise: {"alpha", "alpha_deg"} …
 const std::vector<std::pair<std::string, std::string>>& column_roles();
 
-/// Data that cannot be of the declared joint, said and not fitted: α and θ exchanged, opposite sign, radians given as degrees.
-/// Adds the reasons to `not_testable`.
+/// Takes back whole turns at which an encoder began (with a note). Data that cannot be of the declared joint are said and not fitted: α and θ
+/// exchanged, opposite sign, radians given as degrees, a zero that was not set, a motion lost in noise. Adds the reasons to `not_testable`.
 void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or where there are none,
