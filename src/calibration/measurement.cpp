@@ -20,12 +20,14 @@ namespace {
 void say_what_was_read(const LoggedRows& rows, const std::string& name, const Say& say, Measurement& into) {
   for (const std::string& words : rows.notes) say(words);
   if (rows.stride > 1) {
-    say("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) + " is used: no more than " + std::to_string(k_most_samples) +
-        " rows of all files are kept");
+    say("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) + " is used: no more than " +
+        std::to_string(k_most_samples) + " rows of all files are kept");
   }
   if (rows.without_angle == 0) return;
-  say(rows_text(rows.without_angle) + " without alpha or theta, the first in line " + std::to_string(rows.first_without_angle) + ": left out");
-  if (2 * rows.without_angle > rows.rows) into.not_testable.push_back(name + ": more than half of the rows hold no angle");
+  say(rows_text(rows.without_angle) + " without alpha or theta, the first in line " +
+      std::to_string(rows.first_without_angle) + ": left out");
+  if (2 * rows.without_angle > rows.rows)
+    into.not_testable.push_back(name + ": more than half of the rows hold no angle");
 }
 
 /// "Nm" of "tau_out_Nm".
@@ -83,14 +85,17 @@ std::vector<std::string> run_names(const std::vector<std::filesystem::path>& fil
   std::vector<std::string> names;
   for (const auto& file : files) {
     const std::string name = file.filename().string();
-    const auto same = std::count_if(files.begin(), files.end(), [&](const auto& other) { return other.filename() == file.filename(); });
+    const auto same = std::count_if(files.begin(), files.end(),
+                                    [&](const auto& other) { return other.filename() == file.filename(); });
     names.push_back(same > 1 ? file.string() : name);
   }
   return names;
 }
 
 bool same_rows(const std::vector<Sample>& a, const std::vector<Sample>& b) {
-  const auto alike = [](const Sample& one, const Sample& other) { return one.alpha == other.alpha && one.theta == other.theta; };
+  const auto alike = [](const Sample& one, const Sample& other) {
+    return one.alpha == other.alpha && one.theta == other.theta;
+  };
   return a.size() > 1 && std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);
 }
 
@@ -100,7 +105,8 @@ void refuse_copies(const std::vector<std::filesystem::path>& files, const std::v
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!same_rows(runs[i].samples, runs[j].samples)) continue;
-      const InputError problem(files[i].string(), "holds the same rows as " + files[j].string(), "a run counts once: leave one of the two away");
+      const InputError problem(files[i].string(), "holds the same rows as " + files[j].string(),
+                               "a run counts once: leave one of the two away");
       problems.push_back(problem.diagnostics().front());
       break;
     }
@@ -130,7 +136,8 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
   const std::size_t share = std::max<std::size_t>(2, k_most_samples / std::max<std::size_t>(1, files.size()));
   for (std::size_t i = 0; i < files.size(); ++i) {
     try {
-      measurement.runs.push_back(make_run(names[i], read_rows(files[i], files[i].string(), options, share), measurement));
+      measurement.runs.push_back(
+          make_run(names[i], read_rows(files[i], files[i].string(), options, share), measurement));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());
     }

@@ -22,7 +22,8 @@ class DeclaredLaw {
     const Transmission transmission(declared);
     if (transmission.dead_centre()) return;
     law_ = transmission;
-    slope_ = (declared.joint.theta_max - declared.joint.theta_min) / (transmission.alpha_max() - transmission.alpha_min());
+    slope_ =
+        (declared.joint.theta_max - declared.joint.theta_min) / (transmission.alpha_max() - transmission.alpha_min());
   }
 
   bool known() const { return std::isfinite(slope_) && slope_ != 0; }
@@ -32,6 +33,11 @@ class DeclaredLaw {
   double slope() const { return slope_; }
   /// rad; 0 for a ratio, which has no range.
   double alpha_range() const { return law_ ? law_->alpha_max() - law_->alpha_min() : 0; }
+  /// Whether most of a run may lie there.
+  bool reaches(double alpha) const {
+    return !law_ ||
+           (alpha > law_->alpha_min() - 0.1 * alpha_range() && alpha < law_->alpha_max() + 0.1 * alpha_range());
+  }
   /// Beyond the range the mean slope goes on.
   double theta(double alpha) const {
     if (!law_) return slope_ * alpha;
@@ -73,8 +79,12 @@ Turns best_turns(const std::vector<Sample>& samples, const DeclaredLaw& law, dou
   constexpr int most = 3;
   Turns best{0, 0, beyond(samples, law, 0) - expected};
   const double before = std::abs(best.left);
+  std::vector<double> alphas;
+  for (const Sample& sample : samples) alphas.push_back(sample.alpha);
+  const double middle = median_of(std::move(alphas));
   int fewest = 0;
   for (int a = -most; a <= most; ++a) {
+    if (!law.reaches(middle + a * k_two_pi)) continue;
     const double beside = beyond(samples, law, a * k_two_pi) - expected;
     const int t = std::clamp(static_cast<int>(-std::round(beside / k_two_pi)), -most, most);
     const double left = std::abs(beside + t * k_two_pi);
@@ -104,10 +114,13 @@ void take_back_turns(const DeclaredLaw& law, Measurement& measurement) {
       sample.alpha += turns.alpha;
       sample.theta += turns.theta;
     }
-    const auto words = [](const char* name, double turn) { return std::string(name) + " " + rounded(degrees(turn)) + " deg"; };
+    const auto words = [](const char* name, double turn) {
+      return std::string(name) + " " + rounded(degrees(turn)) + " deg";
+    };
     std::string moved = turns.alpha != 0 ? words("alpha", turns.alpha) : "";
     if (turns.theta != 0) moved += (moved.empty() ? "" : ", ") + words("theta", turns.theta);
-    measurement.notes.push_back(run.name + ": the log begins whole turns away from " + (law.has_zero() ? "what is declared" : "the first run") + ": added to " + moved);
+    measurement.notes.push_back(run.name + ": the log begins whole turns away from " +
+                                (law.has_zero() ? "what is declared" : "the first run") + ": added to " + moved);
   }
 }
 
@@ -117,7 +130,9 @@ std::string wrong_zero(const DeclaredLaw& law, const Measurement& measurement) {
   for (const Run& run : measurement.runs) {
     const double off = beyond(some_of(run), law, 0);
     if (std::abs(off) < radians(30.0)) continue;
-    return run.name + ": theta stands " + rounded(degrees(off), 3) + " deg beside what is declared at the same alpha: set both zeros at home (alpha = theta = 0), or subtract them in the log";
+    return run.name + ": theta stands " + rounded(degrees(off), 3) +
+           " deg beside what is declared at the same alpha: set both zeros at home (alpha = theta = 0), or subtract "
+           "them in the log";
   }
   return {};
 }
@@ -126,7 +141,7 @@ std::string wrong_zero(const DeclaredLaw& law, const Measurement& measurement) {
 
 /// Straight lines through all samples, over the same α.
 struct Slopes {
-  double measured = 0;    ///< dθ/dα
+  double measured = 0;  ///< dθ/dα
   double declared = 0;
   double alpha_span = 0;  ///< rad, of the samples
   double scatter = 0;     ///< rms of θ about its line, rad
@@ -165,7 +180,8 @@ Slopes slopes_of(const DeclaredLaw& law, const Measurement& measurement) {
 bool is_about(double value, double expected) { return value / expected > 0.67 && value / expected < 1.5; }
 
 std::string slope_text(const Slopes& slopes) {
-  return "theta changes by " + rounded(slopes.measured, 3) + " deg a degree of alpha, and " + rounded(slopes.declared, 3) + " is declared: ";
+  return "theta changes by " + rounded(slopes.measured, 3) + " deg a degree of alpha, and " +
+         rounded(slopes.declared, 3) + " is declared: ";
 }
 
 const char* const k_in_degrees = "; give it in degrees (times 57.29578), or let the column's name end in _rad";
@@ -174,22 +190,28 @@ std::string fault(const DeclaredLaw& law, const Slopes& slopes) {
   const double ratio = slopes.measured / slopes.declared;
   const double exchanged = 1.0 / (law.slope() * law.slope());
   const double turn = degrees(1.0), range = law.alpha_range();
-  if (range > 0 && is_about(ratio, 1.0) && slopes.alpha_span < 0.06 * range && slopes.alpha_span * turn > 0.25 * range) {
-    return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg of the declared " + rounded(degrees(range), 4) + ": both angles look like radians" + k_in_degrees;
+  if (range > 0 && is_about(ratio, 1.0) && slopes.alpha_span < 0.06 * range &&
+      slopes.alpha_span * turn > 0.25 * range) {
+    return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg of the declared " +
+           rounded(degrees(range), 4) + ": both angles look like radians" + k_in_degrees;
   }
   if (ratio > 0.4 && ratio < 2.5) return {};
   const double expected = std::abs(slopes.declared) * slopes.alpha_span;
   if (expected < 3 * slopes.scatter && std::abs(slopes.measured) * slopes.alpha_span < 3 * slopes.scatter) {
-    return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg, which should turn the joint by " + rounded(degrees(expected), 3) + " deg; theta scatters by " +
-           rounded(degrees(slopes.scatter), 3) + " deg rms and does not show it: move further";
+    return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg, which should turn the joint by " +
+           rounded(degrees(expected), 3) + " deg; theta scatters by " + rounded(degrees(slopes.scatter), 3) +
+           " deg rms and does not show it: move further";
   }
   if (is_about(ratio, turn)) return slope_text(slopes) + "alpha looks like radians" + k_in_degrees;
   if (is_about(ratio, 1.0 / turn)) return slope_text(slopes) + "theta looks like radians" + k_in_degrees;
   if (is_about(std::abs(ratio), exchanged) && !is_about(exchanged, 1.0)) {
-    return slope_text(slopes) + "alpha and theta look exchanged" + (ratio < 0 ? ", with one sign turned" : "") + "; --column alpha=theta_deg --column theta=alpha_deg exchanges them";
+    return slope_text(slopes) + "alpha and theta look exchanged" + (ratio < 0 ? ", with one sign turned" : "") +
+           "; --column alpha=theta_deg --column theta=alpha_deg exchanges them";
   }
   if (ratio < -0.4 && ratio > -2.5) {
-    return slope_text(slopes) + "one of the two has the opposite sign; alpha > 0 turns the pulley clockwise and lets theta grow: turn the sign of one column";
+    return slope_text(slopes) +
+           "one of the two has the opposite sign; alpha > 0 turns the pulley clockwise and lets theta grow: turn the "
+           "sign of one column";
   }
   return slope_text(slopes) + "this is not the declared joint, or a column has another unit";
 }
@@ -197,7 +219,8 @@ std::string fault(const DeclaredLaw& law, const Slopes& slopes) {
 /// A joint declared by its ratio has no range to compare with.
 void suspect_radians(const DeclaredLaw& law, const Slopes& slopes, Measurement& measurement) {
   if (law.has_zero() || slopes.alpha_span > radians(k_two_pi)) return;
-  measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) + " deg in any run: if these are radians, let the columns' names end in _rad");
+  measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) +
+                              " deg in any run: if these are radians, let the columns' names end in _rad");
 }
 
 }  // namespace

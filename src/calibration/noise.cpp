@@ -6,11 +6,12 @@
 #include "calibration/strokes.h"
 #include "fusee/calibration/measurement.h"
 
-// Strokes of one direction, load and speed repeat one another. A row's distance from what its neighbours in that sequence show at the same α
-// is scatter: (2θ − θbefore − θafter)/√6, which a steady drift leaves alone. What else it meets:
+// Strokes of one direction, load and speed repeat one another. A row's distance from what its neighbours in that
+// sequence show at the same α is scatter: (2θ − θbefore − θafter)/√6, which a steady drift leaves alone. What else it
+// meets:
 //   single wild rows     the mean square is taken without what lies far outside the bulk, unless that is a part of it
-//   colour               neighbouring rows say the same thing: degrees of freedom count what is left, n (1 − r²)/(1 + r²)
-//   a coarse sensor      repeats that fall on the same step hide the step's own error, quantum/√12: a lower bound
+//   colour               neighbouring rows say the same thing: degrees of freedom count what is left, n (1 − r²)/(1 +
+//   r²) a coarse sensor      repeats that fall on the same step hide the step's own error, quantum/√12: a lower bound
 
 namespace fusee {
 namespace {
@@ -92,11 +93,13 @@ Looked on_cubic(const Run& run, std::size_t first, double alpha, double least_ga
   return looked.weight < 3 ? looked : Looked{};
 }
 
-/// The straight line through a small part of a stroke: for logs so dense that α stands still or jitters from row to row.
+/// The straight line through a small part of a stroke: for logs so dense that α stands still or jitters from row to
+/// row.
 Looked on_line(const Run& run, const Stroke& stroke, std::size_t place, double alpha) {
   const double longest = std::abs(run.samples[stroke.last].alpha - run.samples[stroke.first].alpha) / 25;
   for (std::size_t half = 4; half <= (stroke.last - stroke.first) / 8; half *= 2) {
-    const std::size_t first = place > stroke.first + half ? place - half : stroke.first, last = std::min(stroke.last, place + half);
+    const std::size_t first = place > stroke.first + half ? place - half : stroke.first,
+                      last = std::min(stroke.last, place + half);
     const double n = static_cast<double>(last - first + 1);
     double mean_alpha = 0, mean_theta = 0, squares = 0, products = 0;
     for (std::size_t i = first; i <= last; ++i) {
@@ -161,7 +164,9 @@ double load_tolerance(const Measurement& measurement) {
 
 bool same_speed(const Run& a, const Run& b) { return std::abs(a.speed - b.speed) <= 0.15 * std::max(a.speed, b.speed); }
 
-double middle_load(const Run& run, const Stroke& stroke) { return run.has_load ? run.samples[stroke.first + (stroke.last - stroke.first) / 2].load : 0; }
+double middle_load(const Run& run, const Stroke& stroke) {
+  return run.has_load ? run.samples[stroke.first + (stroke.last - stroke.first) / 2].load : 0;
+}
 
 /// Whole strokes that repeat one another, in the order in which they were made.
 std::vector<std::vector<Pass>> repeats(const Measurement& measurement, double tolerance, bool across_runs) {
@@ -172,7 +177,8 @@ std::vector<std::vector<Pass>> repeats(const Measurement& measurement, double to
       const Pass pass{&run, &stroke, middle_load(run, stroke)};
       const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Pass>& g) {
         const Pass& other = g.front();
-        const bool same_run = other.run == &run || (across_runs && other.run->has_load == run.has_load && same_speed(*other.run, run));
+        const bool same_run =
+            other.run == &run || (across_runs && other.run->has_load == run.has_load && same_speed(*other.run, run));
         return same_run && other.stroke->direction == stroke.direction && std::abs(other.load - pass.load) <= tolerance;
       });
       if (group != groups.end()) {
@@ -185,7 +191,8 @@ std::vector<std::vector<Pass>> repeats(const Measurement& measurement, double to
   return groups;
 }
 
-/// Of second differences over `triples` neighbouring triples, which share strokes: what one of them is worth on its own.
+/// Of second differences over `triples` neighbouring triples, which share strokes: what one of them is worth on its
+/// own.
 double worth_of(std::size_t triples) {
   const double n = static_cast<double>(triples);
   return n / (n + 2 * (n - 1) * (4.0 / 9.0) + 2 * std::max(0.0, n - 2) / 36.0);
@@ -214,14 +221,15 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
       }
       const Looked after = look(group[k + 1], sample);
       if (!after.inside) continue;
-      differences.push_back((2 * sample.theta - before.theta - after.theta) / std::sqrt(4 + before.weight + after.weight));
+      differences.push_back((2 * sample.theta - before.theta - after.theta) /
+                            std::sqrt(4 + before.weight + after.weight));
     }
     scatter.add(differences, worth_of(count));
   }
 }
 
-/// Third differences of neighbouring rows: what is left where there are no repeats. Noise with colour hides from them. One of white noise is
-/// correlated with the next three by −3/4, 3/10, −1/20.
+/// Third differences of neighbouring rows: what is left where there are no repeats. Noise with colour hides from them.
+/// One of white noise is correlated with the next three by −3/4, 3/10, −1/20.
 void add_neighbours(const Run& run, Scatter& scatter) {
   const double worth = 1 / (1 + 2 * (0.75 * 0.75 + 0.3 * 0.3 + 0.05 * 0.05));
   for (const Stroke& stroke : run.strokes) {
@@ -237,7 +245,8 @@ void add_neighbours(const Run& run, Scatter& scatter) {
 Scatter scatter_of_repeats(const Measurement& measurement, bool across_runs) {
   const double tolerance = load_tolerance(measurement);
   Scatter scatter;
-  for (const std::vector<Pass>& group : repeats(measurement, tolerance, across_runs)) add_repeats(group, tolerance, scatter);
+  for (const std::vector<Pass>& group : repeats(measurement, tolerance, across_runs))
+    add_repeats(group, tolerance, scatter);
   return scatter;
 }
 

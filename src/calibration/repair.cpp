@@ -38,7 +38,8 @@ bool fill_time(std::vector<Sample>& samples, const Say& say) {
     if (!is_lost(samples[i])) continue;
     std::size_t next = i;
     while (is_lost(samples[next])) ++next;
-    samples[i].time = samples[i - 1].time + (samples[next].time - samples[i - 1].time) / static_cast<double>(next - i + 1);
+    samples[i].time =
+        samples[i - 1].time + (samples[next].time - samples[i - 1].time) / static_cast<double>(next - i + 1);
   }
   say(rows_text(lost) + " without a time: it was taken from the rows beside");
   return true;
@@ -54,14 +55,16 @@ void join_restarts(std::vector<Sample>& samples, const Say& say) {
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double here = samples[i].time;
     if (here < last) {
-      const bool restart = std::abs(here - first) < 2 * usual && last - here > 100 * usual;
+      const bool restart = std::abs(here - first) < 2 * usual && last - here > 10 * usual;
       if (restart) shift += last - here + usual;
       ++(restart ? restarts : back);
     }
     last = here;
     samples[i].time = here + shift;
   }
-  if (restarts > 0) say("the clock starts again " + std::to_string(restarts) + (restarts == 1 ? " time" : " times") + ": taken as one motion");
+  if (restarts > 0)
+    say("the clock starts again " + std::to_string(restarts) + (restarts == 1 ? " time" : " times") +
+        ": taken as one motion");
   if (back == 0) return;
   std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.time < b.time; });
   say("time goes back " + std::to_string(back) + (back == 1 ? " time" : " times") + ": rows were put in order");
@@ -69,7 +72,8 @@ void join_restarts(std::vector<Sample>& samples, const Say& say) {
 
 Sample mean_of(const std::vector<Sample>& samples, std::size_t first, std::size_t end) {
   Sample mean = samples[first];
-  for (double Sample::* value : {&Sample::alpha, &Sample::theta, &Sample::load, &Sample::temperature, &Sample::tension1, &Sample::tension2}) {
+  for (double Sample::*value :
+       {&Sample::alpha, &Sample::theta, &Sample::load, &Sample::temperature, &Sample::tension1, &Sample::tension2}) {
     double sum = 0;
     for (std::size_t i = first; i < end; ++i) sum += samples[i].*value / static_cast<double>(end - first);
     mean.*value = sum;
@@ -99,7 +103,8 @@ void part_ticks(Run& run, const Say& say) {
       samples.push_back(mean_of(rows, first, end));
       continue;
     }
-    const double tick = k + 1 < ticks.size() ? rows[end].time - rows[first].time : rows[first].time - rows[ticks[k - 1]].time;
+    const double tick =
+        k + 1 < ticks.size() ? rows[end].time - rows[first].time : rows[first].time - rows[ticks[k - 1]].time;
     for (std::size_t i = first; i < end; ++i) {
       samples.push_back(rows[i]);
       samples.back().time += tick * static_cast<double>(i - first) / static_cast<double>(end - first);
@@ -112,14 +117,14 @@ void part_ticks(Run& run, const Say& say) {
 // ---- outliers -------------------------------------------------------------------------------------------------------
 
 double middle_of_five(const std::vector<double>& values, std::size_t i) {
-  const std::size_t first = std::min(i < 2 ? 0 : i - 2, values.size() - 5);
   std::array<double, 5> near{};
-  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first), 5, near.begin());
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i - 2), 5, near.begin());
   std::nth_element(near.begin(), near.begin() + 2, near.end());
   return near[2];
 }
 
-/// How far a row may lie off the middle of its neighbours: by the scatter there is, and by as far as the values go from row to row.
+/// How far a row may lie off the middle of its neighbours: by the scatter there is, and by as far as the values go from
+/// row to row.
 struct Wild {
   double limit = 0;
   std::vector<std::size_t> rows;
@@ -127,7 +132,8 @@ struct Wild {
 
 Wild wild_rows(const std::vector<double>& values) {
   std::vector<double> off(values.size()), steps;
-  for (std::size_t i = 0; i < values.size(); ++i) off[i] = std::abs(values[i] - middle_of_five(values, i));
+  // At its ends a log cannot tell a wild row from a step.
+  for (std::size_t i = 2; i + 2 < values.size(); ++i) off[i] = std::abs(values[i] - middle_of_five(values, i));
   for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(std::abs(values[i] - values[i - 1]));
   const auto ninth = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10);
   std::nth_element(steps.begin(), ninth, steps.end());
@@ -157,7 +163,8 @@ std::vector<double> beside_line(const std::vector<Sample>& samples) {
 
 void drop_wild(std::vector<Sample>& samples, const Wild& wild, const std::string& name, const Say& say) {
   if (wild.rows.empty()) return;
-  const std::string words = rows_text(wild.rows.size()) + " with " + name + " more than " + rounded(degrees(wild.limit), 2) + " deg off their neighbours: ";
+  const std::string words = rows_text(wild.rows.size()) + " with " + name + " more than " +
+                            rounded(degrees(wild.limit), 2) + " deg off their neighbours: ";
   if (wild.rows.size() > samples.size() / 50 + 1) return say(words + "too many to be outliers, kept");
   std::vector<Sample> kept;
   kept.reserve(samples.size());
@@ -181,7 +188,7 @@ void order_time(Run& run, const Say& say) {
   part_ticks(run, say);
 }
 
-void unwrap(std::vector<Sample>& samples, double Sample::* angle, const std::string& name, const Say& say) {
+void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const Say& say) {
   double shift = 0;
   std::size_t wraps = 0;
   double before = samples.front().*angle;
@@ -195,7 +202,8 @@ void unwrap(std::vector<Sample>& samples, double Sample::* angle, const std::str
     }
     samples[i].*angle = here + shift;
   }
-  if (wraps > 0) say(name + " jumps by a turn " + std::to_string(wraps) + (wraps == 1 ? " time" : " times") + ": unwrapped");
+  if (wraps > 0)
+    say(name + " jumps by a turn " + std::to_string(wraps) + (wraps == 1 ? " time" : " times") + ": unwrapped");
 }
 
 void drop_outliers(Run& run, const Say& say) {
@@ -206,8 +214,9 @@ void drop_outliers(Run& run, const Say& say) {
   drop_wild(run.samples, wild_rows(beside_line(run.samples)), "theta", say);
 }
 
-bool fill_gaps(std::vector<Sample>& samples, double Sample::* value, const std::string& name, const Say& say) {
-  const auto known = std::find_if(samples.begin(), samples.end(), [&](const Sample& sample) { return !std::isnan(sample.*value); });
+bool fill_gaps(std::vector<Sample>& samples, double Sample::*value, const std::string& name, const Say& say) {
+  const auto known =
+      std::find_if(samples.begin(), samples.end(), [&](const Sample& sample) { return !std::isnan(sample.*value); });
   if (known == samples.end()) return false;
   double last = *known.*value;
   std::size_t lost = 0;
@@ -222,9 +231,10 @@ bool fill_gaps(std::vector<Sample>& samples, double Sample::* value, const std::
   return true;
 }
 
-// Values on a grid: sorted, their distances are multiples of one step. A joint that moves evenly and is logged without noise shows equal
-// steps too, but always the same number of them from row to row; a sensor that rounds shows now one step, now none or two.
-double quantum_of(const std::vector<Sample>& samples, double Sample::* angle) {
+// Values on a grid: sorted, their distances are multiples of one step. A joint that moves evenly and is logged without
+// noise shows equal steps too, but always the same number of them from row to row; a sensor that rounds shows now one
+// step, now none or two.
+double quantum_of(const std::vector<Sample>& samples, double Sample::*angle) {
   constexpr std::size_t enough = 20000;
   constexpr double same = radians(1e-7);
   std::vector<double> values;
@@ -247,11 +257,14 @@ double quantum_of(const std::vector<Sample>& samples, double Sample::* angle) {
   }
   const double quantum = sum / singles;
   const auto multiple = [quantum](double distance) { return std::round(distance / quantum); };
-  const auto on_grid = [&](double step) { return multiple(step) >= 1 && std::abs(step / quantum - multiple(step)) < 0.15; };
+  const auto on_grid = [&](double step) {
+    return multiple(step) >= 1 && std::abs(step / quantum - multiple(step)) < 0.15;
+  };
   if (10 * std::count_if(steps.begin(), steps.end(), on_grid) < 9 * static_cast<std::ptrdiff_t>(steps.size())) return 0;
   std::map<double, std::size_t> rows;
   for (std::size_t i = 1; i < in_order.size(); ++i) ++rows[multiple(std::abs(in_order[i] - in_order[i - 1]))];
-  const auto often = std::count_if(rows.begin(), rows.end(), [&](const auto& entry) { return 50 * entry.second > in_order.size(); });
+  const auto often =
+      std::count_if(rows.begin(), rows.end(), [&](const auto& entry) { return 50 * entry.second > in_order.size(); });
   return often > 1 ? quantum : 0;
 }
 

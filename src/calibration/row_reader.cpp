@@ -157,9 +157,10 @@ class RowReader {
   }
 
   [[noreturn]] void refuse_long_line() const {
-    const Diagnostic problem{Severity::error, place(line_ + 1, 1),
-                             "a line of more than " + std::to_string(k_longest_line) + " bytes: this is no table of measured data",
-                             "one row a line, ended by LF, CR LF or CR"};
+    const Diagnostic problem{
+        Severity::error, place(line_ + 1, 1),
+        "a line of more than " + std::to_string(k_longest_line) + " bytes: this is no table of measured data",
+        "one row a line, ended by LF, CR LF or CR"};
     throw InputError(problem);
   }
 
@@ -179,7 +180,8 @@ class RowReader {
   int column_of(std::string_view cell) const { return static_cast<int>(cell.data() - line_text_.data()) + 1; }
 
   void fail(int column, std::string message, std::string hint) {
-    problems_.push_back({Severity::error, place(columns_.empty() && column == 0 ? 0 : line_, column), std::move(message), std::move(hint)});
+    problems_.push_back({Severity::error, place(columns_.empty() && column == 0 ? 0 : line_, column),
+                         std::move(message), std::move(hint)});
     if (problems_.size() < k_most_problems) return;
     problems_.push_back({Severity::note, place(line_, 1), "reading stopped here: there may be more", ""});
     throw InputError(problems_);
@@ -194,7 +196,8 @@ class RowReader {
     if (line_ == 1 && (start == "\xFF\xFE" || start == "\xFE\xFF")) hint = "it looks like UTF-16: save it as UTF-8";
     if (line_ == 1 && start == "\x1F\x8B") hint = "it looks compressed: unpack it with gunzip";
     if (line_ == 1 && start == "PK") hint = "it looks like a spreadsheet or a zip: export a CSV text";
-    const Diagnostic problem{Severity::error, place(line_, static_cast<int>(found - text.begin()) + 1), "holds binary bytes", hint};
+    const Diagnostic problem{Severity::error, place(line_, static_cast<int>(found - text.begin()) + 1),
+                             "holds binary bytes", hint};
     throw InputError(problem);
   }
 
@@ -252,7 +255,8 @@ class RowReader {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (columns_[i].index != columns_[j].index) continue;
-        fail(1, "column " + shown(columns_[i].name) + " is taken as " + columns_[j].role + " and as " + columns_[i].role,
+        fail(1,
+             "column " + shown(columns_[i].name) + " is taken as " + columns_[j].role + " and as " + columns_[i].role,
              "give each role a column of its own with --column " + columns_[i].role + "=NAME");
       }
     }
@@ -276,8 +280,9 @@ class RowReader {
     const std::string word = shown(nearest);
     const bool plain = word.size() == nearest.size() + 2 && nearest.find(' ') == std::string::npos;
     fail(1, "there is no column " + wanted,
-         nearest.empty() ? "the columns are " + list + "; --column " + role + "=NAME says which one it is" + unit
-                         : "the nearest is " + word + ": --column " + role + "=" + (plain ? nearest : word) + " takes it" + unit);
+         nearest.empty()
+             ? "the columns are " + list + "; --column " + role + "=NAME says which one it is" + unit
+             : "the nearest is " + word + ": --column " + role + "=" + (plain ? nearest : word) + " takes it" + unit);
   }
 
   void row(std::string_view text) {
@@ -288,7 +293,8 @@ class RowReader {
     }
     ++found_.rows;
     std::vector<std::string_view> values = cells(text, separator_);
-    if (values.size() == count_ + 1 && values.back().empty()) values.pop_back();  // some loggers end each row with a separator
+    if (values.size() == count_ + 1 && values.back().empty())
+      values.pop_back();  // some loggers end each row with a separator
     if (values.size() != count_) return wrong_count(values.size());
     Sample sample{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan};
     for (const Column& column : columns_) {
@@ -299,7 +305,8 @@ class RowReader {
                     "angles are in degrees; leave the cell empty where nothing was logged");
       }
       if (std::abs(value) > k_largest_value) {
-        return fail(column_of(values[column.index]), column.name + " = " + shortest(value) + " is beyond anything measured",
+        return fail(column_of(values[column.index]),
+                    column.name + " = " + shortest(value) + " is beyond anything measured",
                     "leave the cell empty where nothing was logged");
       }
       if (double* to = member(sample, column.role)) *to = value * column.factor;
@@ -308,7 +315,8 @@ class RowReader {
   }
 
   void wrong_count(std::size_t count) {
-    const std::string message = "the row has " + std::to_string(count) + " values, the header " + std::to_string(count_);
+    const std::string message =
+        "the row has " + std::to_string(count) + " values, the header " + std::to_string(count_);
     if (count > count_ && separator_ == ',' && found_.rows == 1) {
       fail(1, message, "if commas are the decimal points, separate the values with ; and write points: 1.5;2.5");
       throw InputError(problems_);
@@ -329,11 +337,13 @@ class RowReader {
       throw InputError(problems_);
     }
     double value = 0;
-    const bool all_text = std::all_of(values.begin(), values.end(), [&](std::string_view v) { return read_cell(v, value) != Cell::number; });
+    const bool all_text = std::all_of(values.begin(), values.end(),
+                                      [&](std::string_view v) { return read_cell(v, value) != Cell::number; });
     if (all_text && found_.rows == 1) {
       return fail(column_of(cell), message, "a second line of the header? Begin it with #");
     }
-    fail(column_of(cell), message, "numbers with a decimal point, one a cell; leave the cell empty where nothing was logged");
+    fail(column_of(cell), message,
+         "numbers with a decimal point, one a cell; leave the cell empty where nothing was logged");
   }
 
   void keep(const Sample& sample) {
@@ -415,7 +425,8 @@ void check_roles(const MeasurementOptions& options) {
   }
 }
 
-LoggedRows read_rows(std::string_view text, const std::string& name, const MeasurementOptions& options, std::size_t most_samples) {
+LoggedRows read_rows(std::string_view text, const std::string& name, const MeasurementOptions& options,
+                     std::size_t most_samples) {
   RowReader reader(name, options, most_samples);
   Lines lines(reader);
   lines.add(text);
@@ -427,7 +438,8 @@ LoggedRows read_rows(const std::filesystem::path& path, const std::string& name,
   std::error_code problem;
   const auto kind = std::filesystem::status(path, problem).type();
   if (kind == std::filesystem::file_type::not_found) throw InputError(name, "there is no such file");
-  if (kind == std::filesystem::file_type::directory) throw InputError(name, "is a folder", "name the files in it: " + name + "/*.csv");
+  if (kind == std::filesystem::file_type::directory)
+    throw InputError(name, "is a folder", "name the files in it: " + name + "/*.csv");
   if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::fifo) {
     throw InputError(name, "is not a regular file");
   }

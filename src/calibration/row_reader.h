@@ -17,11 +17,11 @@ constexpr std::size_t k_most_samples = std::size_t{1} << 20;
 
 /// The rows of one file as they stand in it, angles in rad, times in s.
 struct LoggedRows {
-  std::vector<Sample> samples;   ///< every `stride`-th row that holds both angles
+  std::vector<Sample> samples;  ///< every `stride`-th row that holds both angles
   std::vector<std::string> notes;
   std::string load_column;
   bool has_time = false, has_load = false, has_temperature = false;
-  std::size_t rows = 0;          ///< in the file
+  std::size_t rows = 0;  ///< in the file
   std::size_t without_angle = 0;
   long long first_without_angle = 0;  ///< line
   std::size_t stride = 1;

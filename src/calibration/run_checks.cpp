@@ -15,7 +15,7 @@ constexpr std::size_t k_fewest_samples = 20;
 /// A motion smaller than this is none: the last decimal of a log.
 constexpr double k_no_motion = radians(1e-6);
 
-double span_of(const std::vector<Sample>& samples, double Sample::* value) {
+double span_of(const std::vector<Sample>& samples, double Sample::*value) {
   double least = samples.front().*value, most = least;
   for (const Sample& sample : samples) {
     least = std::min(least, sample.*value);
@@ -30,7 +30,8 @@ struct Standstill {
   std::size_t last = 0;
 };
 
-std::vector<Standstill> standstills(const std::vector<Sample>& samples, double Sample::* value, std::size_t first, std::size_t last) {
+std::vector<Standstill> standstills(const std::vector<Sample>& samples, double Sample::*value, std::size_t first,
+                                    std::size_t last) {
   constexpr std::size_t fewest_rows = 6;
   std::vector<Standstill> found;
   for (std::size_t i = first; i <= last;) {
@@ -58,7 +59,8 @@ Frozen frozen_theta(const Run& run) {
   for (const Stroke& stroke : run.strokes) {
     for (const Standstill& still : standstills(run.samples, &Sample::theta, stroke.first, stroke.last)) {
       const bool may_be_play = still.first <= stroke.first + 2 && still.last < stroke.last;
-      const double way = std::abs(run.samples[still.last].alpha - run.samples[still.first].alpha) * (may_be_play ? 0.25 : 1.0);
+      const double way =
+          std::abs(run.samples[still.last].alpha - run.samples[still.first].alpha) * (may_be_play ? 0.25 : 1.0);
       if (way > worst.way) worst = {way, still};
     }
   }
@@ -72,8 +74,10 @@ void look_for_frozen_theta(const Run& run, Measurement& into) {
   const Frozen frozen = frozen_theta(run);
   if (frozen.way <= std::max(0.1 * alpha_span, 3.0 * one_step)) return;
   const double way = std::abs(run.samples[frozen.where.last].alpha - run.samples[frozen.where.first].alpha);
-  into.not_testable.push_back(run.name + ": theta stands still at " + rounded(degrees(run.samples[frozen.where.first].theta)) + " deg while alpha moves over " +
-                              rounded(degrees(way), 3) + " deg (" + place_of(run, frozen.where) + "): a frozen or saturated sensor, or the joint at a stop; log again without it");
+  into.not_testable.push_back(run.name + ": theta stands still at " +
+                              rounded(degrees(run.samples[frozen.where.first].theta)) + " deg while alpha moves over " +
+                              rounded(degrees(way), 3) + " deg (" + place_of(run, frozen.where) +
+                              "): a frozen or saturated sensor, or the joint at a stop; log again without it");
 }
 
 /// θ may move at a constant α when the load does; by a part of its span, not by much of it.
@@ -81,12 +85,15 @@ void look_for_frozen_alpha(const Run& run, Measurement& into) {
   const double theta_span = span_of(run.samples, &Sample::theta);
   const double load_span = run.has_load ? span_of(run.samples, &Sample::load) : 0;
   for (const Standstill& still : standstills(run.samples, &Sample::alpha, 0, run.samples.size() - 1)) {
-    const std::vector<Sample> rows(run.samples.begin() + static_cast<std::ptrdiff_t>(still.first), run.samples.begin() + static_cast<std::ptrdiff_t>(still.last) + 1);
+    const std::vector<Sample> rows(run.samples.begin() + static_cast<std::ptrdiff_t>(still.first),
+                                   run.samples.begin() + static_cast<std::ptrdiff_t>(still.last) + 1);
     if (run.has_load && span_of(rows, &Sample::load) > 0.1 * load_span) continue;
     const double way = span_of(rows, &Sample::theta);
     if (way <= 0.25 * theta_span) continue;
-    into.not_testable.push_back(run.name + ": alpha stands still while theta moves over " + rounded(degrees(way), 3) + " deg (" + place_of(run, still) +
-                                "): the motor's sensor is frozen, or the pulley slips on its shaft; log again without it");
+    into.not_testable.push_back(
+        run.name + ": alpha stands still while theta moves over " + rounded(degrees(way), 3) + " deg (" +
+        place_of(run, still) +
+        "): the motor's sensor is frozen, or the pulley slips on its shaft; log again without it");
     return;
   }
 }
@@ -94,7 +101,8 @@ void look_for_frozen_alpha(const Run& run, Measurement& into) {
 void say_gaps(const Run& run, const Say& say) {
   for (const std::size_t gap : gaps_in(run.samples, run.has_time)) {
     const double way = std::abs(run.samples[gap].alpha - run.samples[gap - 1].alpha);
-    const std::string time = run.has_time ? "of " + rounded(run.samples[gap].time - run.samples[gap - 1].time) + " s " : "";
+    const std::string time =
+        run.has_time ? "of " + rounded(run.samples[gap].time - run.samples[gap - 1].time) + " s " : "";
     say("a gap " + time + "(" + place_of(run, {gap, gap}) + ") over which alpha moves " + rounded(degrees(way), 3) +
         " deg: the play after it is not known, the stroke is left out");
   }
@@ -105,22 +113,29 @@ void say_gaps(const Run& run, const Say& say) {
 void look_at_run(const Run& run, Measurement& into, const Say& say) {
   const auto refuse = [&](const std::string& reason) { into.not_testable.push_back(run.name + ": " + reason); };
   if (run.samples.size() < k_fewest_samples) {
-    return refuse(rows_text(run.samples.size()) + " that can be used; at least " + std::to_string(k_fewest_samples) + " are needed");
+    return refuse(rows_text(run.samples.size()) + " that can be used; at least " + std::to_string(k_fewest_samples) +
+                  " are needed");
   }
   const double alpha_span = span_of(run.samples, &Sample::alpha), theta_span = span_of(run.samples, &Sample::theta);
   if (alpha_span < k_no_motion) return refuse("alpha does not change: the motor did not move, or its sensor is dead");
   if (theta_span < k_no_motion) {
-    return refuse("theta does not change while alpha moves over " + rounded(degrees(alpha_span)) + " deg: the joint's sensor is dead, or the joint is stuck");
+    return refuse("theta does not change while alpha moves over " + rounded(degrees(alpha_span)) +
+                  " deg: the joint's sensor is dead, or the joint is stuck");
   }
-  if (run.strokes.empty()) return refuse("alpha only jitters (by " + rounded(degrees(alpha_span), 2) + " deg): no motion in it");
+  if (run.strokes.empty())
+    return refuse("alpha only jitters (by " + rounded(degrees(alpha_span), 2) + " deg): no motion in it");
   look_for_frozen_theta(run, into);
   look_for_frozen_alpha(run, into);
   say_gaps(run, say);
-  const auto goes = [&](int direction) { return std::any_of(run.strokes.begin(), run.strokes.end(), [&](const Stroke& s) { return s.direction == direction; }); };
+  const auto goes = [&](int direction) {
+    return std::any_of(run.strokes.begin(), run.strokes.end(),
+                       [&](const Stroke& s) { return s.direction == direction; });
+  };
   if (!goes(1) || !goes(-1)) say("alpha moves in one direction only");
   const Stroke& first = run.strokes.front();
   if (first.partial) {
-    say("the first stroke (" + rows_text(first.last - first.first + 1) + ") does not begin at a reversal: its play is not known, it is left out");
+    say("the first stroke (" + rows_text(first.last - first.first + 1) +
+        ") does not begin at a reversal: its play is not known, it is left out");
   }
 }
 
@@ -132,8 +147,9 @@ void look_at_all(Measurement& measurement) {
     for (const Stroke& stroke : run.strokes) ++(stroke.direction > 0 ? up : down);
   }
   if (up > 0 && down > 0) return;
-  measurement.not_testable.push_back(std::string("alpha only ") + (up > 0 ? "grows" : "falls") +
-                                     ": without the way back backlash, friction and delay cannot be told from a wrong shape; log both directions");
+  measurement.not_testable.push_back(
+      std::string("alpha only ") + (up > 0 ? "grows" : "falls") +
+      ": without the way back backlash, friction and delay cannot be told from a wrong shape; log both directions");
 }
 
 }  // namespace fusee

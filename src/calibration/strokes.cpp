@@ -25,7 +25,8 @@ bool only_jitters(const std::vector<Sample>& samples) {
   double mean = 0, spread = 0, steps = 0;
   for (const Sample& sample : samples) mean += sample.alpha / n;
   for (const Sample& sample : samples) spread += (sample.alpha - mean) * (sample.alpha - mean) / n;
-  for (std::size_t i = 1; i < samples.size(); ++i) steps += std::pow(samples[i].alpha - samples[i - 1].alpha, 2) / (n - 1);
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    steps += std::pow(samples[i].alpha - samples[i - 1].alpha, 2) / (n - 1);
   return steps >= spread;
 }
 
@@ -122,7 +123,9 @@ double median_of(std::vector<double> values) {
 }
 
 // Second differences of white noise have √6 of its spread; a median of their size is .674 of that.
-double white_noise_of(std::vector<double> second_differences) { return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0)); }
+double white_noise_of(std::vector<double> second_differences) {
+  return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0));
+}
 
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time) {
   if (samples.size() < 3) return {};
@@ -151,7 +154,8 @@ std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, double alp
   if (samples.size() < 3 || only_jitters(samples)) return {};
   const double threshold = reversal_threshold(samples, alpha_quantum);
   if (!(threshold > 0)) return {};
-  std::vector<Stroke> strokes = Splitter(samples, threshold, marked(gaps_in(samples, has_time), samples.size())).split();
+  std::vector<Stroke> strokes =
+      Splitter(samples, threshold, marked(gaps_in(samples, has_time), samples.size())).split();
   if (strokes.empty()) return strokes;
   strokes.front().partial = strokes.front().partial || !begins_at_reversal(samples, strokes, threshold);
   // A cycle begins with each stroke of the direction of the first whole one.

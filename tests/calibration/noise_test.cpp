@@ -12,13 +12,13 @@ namespace {
 
 /// A bench in a few numbers.
 struct Bench {
-  double noise = 0;      ///< rad
+  double noise = 0;  ///< rad
   int cycles = 6;
-  int rows = 200;        ///< a stroke
-  double shift = 0;      ///< of θ from cycle to cycle
-  double quantum = 0;    ///< of θ
+  int rows = 200;      ///< a stroke
+  double shift = 0;    ///< of θ from cycle to cycle
+  double quantum = 0;  ///< of θ
   double alpha_quantum = 0;
-  double colour = 0;     ///< correlation of the noise from row to row
+  double colour = 0;  ///< correlation of the noise from row to row
   double load_noise = 0;
   std::vector<double> loads = {};  ///< one a cycle; each bends the joint by .01 rad/N
   bool same_places = false;
@@ -32,7 +32,9 @@ Run logged(const Bench& bench) {
   Run run;
   run.has_load = !bench.loads.empty() || bench.load_noise > 0;
   double carried = normal(random);
-  const auto stepped = [](double value, double quantum) { return quantum > 0 ? quantum * std::round(value / quantum) : value; };
+  const auto stepped = [](double value, double quantum) {
+    return quantum > 0 ? quantum * std::round(value / quantum) : value;
+  };
   for (int stroke = 0; stroke < 2 * bench.cycles; ++stroke) {
     const int cycle = stroke / 2;
     const double load = bench.loads.empty() ? 0 : bench.loads[static_cast<std::size_t>(cycle)];
@@ -42,13 +44,15 @@ Run logged(const Bench& bench) {
       carried = bench.colour * carried + std::sqrt(1 - bench.colour * bench.colour) * normal(random);
       Sample sample;
       sample.alpha = stroke % 2 == 0 ? share : 1 - share;
-      sample.theta = stepped(0.3 * std::sin(2 * sample.alpha) + bench.noise * carried + bench.shift * cycle - 0.01 * load, bench.quantum);
+      sample.theta = stepped(
+          0.3 * std::sin(2 * sample.alpha) + bench.noise * carried + bench.shift * cycle - 0.01 * load, bench.quantum);
       sample.alpha = stepped(sample.alpha, bench.alpha_quantum);
       sample.load = load + bench.load_noise * normal(random);
       run.samples.push_back(sample);
     }
-    run.strokes.push_back({static_cast<std::size_t>(stroke * bench.rows), static_cast<std::size_t>((stroke + 1) * bench.rows - 1),
-                           stroke % 2 == 0 ? 1 : -1, cycle, false});
+    run.strokes.push_back({static_cast<std::size_t>(stroke * bench.rows),
+                           static_cast<std::size_t>((stroke + 1) * bench.rows - 1), stroke % 2 == 0 ? 1 : -1, cycle,
+                           false});
   }
   return run;
 }
@@ -76,7 +80,8 @@ TEST(NoiseFloor, SteadyDriftIsNoNoise) { EXPECT_NEAR(floor_of({.noise = 1e-4, .s
 
 TEST(NoiseFloor, AnExactJointHasNone) { EXPECT_LT(floor_of({.cycles = 4}).rms, 1e-8); }
 
-// Scatter holds the sensor's step once the noise spreads readings over more than one: σ² + q²/12, and not the step a second time.
+// Scatter holds the sensor's step once the noise spreads readings over more than one: σ² + q²/12, and not the step a
+// second time.
 TEST(NoiseFloor, ACoarseSensorAddsItsStepOnce) {
   const double quantum = radians(0.1);
   for (const double noise : {0.5, 1.0}) {
@@ -101,7 +106,8 @@ TEST(NoiseFloor, ALogDenserThanItsSensorsStepsHasRepeats) {
 
 TEST(NoiseFloor, WildRowsAreNoNoise) {
   Measurement measurement = measured({.noise = 1e-3});
-  for (std::size_t i = 40; i < measurement.runs[0].samples.size(); i += 371) measurement.runs[0].samples[i].theta += 0.2;
+  for (std::size_t i = 40; i < measurement.runs[0].samples.size(); i += 371)
+    measurement.runs[0].samples[i].theta += 0.2;
   EXPECT_NEAR(noise_floor(measurement).rms, 1e-3, 1e-4);
 }
 
@@ -115,7 +121,8 @@ TEST(NoiseFloor, ABulkApartIsNoOutlier) {
 }
 
 TEST(NoiseFloor, ColourLeavesTheSizeAndCostsDegreesOfFreedom) {
-  const NoiseFloor white = floor_of({.noise = 1e-3, .cycles = 20}), coloured = floor_of({.noise = 1e-3, .cycles = 20, .colour = 0.9});
+  const NoiseFloor white = floor_of({.noise = 1e-3, .cycles = 20}),
+                   coloured = floor_of({.noise = 1e-3, .cycles = 20, .colour = 0.9});
   EXPECT_NEAR(coloured.rms, 1e-3, 1e-4);
   EXPECT_LT(coloured.degrees_of_freedom, 0.25 * white.degrees_of_freedom);
 }
@@ -126,14 +133,20 @@ TEST(NoiseFloor, DegreesOfFreedomSayHowFarItScatters) {
     double sum = 0, squares = 0, degrees_of_freedom = 0;
     constexpr int trials = 300;
     for (int i = 0; i < trials; ++i) {
-      const NoiseFloor floor = floor_of({.noise = 1, .cycles = 5, .rows = 60, .colour = colour, .same_places = true, .seed = 100u + static_cast<unsigned>(i)});
+      const NoiseFloor floor = floor_of({.noise = 1,
+                                         .cycles = 5,
+                                         .rows = 60,
+                                         .colour = colour,
+                                         .same_places = true,
+                                         .seed = 100u + static_cast<unsigned>(i)});
       const double variance = floor.rms * floor.rms;
       sum += variance / trials;
       squares += variance * variance / trials;
       degrees_of_freedom += floor.degrees_of_freedom / trials;
     }
     const double seen = 2 * sum * sum / (squares - sum * sum);
-    EXPECT_NEAR(degrees_of_freedom / seen, 1.0, 0.35) << "colour " << colour << ": " << degrees_of_freedom << " said, " << seen << " seen";
+    EXPECT_NEAR(degrees_of_freedom / seen, 1.0, 0.35)
+        << "colour " << colour << ": " << degrees_of_freedom << " said, " << seen << " seen";
   }
 }
 

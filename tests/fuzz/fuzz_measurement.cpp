@@ -9,7 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fusee::Measurement measurement;
   try {
     const fusee::MeasurementOptions options{{{"load", "load_N"}}};
-    measurement.runs.push_back(fusee::parse_run({reinterpret_cast<const char*>(data), size}, "run.csv", size % 2 == 0 ? options : fusee::MeasurementOptions{}, measurement));
+    measurement.runs.push_back(fusee::parse_run({reinterpret_cast<const char*>(data), size}, "run.csv",
+                                                size % 2 == 0 ? options : fusee::MeasurementOptions{}, measurement));
   } catch (const fusee::InputError&) {
     return 0;
   }
