@@ -7,11 +7,14 @@
 #include "fusee/calibration/measurement.h"
 
 // Strokes of one direction, load and speed repeat one another. A row's distance from what its neighbours in that
-// sequence show at the same α is scatter: (2θ − θbefore − θafter)/√6, which a steady drift leaves alone. What else it
-// meets:
-//   single wild rows     the mean square is taken without what lies far outside the bulk, unless that is a part of it
-//   colour               neighbouring rows say the same thing: degrees of freedom count what is left, n (1 − r²)/(1 +
-//   r²) a coarse sensor      repeats that fall on the same step hide the step's own error, quantum/√12: a lower bound
+// sequence show at the same α is scatter: (2θ − θbefore − θafter)/√6, which a steady drift leaves alone. What else
+// there is:
+//
+// - Single wild rows: the mean square is taken without what lies far outside the bulk, unless that is a part of it.
+//
+// - Colour: neighbouring rows say the same thing. Degrees of freedom count what is left, n (1 − r²)/(1 + r²).
+//
+// - A coarse sensor: repeats that fall on the same step hide the step's own error, quantum/√12, a lower bound.
 
 namespace fusee {
 namespace {
