@@ -438,6 +438,7 @@ LoggedRows read_rows(const std::filesystem::path& path, const std::string& name,
   std::error_code problem;
   const auto kind = std::filesystem::status(path, problem).type();
   if (kind == std::filesystem::file_type::not_found) throw InputError(name, "there is no such file");
+  if (kind == std::filesystem::file_type::none) throw InputError(name, "cannot be read: " + problem.message());
   if (kind == std::filesystem::file_type::directory)
     throw InputError(name, "is a folder", "name the files in it: " + name + "/*.csv");
   if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::fifo) {

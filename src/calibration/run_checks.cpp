@@ -58,7 +58,7 @@ Frozen frozen_theta(const Run& run) {
   Frozen worst;
   for (const Stroke& stroke : run.strokes) {
     for (const Standstill& still : standstills(run.samples, &Sample::theta, stroke.first, stroke.last)) {
-      const bool may_be_play = still.first <= stroke.first + 2 && still.last < stroke.last;
+      const bool may_be_play = still.first <= stroke.first + 2;
       const double way =
           std::abs(run.samples[still.last].alpha - run.samples[still.first].alpha) * (may_be_play ? 0.25 : 1.0);
       if (way > worst.way) worst = {way, still};

@@ -484,6 +484,16 @@ TEST(Measurement, PlayAndACoarseSensorAreNoFrozenOne) {
     text += shortest(alpha) + "," + shortest(0.25 * pulley) + "\n";
   }
   EXPECT_EQ(reasons_of(parsed(text).measurement), "");
+  // Strokes that turn back within the play, beside large ones.
+  pulley = -40;
+  text = "alpha_deg,theta_deg\n";
+  std::vector<double> alphas = triangle(40, 100, 4);
+  for (const double alpha : triangle(5, 100, 4)) alphas.push_back(alpha - 35);
+  for (const double alpha : alphas) {
+    pulley = std::clamp(pulley, alpha - 6, alpha + 6);
+    text += shortest(alpha) + "," + shortest(0.25 * pulley) + "\n";
+  }
+  EXPECT_EQ(reasons_of(parsed(text).measurement), "");
   const auto coarse = [](double alpha) { return 2.0 * std::round(0.125 * alpha); };
   EXPECT_EQ(reasons_of(parsed(csv(triangle(40, 100, 4), coarse)).measurement), "");
 }
