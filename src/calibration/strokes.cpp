@@ -107,7 +107,8 @@ bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<St
   const double start = samples[strokes.front().first].alpha;
   for (std::size_t i = 1; i < strokes.size(); ++i) {
     if (strokes[i].direction != strokes.front().direction || strokes[i].partial) continue;
-    return std::abs(samples[strokes[i].first].alpha - start) <= 3 * threshold;
+    // The row at the reversal still belongs to the stroke before.
+    return std::abs(samples[strokes[i].first - 1].alpha - start) <= 3 * threshold;
   }
   // A single stroke each way: whole when the way back ends where it began.
   return strokes.size() == 2 && std::abs(samples[strokes.back().last].alpha - start) <= 3 * threshold;

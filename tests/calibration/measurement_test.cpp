@@ -369,6 +369,10 @@ TEST(Strokes, OfSinesBeginWithAPartialOne) {
   }
 }
 
+TEST(Strokes, OfFewRowsBeginAtTheReversalToo) {
+  EXPECT_EQ(directions_of(parsed(csv(triangle(40, 8, 6), quarter)).run), "+-+-+-");
+}
+
 TEST(Strokes, DwellsDoNotCutThem) {
   const std::vector<double> alphas = triangle(40, 50, 6);
   for (const std::size_t every :
