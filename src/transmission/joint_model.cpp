@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "transmission/upper_span_table.h"
+
 namespace fusee {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double k_reach = radians(60.0);
 /// The first θ from `start` towards `end` at which a moment arm vanishes; `end` when none does.
 double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double end) {
   const auto has_arms = [&](double theta) { return upper_span(pins[0], -theta).m > 0 && upper_span(pins[1], theta).m > 0; };
-  constexpr int steps = 180;
+  constexpr int steps = 60;
   double good = start;
   for (int i = 1; i <= steps; ++i) {
     double bad = start + (end - start) * i / steps;
@@ -109,14 +111,19 @@ JointModel joint_model(const MadePulleys& made, const Mechanism& mounted) {
   model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
+  set_statics(model, mounted);
+  model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
+  model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
+  model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most);
+  return model;
+}
+
+void set_statics(JointModel& model, const Mechanism& mounted) {
   model.EA = section_stiffness(mounted.tendon);
   model.mu = mounted.guides.mu;
   model.pretension = mounted.tendon.pretension;
   model.weight = mounted.load.mass * k_gravity * mounted.load.lever;
   model.tilt = mounted.load.tilt;
-  model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
-  model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
-  return model;
 }
 
 }  // namespace fusee
