@@ -14,7 +14,8 @@
 //
 // - Colour: neighbouring rows say the same thing. Degrees of freedom count what is left, n (1 − r²)/(1 + r²).
 //
-// - A coarse sensor: repeats that fall on the same step hide the step's own error, quantum/√12, a lower bound.
+// - A coarse sensor: repeats that fall on the same step hide the step's own error, quantum/√12 of either sensor: a
+// lower bound.
 
 namespace fusee {
 namespace {
@@ -253,6 +254,23 @@ Scatter scatter_of_repeats(const Measurement& measurement, bool across_runs) {
   return scatter;
 }
 
+/// Error of both sensors' own steps, as θ shows it.
+double step_error(const Measurement& measurement) {
+  double slope = 0;
+  for (const Run& run : measurement.runs) {
+    if (run.samples.empty()) continue;
+    const auto span = [&](double Sample::*angle) {
+      const auto [least, most] =
+          std::minmax_element(run.samples.begin(), run.samples.end(),
+                              [&](const Sample& a, const Sample& b) { return a.*angle < b.*angle; });
+      return (*most).*angle - (*least).*angle;
+    };
+    const double alpha = span(&Sample::alpha);
+    if (alpha > 0) slope = std::max(slope, span(&Sample::theta) / alpha);
+  }
+  return std::hypot(measurement.theta_quantum, slope * measurement.alpha_quantum) / std::sqrt(12.0);
+}
+
 }  // namespace
 
 NoiseFloor noise_floor(const Measurement& measurement) {
@@ -267,7 +285,7 @@ NoiseFloor noise_floor(const Measurement& measurement) {
     for (const Run& run : measurement.runs) add_neighbours(run, scatter);
   }
   const Scatter::Result result = scatter.result(3 * measurement.theta_quantum);
-  floor.rms = std::max(std::sqrt(result.variance), measurement.theta_quantum / std::sqrt(12.0));
+  floor.rms = std::max(std::sqrt(result.variance), step_error(measurement));
   floor.degrees_of_freedom = result.degrees_of_freedom;
   return floor;
 }

@@ -95,6 +95,12 @@ TEST(NoiseFloor, RepeatsOnTheSameStepHideIt) {
   EXPECT_DOUBLE_EQ(floor_of({.quantum = quantum, .same_places = true}).rms, quantum / std::sqrt(12.0));
 }
 
+TEST(NoiseFloor, AStepOfTheMotorsSensorIsSeenThroughTheSlope) {
+  const double step = 0.1;
+  // θ spans .3 over an α that spans 1, rounded.
+  EXPECT_NEAR(floor_of({.alpha_quantum = step, .same_places = true}).rms, 0.3 * step / std::sqrt(12.0), 1e-4);
+}
+
 TEST(NoiseFloor, ALogDenserThanItsSensorsStepsHasRepeats) {
   const double quantum = 2e-3;
   const NoiseFloor floor = floor_of({.noise = 3e-3, .rows = 3000, .quantum = quantum, .alpha_quantum = 5e-3});

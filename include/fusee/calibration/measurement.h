@@ -80,7 +80,7 @@ void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or
 /// where there are none, of runs that repeat one another. Single wild rows do not count.
 struct NoiseFloor {
-  double rms = 0;                 ///< rad; never below the error of the sensor's own step, quantum/√12
+  double rms = 0;                 ///< rad; never below the error of the sensors' own steps, quantum/√12
   double degrees_of_freedom = 0;  ///< of rms², colour and shared strokes allowed for
   bool from_repeats = false;      ///< false: no repeats; taken from differences of neighbours, a lower bound
 };
