@@ -42,6 +42,7 @@ struct Imperfections {
   double joint_length = 0;            ///< added to OC, mm
   double gravity_cos = 0;             ///< torque against +θ: cos · cos θ + sin · sin θ, N·mm
   double gravity_sin = 0;
+  double mean_load = 0;               ///< tip force beside the declared one, under which the joint is to follow its law, N
   double compliance = 0;              ///< of a joint declared by a ratio: turned by the load, rad per unit of load
   double dry_friction = 0;            ///< of a joint declared by a ratio: half loop per unit of |load|, rad
 
