@@ -10,10 +10,9 @@
 // The corrected pulley is drawn so that what was identified undoes itself:
 //   geometry, friction, tendon   the mechanism has them, and the law stays the declared θ(α) as a table (or P1 round where that suffices);
 //   stretch, weight              the law is drawn further by what the joint gives way under its mean load (given_way);
-//   radius offset δ              the tendon's centre line lies δ further out than drawn: a tendon thicker by 2δ over pins thinner by δ;
 //   scale 1 + s                  one more shrinkage;
 //   profile error                the law is drawn at the angle that the pulley acts at;
-//   runout                       the curves are drawn off the axis the other way (pulley_shift).
+//   radius offset, runout        the curves are drawn further in and off the axis the other way (draw_for_making).
 
 namespace fusee {
 namespace {
@@ -37,7 +36,6 @@ bool changes_statics(const Imperfections& at) {
 /// What makes the declared law worth keeping under load. Friction and pretension alone hardly move the mean of both directions.
 bool gives_way(const Imperfections& at) { return at.stretch != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 || at.mean_load != 0; }
 bool bends_profile(const Imperfections& at) { return at.profile_sin != 0 || at.profile_cos != 0; }
-bool changes_drawing(const Imperfections& at) { return at.radius_offset != 0 || at.pulley_scale != 0 || bends_profile(at); }
 
 double acting_angle(double alpha, const Imperfections& at) {
   return alpha + at.profile_sin * std::sin(2 * alpha) + at.profile_cos * (std::cos(2 * alpha) - 1);
@@ -75,21 +73,10 @@ Mechanism identified_joint(const Mechanism& mechanism) {
   Mechanism joint = mounted(mechanism, mechanism.identified);
   joint.load = with_weight(joint.load, mechanism.identified, joint.joint.R);
   joint.identified = {};
-  joint.identified.runout_x = mechanism.identified.runout_x;
-  joint.identified.runout_y = mechanism.identified.runout_y;
-  return joint;
-}
-
-Mechanism undrawn(Mechanism mechanism, const Imperfections& at) {
-  Tendon& tendon = mechanism.tendon;
-  const double drawn = tendon.diameter + 2 * at.radius_offset;
-  if (drawn > 0 && at.radius_offset != 0) {
-    tendon.modulus *= tendon.diameter * tendon.diameter / (drawn * drawn);
-    tendon.diameter = drawn;
-    mechanism.guides.radius -= at.radius_offset;
+  for (double Imperfections::* member : {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y}) {
+    joint.identified.*member = mechanism.identified.*member;
   }
-  if (at.pulley_scale != 0) mechanism.material.shrinkage = 1 - (1 - mechanism.material.shrinkage) * (1 + at.pulley_scale);
-  return mechanism;
+  return joint;
 }
 
 // ---- the law that a joint under load needs --------------------------------------------------------------------------
@@ -258,7 +245,26 @@ RoundChoice round_choice(const Mechanism& mechanism, const NeededLaw& needed) {
 
 }  // namespace
 
-Vec2 pulley_shift(const Mechanism& mechanism) { return {-mechanism.identified.runout_x, -mechanism.identified.runout_y}; }
+void draw_for_making(SynthesisResult& synthesis, const Mechanism& mechanism) {
+  const Imperfections& at = mechanism.identified;
+  for (Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    for (OutlinePoint& point : outline->points) {
+      point.position -= Vec2(at.runout_x, at.runout_y) + at.radius_offset * point.normal;
+      point.curvature_radius -= at.radius_offset;
+    }
+  }
+}
+
+Polygon as_made(Polygon drawn, const Mechanism& mechanism) {
+  for (Vec2& point : drawn) point += Vec2(mechanism.identified.runout_x, mechanism.identified.runout_y);
+  return drawn;
+}
+
+Mechanism with_inset(Mechanism mechanism) {
+  mechanism.tendon.diameter += 2 * mechanism.identified.radius_offset;
+  mechanism.guides.radius -= mechanism.identified.radius_offset;
+  return mechanism;
+}
 
 RoundChoice round_choice(const Mechanism& mechanism) { return round_choice(mechanism, needed_law(mechanism)); }
 
@@ -266,7 +272,8 @@ double tied_at(const Mechanism& mechanism) { return mechanism.transmission ? 0.0
 
 Mechanism as_it_is(const Mechanism& mechanism) {
   const Imperfections& at = mechanism.identified;
-  if (mechanism.transmission || !(changes_geometry(at) || changes_statics(at) || changes_drawing(at))) return mechanism;
+  const bool nothing_to_do = !changes_geometry(at) && !changes_statics(at) && !bends_profile(at) && at.pulley_scale == 0;
+  if (mechanism.transmission || nothing_to_do) return mechanism;
   Mechanism joint = identified_joint(mechanism);
   const NeededLaw needed = needed_law(mechanism);
   if ((changes_geometry(at) || needed.shifted || bends_profile(at)) && !needed.rows.empty()) {
@@ -280,7 +287,8 @@ Mechanism as_it_is(const Mechanism& mechanism) {
       for (LawRow& row : joint.pulley.rows) row.alpha = acting_angle(row.alpha, at);
     }
   }
-  return undrawn(joint, at);
+  joint.material.shrinkage = 1 - (1 - joint.material.shrinkage) * (1 + at.pulley_scale);
+  return joint;
 }
 
 Mechanism expected_joint(const Mechanism& declared) {

@@ -60,8 +60,9 @@ Imperfections without_the_mechanism(Imperfections found) {
 bool same_drawing(const Mechanism& a, const Mechanism& b) {
   Mechanism one = as_it_is(a), other = as_it_is(b);
   one.guides.mu = other.guides.mu = 0;
-  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley && one.tendon.diameter == other.tendon.diameter &&
-         one.material == other.material && pulley_shift(a) == pulley_shift(b);
+  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley && one.material == other.material &&
+         a.identified.radius_offset == b.identified.radius_offset && a.identified.runout_x == b.identified.runout_x &&
+         a.identified.runout_y == b.identified.runout_y;
 }
 
 // ---- errors ---------------------------------------------------------------------------------------------------------

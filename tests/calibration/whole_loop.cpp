@@ -74,13 +74,11 @@ std::string found_words(const Calibration& calibration) {
   return text.empty() ? "nothing" : text;
 }
 
-/// As printed, seen from the tendon's centre line: shrunk as the declared material does, not as the drawing was told.
+/// As printed: shrunk as the declared material does, not as the drawing was told.
 Outline printed(Outline outline, const Mechanism& declared, const Mechanism& drawn) {
+  const double half = 0.5 * declared.tendon.diameter;
   const double scale = (1.0 - declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
-  for (OutlinePoint& point : outline.points) {
-    const Vec2 floor = point.position + pulley_shift(drawn) - 0.5 * drawn.tendon.diameter * point.normal;
-    point.position = scale * floor + 0.5 * declared.tendon.diameter * point.normal;
-  }
+  for (OutlinePoint& point : outline.points) point.position = scale * (point.position - half * point.normal) + half * point.normal;
   return outline;
 }
 
@@ -97,7 +95,7 @@ std::vector<LoopCase> loop_cases(const Mechanism& declared, double load) {
   add("radius_offset", [&](LoopCase& c) { c.hidden.radius_offset = 0.003 * R; });
   add("pulley_scale", [](LoopCase& c) { c.hidden.pulley_scale = -0.02; });
   add("pulley_runout", [&](LoopCase& c) { c.hidden.runout_x = 0.004 * R, c.hidden.runout_y = -0.003 * R; });
-  add("profile_error", [&](LoopCase& c) { c.hidden.profile_error = 0.002 * R; });
+  add("profile_error", [&](LoopCase& c) { c.hidden.profile_error = 0.006 * R; });
   add("guide_radius", [&](LoopCase& c) { c.hidden.guide_radius = 0.03 * R; });
   add("guide_position", [&](LoopCase& c) { c.hidden.guide_outward = 0.01 * R, c.hidden.guide_down = -0.006 * R; });
   add("joint_length", [&](LoopCase& c) { c.hidden.joint_length = -0.02 * R; });
@@ -119,8 +117,9 @@ MadeJoint with_corrected_pulley(const MadeJoint& declared, const Mechanism& corr
   SynthesisOptions options;
   options.tolerance = 2e-5;
   options.advice = false;
-  const SynthesisResult made = synthesise(drawn, options);
+  SynthesisResult made = synthesise(drawn, options);
   if (!made.made()) throw InputError("corrected.toml", made.brief());
+  draw_for_making(made, drawn);
   MadeJoint joint = declared;
   joint.p1 = printed(made.p1, declared.declared, drawn);
   joint.p2 = printed(made.p2, declared.declared, drawn);
