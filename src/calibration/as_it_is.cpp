@@ -38,7 +38,8 @@ bool gives_way(const Imperfections& at) { return at.stretch != 0 || at.gravity_c
 bool bends_profile(const Imperfections& at) { return at.profile_sin != 0 || at.profile_cos != 0; }
 
 double acting_angle(double alpha, const Imperfections& at) {
-  return alpha + at.profile_sin * std::sin(2 * alpha) + at.profile_cos * (std::cos(2 * alpha) - 1);
+  const double n = at.profile_harmonic;
+  return alpha + at.profile_sin * std::sin(n * alpha) + at.profile_cos * (std::cos(n * alpha) - 1);
 }
 
 /// The declared law as rows, both ends of the range among them, a little beyond them where it goes on. Empty where it does not exist.

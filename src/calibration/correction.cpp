@@ -29,18 +29,31 @@ double mean_load(const Measurement& measurement, const Mechanism& declared) {
   return count > 0 ? sum / count : declared.load.tip_force;
 }
 
+/// One wave a turn is kept: of two the larger one.
+void add_profile(const Imperfections& before, Imperfections& total) {
+  const auto size = [](const Imperfections& at) { return std::hypot(at.profile_sin, at.profile_cos); };
+  if (size(total) == 0 || (before.profile_harmonic != total.profile_harmonic && size(before) > size(total))) {
+    total.profile_sin = before.profile_sin;
+    total.profile_cos = before.profile_cos;
+    total.profile_harmonic = before.profile_harmonic;
+  } else if (before.profile_harmonic == total.profile_harmonic) {
+    total.profile_sin += before.profile_sin;
+    total.profile_cos += before.profile_cos;
+  }
+}
+
 /// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the rest was found anew.
 Imperfections composed(const Imperfections& before, const Imperfections& found) {
   Imperfections total = found;
   for (double Imperfections::* member :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin, &Imperfections::profile_cos,
-        &Imperfections::pretension, &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward, &Imperfections::guide_down,
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::pretension, &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward, &Imperfections::guide_down,
         &Imperfections::joint_length, &Imperfections::gravity_cos, &Imperfections::gravity_sin}) {
     total.*member += before.*member;
   }
   total.stretch = (1 + before.stretch) * (1 + found.stretch) - 1;
   total.pulley_scale = (1 + before.pulley_scale) * (1 + found.pulley_scale) - 1;
   total.mean_load = before.mean_load;
+  add_profile(before, total);
   return total;
 }
 

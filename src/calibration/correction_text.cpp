@@ -61,11 +61,12 @@ std::string words_of(const Calibration& calibration, const Correction& correctio
 std::vector<ValueEdit> identified_edits(const Mechanism& declared, const Imperfections& identified) {
   Mechanism corrected = declared;
   corrected.identified = identified;
+  const Mechanism plain;
   std::vector<ValueEdit> edits;
   for (const Field& field : fields()) {
     if (field.table != "identified") continue;
-    const double value = tidy(field.get(corrected, 0));
-    if (value != 0 || field.get(declared, 0) != 0) edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
+    const double value = tidy(field.get(corrected, 0)), usual = field.get(plain, 0);
+    if (value != usual || field.get(declared, 0) != usual) edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
   }
   return edits;
 }

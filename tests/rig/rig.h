@@ -79,6 +79,8 @@ struct Hidden {
   int interpolation_per_turn = 8;
   double zero_walk = 0;           ///< step of the joint sensor's zero at every reversal, standard deviation
   double bedding = 0;             ///< pulley still off its seat at the start of every run, of α
+
+  bool operator==(const Hidden&) const = default;
 };
 
 /// One run: there and back `cycles` times.
