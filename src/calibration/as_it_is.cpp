@@ -17,8 +17,8 @@
 namespace fusee {
 namespace {
 
-/// P1 stays round below this miss of the declared law.
-constexpr double k_round_suffices = radians(0.02);
+/// P1 stays round below this miss of the needed law: what tendons on a drawn outline miss anyway, and little beside any error worth a pulley.
+constexpr double k_round_suffices = radians(0.005);
 /// A joint that gives way by less is not worth another law.
 constexpr double k_least_shift = radians(0.002);
 /// What the loaded joint may still miss its law by when the search for the pulley's law ends.

@@ -78,6 +78,13 @@ bool same_drawing(const Mechanism& a, const Mechanism& b) {
          a.identified.runout_y == b.identified.runout_y;
 }
 
+std::string why_infeasible(const Mechanism& corrected) {
+  SynthesisOptions options;
+  options.advice = false;
+  const SynthesisResult made = synthesise(as_it_is(corrected), options);
+  return made.made() ? "" : made.brief();
+}
+
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
 /// θ(α) as the file declares it.
@@ -277,6 +284,8 @@ Correction correct(const Mechanism& declared, const Measurement& measurement, co
   Mechanism corrected = declared;
   corrected.identified = correction.identified;
   correction.has_pulley = !declared.transmission && !same_drawing(declared, corrected);
+  if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
+  if (!correction.infeasible.empty()) correction.has_pulley = false;
   if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
   if (correction.has_pulley) correction.tied_at = tied_at(corrected);
 

@@ -52,8 +52,8 @@ std::string words_of(const Calibration& calibration, const Correction& correctio
   for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
   if (correction.tied_at != 0) {
-    words += "# under its mean load the joint hangs as if the motor stood " + rounded(degrees(-correction.tied_at), 4) +
-             " deg from where it stands: compensation.csv has it, a pulley cannot\n";
+    words += "# tendons tied with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
+             " deg: under its mean load the joint follows the law.\n# Tied at 0 deg, compensation.csv says where the motor must stand.\n";
   }
   return words;
 }

@@ -141,7 +141,7 @@ TEST(RoundChoice, StaysRoundWhereThatSuffices) {
   EXPECT_NEAR(round_choice(mechanism).r1, 16, 1e-3);
   mechanism.identified.guide_outward = 5;
   EXPECT_FALSE(round_choice(mechanism).suffices);
-  EXPECT_GT(degrees(round_choice(mechanism).max_error), 0.02);
+  EXPECT_GT(degrees(round_choice(mechanism).max_error), 0.005);
 }
 
 Calibration found_guide_radius() {

@@ -52,33 +52,19 @@ double tabled(const std::vector<CompensationRow>& table, double alpha, bool up) 
   return low.theta + (above->theta - low.theta) * (alpha - of(low)) / (of(*above) - of(low));
 }
 
-Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder) {
-  OutputFolder target(folder, true);
-  std::vector<std::filesystem::path> runs;
-  int number = 0;
-  for (const Log& log : log_runs(joint, hidden.hidden, hidden.plans)) {
-    const std::string name = "run_" + std::to_string(++number) + ".csv";
-    target.stage({name, csv_text(log)});
-    runs.push_back(folder / name);
-  }
-  target.publish();
-  return read_measurement(runs);
-}
-
 std::string found_words(const Calibration& calibration) {
   std::string text;
   for (const FoundEffect& effect : calibration.effects) {
     text += (text.empty() ? "" : ", ") + effect.name;
-    for (const std::string& rival : effect.group) text += rival == effect.name ? "" : "/" + rival;
+    for (const std::string& rival : effect.group) text += rival == effect.name ? "" : " [" + rival + "]";
   }
   return text.empty() ? "nothing" : text;
 }
 
 /// As printed: shrunk as the declared material does, not as the drawing was told.
 Outline printed(Outline outline, const Mechanism& declared, const Mechanism& drawn) {
-  const double half = 0.5 * declared.tendon.diameter;
   const double scale = (1.0 - declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
-  for (OutlinePoint& point : outline.points) point.position = scale * (point.position - half * point.normal) + half * point.normal;
+  for (OutlinePoint& point : outline.points) point.position *= scale;
   return outline;
 }
 
@@ -126,6 +112,25 @@ MadeJoint with_corrected_pulley(const MadeJoint& declared, const Mechanism& corr
   return joint;
 }
 
+Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder) {
+  OutputFolder target(folder, true);
+  std::vector<std::filesystem::path> runs;
+  int number = 0;
+  for (const Log& log : log_runs(joint, hidden.hidden, hidden.plans)) {
+    const std::string name = "run_" + std::to_string(++number) + ".csv";
+    target.stage({name, csv_text(log)});
+    runs.push_back(folder / name);
+  }
+  target.publish();
+  return read_measurement(runs);
+}
+
+double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at) {
+  Hidden mounted = hidden.hidden;
+  mounted.motor_offset -= tied_at;
+  return miss(one_run(joint, mounted, hidden.load), Transmission(joint.declared));
+}
+
 LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden, const std::filesystem::path& folder) {
   const Measurement measurement = measured(joint, hidden, folder);
   const Calibration calibration = calibrate(joint.declared, measurement);
@@ -135,13 +140,13 @@ LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const Loo
   outcome.found = found_words(calibration);
   outcome.verdict = calibration.verdict;
   outcome.corrected_toml = corrected_toml(spec, joint.declared, calibration, correction);
-  const Mechanism corrected = parse_mechanism(outcome.corrected_toml, "corrected.toml");
-  const Transmission law(joint.declared);
-  const Log then = one_run(with_corrected_pulley(joint, corrected), hidden.hidden, hidden.load);
-  outcome.before = miss(one_run(joint, hidden.hidden, hidden.load), law);
-  outcome.declared = miss(one_run(joint, {}, 0), law);
-  outcome.after = miss(then, law);
-  outcome.after_table = rms(then, [&](const Row& row, bool up) { return row.theta - tabled(correction.table, row.alpha, up); });
+  const MadeJoint then = with_corrected_pulley(joint, parse_mechanism(outcome.corrected_toml, "corrected.toml"));
+  outcome.before = joint_error(joint, hidden, 0);
+  outcome.declared = joint_error(joint, {}, 0);
+  outcome.after = joint_error(then, hidden, correction.tied_at);
+  outcome.after_tied_at_zero = joint_error(then, hidden, 0);
+  outcome.after_table =
+      rms(one_run(then, hidden.hidden, hidden.load), [&](const Row& row, bool up) { return row.theta - tabled(correction.table, row.alpha, up); });
   outcome.predicted = correction.error_with_pulley;
   return outcome;
 }

@@ -29,7 +29,8 @@ struct LoopOutcome {
   std::string found;       ///< what calibrate named
   std::string verdict;
   double before = 0;
-  double after = 0;        ///< with the corrected pulley
+  double after = 0;        ///< with the corrected pulley, tendons tied as it says (Correction::tied_at)
+  double after_tied_at_zero = 0;
   double after_table = 0;  ///< and angles by compensation.csv
   double declared = 0;     ///< with no fault at all: what friction, stretch as declared and the polygon leave
   double predicted = 0;    ///< of `after`, by calibrate
@@ -39,7 +40,13 @@ struct LoopOutcome {
 /// The joint with the pulley that `fusee build` makes of `corrected`, on the bench of `declared`.
 MadeJoint with_corrected_pulley(const MadeJoint& declared, const Mechanism& corrected);
 
-/// The corrected file `text` of a joint and its data; scratch files go to `folder`.
+/// What the same joint misses of its law with another pulley, its motor's zero moved as `tied_at` says. rad rms
+double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at);
+
+/// The data of a case as a bench would leave them; scratch files go to `folder`.
+Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder);
+
+/// `spec` is the text of the joint's file.
 LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden, const std::filesystem::path& folder);
 
 }  // namespace fusee::rig

@@ -28,8 +28,8 @@ Polygon as_made(Polygon drawn, const Mechanism& mechanism);
 /// … and the joint in which the tendon lies on a floor drawn further in as the real one lies on the made floor: thicker, over thinner pins.
 Mechanism with_inset(Mechanism mechanism);
 
-/// Where the motor would have to stand when tendons are tied with the unloaded joint at home, for the loaded joint to follow the declared
-/// law at the motor's own α, rad. A pulley cannot give this; tied at 0, the joint is off by as much and compensation.csv says so.
+/// Where the motor must stand when the tendons are tied, the unloaded joint at home, for the loaded joint to follow the declared law, rad.
+/// No pulley can give this: tied at 0, the joint is off by as much at every α, and compensation.csv says so.
 double tied_at(const Mechanism& mechanism);
 
 /// P1 may stay round when the best r1 on the joint as it is misses the law it needs by little.
@@ -50,7 +50,8 @@ struct CompensationRow {
 
 struct Correction {
   Imperfections identified;            ///< of the file and of this calibration together
-  bool has_pulley = false;             ///< something identified that another pulley takes out
+  bool has_pulley = false;             ///< something identified that another pulley takes out, and it can be made
+  std::string infeasible;              ///< why it cannot; empty when it can or none is needed
   RoundChoice round;
   double tied_at = 0;                  ///< of the corrected pulley, rad
   // By how much the joint as found misses the declared law over the measured strokes, rms, rad, by simulation …
