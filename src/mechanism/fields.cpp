@@ -428,6 +428,8 @@ void add_identified(std::vector<Field>& table) {
       {"identified.gravity_cos_Nmm", "", "0", "torque against +theta: cos theta"}, "Nmm", -1e+07, 1e+07));
   table.push_back(number<identified, &Imperfections::gravity_sin>(
       {"identified.gravity_sin_Nmm", "", "0", "torque against +theta: sin theta"}, "Nmm", -1e+07, 1e+07));
+  table.push_back(number<identified, &Imperfections::mean_load>(
+      {"identified.mean_load_N", "", "0", "beside load.tip_force_N, the tip force under which the joint is to follow its law"}, "N", -1e+06, 1e+06));
   table.push_back(number<identified, &Imperfections::compliance, degrees, radians>(
       {"identified.compliance_deg", "", "0", "of a joint declared by a ratio: turned by a unit of load"}, "deg", -360, 360));
   table.push_back(number<identified, &Imperfections::dry_friction, degrees, radians>(

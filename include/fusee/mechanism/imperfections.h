@@ -44,6 +44,7 @@ struct Imperfections {
   double joint_length = 0;            ///< added to OC, mm
   double gravity_cos = 0;             ///< torque against +θ: cos · cos θ + sin · sin θ, N·mm
   double gravity_sin = 0;
+  double mean_load = 0;               ///< tip force beside the declared one, under which the joint is to follow its law, N
   // Of a joint declared by a ratio, whose tendons are not known; rad.
   double compliance = 0;              ///< turned by a unit of load
   double dry_friction = 0;            ///< half loop per unit of |load|
