@@ -95,6 +95,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["unexplained_where"] = calibration.unexplained_where;
   json["detectable"] = detectable_json(calibration);
   json["next_runs"] = calibration.next_runs;
+  json["null_combinations"] = calibration.null_combinations;
   json["iso230"] = {{"before", iso_json(calibration.iso_before)}, {"after", iso_json(calibration.iso_after)}};
   json["correctable"] = correctable_json(product.correction);
   json["tried"] = tried_json(calibration.tried);

@@ -72,6 +72,7 @@ struct Calibration {
   std::string unexplained_where;                      ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
   std::vector<std::string> next_runs;
+  std::vector<std::string> null_combinations;         ///< sums of parameters that the data leave free, in words
   Iso230 iso_before, iso_after;
   double correctable_by_pulley = 0;                   ///< rms that a new pulley would take away, rad
   double correctable_by_table = 0;
