@@ -65,7 +65,7 @@ Extent alpha_extent(const Measurement& measurement) {
   return extent;
 }
 
-/// Mean over the samples at each place of α, deg; NaN where there are none.
+/// Mean over the samples at each place of α, deg; NaN beyond the first and the last that has any.
 using Profile = std::array<double, k_places>;
 
 class ProfileSum {
@@ -82,9 +82,19 @@ class ProfileSum {
     });
   }
 
+  /// Fast runs have fewer rows than there are places: what lies between two that have some is on the line between these.
   Profile mean() const {
     Profile profile;
-    for (std::size_t k = 0; k < k_places; ++k) profile[k] = counts_[k] > 0 ? sums_[k] / counts_[k] : k_nan;
+    profile.fill(k_nan);
+    std::size_t last = k_places;
+    for (std::size_t k = 0; k < k_places; ++k) {
+      if (counts_[k] == 0) continue;
+      profile[k] = sums_[k] / counts_[k];
+      for (std::size_t between = last + 1; last < k_places && between < k; ++between) {
+        profile[between] = profile[last] + (profile[k] - profile[last]) * static_cast<double>(between - last) / static_cast<double>(k - last);
+      }
+      last = k;
+    }
     return profile;
   }
 
@@ -105,7 +115,6 @@ double middle_of_place(const Extent& alpha, std::size_t k) {
 
 PlotSeries profile_series(const Profile& profile, int direction, const Extent& alpha) {
   PlotSeries series{direction > 0 ? "α growing" : "α falling", direction > 0 ? Ink::p1 : Ink::p2, {}};
-  // A place without samples breaks no line: slow logs have fewer rows than there are places.
   for (std::size_t k = 0; k < k_places; ++k) {
     if (std::isfinite(profile[k])) series.points.emplace_back(middle_of_place(alpha, k), profile[k]);
   }
@@ -126,6 +135,8 @@ PlotSeries stroke_series(const Run& run, int direction, const std::function<doub
 }
 
 std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
+
+std::string single(const Plot& plot) { return "<div class=\"single\">" + inline_svg(plot_figure(plot)) + "</div>\n"; }
 
 /// Of all residuals, zero included: the same axis for every plot of the page.
 Extent residual_extent(const CalibrationProduct& product) {
@@ -190,7 +201,12 @@ std::string short_name(const std::string& name, std::size_t most) {
   return name.size() <= most || most < 4 ? name : "…" + name.substr(name.size() - most + 1);
 }
 
-/// Three numbers under three samples of colour.
+std::string map_label(const Run& run, const std::string& load_unit) {
+  if (!run.has_load) return short_name(run.name, 28);
+  return short_name(run.name, 16) + ", " + readable_rounded(run.mean_load, 2) + (load_unit.empty() ? "" : " " + load_unit);
+}
+
+/// Three numbers under the shades from cold to warm.
 std::string map_scale(double left, double top, double width, double most) {
   std::string svg;
   const double cell = width / (2 * k_shades + 1);
@@ -202,13 +218,13 @@ std::string map_scale(double left, double top, double width, double most) {
 }
 
 Figure map_figure(const CalibrationProduct& product, const Map& map, const std::string& title, double most, const Extent& alpha) {
-  constexpr double left = 150, top = 30, width = 460;
+  constexpr double left = 182, top = 30, width = 460;
   const double cell = (width - left - 16) / k_places;
   std::array<std::string, 2 * k_shades + 1> data;
   Figure figure{width, 0, title, svg_words("heading", {2, 17}, title), {}};
   double y = top;
   for (std::size_t r = 0; r < map.rows.size(); ++r, y += 2 * k_row_height + k_run_gap) {
-    figure.body += svg_words("tiny end", {left - 22, y + k_row_height + 4}, short_name(product.measurement.runs[r].name, 20));
+    figure.body += svg_words("tiny end", {left - 22, y + k_row_height + 4}, map_label(product.measurement.runs[r], product.measurement.load_unit));
     for (std::size_t d = 0; d < 2; ++d) {
       const double row = y + static_cast<double>(d) * k_row_height;
       figure.body += svg_words("soft tiny end", {left - 6, row + 9}, d == 0 ? "↑" : "↓");
@@ -369,9 +385,9 @@ std::string rest_html(const CalibrationProduct& product) {
     plot.series.push_back(profile_series(sum.mean(), direction, alpha));
   }
   if (floor > 0) plot.limits = {{floor, "noise floor of one row"}, {-floor, ""}};
-  plot.width = 940;
+  plot.width = 560;
   plot.height = 260;
-  return in_div(plot_figure(plot));
+  return single(plot);
 }
 
 std::string compensation_html(const CalibrationProduct& product) {
@@ -393,9 +409,9 @@ std::string compensation_html(const CalibrationProduct& product) {
     for (Vec2& point : series->points) point.y() -= law ? 0 : constant;
   }
   Plot plot{"compensation.csv against the declared law", {"joint angle θ", "°", {}, {}, 1e-3}, {law ? "added to α" : "added to α, less a constant", "°", {}, {}, 1e-2}, {up, down}, {}, {}};
-  plot.width = 940;
+  plot.width = 560;
   plot.height = 260;
-  return in_div(plot_figure(plot));
+  return single(plot);
 }
 
 std::string logged_html(const Measurement& measurement) {

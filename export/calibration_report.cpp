@@ -73,7 +73,7 @@ std::string key_numbers(const CalibrationProduct& product) {
   std::string html = key_number("Error on data not fitted, RMS", degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
   html += key_number("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
   html += key_number("Noise floor", degree_words(c.noise.rms), c.noise.from_repeats ? "from repeats" : "at least: no repeats");
-  if (c.noise.rms > 0) html += key_number("What is left, per noise floor", readable_rounded(c.after.rms / c.noise.rms, 3));
+  if (c.noise.rms > 0) html += key_number("What is left, per noise floor", readable(c.after.rms / c.noise.rms, 2));
   html += key_number("Unexplained, RMS", degree_words(c.unexplained_rms));
   html += key_number("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
   if (product.correction.has_pulley) html += key_number("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
@@ -85,12 +85,15 @@ std::string figures_row(const std::string& name, double before, double after) {
   return "<tr>" + cell(name) + number_cell(degree_words(before)) + number_cell(degree_words(after)) + "</tr>";
 }
 
-std::string held_out_words(const Calibration& calibration) {
+std::string held_out_words(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
   if (!calibration.held_out_factors.empty()) return "Held out by " + joined(calibration.held_out_factors, " and ") + ": whole levels in turn.";
-  return calibration.held_out_runs.empty() ? "" : "Held out in turn: " + std::to_string(calibration.held_out_runs.size()) + (calibration.held_out_runs.size() == 1 ? " run." : " runs.");
+  if (product.measurement.runs.size() == 1) return "Held out: strokes in turn.";
+  return calibration.held_out_runs.empty() ? "" : "Held out: " + joined(calibration.held_out_runs, ", ") + ".";
 }
 
-std::string figures_section(const Calibration& c) {
+std::string figures_section(const CalibrationProduct& product) {
+  const Calibration& c = product.calibration;
   const std::string rows = figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
                            figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
                            figures_row("ISO 230-2 A, accuracy", c.iso_before.A, c.iso_after.A) +
@@ -98,7 +101,7 @@ std::string figures_section(const Calibration& c) {
                            figures_row("ISO 230-2 B, reversal", c.iso_before.B, c.iso_after.B) + figures_row("ISO 230-2 E, systematic", c.iso_before.E, c.iso_after.E) +
                            figures_row("ISO 230-2 M, mean of both ways", c.iso_before.M, c.iso_after.M);
   return section("figures", "Before and after",
-                 "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: with the effects below. " + safe_text(held_out_words(c)) +
+                 "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: with the effects below. " + safe_text(held_out_words(product)) +
                      "</p>" + html_table({"at the joint", "#before", "#after"}, rows));
 }
 
@@ -146,9 +149,9 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known) {
   std::string html = "<div class=\"effect\"><h3>" + safe_text(first_upper(open_words(effect.name)) + ", at the " + effect.place) + "</h3><p class=\"found\">";
   for (std::size_t i = 0; i < effect.parameters.size(); ++i) html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i]));
   html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) + " rms off the error on data that were not fitted. " +
-          (effect.correctable_by == "pulley"  ? "A corrected pulley takes it out."
-           : effect.correctable_by == "table" ? "The table takes it out."
-                                              : "Neither pulley nor table takes it out.") +
+          (effect.correctable_by == "pulley"  ? "A corrected pulley can take it out."
+           : effect.correctable_by == "table" ? "The table can take it out."
+                                              : "Neither a pulley nor a table can take it out.") +
           "</p>";
   if (const auto found = known.find(effect.name); found != known.end()) html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   const std::vector<std::string> rivals = rivals_of(effect);
@@ -283,7 +286,7 @@ std::string evidence_section(const Calibration& calibration) {
 
 std::string detectable_section(const Calibration& calibration) {
   std::string rows;
-  for (const auto& [size, names] : detectable_groups(calibration)) rows += "<tr>" + number_cell(degree_words(size)) + cell(joined(names, ", ")) + "</tr>";
+  for (const auto& [size, names] : detectable_groups(calibration)) rows += "<tr>" + number_cell(degree_words(size)) + cell(open_words(joined(names, ", "))) + "</tr>";
   if (rows.empty()) return "";
   return section("detectable", "What would have been seen",
                  "<p class=\"lead\">The smallest error at the joint, rms, with which these data would have shown an effect that was not found.</p>" +
@@ -318,7 +321,7 @@ std::string calibration_report_html(const CalibrationProduct& product) {
   std::string html = page_head(product, name) + verdict_section(calibration);
   if (calibration.verdict != "not_testable") {
     html += key_numbers(product) + action_section(product) + effects_section(product) + residuals_section(product) + rest_section(product) +
-            figures_section(calibration) + evidence_section(calibration) + detectable_section(calibration);
+            figures_section(product) + evidence_section(calibration) + detectable_section(calibration);
   } else if (!calibration.next_runs.empty()) {
     html += section("actions", "Measure next", html_list(calibration.next_runs, "ol"));
   }

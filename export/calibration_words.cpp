@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 
 #include "export/report/svg.h"
-#include "export/report/tables.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/export/calibration.h"
 
 namespace fusee {
 namespace {
@@ -77,9 +76,10 @@ std::vector<std::string> rivals_of(const FoundEffect& effect) {
 }
 
 std::string round_words(const Correction& correction) {
-  const std::string round = "round, at its best radius of " + with_unit(correction.round.r1, "mm", 5) + ", it misses the law by up to " +
-                            with_unit(degrees(correction.round.max_error), "deg", 3);
-  return correction.round.suffices ? "P1 stays " + round + "; shaped, by nothing." : "P1 is shaped and follows the law; " + round + ".";
+  const double miss = degrees(correction.round.max_error);
+  const std::string round = "round, at its best radius of " + rounded(correction.round.r1, 5) + " mm, it misses the law by " +
+                            (miss < 0.001 ? "less than 0.001°" : "up to " + rounded(miss, 3) + "°");
+  return correction.round.suffices ? "P1 stays " + round + "; shaped, it would miss nothing." : "P1 is shaped and follows the law; " + round + ".";
 }
 
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration) {
@@ -92,7 +92,7 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const
       groups.push_back({detectable.smallest, {}});
       size = this_size;
     }
-    groups.back().second.push_back(open_words(detectable.name));
+    groups.back().second.push_back(detectable.name);
   }
   return groups;
 }
