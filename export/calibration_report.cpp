@@ -145,9 +145,9 @@ std::string action_section(const CalibrationProduct& product) {
 
 using Signatures = std::map<std::string, const Effect*>;
 
-std::string effect_card(const FoundEffect& effect, const Signatures& known) {
+std::string effect_card(const FoundEffect& effect, const Signatures& known, const std::string& load_unit) {
   std::string html = "<div class=\"effect\"><h3>" + safe_text(first_upper(open_words(effect.name)) + ", at the " + effect.place) + "</h3><p class=\"found\">";
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i) html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i]));
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
   html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) + " rms off the error on data that were not fitted. " +
           (effect.correctable_by == "pulley"  ? "A corrected pulley can take it out."
            : effect.correctable_by == "table" ? "The table can take it out."
@@ -170,7 +170,7 @@ std::string effects_section(const CalibrationProduct& product) {
   Signatures known;
   for (const Effect& effect : effects) known[effect.name] = &effect;
   std::string html;
-  for (const FoundEffect& effect : calibration.effects) html += effect_card(effect, known);
+  for (const FoundEffect& effect : calibration.effects) html += effect_card(effect, known, product.measurement.load_unit);
   if (html.empty()) html = "<p>None was accepted.</p>";
   if (!calibration.null_combinations.empty()) {
     html += "<h3>What these data leave free</h3><p class=\"lead\">Combinations that could change together without any of these runs showing it.</p>" +

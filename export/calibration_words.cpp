@@ -17,7 +17,7 @@ struct NamedUnit {
   std::string_view shown;
 };
 // The longer ending first.
-constexpr std::array<NamedUnit, 9> k_units{{{"_deg_per_load", "° per unit of load"},
+constexpr std::array<NamedUnit, 9> k_units{{{"_deg_per_load", "° per "},
                                             {"_percent", " %"},
                                             {"_per_K_deg", "° per K"},
                                             {"_deg", "°"},
@@ -56,12 +56,13 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
-std::string parameter_words(const FittedParameter& parameter) {
+std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
   std::string name = parameter.name, unit;
   for (const NamedUnit& known : k_units) {
     if (!ends_with(name, known.ending)) continue;
     name.resize(name.size() - known.ending.size());
     unit = known.shown;
+    if (unit == "° per ") unit += load_unit.empty() ? "unit of load" : load_unit;
     break;
   }
   return open_words(name) + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")";

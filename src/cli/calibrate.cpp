@@ -120,17 +120,17 @@ std::string noise_text(const Calibration& c) {
   return wrapped(words, "  ");
 }
 
-std::string effect_text(const FoundEffect& effect) {
+std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
   std::string words = effect.name + " (" + effect.place + ")";
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i) words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i]);
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
   const std::vector<std::string> rivals = rivals_of(effect);
   return words + (rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals));
 }
 
-std::vector<std::string> effect_texts(const Calibration& c) {
+std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {
   std::vector<std::string> texts;
-  for (const FoundEffect& effect : c.effects) texts.push_back(effect_text(effect));
+  for (const FoundEffect& effect : c.effects) texts.push_back(effect_text(effect, load_unit));
   if (texts.empty()) texts.push_back("none accepted");
   if (!c.unexplained_where.empty()) texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms, " + c.unexplained_where);
   return texts;
@@ -167,7 +167,7 @@ std::string summary(const CalibrationProduct& product, bool verbose) {
   const Calibration& c = product.calibration;
   std::string text = product.file.mechanism.name + ": " + c.verdict + "\n" + wrapped(c.summary, "  ");
   if (c.verdict == "not_testable") return text + items("Measure next", c.next_runs);
-  text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c));
+  text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
   text += items("Left free by these data", c.null_combinations) + items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
   if (verbose || c.verdict == "no_effect") text += items("Would have been seen, at the joint, rms", detectable_texts(c));
   return verbose ? text + tried_table(c) : text;

@@ -27,8 +27,8 @@ std::string calibration_manifest_json(const CalibrationProduct& product, const s
 
 // ---- in words, for the page and for a terminal alike ----
 
-/// "EA = 4515 N (95 %: 4479 … 4551)": the unit is taken from the end of the name.
-std::string parameter_words(const FittedParameter& parameter);
+/// "EA = 4515 N (95 %: 4479 … 4551)": the unit is taken from the end of the name; `load_unit` is that of the load column.
+std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit);
 /// The group without the effect itself.
 std::vector<std::string> rivals_of(const FoundEffect& effect);
 /// Whether P1 stays round, and by how much it would miss its law.
