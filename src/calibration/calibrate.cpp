@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/explanation.h"
+#include "calibration/next_runs.h"
 #include "calibration/verdict.h"
 
 namespace fusee {
@@ -64,7 +66,7 @@ void name_held_out(const Evidence& evidence, Calibration& calibration) {
   calibration.held_out_factors = evidence.factors;
   const std::vector<Run>& runs = evidence.measurement.runs;
   std::vector<bool> held(runs.size(), false);
-  for (const std::vector<std::size_t>& fold : evidence.folds) {
+  for (const Fold& fold : evidence.run_folds) {
     for (const std::size_t block : fold) held[evidence.blocks[block].run] = true;
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -111,19 +113,21 @@ Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
   if (evidence.blocks.size() < 2) return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
-  Forward forward(declared, evidence.measurement);
-  const Selection selection = select_effects(evidence, forward, options.progress);
+  Workers workers(evidence);
+  const Selection selection = select_effects(evidence, workers, options.progress);
   if (!selection.none.usable) return not_testable({"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not of one joint."});
   Calibration calibration;
   calibration.noise = noise;
-  calibration.effects = selection.found;
+  calibration.effects = found_effects(evidence, workers, selection);
+  calibration.null_combinations = null_combinations(evidence, selection);
+  calibration.next_runs = next_runs(evidence, selection);
   calibration.tried = selection.tried;
-  calibration.detectable = selection.detectable;
+  calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = selection.best.at;
   calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, measurement));
   calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, measurement));
-  calibration.before = figures(measurement, calibration.residuals_before, selection.none.held_out_mean_square);
-  calibration.after = figures(measurement, calibration.residuals_after, selection.best.held_out_mean_square);
+  calibration.before = figures(measurement, calibration.residuals_before, selection.none.by_run.mean_square);
+  calibration.after = figures(measurement, calibration.residuals_after, selection.best.by_run.mean_square);
   calibration.iso_before = iso230(measurement, calibration.residuals_before);
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
   calibration.correctable_by_pulley = moved_by(evidence, selection, "pulley");

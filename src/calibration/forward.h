@@ -3,18 +3,23 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "fusee/calibration/measurement.h"
 #include "fusee/mechanism/imperfections.h"
 #include "fusee/mechanism/mechanism.h"
+#include "fusee/transmission/equilibrium.h"
 #include "fusee/transmission/joint_model.h"
 
 namespace fusee {
 
 /// θ as the joint sensor shows it, rad, run by run, parallel to the samples.
 using Readings = std::vector<std::vector<double>>;
+
+/// What is added to each run's time so that runs whose clocks begin anew follow one another. s
+std::vector<double> bench_clock(const Measurement& measurement);
 
 /// The play operator: follows `input` at a distance of half the `width`, and stands still in between.
 class Play {
@@ -27,7 +32,8 @@ class Play {
   double output_;
 };
 
-/// The joint on its bench. Keeps the latest motions of the mechanism, since sensors do not change them.
+/// The joint on its bench. Keeps the latest motions of the mechanism, since sensors do not change them, and the
+/// latest geometries, which few of the effects change. For one thread.
 class Forward {
  public:
   Forward(const Mechanism& declared, const Measurement& measurement);
@@ -41,15 +47,28 @@ class Forward {
     Readings theta;
   };
 
+  struct Geometry {
+    Imperfections key;
+    std::optional<JointModel> model;
+  };
+
   const Readings& mechanism(const Imperfections& imperfections);
-  std::vector<double> elastic(const Run& run, const JointModel& model, const Imperfections& imperfections) const;
-  std::vector<double> geared(const Run& run, const Imperfections& imperfections) const;
+  JointMotion at_home(const Imperfections& imperfections);
+  std::vector<double> elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections) const;
+  std::vector<double> geared(std::size_t run, const Imperfections& imperfections) const;
+  TendonChange change(std::size_t run, const Sample& sample, const Imperfections& imperfections) const;
 
   const Mechanism& declared_;
   const Measurement& measurement_;
+  std::vector<double> clock_;
+  double first_temperature_ = 0;
   std::optional<MadePulleys> made_;
+  double alpha_least_ = 0;
+  double alpha_most_ = 0;
   std::array<Motion, 4> latest_;
   std::size_t next_ = 0;
+  std::array<Geometry, 4> latest_geometry_;
+  std::size_t next_geometry_ = 0;
 };
 
 /// The joint as declared but for what acts beyond the tendons' paths: an imperfect mechanism, mounted.

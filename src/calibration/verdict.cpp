@@ -48,7 +48,7 @@ std::string list(const std::vector<std::string>& names) {
 
 Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   Rest rest;
-  rest.structure = std::sqrt(std::max(0.0, fit.held_out_mean_square - evidence.floor * evidence.floor));
+  rest.structure = std::sqrt(std::max(0.0, fit.by_run.mean_square - evidence.floor * evidence.floor));
   double least = 1e300;
   double most = -1e300;
   std::vector<const Sample*> samples;
@@ -110,7 +110,7 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
 void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
   const double floor = evidence.floor;
-  const double after = selection.best.held_out_mean_square;
+  const double after = selection.best.by_run.mean_square;
   const bool above = after > k_at_floor * floor * floor;
   const double noise = white_noise(evidence, selection.best);
   const bool scattered = rest.scatter > 2.0 * noise && rest.scatter * rest.scatter > 0.5 * after;
@@ -120,16 +120,9 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     names.push_back(effect.group.size() > 1 ? "one of {" + list(effect.group) + "}" : effect.name);
     confounded = confounded || effect.group.size() > 1;
   }
-  for (const FoundEffect& effect : calibration.effects) {
-    if (effect.group.size() < 2) continue;
-    for (const Effect& member : selection.catalogue) {
-      if (std::find(effect.group.begin(), effect.group.end(), member.name) == effect.group.end()) continue;
-      const std::string run = member.name + ": " + member.separating_run;
-      if (std::find(calibration.next_runs.begin(), calibration.next_runs.end(), run) == calibration.next_runs.end()) calibration.next_runs.push_back(run);
-    }
-  }
   const std::string figures = "Held-out error " + in_degrees(calibration.before.held_out_rms) + " before, " +
                               in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) + ".";
+  calibration.rest_autocorrelation = rest.autocorrelation;
   if (above) {
     calibration.unexplained_rms = rest.structure;
     calibration.unexplained_where = rest.where;

@@ -14,6 +14,8 @@ namespace {
 double as_it_is(double value) { return value; }
 double percent(double fraction) { return 100.0 * fraction; }
 double fraction(double percent) { return percent / 100.0; }
+double per_million(double fraction) { return 1e6 * fraction; }
+double of_a_million(double ppm) { return 1e-6 * ppm; }
 
 using Conversion = double (*)(double);
 
@@ -391,23 +393,25 @@ void add_identified(std::vector<Field>& table) {
   table.push_back(number<identified, &Imperfections::runout_y>(
       {"identified.runout_y_mm", "", "0", "the same across"}, "mm", -100, 100));
   table.push_back(number<identified, &Imperfections::profile_sin, degrees, radians>(
-      {"identified.profile_sin_deg", "", "0", "tendon wound too far twice a turn: sin 2 alpha"}, "deg", -360, 360));
+      {"identified.profile_sin_deg", "", "0", "tendon wound too far n times a turn: sin n alpha"}, "deg", -360, 360));
   table.push_back(number<identified, &Imperfections::profile_cos, degrees, radians>(
-      {"identified.profile_cos_deg", "", "0", "the same: cos 2 alpha - 1"}, "deg", -360, 360));
+      {"identified.profile_cos_deg", "", "0", "the same: cos n alpha - 1"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::profile_harmonic>(
+      {"identified.profile_harmonic", "", "2", "that n"}, "", 1, 100));
   table.push_back(number<identified, &Imperfections::stretch>(
       {"identified.stretch", "", "0", "the tendon's compliance beyond the declared one, per the declared one"}, "", -0.999, 1e+06));
   table.push_back(number<identified, &Imperfections::pretension>(
       {"identified.pretension_N", "", "0", "added to tendon.pretension_N"}, "N", -100000, 100000));
   table.push_back(number<identified, &Imperfections::slack>(
       {"identified.slack_mm", "", "0", "of both tendons together, beyond what pretension takes up"}, "mm", 0, 1000));
-  table.push_back(number<identified, &Imperfections::creep, degrees, radians>(
-      {"identified.creep_deg", "", "0", "turned by a unit of load in every decade of seconds"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::slip, degrees, radians>(
-      {"identified.slip_deg", "", "0", "step of theta"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::creep>(
+      {"identified.creep_per_decade", "", "0", "compliance added in every decade of seconds, per that of the first"}, "", -0.5, 100));
+  table.push_back(number<identified, &Imperfections::slip>(
+      {"identified.slip_mm", "", "0", "let go by the anchor of tendon 1, of tendon 2 where negative"}, "mm", -1000, 1000));
   table.push_back(number<identified, &Imperfections::slip_time>(
-      {"identified.slip_time_s", "", "0", "when that step was"}, "s", -1e+12, 1e+12));
-  table.push_back(number<identified, &Imperfections::thermal, degrees, radians>(
-      {"identified.thermal_per_K_deg", "", "0", "turned by each kelvin"}, "deg", -360, 360));
+      {"identified.slip_time_s", "", "0", "when it slipped, the runs one after another"}, "s", -1e+12, 1e+12));
+  table.push_back(number<identified, &Imperfections::thermal, per_million, of_a_million>(
+      {"identified.thermal_ppm_per_K", "", "0", "length that the unloaded tendons gain by a kelvin"}, "ppm/K", -1e+05, 1e+05));
   table.push_back(number<identified, &Imperfections::friction>(
       {"identified.friction", "", "0", "added to guides.friction"}, "", -2, 2));
   table.push_back(number<identified, &Imperfections::guide_radius>(
@@ -426,6 +430,12 @@ void add_identified(std::vector<Field>& table) {
       {"identified.compliance_deg", "", "0", "of a joint declared by a ratio: turned by a unit of load"}, "deg", -360, 360));
   table.push_back(number<identified, &Imperfections::dry_friction, degrees, radians>(
       {"identified.dry_friction_deg", "", "0", "of a joint declared by a ratio: half loop per unit of load"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::drift, degrees, radians>(
+      {"identified.drift_deg", "", "0", "of a joint declared by a ratio: turned by a unit of load in every decade of seconds"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::step, degrees, radians>(
+      {"identified.step_deg", "", "0", "of a joint declared by a ratio: turned at slip_time_s"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::warmth, degrees, radians>(
+      {"identified.warmth_deg", "", "0", "of a joint declared by a ratio: turned by a kelvin"}, "deg", -360, 360));
   table.push_back(number<identified, &Imperfections::zero, degrees, radians>(
       {"identified.zero_deg", "", "0", "what the joint sensor shows at theta = 0"}, "deg", -360, 360));
   table.push_back(number<identified, &Imperfections::gain, percent, fraction>(

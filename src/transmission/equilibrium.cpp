@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "transmission/tendon_balance.h"
+#include "transmission/upper_span_table.h"
 #include "transmission/wound_profile.h"
 
 // What is known of a tendon is how much material lies above its reference point on the pin's rim, below it, and on the pulley.
@@ -20,12 +21,17 @@
 // cycle carries material past the pulley, and θ creeps by 0.005° a cycle (EA 31 kN, 5 N on both, μ 0.15; 0.18° at EA 850 N) for ever,
 // where the profile settles within three cycles. Without friction the two differ by what lay on the pulley before the load came on:
 // 0.0036° and 0.13°.
+//
+// WoundTendon::at_home keeps no profile: every arc holds home's material, whatever the tension it was wound at. ds/(1 + ε) leaves the span under
+// the pull of ε and is stored at home's ε_0, which gives ½ EA (ε − ε_0)² back while winding and takes it while paying out: `shed` may fall.
 
 namespace fusee {
 namespace {
 
 /// Both tendons slack by more than this together: the joint has play. mm
 constexpr double k_least_play = 1e-6;
+
+constexpr double k_last_step = 1e-13;  // rad
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
@@ -51,28 +57,29 @@ struct TendonHistory {
 struct AtAlpha {
   LowerPath path;
   double lower_length = 0;  ///< of the span, from the rim's reference
+  double swelling = 1;      ///< 1 + expansion: of material since home
   Spans spans;              ///< all but the upper length and the capstan factor
 };
 
-AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA) {
-  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), {}};
-  at.spans.EA = EA;
-  at.spans.upper_material = tendon.upper_material;
+AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA, const TendonChange& change) {
+  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + change.expansion, {}};
+  at.spans.EA = EA / change.compliance;
+  at.spans.upper_material = at.swelling * tendon.upper_material;
   at.spans.lower_length = at.lower_length;
-  at.spans.lower_material = tendon.lower_material;
+  at.spans.lower_material = at.swelling * tendon.lower_material;
   const double winding = path.wound - tendon.wound.arc();
-  if (winding > 0) {
+  if (winding > 0 && tendon.wound.keeps_strain()) {
     at.spans.lower_length += 0.5 * winding;
     at.spans.lower_material -= 0.5 * winding * tendon.density;
   } else {
-    at.spans.lower_material += tendon.wound.material_above(path.wound);
+    at.spans.lower_material += at.swelling * tendon.wound.material_above(path.wound);
   }
   return at;
 }
 
 /// A tendon at a trial θ.
 struct Trial {
-  UpperSpan span;
+  UpperSpanTable::Look span;
   Spans spans;
   TendonBalance balance;
   double wrap = 0;
@@ -80,22 +87,18 @@ struct Trial {
   double slope = 0;  ///< of pull with respect to the image's θ
 };
 
-Trial tried(const TendonHistory& tendon, const AtAlpha& at, const PinPlace& place, double mu, double theta) {
+Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, double rho, double mu, double theta) {
   Trial trial;
-  trial.span = upper_span(place, mirror_sign(tendon.side) * theta);
+  trial.span = upper.at(mirror_sign(tendon.side) * theta);
   trial.spans = at.spans;
-  trial.spans.upper_length = trial.span.free + place.rho * (trial.span.normal - tendon.rim_reference);
+  trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
   trial.wrap = trial.span.normal - at.path.normal;
   trial.spans.capstan = std::exp(mu * std::max(0.0, trial.wrap));
   trial.balance = balance(trial.spans);
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
-  // dL/dθ = −m. The normal turns by −a/f with a = R cos(θ + ψ), that is m' = aω = a(1 − a/f) (tendon_path.cpp).
-  double rate = -m * trial.balance.per_length;
-  if (trial.wrap > 0) {
-    const double turning = -place.R * std::cos(mirror_sign(tendon.side) * theta + trial.span.normal) / trial.span.free;
-    rate += trial.balance.per_capstan * mu * turning;
-  }
+  double rate = -m * trial.balance.per_length;  // dL/dθ = −m
+  if (trial.wrap > 0) rate += trial.balance.per_capstan * mu * trial.span.dnormal;
   trial.slope = rate * m + trial.balance.upper * trial.span.dm;
   return trial;
 }
@@ -131,21 +134,23 @@ std::optional<double> fallen_to_zero(double start, double least, double most, Fu
       next = falls ? std::min(std::max(next, x), most) : std::max(std::min(next, x), least);
       stride *= 2.0;
     }
-    if (std::abs(next - x) <= 1e-14 || !(high - low > 1e-16)) return next;
+    // Newton's steps square the miss: after one of this size nothing is left.
+    if (std::abs(next - x) <= k_last_step || !(high - low > k_last_step)) return next;
     x = next;
   }
   return x;
 }
 
-TendonHistory at_home(Side side, const PinPlace& place, const LowerPath& path, double tension, double EA) {
+TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path, double tension) {
+  const PinPlace& place = model.pins[side == Side::left ? 0 : 1];
   const UpperSpan span = upper_span(place, 0.0);
   TendonHistory tendon;
   tendon.side = side;
   tendon.rim_reference = 0.5 * (span.normal + path.normal);
-  tendon.density = 1.0 / (1.0 + tension / EA);
-  tendon.upper_material = tendon.density * (span.free + place.rho * (span.normal - tendon.rim_reference));
-  tendon.lower_material = tendon.density * (path.reach + place.rho * (tendon.rim_reference - path.normal));
-  tendon.wound = WoundProfile(path.wound, tendon.density);
+  tendon.density = 1.0 / (1.0 + tension / model.EA);
+  tendon.upper_material = tendon.density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
+  tendon.lower_material = tendon.density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
+  tendon.wound = WoundProfile(path.wound, tendon.density, model.wound == WoundTendon::keeps_strain);
   tendon.upper = tendon.lower = tension;
   return tendon;
 }
@@ -169,9 +174,15 @@ double shed_by(const WoundPiece& piece, double EA, double density_from, double d
 Spent wind_or_pay_out(TendonHistory& tendon, double arc, double density, double EA) {
   Spent spent;
   const double from = tendon.wound.arc();
-  if (arc >= from) {
+  if (arc >= from && tendon.wound.keeps_strain()) {
     if (arc > from) tendon.wound.wind(arc, tendon.density, density);
     spent.wound = energy({from, arc, tendon.density, density}, EA);
+    return spent;
+  }
+  if (arc >= from) {
+    const WoundPiece piece = tendon.wound.wind_as_at_first(arc);
+    spent.wound = energy(piece, EA);
+    spent.shed = -shed_by(piece, EA, tendon.density, density);
     return spent;
   }
   const auto density_at = [&](double place) { return tendon.density + (density - tendon.density) * (from - place) / (from - arc); };
@@ -189,15 +200,15 @@ Spent settle(TendonHistory& tendon, const AtAlpha& at, const Trial& trial) {
   const double density = 1.0 / (1.0 + now.lower / EA);
   const double winding = at.path.wound - tendon.wound.arc();
   // What is wound beside the span, whether that is taut or slack.
-  const double on_pulley = winding > 0 ? 0.5 * winding * density : 0.0;
+  const double on_pulley = winding > 0 && tendon.wound.keeps_strain() ? 0.5 * winding * density : 0.0;
   const auto head = [EA](double upper, double lower) {
     return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
   };
   const double friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
   Spent spent = wind_or_pay_out(tendon, at.path.wound, density, EA);
   spent.friction = friction;
-  tendon.upper_material += now.crossed;
-  tendon.lower_material = at.spans.lower_material - now.crossed - on_pulley;
+  tendon.upper_material += now.crossed / at.swelling;
+  tendon.lower_material = (at.spans.lower_material - now.crossed - on_pulley) / at.swelling;
   tendon.density = density;
   tendon.upper = now.upper;
   tendon.lower = now.lower;
@@ -210,7 +221,7 @@ TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial
   state.lower = trial.balance.lower;
   state.wrap = trial.wrap;
   state.contact = trial.balance.contact;
-  for (const double stretch : {trial.spans.upper_length - tendon.upper_material, at.lower_length - tendon.lower_material}) {
+  for (const double stretch : {trial.spans.upper_length - at.swelling * tendon.upper_material, at.lower_length - at.swelling * tendon.lower_material}) {
     (stretch > 0 ? state.stretch : state.slack) += std::abs(stretch);
   }
   return state;
@@ -225,6 +236,7 @@ double energy_of_spans(const TendonHistory& tendon, double EA) {
 struct JointMotion::State {
   JointModel model;
   std::array<TendonHistory, 2> tendons;
+  std::array<double, 2> released{};  ///< so far, mm
   double theta = 0;
   double expected = 0;      ///< model.expected at the last step
   double wound_energy = 0;  ///< since home
@@ -236,6 +248,7 @@ struct JointMotion::State {
   /// Pull of the tendons beyond the load, towards +θ.
   Residual residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
   std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
+  std::optional<double> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const;
   EquilibriumPoint accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
@@ -244,20 +257,27 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   const std::array<LowerPath, 2> paths = model.lower(0.0);
   const double arm1 = upper_span(model.pins[0], 0.0).m;
   const double arm2 = upper_span(model.pins[1], 0.0).m;
-  tendons[0] = at_home(Side::left, model.pins[0], paths[0], model.pretension, model.EA);
-  tendons[1] = at_home(Side::right, model.pins[1], paths[1], model.pretension * arm1 / arm2, model.EA);
+  tendons[0] = at_home(Side::left, model, paths[0], model.pretension);
+  tendons[1] = at_home(Side::right, model, paths[1], model.pretension * arm1 / arm2);
   expected = model.expected(0.0);
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model.EA);
 }
 
 std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
-  return {tried(tendons[0], at[0], model.pins[0], model.mu, at_theta), tried(tendons[1], at[1], model.pins[1], model.mu, at_theta)};
+  return {tried(tendons[0], at[0], model.upper->left, model.pins[0].rho, model.mu, at_theta), tried(tendons[1], at[1], model.upper->right, model.pins[1].rho, model.mu, at_theta)};
 }
 
 Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
   const auto [left, right] = trials(at, at_theta);
   return {right.pull - left.pull - step.tip_force * model.pins[1].R - step.torque - model.weight_torque(at_theta),
           right.slope + left.slope - model.weight_slope(at_theta)};
+}
+
+std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const {
+  const auto pull = [&](double at_theta) { return residual(at, step, at_theta); };
+  // A joint that nothing pulls stays where it is; any other keeps its deviation from where it is expected.
+  if (theta > model.theta_least && theta < model.theta_most && pull(theta).value == 0) return theta;
+  return fallen_to_zero(theta + expected_now - expected, model.theta_least, model.theta_most, pull);
 }
 
 EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found) {
@@ -315,16 +335,16 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
   const std::array<LowerPath, 2> paths = model.lower(step.alpha);
   std::array<AtAlpha, 2> at;
   for (std::size_t i = 0; i < 2; ++i) {
-    at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA);
-    const bool has_path = std::isfinite(paths[i].wound) && at[i].lower_length > 0;
+    at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA, step.tendon);
+    at[i].spans.lower_material += at[i].swelling * (step.tendon.released[i] - state.released[i]);
+    const bool has_path = std::isfinite(paths[i].wound) && at[i].lower_length > 0 && at[i].spans.lower_material > 0;
     if (!has_path) return state.refuse(step);
   }
-  // The joint keeps its deviation from where it is expected.
   const double expected = model.expected(step.alpha);
-  const auto found = fallen_to_zero(state.theta + expected - state.expected, model.theta_least, model.theta_most,
-                                    [&](double theta) { return state.residual(at, step, theta); });
+  const auto found = state.balanced(at, step, expected);
   if (!found) return state.refuse(step);
   state.expected = expected;
+  state.released = step.tendon.released;
   return state.accept(at, step, *found);
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "transmission/upper_span_table.h"
+
 namespace fusee {
 namespace {
 
@@ -109,14 +111,19 @@ JointModel joint_model(const MadePulleys& made, const Mechanism& mounted) {
   model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
+  set_statics(model, mounted);
+  model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
+  model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
+  model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most);
+  return model;
+}
+
+void set_statics(JointModel& model, const Mechanism& mounted) {
   model.EA = section_stiffness(mounted.tendon);
   model.mu = mounted.guides.mu;
   model.pretension = mounted.tendon.pretension;
   model.weight = mounted.load.mass * k_gravity * mounted.load.lever;
   model.tilt = mounted.load.tilt;
-  model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
-  model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
-  return model;
 }
 
 }  // namespace fusee

@@ -28,6 +28,12 @@ void WoundProfile::wind(double to, double density_now, double density) {
   arc_ = to;
 }
 
+WoundPiece WoundProfile::wind_as_at_first(double to) {
+  const WoundPiece piece{arc_, to, base_density_, base_density_};
+  arc_ = to;
+  return piece;
+}
+
 std::vector<WoundPiece> WoundProfile::pay_out(double down_to) {
   std::vector<WoundPiece> paid;
   while (!pieces_.empty() && arc_ > down_to) {

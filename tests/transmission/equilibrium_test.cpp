@@ -73,7 +73,7 @@ TEST(Equilibrium, WithOneSlackTendonAndNoFrictionIsThePapersTension) {
     const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
     EXPECT_EQ(point.t1.upper, 0.0);
     EXPECT_GT(point.t1.slack, 0.0);
-    EXPECT_NEAR(point.t2.upper, 10.0 * 100.0 / m2, 1e-9);  // [6]
+    EXPECT_NEAR(point.t2.upper, 10.0 * 100.0 / m2, 1e-9 * point.t2.upper);  // [6]
     EXPECT_NEAR(point.t2.lower, point.t2.upper, 1e-9);
   }
 }

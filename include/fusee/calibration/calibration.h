@@ -68,11 +68,12 @@ struct Calibration {
   std::vector<std::vector<double>> residuals_after;
   std::vector<std::string> held_out_factors;          ///< "load", "speed"
   std::vector<std::string> held_out_runs;
+  double rest_autocorrelation = 0;                    ///< of the residual after all effects, row to row; 0: white
   double unexplained_rms = 0;
   std::string unexplained_where;                      ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
-  std::vector<std::string> next_runs;
-  std::vector<std::string> null_combinations;         ///< sums of parameters that the data leave free, in words
+  std::vector<std::string> null_combinations;         ///< accepted effects and rivals that do as well, with their numbers
+  std::vector<std::string> next_runs;                 ///< the best first
   Iso230 iso_before, iso_after;
   double correctable_by_pulley = 0;                   ///< rms that a new pulley would take away, rad
   double correctable_by_table = 0;

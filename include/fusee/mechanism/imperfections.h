@@ -20,17 +20,18 @@ struct Imperfections {
   double pulley_scale = 0;            ///< pitch curves larger by this fraction
   double runout_x = 0;                ///< centre of the pitch curves off the axis, at home, mm
   double runout_y = 0;                ///< mm
-  double profile_sin = 0;             ///< tendon wound too far twice per turn, as an angle: sin 2α, rad
-  double profile_cos = 0;             ///< cos 2α − 1, rad
+  double profile_sin = 0;             ///< tendon wound too far n times per turn, as an angle: sin nα, rad
+  double profile_cos = 0;             ///< cos nα − 1, rad
+  double profile_harmonic = 2;        ///< n
 
   // Tendon.
   double stretch = 0;                 ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
   double pretension = 0;              ///< added to that of tendon 1 at home, N
   double slack = 0;                   ///< of both tendons together, beyond what pretension takes up, mm
-  double creep = 0;                   ///< turned by the load in every decade of time, rad per unit of load
-  double slip = 0;                    ///< step of θ from `slip_time` on, rad
-  double slip_time = 0;               ///< s, on the measurement's clock
-  double thermal = 0;                 ///< rad per K
+  double creep = 0;                   ///< compliance added in every decade of time since a run began, as a fraction
+  double slip = 0;                    ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
+  double slip_time = 0;               ///< s, on the bench's clock: runs one after another
+  double thermal = 0;                 ///< unloaded length added per kelvin, as a fraction
 
   // Pins.
   double friction = 0;                ///< added to the capstan coefficient
@@ -42,8 +43,12 @@ struct Imperfections {
   double joint_length = 0;            ///< added to OC, mm
   double gravity_cos = 0;             ///< torque against +θ: cos · cos θ + sin · sin θ, N·mm
   double gravity_sin = 0;
-  double compliance = 0;              ///< of a joint declared by a ratio: turned by the load, rad per unit of load
-  double dry_friction = 0;            ///< of a joint declared by a ratio: half loop per unit of |load|, rad
+  // Of a joint declared by a ratio, whose tendons are not known; rad.
+  double compliance = 0;              ///< turned by a unit of load
+  double dry_friction = 0;            ///< half loop per unit of |load|
+  double drift = 0;                   ///< turned by a unit of load in every decade of time since a run began
+  double step = 0;                    ///< turned at `slip_time`
+  double warmth = 0;                  ///< turned by a kelvin
 
   // Joint sensor: it shows zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1), late by `lag`.
   double zero = 0;                    ///< rad

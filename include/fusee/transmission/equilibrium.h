@@ -1,10 +1,11 @@
 /// \file
 /// The joint in quasi-static equilibrium along any sequence of pulley angles and loads, history carried along.
 ///
-/// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them; what is wound on a pulley keeps the
-/// strain it was wound at; a tendon cannot push. Source of the limits: the paper's [6]-[11] (tension.h).
+/// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them; what is wound on a pulley holds what
+/// JointModel::wound says; a tendon cannot push. Source of the limits: the paper's [6]-[11] (tension.h).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -12,11 +13,19 @@
 
 namespace fusee {
 
+/// By how much both tendons are not what they were at home: creep, heat, an anchor that gave way. Energies are counted for none of it.
+struct TendonChange {
+  double compliance = 1;             ///< strain per tension, as a multiple of that at home
+  double expansion = 0;              ///< unloaded length added, as a fraction
+  std::array<double, 2> released{};  ///< material that the anchors of tendon 1 and 2 have let go since home, mm
+};
+
 /// One place of a motion. Beside tip force and torque the model's weight acts.
 struct JointStep {
   double alpha = 0;      ///< rad
   double tip_force = 0;  ///< F_c across OC, positive against +θ, N
   double torque = 0;     ///< about O, positive against +θ, N·mm
+  TendonChange tendon = {};
 };
 
 enum class PinContact {
@@ -56,7 +65,8 @@ struct EquilibriumPoint {
   double stiffness = 0;
   double stored = 0;    ///< elastic energy, above that of home unloaded, N·mm
   double friction = 0;  ///< lost at the pins since home, N·mm
-  double shed = 0;      ///< lost where tendon leaves a pulley at another strain than it was wound at, since home, N·mm
+  /// Lost where tendon leaves a pulley at another strain than it lay there, since home, N·mm; with WoundTendon::at_home winding gives it back.
+  double shed = 0;
 };
 
 /// A joint on its way. Copies are snapshots: each goes on from the same history.

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/transmission/transmission.h"
@@ -40,6 +41,14 @@ class MadePulleys {
   double offset_ = 0;
 };
 
+/// What a pulley holds of the tendon that lies on it.
+enum class WoundTendon {
+  keeps_strain,  ///< the strain it was wound at, until it is paid out: friction on the pulley holds it
+  at_home,       ///< home's strain, whatever the tension while winding: the tendon's marks stay at their places of the groove
+};
+
+struct UpperSpans;  // both upper spans over the joint's angles, looked up
+
 /// Plain values: a joint with other pins, another stiffness, runout … is this one with a member changed, or with another `lower`.
 struct JointModel {
   std::array<PinPlace, 2> pins;                              ///< left, right, as mounted
@@ -48,10 +57,13 @@ struct JointModel {
   double EA = 0;          ///< stiffness of a tendon's section: tension per strain, N
   double mu = 0;          ///< of the pins
   double pretension = 0;  ///< of tendon 1 at home, unloaded, N
+  double slack = 0;       ///< material of each tendon beyond what the pretension leaves, mm
+  WoundTendon wound = WoundTendon::keeps_strain;
   double weight = 0;      ///< mass · g · lever, N·mm
   double tilt = 0;        ///< θ at which the link points straight up, rad
   double theta_least = 0; ///< between here and theta_most both tendons have a moment arm about O, rad
   double theta_most = 0;
+  std::shared_ptr<const UpperSpans> upper;  ///< of these pins between these angles
 
   /// What the weight turns the joint with, against +θ, N·mm; and its derivative.
   double weight_torque(double theta) const { return weight * std::sin(tilt - theta); }
@@ -67,5 +79,7 @@ double section_stiffness(const Tendon& tendon);
 JointModel joint_model(const Mechanism& mechanism);
 /// The pulleys `made`, turned in the mechanism `mounted`, whose own [pulley] law is not looked at.
 JointModel joint_model(const MadePulleys& made, const Mechanism& mounted);
+/// EA, friction, pretension and weight of `mounted` in a model of the same geometry.
+void set_statics(JointModel& model, const Mechanism& mounted);
 
 }  // namespace fusee

@@ -89,6 +89,10 @@ bool with_load(const Mechanism& declared, const Measurement& measurement) {
   return most > 0;
 }
 
+bool with_time_and_load(const Mechanism& declared, const Measurement& measurement) {
+  return with_time(declared, measurement) && with_load(declared, measurement);
+}
+
 bool to_tendons_or_load(const Mechanism& declared, const Measurement& measurement) {
   return !declared.transmission || with_load(declared, measurement);
 }

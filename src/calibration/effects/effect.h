@@ -53,6 +53,7 @@ inline bool always(const Mechanism&, const Measurement&) { return true; }
 /// To the mechanism with guides and pulley.
 inline bool to_tendons(const Mechanism& declared, const Measurement&) { return !declared.transmission; }
 bool with_time(const Mechanism& declared, const Measurement& measurement);
+bool with_time_and_load(const Mechanism& declared, const Measurement& measurement);
 bool with_load(const Mechanism& declared, const Measurement& measurement);
 bool with_temperature(const Mechanism& declared, const Measurement& measurement);
 /// Delays are seen in motion only.

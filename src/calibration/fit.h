@@ -6,31 +6,9 @@
 #include <vector>
 
 #include "calibration/effects/effect.h"
-#include "calibration/forward.h"
+#include "calibration/evidence.h"
 
 namespace fusee {
-
-/// A stretch of rows that stands or falls together: a stroke.
-struct Block {
-  std::size_t run = 0;
-  std::size_t stroke = 0;
-  std::vector<std::size_t> rows;  ///< into the rows of all runs, one after another; without outliers
-};
-
-/// What is fitted to: thinned runs, and how they are cut into blocks and held out.
-struct Evidence {
-  const Mechanism* declared = nullptr;
-  Measurement measurement;         ///< thinned
-  Eigen::VectorXd theta;           ///< all runs, one after another
-  std::vector<Block> blocks;
-  std::vector<std::vector<std::size_t>> folds;  ///< blocks that are held out together
-  std::vector<std::string> factors;             ///< by which whole levels are held out
-  double floor = 0;                ///< rms noise, rad
-
-  std::size_t rows_used() const;
-};
-
-Evidence gather(const Mechanism& declared, const Measurement& measurement, double floor);
 
 using EffectSet = std::vector<const Effect*>;
 
@@ -42,6 +20,12 @@ struct BlockSums {
   double rows = 0;
 };
 
+/// Errors of data that were not fitted to.
+struct HeldOut {
+  std::vector<double> by_block;  ///< mean square error of each block, fitted without its fold, rad²; NaN where no fold holds it
+  double mean_square = 0;
+};
+
 struct Fit {
   EffectSet effects;
   Imperfections at;
@@ -49,14 +33,18 @@ struct Fit {
   Eigen::MatrixXd J;              ///< dθ/dx, rows of all runs
   Eigen::VectorXd residual;       ///< measured − model, rad
   std::vector<BlockSums> sums;
-  std::vector<double> held_out;   ///< mean square error of each block, fitted without its fold, rad²
+  BlockSums readings;             ///< what was measured by hand, in the same unit
+  HeldOut by_factor;              ///< Evidence::factor_folds: what decides
+  HeldOut by_run;                 ///< Evidence::run_folds: what is reported
   double mean_square = 0;         ///< of the rows it was fitted to
-  double held_out_mean_square = 0;
   bool usable = false;
 };
 
 /// The best of several starts. `from`: parameters known of effects that were fitted before.
 Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& effects, const Imperfections& from);
+
+/// `fit` with `effect` added where it does nothing: what the data would say of it. No fit.
+Fit with_direction(const Evidence& evidence, Forward& forward, const Fit& fit, const Effect& effect);
 
 /// How much lower the held-out error of `better` is: mean over the blocks, and standard error of that mean.
 struct Comparison {
@@ -71,13 +59,16 @@ Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better
 /// Drop of the Bayesian information criterion with as many rows as the rest's autocorrelation leaves.
 double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better);
 
+/// Lag-1 autocorrelation of the residual within blocks.
+double autocorrelation(const Evidence& evidence, const Fit& fit);
+
 struct Interval {
   double low = 0;
   double high = 0;
   double deviation = 0;
 };
-/// Of every fitted x, by resampling blocks.
-std::vector<Interval> intervals(const Fit& fit);
+/// 95 % of every fitted x: by resampling strokes, or by the scatter between runs where that is wider.
+std::vector<Interval> intervals(const Evidence& evidence, const Fit& fit);
 
 /// The parameters that a fit varies, in the order of x.
 std::vector<const EffectParameter*> varied(const Mechanism& declared, const EffectSet& effects);

@@ -1,0 +1,238 @@
+#include "calibration/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace fusee {
+namespace {
+
+/// Rows of a run that a fit looks at: enough for every stroke's shape, and few enough for hundreds of fits.
+constexpr std::size_t k_rows_a_run = 170;
+constexpr std::size_t k_most_rows = 1500;
+/// A joint declared by a ratio costs next to nothing to simulate.
+constexpr std::size_t k_cheaper = 5;
+constexpr std::size_t k_least_rows_a_block = 6;
+
+/// Every n-th row, and both ends of each stroke, which the motion's history needs. `counted`: the every n-th alone, lest ends weigh too much.
+Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
+  const std::size_t every = (run.samples.size() + most - 1) / std::max<std::size_t>(1, most);
+  if (every <= 1) {
+    counted.insert(counted.end(), run.samples.size(), true);
+    return run;
+  }
+  std::set<std::size_t> ends;
+  for (const Stroke& stroke : run.strokes) {
+    ends.insert(stroke.first);
+    ends.insert(stroke.last);
+  }
+  Run thin = run;
+  thin.samples.clear();
+  std::vector<std::size_t> place(run.samples.size());
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    place[i] = thin.samples.size();
+    if (i % every != 0 && !ends.count(i)) continue;
+    thin.samples.push_back(run.samples[i]);
+    counted.push_back(i % every == 0);
+  }
+  for (Stroke& stroke : thin.strokes) {
+    stroke.first = place[stroke.first];
+    stroke.last = place[stroke.last];
+  }
+  return thin;
+}
+
+/// A run's level of load: the mean, or where it changes sign within the run, its size.
+double load_of(const Run& run) {
+  double sum = 0;
+  double squares = 0;
+  for (const Sample& sample : run.samples) {
+    sum += sample.load;
+    squares += sample.load * sample.load;
+  }
+  const double count = static_cast<double>(std::max<std::size_t>(1, run.samples.size()));
+  const double size = std::sqrt(squares / count);
+  return std::abs(sum / count) > 0.5 * size ? std::copysign(size, sum) : size;
+}
+
+/// Runs of about the same value.
+std::vector<std::vector<std::size_t>> levels(const std::vector<double>& values, double tolerance) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<std::vector<std::size_t>> found;
+  for (const std::size_t i : order) {
+    if (found.empty() || values[i] - values[found.back().front()] > tolerance) found.emplace_back();
+    found.back().push_back(i);
+  }
+  return found;
+}
+
+std::vector<std::vector<std::size_t>> load_levels(const Measurement& measurement) {
+  std::vector<double> loads;
+  for (const Run& run : measurement.runs) loads.push_back(run.has_load ? load_of(run) : 0.0);
+  const auto [least, most] = std::minmax_element(loads.begin(), loads.end());
+  return levels(loads, std::max(1e-9, 0.08 * (*most - *least)));
+}
+
+std::vector<std::vector<std::size_t>> speed_levels(const Measurement& measurement) {
+  std::vector<double> speeds;
+  for (const Run& run : measurement.runs) speeds.push_back(run.has_time && run.speed > 0 ? std::log(run.speed) : 0.0);
+  return levels(speeds, 0.15);
+}
+
+std::vector<std::size_t> blocks_of(const Evidence& evidence, const std::vector<std::size_t>& runs) {
+  std::vector<std::size_t> found;
+  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
+    if (std::find(runs.begin(), runs.end(), evidence.blocks[b].run) != runs.end()) found.push_back(b);
+  }
+  return found;
+}
+
+/// Whole runs in turn; of a lone run its strokes.
+std::vector<Fold> run_folds(const Evidence& evidence) {
+  std::vector<Fold> folds;
+  if (evidence.measurement.runs.size() == 1) {
+    for (std::size_t b = 0; b < evidence.blocks.size(); ++b) folds.push_back({b});
+    return folds;
+  }
+  for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
+    Fold fold = blocks_of(evidence, {i});
+    if (!fold.empty()) folds.push_back(std::move(fold));
+  }
+  return folds;
+}
+
+/// Whole levels of load and speed, where enough is left to learn from; whole runs that no level holds.
+void choose_factor_folds(Evidence& evidence) {
+  const std::vector<Run>& runs = evidence.measurement.runs;
+  std::set<std::size_t> held;
+  const auto hold = [&](const std::string& factor, const std::vector<std::vector<std::size_t>>& all) {
+    bool any = false;
+    for (const std::vector<std::size_t>& level : all) {
+      const Fold fold = blocks_of(evidence, level);
+      if (all.size() < 2 || fold.empty() || fold.size() > 0.6 * static_cast<double>(evidence.blocks.size())) continue;
+      evidence.factor_folds.push_back(fold);
+      held.insert(level.begin(), level.end());
+      any = true;
+    }
+    if (any) evidence.factors.push_back(factor);
+  };
+  hold("load", load_levels(evidence.measurement));
+  hold("speed", speed_levels(evidence.measurement));
+  if (evidence.factors.empty()) {
+    evidence.factor_folds = evidence.run_folds;
+    return;
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Fold fold = blocks_of(evidence, {i});
+    if (!held.count(i) && !fold.empty()) evidence.factor_folds.push_back(fold);
+  }
+}
+
+/// Rows of a stroke that lie with their neighbours: none of the effects makes a single row jump.
+std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::size_t first, std::size_t last, double floor) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = first; i <= last; ++i) {
+    std::vector<double> near;
+    const std::size_t from = i >= first + 2 ? i - 2 : first;
+    for (std::size_t j = from; j <= std::min(last, i + 2); ++j) near.push_back(residual[static_cast<Eigen::Index>(j)]);
+    const double middle = median(near);
+    double spread = 0;
+    for (const double value : near) spread = std::max(spread, value == residual[static_cast<Eigen::Index>(i)] ? 0.0 : std::abs(value - middle));
+    if (std::abs(residual[static_cast<Eigen::Index>(i)] - middle) <= 6.0 * floor + 3.0 * spread) rows.push_back(i);
+  }
+  return rows;
+}
+
+// ---- what was measured by hand --------------------------------------------------------------------------------------
+
+/// A reading [value, standard uncertainty] of something that is `declared`, as a reading of by how much the joint differs from its file.
+void add_reading(std::vector<HandReading>& readings, double Imperfections::* member, const std::vector<double>& reading, double declared) {
+  if (reading.size() == 2) readings.push_back({member, reading[0] - declared, reading[1]});
+}
+
+std::vector<HandReading> hand_readings(const Mechanism& declared) {
+  std::vector<HandReading> readings;
+  if (declared.transmission) return readings;
+  const Prior& prior = declared.prior;
+  add_reading(readings, &Imperfections::guide_outward, prior.EB, declared.guides.EB);
+  add_reading(readings, &Imperfections::guide_outward, prior.ED, declared.guides.ED);
+  add_reading(readings, &Imperfections::guide_down, prior.OE, declared.guides.OE);
+  add_reading(readings, &Imperfections::guide_radius, prior.guide_radius, declared.guides.radius);
+  add_reading(readings, &Imperfections::joint_length, prior.length, declared.joint.R);
+  add_reading(readings, &Imperfections::radius_offset, prior.radius_offset, 0);
+  add_reading(readings, &Imperfections::pulley_scale, prior.pulley_scale, 1);
+  // The pulley's axis stays where it is declared: pins further down are pins closer to it.
+  if (prior.EF.size() == 2) readings.push_back({&Imperfections::guide_down, declared.pulley.EF - prior.EF[0], prior.EF[1]});
+  if (prior.modulus.size() == 2 && prior.modulus[0] > 0) {
+    const double ratio = declared.tendon.modulus / prior.modulus[0];
+    readings.push_back({&Imperfections::stretch, ratio - 1.0, ratio * prior.modulus[1] / prior.modulus[0]});
+  }
+  return readings;
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Eigen::VectorXd flat(const Readings& readings) {
+  std::size_t count = 0;
+  for (const auto& run : readings) count += run.size();
+  Eigen::VectorXd all(static_cast<Eigen::Index>(count));
+  Eigen::Index i = 0;
+  for (const auto& run : readings) {
+    for (const double value : run) all[i++] = value;
+  }
+  return all;
+}
+
+std::size_t Evidence::rows_used() const {
+  std::size_t rows = 0;
+  for (const Block& block : blocks) rows += block.rows.size();
+  return rows;
+}
+
+Evidence gather(const Mechanism& declared, const Measurement& measurement, double floor) {
+  Evidence evidence;
+  evidence.declared = &declared;
+  evidence.floor = floor;
+  evidence.measurement = measurement;
+  const std::size_t runs = std::max<std::size_t>(1, measurement.runs.size());
+  const std::size_t cheaper = declared.transmission ? k_cheaper : 1;
+  const std::size_t most = cheaper * std::min(k_rows_a_run, std::max<std::size_t>(60, k_most_rows / runs));
+  std::vector<bool> counted;
+  for (Run& run : evidence.measurement.runs) run = thinned(run, most, counted);
+  Forward forward(declared, evidence.measurement);
+  Readings theta;
+  for (const Run& run : evidence.measurement.runs) {
+    theta.emplace_back();
+    for (const Sample& sample : run.samples) theta.back().push_back(sample.theta);
+  }
+  evidence.theta = flat(theta);
+  const Eigen::VectorXd residual = evidence.theta - flat(forward({}));
+  std::size_t offset = 0;
+  for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
+    const Run& run = evidence.measurement.runs[i];
+    for (std::size_t s = 0; s < run.strokes.size(); ++s) {
+      // Where the play stood when the log began is not known: the first stroke finds out.
+      if (run.strokes[s].partial || (s == 0 && run.strokes.size() > 2)) continue;
+      Block block{i, s, without_outliers(residual, offset + run.strokes[s].first, offset + run.strokes[s].last, floor)};
+      block.rows.erase(std::remove_if(block.rows.begin(), block.rows.end(), [&](std::size_t row) { return !counted[row]; }), block.rows.end());
+      if (block.rows.size() >= k_least_rows_a_block) evidence.blocks.push_back(std::move(block));
+    }
+    offset += run.samples.size();
+  }
+  evidence.run_folds = run_folds(evidence);
+  choose_factor_folds(evidence);
+  evidence.readings = hand_readings(declared);
+  return evidence;
+}
+
+}  // namespace fusee

@@ -1,0 +1,50 @@
+/// \file
+/// What a calibration is held against: thinned runs, how they are cut into blocks, and which blocks are held out together.
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "calibration/forward.h"
+
+namespace fusee {
+
+/// A stretch of rows that stands or falls together: a stroke.
+struct Block {
+  std::size_t run = 0;
+  std::size_t stroke = 0;
+  std::vector<std::size_t> rows;  ///< into the rows of all runs, one after another; without outliers
+};
+
+/// Blocks that are held out together.
+using Fold = std::vector<std::size_t>;
+
+/// What a caliper says of a member: [prior] of the file.
+struct HandReading {
+  double Imperfections::* member = nullptr;
+  double value = 0;
+  double uncertainty = 0;  ///< standard
+};
+
+struct Evidence {
+  const Mechanism* declared = nullptr;
+  Measurement measurement;          ///< thinned
+  Eigen::VectorXd theta;            ///< all runs, one after another
+  std::vector<Block> blocks;
+  std::vector<Fold> run_folds;      ///< whole runs; strokes of a lone run
+  std::vector<Fold> factor_folds;   ///< whole levels of load and speed where the data vary them, or as run_folds
+  std::vector<std::string> factors; ///< by which whole levels are held out
+  std::vector<HandReading> readings;
+  double floor = 0;                 ///< rms noise, rad
+
+  std::size_t rows_used() const;
+};
+
+Evidence gather(const Mechanism& declared, const Measurement& measurement, double floor);
+
+/// All runs, one after another.
+Eigen::VectorXd flat(const Readings& readings);
+double median(std::vector<double> values);
+
+}  // namespace fusee

@@ -1,0 +1,495 @@
+#include "calibration/fit.h"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <numeric>
+
+namespace fusee {
+namespace {
+
+/// Residuals beyond this many scales count linearly.
+constexpr double k_robust = 5.0;
+
+constexpr int k_resamples = 400;
+
+/// Starts from which a fit goes on; the others are looked at once.
+constexpr std::size_t k_starts = 2;
+
+/// θ = offset + α/ratio declares its offset free.
+const EffectParameter& free_offset() {
+  static const EffectParameter parameter{"offset_deg", &Imperfections::zero, -100.0, 100.0, 1e-2, shown::in_degrees};
+  return parameter;
+}
+
+Imperfections placed(const std::vector<const EffectParameter*>& parameters, Imperfections at, const double* x) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) at.*parameters[i]->member = x[i] * parameters[i]->step;
+  return at;
+}
+
+/// Robust residuals, in units of the scale, of the rows in use and of what was measured by hand.
+class Misfit : public ceres::CostFunction {
+ public:
+  Misfit(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters, const Imperfections& from, double scale)
+      : evidence_(evidence), forward_(forward), parameters_(parameters), from_(from), scale_(scale) {
+    for (const Block& block : evidence.blocks) rows_.insert(rows_.end(), block.rows.begin(), block.rows.end());
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
+    set_num_residuals(static_cast<int>(rows_.size() + evidence.readings.size()));
+  }
+
+  /// Half the sum of squares; infinite where there is no equilibrium.
+  double cost(const double* x) const {
+    std::vector<double> residuals(static_cast<std::size_t>(num_residuals()));
+    if (!Evaluate(&x, residuals.data(), nullptr)) return std::numeric_limits<double>::infinity();
+    return 0.5 * std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+  }
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    const Eigen::VectorXd at = model(x[0]);
+    std::vector<double> slopes(rows_.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(rows_[i]);
+      const double u = (evidence_.theta[row] - at[row]) / scale_;
+      if (!std::isfinite(u)) return false;
+      const double size = std::abs(u);
+      const double robust = size <= k_robust ? size : std::sqrt(2.0 * k_robust * size - k_robust * k_robust);
+      residuals[i] = std::copysign(robust, u);
+      slopes[i] = size <= k_robust ? 1.0 : k_robust / robust;
+    }
+    const Imperfections here = placed(parameters_, from_, x[0]);
+    for (std::size_t i = 0; i < evidence_.readings.size(); ++i) {
+      const HandReading& reading = evidence_.readings[i];
+      residuals[rows_.size() + i] = (reading.value - here.*reading.member) / reading.uncertainty * evidence_.floor / scale_;
+    }
+    if (jacobians != nullptr && jacobians[0] != nullptr) differentiate(x[0], at, slopes, jacobians[0]);
+    return true;
+  }
+
+ private:
+  void differentiate(const double* x, const Eigen::VectorXd& at, const std::vector<double>& slopes, double* jacobian) const {
+    const std::size_t count = parameters_.size();
+    std::vector<double> y(x, x + count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const EffectParameter& parameter = *parameters_[k];
+      const double step = (y[k] + 1.0) * parameter.step <= parameter.most ? 1.0 : -1.0;
+      y[k] += step;
+      const Eigen::VectorXd moved = model(y.data());
+      y[k] -= step;
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(rows_[i]);
+        const double slope = -(moved[row] - at[row]) / step / scale_ * slopes[i];
+        jacobian[i * count + k] = std::isfinite(slope) ? slope : 0.0;
+      }
+      for (std::size_t i = 0; i < evidence_.readings.size(); ++i) {
+        const HandReading& reading = evidence_.readings[i];
+        const bool own = reading.member == parameter.member;
+        jacobian[(rows_.size() + i) * count + k] = own ? -parameter.step / reading.uncertainty * evidence_.floor / scale_ : 0.0;
+      }
+    }
+  }
+
+  Eigen::VectorXd model(const double* x) const { return flat(forward_(placed(parameters_, from_, x))); }
+
+  const Evidence& evidence_;
+  Forward& forward_;
+  const std::vector<const EffectParameter*>& parameters_;
+  Imperfections from_;
+  double scale_;
+  std::vector<std::size_t> rows_;
+};
+
+double solve(const Misfit& misfit, const std::vector<const EffectParameter*>& parameters, std::vector<double>& x) {
+  if (parameters.empty()) return 0;
+  ceres::Problem::Options borrowed;
+  borrowed.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(borrowed);
+  problem.AddResidualBlock(const_cast<Misfit*>(&misfit), nullptr, x.data());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    problem.SetParameterLowerBound(x.data(), static_cast<int>(i), parameters[i]->least / parameters[i]->step);
+    problem.SetParameterUpperBound(x.data(), static_cast<int>(i), parameters[i]->most / parameters[i]->step);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.num_threads = 1;
+  options.max_num_iterations = 8;
+  options.function_tolerance = 1e-4;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary.termination_type == ceres::FAILURE ? std::numeric_limits<double>::infinity() : summary.final_cost;
+}
+
+void silence_glog() {
+  static std::once_flag once;
+  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
+}
+
+// ---- normal equations -----------------------------------------------------------------------------------------------
+
+BlockSums no_sums(Eigen::Index count) { return {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count), 0, 0}; }
+
+Eigen::VectorXd solved(const Eigen::MatrixXd& JJ, const Eigen::VectorXd& Jr, const Eigen::VectorXd& x, double floor) {
+  // A wide prior about no effect: what the rows in hand cannot tell stays nothing.
+  const double ridge = 1e-6 * floor * floor;
+  const Eigen::MatrixXd A = JJ + ridge * Eigen::MatrixXd::Identity(JJ.rows(), JJ.cols());
+  return A.ldlt().solve(Jr - ridge * x);
+}
+
+double error_of(const BlockSums& sums, const Eigen::VectorXd& step) {
+  const double rr = sums.rr - 2.0 * step.dot(sums.Jr) + step.dot(sums.JJ * step);
+  return std::max(0.0, rr) / sums.rows;
+}
+
+/// A caliper's reading is worth a row of the floor's noise that shows the member alone.
+void sum_up_readings(const Evidence& evidence, const std::vector<const EffectParameter*>& parameters, Fit& fit) {
+  fit.readings = no_sums(fit.x.size());
+  for (const HandReading& reading : evidence.readings) {
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      if (parameters[k]->member != reading.member) continue;
+      const auto i = static_cast<Eigen::Index>(k);
+      const double slope = parameters[k]->step / reading.uncertainty * evidence.floor;
+      fit.readings.JJ(i, i) += slope * slope;
+      fit.readings.Jr[i] += slope * (reading.value - fit.at.*reading.member) / reading.uncertainty * evidence.floor;
+    }
+  }
+}
+
+void sum_up(const Evidence& evidence, Fit& fit) {
+  double rows = 0;
+  double squares = 0;
+  fit.sums.clear();
+  for (const Block& block : evidence.blocks) {
+    BlockSums sums = no_sums(fit.x.size());
+    for (const std::size_t i : block.rows) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::VectorXd J = fit.J.row(row).transpose();
+      sums.JJ += J * J.transpose();
+      sums.Jr += J * fit.residual[row];
+      sums.rr += fit.residual[row] * fit.residual[row];
+    }
+    sums.rows = static_cast<double>(block.rows.size());
+    rows += sums.rows;
+    squares += sums.rr;
+    fit.sums.push_back(std::move(sums));
+  }
+  fit.mean_square = squares / rows;
+}
+
+/// One step of the fit from all of the data to those without a fold.
+HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds) {
+  const std::size_t blocks = evidence.blocks.size();
+  std::vector<double> error(blocks, 0.0);
+  std::vector<int> times(blocks, 0);
+  for (const Fold& fold : folds) {
+    Eigen::MatrixXd JJ = fit.readings.JJ;
+    Eigen::VectorXd Jr = fit.readings.Jr;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      if (std::find(fold.begin(), fold.end(), b) != fold.end()) continue;
+      JJ += fit.sums[b].JJ;
+      Jr += fit.sums[b].Jr;
+    }
+    const Eigen::VectorXd step = fit.x.size() > 0 ? solved(JJ, Jr, fit.x, evidence.floor) : Eigen::VectorXd();
+    for (const std::size_t b : fold) {
+      error[b] += error_of(fit.sums[b], step);
+      ++times[b];
+    }
+  }
+  HeldOut held;
+  double rows = 0;
+  double squares = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    held.by_block.push_back(times[b] > 0 ? error[b] / times[b] : std::numeric_limits<double>::quiet_NaN());
+    if (times[b] == 0) continue;
+    rows += fit.sums[b].rows;
+    squares += fit.sums[b].rows * held.by_block[b];
+  }
+  held.mean_square = rows > 0 ? squares / rows : fit.mean_square;
+  return held;
+}
+
+// ---- one fit --------------------------------------------------------------------------------------------------------
+
+Eigen::VectorXd slope_at(Forward& forward, const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& reading) {
+  Imperfections moved = at;
+  const double step = at.*parameter.member + parameter.step <= parameter.most ? 1.0 : -1.0;
+  moved.*parameter.member += step * parameter.step;
+  return (flat(forward(moved)) - reading) / step;
+}
+
+bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
+  const double value = at.*parameter.member;
+  return value <= parameter.least + 1e-9 * parameter.step || value >= parameter.most - 1e-9 * parameter.step;
+}
+
+void linearise(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters, Fit& fit) {
+  const Eigen::VectorXd reading = flat(forward(fit.at));
+  fit.residual = evidence.theta - reading;
+  fit.J.resize(reading.size(), fit.x.size());
+  for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
+    const EffectParameter& parameter = *parameters[static_cast<std::size_t>(k)];
+    fit.J.col(k) = slope_at(forward, fit.at, parameter, reading);
+    // At its bound a parameter stays there, whatever part of the data it is fitted to.
+    if (at_bound(fit.at, parameter)) fit.J.col(k).setZero();
+  }
+}
+
+void judge(const Evidence& evidence, const std::vector<const EffectParameter*>& parameters, Fit& fit) {
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t i : block.rows) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (!std::isfinite(fit.residual[row]) || !fit.J.row(row).allFinite()) fit.usable = false;
+    }
+  }
+  if (!fit.usable) return;
+  sum_up_readings(evidence, parameters, fit);
+  sum_up(evidence, fit);
+  fit.by_factor = hold_out(evidence, fit, evidence.factor_folds);
+  fit.by_run = hold_out(evidence, fit, evidence.run_folds);
+}
+
+/// Where a fit may begin: as things were, and each effect that is new at each of its own starts.
+std::vector<Imperfections> all_starts(const EffectSet& effects, const Imperfections& from) {
+  std::vector<Imperfections> starts{from};
+  for (const Effect* effect : effects) {
+    const bool known = std::any_of(effect->parameters.begin(), effect->parameters.end(), [&](const EffectParameter& parameter) {
+      return !parameter.searched && from.*parameter.member != 0;
+    });
+    if (known) continue;
+    const std::size_t before = starts.size();
+    for (const std::vector<double>& start : effect->starts) {
+      for (std::size_t i = 0; i < before; ++i) {
+        Imperfections at = starts[i];
+        for (std::size_t k = 0; k < start.size(); ++k) at.*effect->parameters[k].member = start[k];
+        starts.push_back(at);
+      }
+    }
+  }
+  return starts;
+}
+
+/// By how much one linear step from `start` would lower the sum of squares: what starts are ranked by.
+double promise(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters, const Imperfections& start) {
+  Fit fit;
+  fit.at = start;
+  fit.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  linearise(evidence, forward, parameters, fit);
+  Eigen::MatrixXd JJ = Eigen::MatrixXd::Zero(fit.x.size(), fit.x.size());
+  Eigen::VectorXd Jr = Eigen::VectorXd::Zero(fit.x.size());
+  double rr = 0;
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t i : block.rows) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (!std::isfinite(fit.residual[row]) || !fit.J.row(row).allFinite()) return std::numeric_limits<double>::infinity();
+      JJ += fit.J.row(row).transpose() * fit.J.row(row);
+      Jr += fit.residual[row] * fit.J.row(row).transpose();
+      rr += fit.residual[row] * fit.residual[row];
+    }
+  }
+  return fit.x.size() > 0 ? rr - Jr.dot(solved(JJ, Jr, fit.x, evidence.floor)) : rr;
+}
+
+std::vector<Imperfections> promising(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters,
+                                     std::vector<Imperfections> starts) {
+  if (starts.size() <= k_starts) return starts;
+  std::vector<std::pair<double, std::size_t>> ranked;
+  for (std::size_t i = 0; i < starts.size(); ++i) ranked.emplace_back(promise(evidence, forward, parameters, starts[i]), i);
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<Imperfections> best;
+  for (std::size_t i = 0; i < k_starts; ++i) best.push_back(starts[ranked[i].second]);
+  return best;
+}
+
+// ---- statistics -----------------------------------------------------------------------------------------------------
+
+/// One-sided 95 % of Student's t.
+double t95(double degrees_of_freedom) {
+  const double n = std::max(1.0, degrees_of_freedom);
+  if (n < 1.5) return 6.31;
+  if (n < 2.5) return 2.92;
+  const double z = 1.6449;
+  return z + (z * z * z + z) / (4.0 * n) + (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * n * n);
+}
+
+double t_of(const std::vector<double>& values, double* mean, double* standard_error) {
+  const double n = static_cast<double>(values.size());
+  const double average = std::accumulate(values.begin(), values.end(), 0.0) / std::max(1.0, n);
+  double squares = 0;
+  for (const double value : values) squares += (value - average) * (value - average);
+  const double error = n > 1 ? std::sqrt(squares / (n - 1.0) / n) : std::numeric_limits<double>::infinity();
+  if (mean) *mean = average;
+  if (standard_error) *standard_error = error;
+  return error > 0 ? average / error : 0.0;
+}
+
+/// A small generator of our own: the same intervals on every machine.
+class Dice {
+ public:
+  std::size_t below(std::size_t n) {
+    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
+    return static_cast<std::size_t>((state_ >> 33) % n);
+  }
+
+ private:
+  std::uint64_t state_ = 20180417;
+};
+
+}  // namespace
+
+double autocorrelation(const Evidence& evidence, const Fit& fit) {
+  double products = 0;
+  double squares = 0;
+  for (const Block& block : evidence.blocks) {
+    for (std::size_t i = 0; i < block.rows.size(); ++i) {
+      const double r = fit.residual[static_cast<Eigen::Index>(block.rows[i])];
+      squares += r * r;
+      if (i > 0) products += r * fit.residual[static_cast<Eigen::Index>(block.rows[i - 1])];
+    }
+  }
+  return squares > 0 ? std::clamp(products / squares, 0.0, 0.999) : 0.0;
+}
+
+std::vector<const EffectParameter*> varied(const Mechanism& declared, const EffectSet& effects) {
+  std::vector<const EffectParameter*> parameters;
+  if (declared.transmission) parameters.push_back(&free_offset());
+  for (const Effect* effect : effects) {
+    for (const EffectParameter& parameter : effect->parameters) {
+      if (!parameter.searched) parameters.push_back(&parameter);
+    }
+  }
+  return parameters;
+}
+
+Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& effects, const Imperfections& from) {
+  silence_glog();
+  Fit fit;
+  fit.effects = effects;
+  const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, effects);
+  std::vector<double> near;
+  const Eigen::VectorXd before = evidence.theta - flat(forward(from));
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t i : block.rows) near.push_back(before[static_cast<Eigen::Index>(i)]);
+  }
+  const double middle = median(near);
+  for (double& value : near) value = std::abs(value - middle);
+  const double scale = std::max(evidence.floor, 1.5 * median(near));
+  Imperfections first = from;
+  if (evidence.declared->transmission && from.zero == 0) first.zero = middle;
+  double best = std::numeric_limits<double>::infinity();
+  for (const Imperfections& start : promising(evidence, forward, parameters, all_starts(effects, first))) {
+    const Misfit misfit(evidence, forward, parameters, start, scale);
+    std::vector<double> x;
+    for (const EffectParameter* parameter : parameters) x.push_back(start.*parameter->member / parameter->step);
+    const double cost = parameters.empty() ? misfit.cost(x.data()) : solve(misfit, parameters, x);
+    if (!(cost < best)) continue;
+    best = cost;
+    fit.at = placed(parameters, start, x.data());
+    fit.x = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+    fit.usable = true;
+  }
+  if (!fit.usable) return fit;
+  linearise(evidence, forward, parameters, fit);
+  judge(evidence, parameters, fit);
+  return fit;
+}
+
+Fit with_direction(const Evidence& evidence, Forward& forward, const Fit& fit, const Effect& effect) {
+  Fit wider = fit;
+  wider.effects.push_back(&effect);
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& parameter = effect.parameters[k];
+    if (parameter.searched && !effect.starts.empty()) wider.at.*parameter.member = effect.starts[effect.starts.size() / 2][k];
+  }
+  const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, wider.effects);
+  wider.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  wider.x.head(fit.x.size()) = fit.x;
+  const Eigen::VectorXd reading = evidence.theta - fit.residual;
+  wider.J.conservativeResize(Eigen::NoChange, wider.x.size());
+  for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
+    wider.J.col(k) = slope_at(forward, wider.at, *parameters[static_cast<std::size_t>(k)], reading);
+  }
+  judge(evidence, parameters, wider);
+  return wider;
+}
+
+Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better) {
+  Comparison comparison;
+  std::vector<double> drops;
+  std::map<std::size_t, std::vector<double>> by_run;
+  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
+    const double drop = worse.by_factor.by_block[b] - better.by_factor.by_block[b];
+    if (!std::isfinite(drop)) continue;
+    drops.push_back(drop);
+    by_run[evidence.blocks[b].run].push_back(drop);
+  }
+  comparison.t = t_of(drops, &comparison.mean, &comparison.standard_error);
+  comparison.needed_t = t95(static_cast<double>(drops.size()) - 1.0);
+  std::vector<double> runs;
+  for (const auto& [run, values] : by_run) runs.push_back(std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()));
+  comparison.t_over_runs = runs.size() > 2 ? t_of(runs, nullptr, nullptr) : comparison.t;
+  return comparison;
+}
+
+double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better) {
+  const double r = autocorrelation(evidence, better);
+  const double rows = static_cast<double>(evidence.rows_used());
+  const double independent = std::max(rows * (1.0 - r) / (1.0 + r), static_cast<double>(evidence.blocks.size()));
+  const double more = static_cast<double>(better.x.size() - worse.x.size());
+  return independent * std::log(worse.mean_square / better.mean_square) - more * std::log(independent);
+}
+
+namespace {
+
+/// Spread of the fitted x that the scatter between runs makes (clusters); zero with fewer than three runs.
+Eigen::VectorXd scatter_between_runs(const Evidence& evidence, const Fit& fit, const Eigen::MatrixXd& inverse) {
+  std::map<std::size_t, Eigen::VectorXd> pulls;
+  for (std::size_t b = 0; b < fit.sums.size(); ++b) {
+    auto [place, added] = pulls.try_emplace(evidence.blocks[b].run, Eigen::VectorXd::Zero(fit.x.size()));
+    place->second += fit.sums[b].Jr;
+  }
+  const double runs = static_cast<double>(pulls.size());
+  if (runs < 3) return Eigen::VectorXd::Zero(fit.x.size());
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(fit.x.size(), fit.x.size());
+  for (const auto& [run, pull] : pulls) scatter += pull * pull.transpose();
+  return (runs / (runs - 1.0) * inverse * scatter * inverse).diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace
+
+std::vector<Interval> intervals(const Evidence& evidence, const Fit& fit) {
+  const auto count = static_cast<std::size_t>(fit.x.size());
+  std::vector<std::vector<double>> values(count);
+  Dice dice;
+  const std::size_t blocks = fit.sums.size();
+  const double ridge = 1e-6;
+  for (int resample = 0; resample < k_resamples; ++resample) {
+    Eigen::MatrixXd JJ = fit.readings.JJ;
+    Eigen::VectorXd Jr = fit.readings.Jr;
+    for (std::size_t i = 0; i < blocks; ++i) {
+      const BlockSums& sums = fit.sums[dice.below(blocks)];
+      JJ += sums.JJ;
+      Jr += sums.Jr;
+    }
+    const Eigen::VectorXd x = fit.x + solved(JJ, Jr, fit.x, ridge);
+    for (std::size_t k = 0; k < count; ++k) values[k].push_back(x[static_cast<Eigen::Index>(k)]);
+  }
+  Eigen::MatrixXd information = fit.readings.JJ + 1e-18 * Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size());
+  for (const BlockSums& sums : fit.sums) information += sums.JJ;
+  const Eigen::VectorXd between = scatter_between_runs(evidence, fit, information.ldlt().solve(Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size())));
+  std::vector<Interval> found(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::sort(values[k].begin(), values[k].end());
+    const double centre = fit.x[static_cast<Eigen::Index>(k)];
+    const double half = 1.96 * between[static_cast<Eigen::Index>(k)];
+    found[k].low = std::min(values[k][k_resamples / 40], centre - half);
+    found[k].high = std::max(values[k][k_resamples - 1 - k_resamples / 40], centre + half);
+    found[k].deviation = 0.25 * (found[k].high - found[k].low);
+  }
+  return found;
+}
+
+}  // namespace fusee

@@ -1,0 +1,15 @@
+/// \file
+/// Which measurement would tell the members of a group apart, and by how much: every proposal is simulated with each member as it was fitted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/selection.h"
+
+namespace fusee {
+
+/// One sentence each, the most telling first. Empty when no group has more than one member.
+std::vector<std::string> next_runs(const Evidence& evidence, const Selection& selection);
+
+}  // namespace fusee

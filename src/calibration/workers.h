@@ -1,0 +1,27 @@
+/// \file
+/// The same simulation many times over, on as many threads as the machine has. The outcome does not depend on how many.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "calibration/evidence.h"
+
+namespace fusee {
+
+class Workers {
+ public:
+  /// `evidence` must outlive this.
+  explicit Workers(const Evidence& evidence);
+
+  /// Calls `job` for 0 … count − 1, each with a simulation of its own thread. The first exception is passed on.
+  /// `done(n)` is called from this thread whenever n of the jobs were seen to have ended; it may throw.
+  void each(std::size_t count, const std::function<void(Forward&, std::size_t)>& job, const std::function<void(std::size_t)>& done = {});
+  /// For a single simulation in between.
+  Forward& one() { return forwards_.front(); }
+
+ private:
+  std::vector<Forward> forwards_;
+};
+
+}  // namespace fusee

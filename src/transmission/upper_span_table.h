@@ -1,0 +1,43 @@
+/// \file
+/// A tendon's upper span over all joint angles, looked up: the geometry that an equilibrium asks for many times at every step.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fusee/transmission/tendon_path.h"
+
+namespace fusee {
+
+/// By cubics between 1024 places that take over values and slopes: upper_span() to 1e-10 of R where the span is not near its end.
+class UpperSpanTable {
+ public:
+  /// From `least` to `most` of the right-hand image's joint angle, rad.
+  UpperSpanTable(const PinPlace& place, double least, double most);
+
+  struct Look {
+    double length = 0;   ///< UpperSpan::length, mm
+    double m = 0;        ///< moment arm about O, mm
+    double dm = 0;       ///< dm/dθ
+    double normal = 0;   ///< rad
+    double dnormal = 0;  ///< d normal / dθ
+  };
+  Look at(double theta) const;
+
+ private:
+  struct Knot {
+    double length, m, dm, d2m, normal, dnormal;
+  };
+  double least_;
+  double step_;
+  std::vector<Knot> knots_;
+};
+
+/// Of the left tendon's image and of the right one.
+struct UpperSpans {
+  UpperSpans(const std::array<PinPlace, 2>& pins, double theta_least, double theta_most)
+      : left(pins[0], -theta_most, -theta_least), right(pins[1], theta_least, theta_most) {}
+  UpperSpanTable left, right;
+};
+
+}  // namespace fusee

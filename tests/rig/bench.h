@@ -1,0 +1,100 @@
+/// \file
+/// The joint on its bench, in equilibrium at one pulley angle after another.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "rig/rig.h"
+#include "rig/string_geometry.h"
+
+namespace fusee::rig {
+
+/// What acts on the joint at a step.
+struct Conditions {
+  double load = 0;                  ///< tip force across OC, against +θ, N
+  double creep_time = 0;            ///< since the load came on, s
+  double warmth = 0;                ///< K above home's temperature
+  double seconds = 1;               ///< since the last step
+  std::array<double, 2> let_go{};   ///< material let go at each anchor so far, mm
+};
+
+/// Tendon on the pulley from this arc on, up to the next piece.
+struct LaidTendon {
+  double from = 0;
+  double density = 1;               ///< unstretched per wound length
+};
+
+/// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
+struct BenchTendon {
+  Hull hull;                        ///< its pulley, in the pulley's frame at home
+  Circle pin;
+  Vec2 axis = Vec2::Zero();         ///< of the pulley
+  double sign = 1;                  ///< of the image's angles
+  double mark = 0;                  ///< direction of the point of the pin's rim between the upper and the lower part
+  double upper = 0;                 ///< unstretched length above the mark, mm
+  double lower = 0;                 ///< below it, up to the pulley
+  double density = 1;               ///< unstretched per wound length, of home
+  double wound = 0;                 ///< arc on the pulley
+  std::ptrdiff_t corner = 0;        ///< at which it begins
+  double bristle = 0;               ///< −1…1: share of the friction in use; > 0 where tendon went down over the pin
+  double let_go = 0;
+  double upper_tension = 0;         ///< N
+  double lower_tension = 0;
+  Vec2 home_push = Vec2::Zero();    ///< force on the pin at home, N
+  Vec2 push = Vec2::Zero();
+  std::vector<LaidTendon> laid;     ///< wound since home
+};
+
+class Bench {
+ public:
+  /// At home, unloaded, θ = 0.
+  Bench(const MadeJoint& joint, const Hidden& hidden);
+
+  /// θ with the pulley turned to `pulley`; a lump is met at `alpha`. NaN when nothing holds the joint.
+  double to(double pulley, double alpha, const Conditions& conditions);
+
+  /// tendon(0): tendon 1.
+  const BenchTendon& tendon(std::size_t side) const { return tendons_[side]; }
+  double theta() const { return theta_; }
+
+ private:
+  /// A tendon at a pulley angle, before θ is known.
+  struct Below {
+    Circle pin;
+    double length = 0;
+    double material = 0;
+    double wound = 0;
+    double normal = 0;
+    std::ptrdiff_t corner = 0;
+  };
+  /// A tendon at a trial θ.
+  struct Trial {
+    double torque = 0;  ///< on the joint, towards its own side
+    double slipped = 0;
+    double bristle = 0;
+    double upper_tension = 0, lower_tension = 0;
+    Vec2 push = Vec2::Zero();
+  };
+
+  void hang(BenchTendon& tendon, double tension, double slack);
+  double strain_at(double tension) const;
+  double tension(double length, double material, std::size_t side, const Conditions& conditions) const;
+  Below below(std::size_t side, double pulley, double alpha, const Conditions& conditions, const Vec2& push) const;
+  Trial tried(std::size_t side, const Below& below, double theta, const Conditions& conditions) const;
+  double excess(const std::array<Below, 2>& below, double theta, const Conditions& conditions) const;
+  double dry_friction(const Conditions& conditions) const;
+  double balanced(const std::array<Below, 2>& below, const Conditions& conditions) const;
+  double lump(double alpha) const;
+
+  Hidden hidden_;
+  double R_ = 0;
+  double EA_ = 0;
+  double friction_ = 0;
+  double step_ = 0;  ///< of θ, the last one
+  double theta_ = 0;
+  std::array<BenchTendon, 2> tendons_;
+};
+
+}  // namespace fusee::rig

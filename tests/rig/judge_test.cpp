@@ -1,0 +1,105 @@
+// Truths that are as they are said to be, and a judge who counts right.
+#include "rig/judge.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "fusee/base/diagnostics.h"
+
+namespace fusee::rig {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+Calibration answer(const std::string& verdict, const std::vector<std::vector<std::string>>& groups) {
+  Calibration found;
+  found.verdict = verdict;
+  for (const std::vector<std::string>& group : groups) {
+    FoundEffect effect;
+    effect.name = group.front();
+    effect.group = group;
+    found.effects.push_back(effect);
+  }
+  return found;
+}
+
+Case with(const std::vector<std::string>& faults) {
+  Case made;
+  made.truth = "a truth";
+  made.faults = faults;
+  return made;
+}
+
+TEST(Judge, counts_what_was_found_and_what_was_not) {
+  const Judgement one = judge(with({"tendon_stretch", "backlash"}), answer("confounded", {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
+  EXPECT_EQ(one.named, 2u);
+  EXPECT_EQ(one.held, 1u);
+  EXPECT_EQ(one.alone, 0u);
+  EXPECT_EQ(one.false_groups, 1u);
+  EXPECT_EQ(one.wrong_alone, 1u);
+  EXPECT_FALSE(one.outside);
+}
+
+TEST(Judge, kin_of_a_fault_without_a_name_is_no_false_blame) {
+  const Judgement kin = judge(with({"giving_frame"}), answer("explained", {{"tendon_stretch"}}));
+  EXPECT_TRUE(kin.outside);
+  EXPECT_EQ(kin.false_groups, 0u);
+  EXPECT_EQ(judge(with({"giving_frame"}), answer("explained", {{"backlash"}})).false_groups, 1u);
+}
+
+TEST(Judge, rates_are_shares_of_what_they_say) {
+  const std::vector<Judgement> all = {
+      judge(with({}), answer("no_effect", {})),
+      judge(with({}), answer("explained", {{"backlash"}})),
+      judge(with({"backlash"}), answer("explained", {{"backlash"}})),
+      judge(with({"backlash"}), answer("no_effect", {})),
+      judge(with({"lump"}), answer("unexplained", {})),
+      judge(with({"lump"}), answer("confounded", {{"profile_error", "gravity"}})),
+  };
+  const Rates found = rates(all);
+  EXPECT_DOUBLE_EQ(found.miss, 0.5);
+  EXPECT_DOUBLE_EQ(found.false_blame, 0.25);
+  EXPECT_DOUBLE_EQ(found.false_blame_outside, 0.5);
+  EXPECT_DOUBLE_EQ(found.wrong_alone, 1.0 / 6.0);
+  EXPECT_DOUBLE_EQ(found.unexplained_outside, 0.5);
+  EXPECT_DOUBLE_EQ(found.quiet, 0.5);
+  EXPECT_THAT(matrix(all), HasSubstr("| a truth | 6 |"));
+}
+
+TEST(Truths, name_every_effect_of_the_contract_and_some_that_nobody_named) {
+  const std::vector<std::string> names = fault_names();
+  for (const char* name :
+       {"zero_offset",  "motor_offset", "joint_sensor_gain", "joint_sensor_eccentricity", "motor_sensor_eccentricity", "sensor_lag",  "radius_offset",
+        "pulley_scale", "pulley_runout", "guide_radius",     "guide_position",            "joint_length",              "tendon_stretch", "capstan_friction",
+        "backlash",     "slack",         "creep",            "tendon_slip",               "thermal_expansion",         "gravity",     "profile_error"}) {
+    EXPECT_THAT(names, Contains(name));
+    EXPECT_TRUE(has_name(name));
+  }
+  EXPECT_GE(std::count_if(names.begin(), names.end(), [](const std::string& name) { return !has_name(name); }), 6);
+  EXPECT_THROW(has_name("backlesh"), InputError);
+}
+
+TEST(Truths, each_fault_is_well_seen_and_none_in_a_joint_as_declared) {
+  for (const char* name : {"nothing", "backlash", "slack", "sensor_lag", "tendon_slip", "hardening_tendon", "bedding_in"}) {
+    const std::vector<Truth> all = all_truths();
+    const Truth truth = *std::find_if(all.begin(), all.end(), [&](const Truth& one) { return one.name == name; });
+    const Case made = make_case(truth, 1, Protocol::full);
+    ASSERT_EQ(made.seen.size(), truth.faults.size());
+    for (const double times : made.seen) {
+      EXPECT_GT(times, 2.5) << truth.name;
+      EXPECT_LT(times, 20.0) << truth.name;
+    }
+    EXPECT_EQ(made.hidden == Hidden{}, truth.faults.empty()) << truth.name;
+  }
+}
+
+TEST(Truths, a_case_is_the_same_every_time) {
+  const Truth truth{"backlash", {"backlash"}};
+  EXPECT_EQ(files_of(make_case(truth, 3, Protocol::single)), files_of(make_case(truth, 3, Protocol::single)));
+  EXPECT_NE(files_of(make_case(truth, 3, Protocol::single)), files_of(make_case(truth, 4, Protocol::single)));
+}
+
+}  // namespace
+}  // namespace fusee::rig

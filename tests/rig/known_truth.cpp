@@ -1,0 +1,185 @@
+// The known-truth matrix: makes joints whose faults are known, calibrates them, prints what was said. On standard output Markdown, on
+// standard error the progress.
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "fusee/base/diagnostics.h"
+#include "rig/judge.h"
+
+namespace fusee::rig {
+namespace {
+
+constexpr const char* k_usage =
+    "usage: known_truth [--seeds N] [--only NAME]... [--protocol full|single] [--csv DIR] [--no-calibration]\n"
+    "  --seeds N           joints per truth (3)\n"
+    "  --only NAME         this truth alone; \"nothing\", \"tendon_stretch\", \"backlash + sensor_lag\" ...\n"
+    "  --protocol NAME     full: five runs; single: one unloaded run (full)\n"
+    "  --csv DIR           leaves spec.toml, runs and truth.json of each joint there\n"
+    "  --no-calibration    makes the data alone\n"
+    "  --list              the truths\n";
+
+struct Request {
+  std::uint64_t seeds = 3;
+  std::vector<std::string> only;
+  Protocol protocol = Protocol::full;
+  std::string csv;
+  bool calibration = true;
+  bool list = false;
+};
+
+std::optional<Request> read_request(const std::vector<std::string>& words) {
+  Request request;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto value = [&]() -> const std::string* { return i + 1 < words.size() ? &words[++i] : nullptr; };
+    const std::string& word = words[i];
+    if (word == "--no-calibration") {
+      request.calibration = false;
+      continue;
+    }
+    if (word == "--list") {
+      request.list = true;
+      continue;
+    }
+    const std::string* text = value();
+    if (text == nullptr) return std::nullopt;
+    if (word == "--seeds") {
+      request.seeds = std::strtoull(text->c_str(), nullptr, 10);
+      if (request.seeds == 0) return std::nullopt;
+    } else if (word == "--only") {
+      request.only.push_back(*text);
+    } else if (word == "--protocol" && (*text == "full" || *text == "single")) {
+      request.protocol = *text == "full" ? Protocol::full : Protocol::single;
+    } else if (word == "--csv") {
+      request.csv = *text;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return request;
+}
+
+/// A truth with its seed: one joint.
+struct Job {
+  Truth truth;
+  std::uint64_t seed = 0;
+};
+
+std::vector<Job> jobs_of(const Request& request) {
+  std::vector<Job> jobs;
+  for (const Truth& truth : all_truths()) {
+    if (!request.only.empty() && std::find(request.only.begin(), request.only.end(), truth.name) == request.only.end()) continue;
+    // A slip needs a loaded second run.
+    if (request.protocol == Protocol::single && truth.name == "tendon_slip") continue;
+    for (std::uint64_t seed = 1; seed <= request.seeds; ++seed) jobs.push_back({truth, seed});
+  }
+  return jobs;
+}
+
+std::string folder_name(const Job& job) {
+  std::string name = job.truth.name + "_" + std::to_string(job.seed);
+  std::erase(name, ' ');
+  return name;
+}
+
+/// Two at work; the answers in the order of the jobs.
+std::vector<Judgement> work(const std::vector<Job>& jobs, const Request& request, const std::filesystem::path& folder) {
+  std::vector<std::optional<Judgement>> answers(jobs.size());
+  std::atomic<std::size_t> next = 0;
+  std::size_t done = 0;
+  std::mutex console;
+  const auto one = [&](std::size_t i) {
+    std::string words;
+    try {
+      const Case made = make_case(jobs[i].truth, jobs[i].seed, request.protocol);
+      if (request.calibration) {
+        answers[i] = calibrate_case(made, folder / folder_name(jobs[i]));
+        words = answers[i]->words;
+      } else {
+        write_case(made, folder / folder_name(jobs[i]));
+        words = folder_name(jobs[i]);
+      }
+    } catch (const std::exception& error) {
+      words = folder_name(jobs[i]) + ": FAILED: " + error.what();
+    }
+    const std::lock_guard lock(console);
+    std::fprintf(stderr, "[%zu/%zu] %s\n", ++done, jobs.size(), words.c_str());
+  };
+  const auto worker = [&] {
+    for (std::size_t i = next++; i < jobs.size(); i = next++) one(i);
+  };
+  std::thread other(worker);
+  worker();
+  other.join();
+  std::vector<Judgement> all;
+  for (std::optional<Judgement>& answer : answers) {
+    if (answer) all.push_back(std::move(*answer));
+  }
+  return all;
+}
+
+/// Emptied and removed in the end.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "known_truth_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw OutputError("cannot make a folder like " + pattern, "set TMPDIR");
+    path_ = pattern;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+int run(const std::vector<std::string>& words) {
+  const std::optional<Request> request = read_request(words);
+  if (!request) {
+    std::fputs(k_usage, stderr);
+    return 2;
+  }
+  const std::vector<Job> jobs = jobs_of(*request);
+  if (jobs.empty()) {
+    std::fputs("known_truth: there is no such truth; --list shows them\n", stderr);
+    return 2;
+  }
+  if (request->list) {
+    for (const Job& job : jobs) {
+      if (job.seed == 1) std::printf("%s\n", job.truth.name.c_str());
+    }
+    return 0;
+  }
+  std::optional<ScratchFolder> scratch;
+  if (request->csv.empty()) scratch.emplace();
+  const std::vector<Judgement> all = work(jobs, *request, scratch ? scratch->path() : std::filesystem::path(request->csv));
+  if (!request->calibration) return 0;
+  std::fputs(matrix(all).c_str(), stdout);
+  return all.size() == jobs.size() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace fusee::rig
+
+int main(int count, char** words) {
+  try {
+    return fusee::rig::run({words + 1, words + count});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "known_truth: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,606 @@
+// The rig that judges calibration, judged itself: by circles, by virtual work, by hand, by the declared law, and by joints that another
+// rig measured.
+#include "rig/rig.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "fusee/calibration/measurement.h"
+#include "fusee/mechanism/file.h"
+#include "fusee/transmission/transmission.h"
+#include "rig/bench.h"
+#include "rig/random.h"
+#include "rig/string_geometry.h"
+#include "support/mechanisms.h"
+
+namespace fusee::rig {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+SensorPlan silent() {
+  SensorPlan sensors;
+  sensors.noise = 0;
+  return sensors;
+}
+
+/// One unloaded run.
+Log run_of(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors = silent()) {
+  return log_runs(joint, hidden, single_protocol(), sensors).front();
+}
+
+// ---- strings --------------------------------------------------------------------------------------------------------
+
+Polygon circle(double radius, int corners) {
+  Polygon polygon;
+  for (int i = 0; i < corners; ++i) polygon.push_back(radius * unit(k_two_pi * i / corners));
+  return polygon;
+}
+
+Polygon ellipse(double a, double b, int corners) {
+  Polygon polygon = circle(1.0, corners);
+  for (Vec2& corner : polygon) corner = {a * corner.x(), b * corner.y()};
+  return polygon;
+}
+
+TEST(String, winds_on_a_circle_as_on_a_circle) {
+  const Hull hull = hull_of(circle(7.0, 20000));
+  const Circle pin{{15.0, 40.0}, 2.0};
+  const LowerString string = lower_string(hull, pin, first_look(hull, pin));
+  const double c = pin.centre.norm();
+  EXPECT_NEAR(string.length, std::sqrt(c * c - 25.0), 5e-3);  // a corner may lie half a side off
+  EXPECT_NEAR(string.arm, 7.0, 1e-6);
+  EXPECT_NEAR(std::atan2(string.normal.y(), string.normal.x()), std::atan2(40.0, 15.0) - std::acos(5.0 / c), 2e-4);
+  EXPECT_NEAR(hull.around, 7.0 * k_two_pi, 1e-5);
+}
+
+TEST(String, counts_the_arc_on_through_whole_turns) {
+  const Hull hull = hull_of(circle(7.0, 720));
+  const Circle pin{{15.0, 40.0}, 2.0};
+  const LowerString once = lower_string(hull, pin, first_look(hull, pin));
+  const LowerString later = lower_string(hull, pin, once.corner + 3 * 720);
+  EXPECT_NEAR(later.arc - once.arc, 3 * hull.around, 1e-10);
+  const LowerString earlier = lower_string(hull, pin, once.corner - 720);
+  EXPECT_NEAR(earlier.arc - once.arc, -hull.around, 1e-10);
+}
+
+/// Length from a mark on the pin's rim to the anchor, with the pulley turned clockwise by `angle`, but for a constant.
+double length_below(const Hull& hull, const Vec2& pin_from_axis, double radius, double angle) {
+  const Vec2 seen = {std::cos(angle) * pin_from_axis.x() - std::sin(angle) * pin_from_axis.y(),
+                     std::sin(angle) * pin_from_axis.x() + std::cos(angle) * pin_from_axis.y()};
+  const Circle pin{seen, radius};
+  const LowerString string = lower_string(hull, pin, first_look(hull, pin));
+  return string.arc + string.length - radius * (std::atan2(string.normal.y(), string.normal.x()) - angle);
+}
+
+TEST(String, virtual_work_below_the_pin) {
+  const Hull hull = hull_of(ellipse(12.0, 8.0, 40000));
+  const Vec2 pin(15.0, 40.0);
+  for (const double angle : {-0.6, -0.1, 0.0, 0.4, 0.7}) {
+    const double h = 1e-3;
+    const double winding = (length_below(hull, pin, 2.0, angle + h) - length_below(hull, pin, 2.0, angle - h)) / (2 * h);
+    const Circle seen{{std::cos(angle) * 15.0 - std::sin(angle) * 40.0, std::sin(angle) * 15.0 + std::cos(angle) * 40.0}, 2.0};
+    EXPECT_NEAR(winding, lower_string(hull, seen, first_look(hull, seen)).arm, 2e-3) << angle;
+    EXPECT_GT(std::abs(winding - 10.0), 0.01) << "an ellipse's arm is not that of its mean circle";
+  }
+}
+
+TEST(String, virtual_work_above_the_pin) {
+  const Circle pin{{18.0, 14.0}, 1.4};
+  const auto at = [&](double theta) { return upper_string({40.0 * std::sin(theta), 40.0 * std::cos(theta)}, pin); };
+  const auto length = [&](double theta) { return at(theta).length + pin.radius * std::atan2(at(theta).normal.y(), at(theta).normal.x()); };
+  for (const double theta : {-0.5, 0.0, 0.5}) {
+    const double h = 1e-5;
+    EXPECT_NEAR(-(length(theta + h) - length(theta - h)) / (2 * h), at(theta).arm, 1e-8) << theta;
+  }
+}
+
+TEST(String, bridges_a_hollow) {
+  Polygon notched = circle(10.0, 360);
+  for (std::size_t i = 20; i < 40; ++i) notched[i] *= 0.9;
+  EXPECT_NEAR(hull_of(notched).around, hull_of(circle(10.0, 360)).around, 0.05);
+  EXPECT_LT(hull_of(notched).corners.size(), 345u);
+}
+
+TEST(String, says_when_the_pin_is_within_the_pulley) {
+  const Hull hull = hull_of(circle(7.0, 360));
+  EXPECT_THROW(lower_string(hull, {{1.0, 2.0}, 1.0}, 0), Bug);
+}
+
+// ---- the joint as declared ------------------------------------------------------------------------------------------
+
+/// Stiff and without friction.
+Mechanism ideal(Mechanism mechanism) {
+  mechanism.guides.mu = 0;
+  mechanism.tendon.modulus = 1e8;
+  return mechanism;
+}
+
+TEST(Rig, follows_the_declared_law_to_six_digits) {
+  for (const Mechanism& mechanism : {testing::forearm(), testing::unsymmetric(), testing::linear_wrist()}) {
+    const Mechanism stiff = ideal(mechanism);
+    const Transmission law(stiff);
+    for (const Row& row : run_of(make_joint(stiff), {})) {
+      ASSERT_NEAR(row.theta, law.theta(row.alpha), 2e-6) << mechanism.name << " at " << degrees(row.alpha) << " deg";
+    }
+  }
+}
+
+TEST(Rig, sees_a_wrong_outline) {
+  const Mechanism stiff = ideal(testing::forearm());
+  MadeJoint joint = make_joint(stiff);
+  for (OutlinePoint& point : joint.p1.points) point.position *= 1.001;
+  const Transmission law(stiff);
+  double worst = 0;
+  for (const Row& row : run_of(joint, {})) worst = std::max(worst, std::abs(row.theta - law.theta(row.alpha)));
+  EXPECT_GT(worst, 1e-4);
+}
+
+struct Logged {
+  std::vector<std::array<double, 3>> rows;  ///< deg, deg, N
+};
+
+Logged read_log(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  Logged log;
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    std::array<double, 4> values{};
+    for (double& value : values) {
+      std::getline(cells, cell, ',');
+      value = std::stod(cell);
+    }
+    log.rows.push_back({values[1], values[2], values[3]});
+  }
+  return log;
+}
+
+/// Rms between this rig without noise and data that another one made with 0.02° of it; the first row of a run is left out, since
+/// what came before it is not told. deg
+double difference(const std::string& name, const Hidden& hidden, const std::vector<RunPlan>& plans) {
+  const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
+  const std::vector<Log> logs = log_runs(make_joint(read_mechanism(folder / "spec.toml").mechanism), hidden, plans, silent());
+  double squares = 0;
+  double rows = 0;
+  for (std::size_t run = 0; run < logs.size(); ++run) {
+    const Logged other = read_log(folder / ("run_" + std::to_string(run + 1) + ".csv"));
+    EXPECT_EQ(other.rows.size(), logs[run].size());
+    for (std::size_t row = 1; row < std::min(logs[run].size(), other.rows.size()); ++row) {
+      EXPECT_NEAR(degrees(logs[run][row].alpha), other.rows[row][0], 1e-4);
+      EXPECT_EQ(logs[run][row].load, other.rows[row][2]);
+      const double miss = degrees(logs[run][row].theta) - other.rows[row][1];
+      squares += miss * miss;
+      rows += 1;
+    }
+  }
+  return std::sqrt(squares / rows);
+}
+
+TEST(Rig, measures_what_another_rig_measured) {
+  Hidden soft, lash, small;
+  soft.modulus = 9000;
+  lash.backlash = radians(2.4);
+  small.pulley_scale = -0.02;
+  EXPECT_LT(difference("a_declared_right", {}, full_protocol(6)), 0.0204);
+  EXPECT_LT(difference("b_stretch", soft, full_protocol(6)), 0.0204);
+  EXPECT_LT(difference("c_backlash", lash, full_protocol(14)), 0.0207);
+  EXPECT_LT(difference("e_one_sweep_only", small, single_protocol()), 0.0204);
+  EXPECT_GT(difference("b_stretch", {}, full_protocol(6)), 0.1) << "a rig that takes no notice of its faults";
+}
+
+// ---- faults, by hand ------------------------------------------------------------------------------------------------
+
+const MadeJoint& forearm() {
+  static const MadeJoint joint = make_joint(ideal(testing::forearm()));
+  return joint;
+}
+
+/// Up and down strokes of the second cycle: θ of both at the row in the middle of a stroke, and the rows.
+struct Middle {
+  double up = 0, down = 0, slope = 0, speed = 0;
+};
+
+Middle middle_of(const Log& log) {
+  const std::size_t up = 200;
+  const std::size_t down = 280;
+  EXPECT_NEAR(log[up].alpha, log[down].alpha, 1e-12);
+  return {log[up].theta, log[down].theta, (log[up + 1].theta - log[up - 1].theta) / (log[up + 1].alpha - log[up - 1].alpha),
+          (log[up + 1].alpha - log[up - 1].alpha) / (log[up + 1].time - log[up - 1].time)};
+}
+
+Log unloaded(const Hidden& hidden) { return run_of(forearm(), hidden); }
+
+TEST(Fault, none_moves_nothing) {
+  const Log log = unloaded({});
+  const Middle middle = middle_of(log);
+  EXPECT_NEAR(middle.up, middle.down, 1e-10);
+}
+
+TEST(Fault, sensors_show_what_they_should) {
+  const Log plain = unloaded({});
+  Hidden hidden;
+  hidden.zero = 0.01;
+  hidden.gain = 0.02;
+  hidden.joint_eccentricity = 0.003;
+  hidden.joint_eccentricity_phase = 0.4;
+  hidden.interpolation = 0.001;
+  const Log log = unloaded(hidden);
+  for (std::size_t row = 0; row < log.size(); ++row) {
+    const double t = plain[row].theta;
+    EXPECT_NEAR(log[row].theta, 0.01 + 1.02 * t + 0.003 * (std::sin(t + 0.4) - std::sin(0.4)) + 0.001 * std::sin(8 * t), 1e-12);
+  }
+}
+
+TEST(Fault, backlash_and_delay_open_loops_of_known_width) {
+  Hidden lash, late;
+  lash.backlash = 0.03;
+  late.lag = 0.05;
+  const Middle play = middle_of(unloaded(lash));
+  EXPECT_NEAR((play.down - play.up) / play.slope, 0.03, 1e-4);
+  const Middle delay = middle_of(unloaded(late));
+  EXPECT_NEAR((delay.down - delay.up) / (delay.slope * delay.speed), 2 * 0.05, 1e-3);
+}
+
+TEST(Fault, the_motor_stands_elsewhere) {
+  const Transmission law(forearm().declared);
+  Hidden hidden;
+  hidden.motor_offset = 0.01;
+  hidden.motor_eccentricity = 0.02;
+  hidden.motor_eccentricity_phase = 0.7;
+  hidden.cogging = 0.004;
+  for (const Row& row : unloaded(hidden)) {
+    const double shaft = row.alpha + 0.01 + 0.02 * (std::sin(row.alpha + 0.7) - std::sin(0.7)) + 0.004 * std::sin(30 * row.alpha);
+    EXPECT_NEAR(row.theta, law.theta(shaft), 3e-6);
+  }
+}
+
+TEST(Fault, a_larger_pulley_turns_the_joint_further) {
+  const Transmission law(forearm().declared);
+  Hidden offset, scale;
+  offset.radius_offset = 0.1;
+  scale.pulley_scale = 0.005;
+  const Log with_offset = unloaded(offset);
+  const Log with_scale = unloaded(scale);
+  for (const std::size_t row : {100u, 130u, 150u}) {
+    // Stiff tendons share what they disagree on: only the mean of both sides is known by hand.
+    const TransmissionPoint at = law.at_alpha(with_offset[row].alpha);
+    const double arm = 0.5 * (at.t1.m + at.t2.m);
+    EXPECT_NEAR(with_offset[row].theta - at.theta, 0.1 * at.alpha / arm, 0.03 * std::abs(0.1 * at.alpha / arm) + 1e-5);
+    EXPECT_NEAR(with_scale[row].theta - at.theta, 0.005 * at.theta, 0.08 * 0.005 * std::abs(at.theta) + 1e-5);
+  }
+}
+
+/// At home, both tendons taut, no friction.
+Mechanism elastic() {
+  Mechanism mechanism = testing::forearm();
+  mechanism.guides.mu = 0;
+  mechanism.tendon.pretension = 20;
+  return mechanism;
+}
+
+/// Torque per angle of both tendons at home, but for what the arms change. N·mm/rad
+double stiffness_by_hand(const Mechanism& mechanism, double modulus) {
+  const TransmissionPoint home = Transmission(mechanism).at_alpha(0.0);
+  const double EA = modulus * 0.25 * k_pi * mechanism.tendon.diameter * mechanism.tendon.diameter;
+  return EA * (home.t1.m * home.t1.m / home.t1.length + home.t2.m * home.t2.m / home.t2.length);
+}
+
+TEST(Fault, a_load_stretches_the_tendons_as_by_hand) {
+  const MadeJoint joint = make_joint(elastic());
+  for (const double modulus : {40000.0, 10000.0}) {
+    Hidden hidden;
+    hidden.modulus = modulus;
+    Bench bench(joint, hidden);
+    Conditions at;
+    EXPECT_NEAR(bench.to(0.0, 0.0, at), 0.0, 1e-9);
+    at.load = 3.0;
+    const double by_hand = 3.0 * 100.0 / stiffness_by_hand(joint.declared, modulus);
+    EXPECT_NEAR(bench.to(0.0, 0.0, at), -by_hand, 0.01 * by_hand);
+    EXPECT_GT(bench.tendon(1).upper_tension, 20.0);
+    EXPECT_LT(bench.tendon(0).upper_tension, 20.0);
+    at.load = 0.0;
+    EXPECT_NEAR(bench.to(0.0, 0.0, at), 0.0, 1e-9) << "no friction: nothing stays";
+  }
+}
+
+TEST(Fault, creep_adds_its_share_with_every_decade) {
+  const MadeJoint joint = make_joint(elastic());
+  Hidden hidden;
+  hidden.creep = 0.2;
+  Bench bench(joint, hidden);
+  Conditions at;
+  at.load = 3.0;
+  const double first = bench.to(0.0, 0.0, at);
+  at.creep_time = 99.0;
+  EXPECT_NEAR(bench.to(0.0, 0.0, at) / first, 1.4, 0.01);
+}
+
+TEST(Fault, a_tendon_that_carries_alone_lets_the_joint_down_by_what_it_slips) {
+  const MadeJoint joint = make_joint(elastic());
+  Bench bench(joint, {});
+  Conditions at;
+  at.load = 60.0;  // tendon 1 is slack
+  const double before = bench.to(0.0, 0.0, at);
+  EXPECT_EQ(bench.tendon(0).upper_tension, 0.0);
+  at.let_go[1] = 0.2;
+  const double arm = Transmission(joint.declared).at_theta(before).t2.m;
+  EXPECT_NEAR(before - bench.to(0.0, 0.0, at), 0.2 / arm, 0.01 * 0.2 / arm);
+}
+
+TEST(Fault, a_warm_tendon_that_carries_alone_grows) {
+  const MadeJoint joint = make_joint(elastic());
+  Hidden hidden;
+  hidden.expansion = 5e-5;
+  Bench bench(joint, hidden);
+  Conditions at;
+  at.load = 60.0;
+  const double before = bench.to(0.0, 0.0, at);
+  at.warmth = 10.0;
+  const TendonPoint right = Transmission(joint.declared).at_theta(before).t2;
+  const double by_hand = 5e-5 * 10.0 * right.length / right.m;
+  EXPECT_NEAR(before - bench.to(0.0, 0.0, at), by_hand, 0.02 * by_hand);
+}
+
+TEST(Fault, gravity_is_a_load_that_turns_with_the_joint) {
+  const MadeJoint joint = make_joint(elastic());
+  Hidden hidden;
+  hidden.gravity = 300.0;
+  hidden.gravity_direction = 0.5 * k_pi;
+  Bench heavy(joint, hidden), loaded(joint, {});
+  Conditions none, three;
+  three.load = 3.0;
+  EXPECT_NEAR(heavy.to(0.0, 0.0, none), loaded.to(0.0, 0.0, three), 1e-8);
+  hidden.gravity_direction = 0;
+  EXPECT_NEAR(Bench(joint, hidden).to(0.0, 0.0, none), 0.0, 1e-9) << "hanging straight above the axis";
+}
+
+TEST(Fault, slack_is_lost_motion_and_the_joint_stays_where_it_was_left) {
+  Mechanism declared = elastic();
+  const MadeJoint joint = make_joint(declared);
+  Hidden hidden;
+  hidden.slack = 0.5;
+  Bench bench(joint, hidden);
+  Conditions at;
+  EXPECT_EQ(bench.to(0.0, 0.0, at), 0.0);
+  at.load = 0.01;
+  const double low = bench.to(0.0, 0.0, at);
+  at.load = 0.0;
+  EXPECT_NEAR(bench.to(0.0, 0.0, at), low, 1e-5);
+  at.load = -0.01;
+  const double high = bench.to(0.0, 0.0, at);
+  const double arm = Transmission(declared).at_alpha(0.0).t2.m;
+  EXPECT_NEAR(high - low, 0.5 / arm, 0.02 * 0.5 / arm);
+}
+
+TEST(Fault, friction_over_a_pin_comes_to_the_capstan_ratio_and_not_beyond) {
+  Mechanism declared = testing::forearm();
+  declared.guides.mu = 0.3;
+  const MadeJoint joint = make_joint(declared);
+  Bench bench(joint, {});
+  Conditions at;
+  const Transmission law(declared);
+  for (int step = 1; step <= 60; ++step) {
+    const double alpha = 0.01 * step;
+    bench.to(alpha, alpha, at);
+    const TransmissionPoint point = law.at_theta(bench.theta());
+    for (const std::size_t side : {0u, 1u}) {
+      const double limit = 0.3 * (side == 0 ? point.t1.wrap : point.t2.wrap);
+      const double used = std::log(bench.tendon(side).lower_tension / bench.tendon(side).upper_tension);
+      EXPECT_LE(std::abs(used), limit * 1.0001);
+      // Tendon 2 is pulled down over its pin, tendon 1 is pulled up.
+      if (step > 30) {
+        EXPECT_NEAR(used, side == 1 ? limit : -limit, 1e-3 * limit);
+      }
+    }
+  }
+}
+
+TEST(Fault, no_friction_gives_back_all_work) {
+  const MadeJoint joint = make_joint(elastic());
+  for (const double mu : {0.0, 0.2}) {
+    Hidden hidden;
+    hidden.friction = mu;
+    Bench bench(joint, hidden);
+    const auto motor_torque = [&](double alpha) {
+      double torque = 0;
+      for (const std::size_t side : {0u, 1u}) {
+        const BenchTendon& tendon = bench.tendon(side);
+        const Vec2 pin = tendon.pin.centre - tendon.axis;
+        const double turn = tendon.sign * alpha;
+        const Circle seen{{std::cos(turn) * pin.x() - std::sin(turn) * pin.y(), std::sin(turn) * pin.x() + std::cos(turn) * pin.y()}, tendon.pin.radius};
+        torque += tendon.sign * tendon.lower_tension * lower_string(tendon.hull, seen, tendon.corner).arm;
+      }
+      return torque;
+    };
+    double motor_work = 0, load_work = 0;
+    Conditions at;
+    at.load = 5.0;
+    bench.to(0.0, 0.0, at);
+    constexpr int quarter = 200;
+    // Once round before it counts.
+    for (int step = 1; step <= 8 * quarter; ++step) {
+      const double before = motor_torque(0.5 * std::sin(0.5 * k_pi * (step - 1) / quarter));
+      const double alpha_before = 0.5 * std::sin(0.5 * k_pi * (step - 1) / quarter);
+      const double theta = bench.theta();
+      const double alpha = 0.5 * std::sin(0.5 * k_pi * step / quarter);
+      bench.to(alpha, alpha, at);
+      if (step <= 4 * quarter) continue;
+      motor_work += 0.5 * (before + motor_torque(alpha)) * (alpha - alpha_before);
+      load_work += at.load * 100.0 * (bench.theta() - theta);
+    }
+    EXPECT_NEAR(load_work, 0.0, 1e-4);
+    // Both tendons over their pins, four times the swing a cycle.
+    const TransmissionPoint home = Transmission(joint.declared).at_alpha(0.0);
+    const double swing = Transmission(joint.declared).theta(0.5);
+    const double by_hand = 20.0 * mu * (home.t1.wrap * home.t1.m + home.t2.wrap * home.t2.m) * 4.0 * swing;
+    EXPECT_NEAR(motor_work, by_hand, 0.1 * by_hand + 0.05);
+  }
+}
+
+TEST(Fault, a_sticking_bearing_holds_until_it_is_pulled_enough) {
+  const MadeJoint joint = make_joint(elastic());
+  Hidden hidden;
+  hidden.bearing = 100;
+  hidden.bearing_stick = 50;
+  Bench bench(joint, hidden);
+  Conditions at;
+  at.load = 1.4;  // 140 N mm
+  EXPECT_EQ(bench.to(0.0, 0.0, at), 0.0);
+  at.load = 3.0;
+  const double by_hand = (300.0 - 150.0) / stiffness_by_hand(joint.declared, joint.declared.tendon.modulus);
+  EXPECT_NEAR(bench.to(0.0, 0.0, at), -by_hand, 0.01 * by_hand);
+}
+
+TEST(Fault, a_hardening_tendon_is_as_declared_at_its_pretension_alone) {
+  const MadeJoint joint = make_joint(elastic());
+  Hidden hidden;
+  hidden.hardening = 1e-3;
+  Bench hard(joint, hidden), plain(joint, {});
+  Conditions at;
+  EXPECT_NEAR(hard.to(0.0, 0.0, at), 0.0, 1e-9);
+  at.load = 0.5;
+  EXPECT_NEAR(hard.to(0.0, 0.0, at) / plain.to(0.0, 0.0, at), 1.0, 0.01);
+  at.load = 60.0;
+  EXPECT_LT(hard.to(0.0, 0.0, at) / plain.to(0.0, 0.0, at), 0.95);
+}
+
+TEST(Fault, a_lump_moves_the_joint_where_it_is) {
+  Hidden hidden;
+  hidden.lump = 0.1;
+  hidden.lump_at = radians(40);
+  hidden.lump_width = radians(5);
+  const Transmission law(forearm().declared);
+  const double arm = law.at_alpha(radians(40)).t2.m;
+  double most = 0;
+  for (const Row& row : unloaded(hidden)) {
+    const double moved = row.theta - law.theta(row.alpha);
+    most = std::max(most, moved);
+    if (std::abs(row.alpha - radians(40)) > radians(25)) {
+      EXPECT_NEAR(moved, 0.0, 3e-6);
+    }
+  }
+  EXPECT_NEAR(most, 0.1 / arm, 0.06 * 0.1 / arm);
+}
+
+TEST(Fault, tendon_that_keeps_the_strain_it_was_wound_at_gives_more) {
+  const MadeJoint joint = make_joint(elastic());
+  Hidden keeps;
+  keeps.keeps_winding_strain = true;
+  const std::vector<RunPlan> loaded = {{10.0, radians(12.0), 2, 0.0}};
+  const double home = log_runs(joint, {}, loaded, silent())[0][80].theta;
+  const double winding = log_runs(joint, keeps, loaded, silent())[0][80].theta;
+  EXPECT_GT(std::abs(winding - home), 1e-5);
+  EXPECT_LT(std::abs(winding - home), 2e-3);
+}
+
+// ---- sensors and protocols ------------------------------------------------------------------------------------------
+
+TEST(Random, is_splitmix64) {
+  Random random(0);
+  EXPECT_EQ(random.bits(), 0xE220A8397B1DCDAFULL);
+  EXPECT_EQ(random.bits(), 0x6E789E6AA1B965F4ULL);
+}
+
+TEST(Random, normal_numbers_are_normal) {
+  Random random(7);
+  double sum = 0, squares = 0, fourth = 0;
+  constexpr int count = 200000;
+  for (int i = 0; i < count; ++i) {
+    const double x = random.normal();
+    sum += x;
+    squares += x * x;
+    fourth += x * x * x * x;
+  }
+  EXPECT_NEAR(sum / count, 0.0, 0.01);
+  EXPECT_NEAR(squares / count, 1.0, 0.01);
+  EXPECT_NEAR(fourth / count, 3.0, 0.05);
+}
+
+struct NoiseFigures {
+  double rms = 0, lag1 = 0;
+};
+
+NoiseFigures noise_of(const SensorPlan& sensors) {
+  const Log plain = unloaded({});
+  const Log noisy = run_of(forearm(), {}, sensors);
+  double squares = 0, products = 0;
+  for (std::size_t row = 0; row < plain.size(); ++row) {
+    const double now = noisy[row].theta - plain[row].theta;
+    squares += now * now;
+    if (row > 0) products += now * (noisy[row - 1].theta - plain[row - 1].theta);
+  }
+  return {std::sqrt(squares / static_cast<double>(plain.size())), products / squares};
+}
+
+TEST(Sensors, noise_has_the_size_and_colour_asked_for) {
+  SensorPlan sensors;
+  const NoiseFigures white = noise_of(sensors);
+  EXPECT_NEAR(degrees(white.rms), 0.02, 0.0025);
+  EXPECT_NEAR(white.lag1, 0.0, 0.15);
+  sensors.colour = 0.8;
+  const NoiseFigures coloured = noise_of(sensors);
+  EXPECT_NEAR(degrees(coloured.rms), 0.02, 0.005);
+  EXPECT_NEAR(coloured.lag1, 0.8, 0.1);
+}
+
+TEST(Sensors, a_coarse_sensor_has_steps) {
+  SensorPlan sensors;
+  sensors.quantum = radians(0.05);
+  for (const Row& row : run_of(forearm(), {}, sensors)) {
+    const double steps = degrees(row.theta) / 0.05;
+    EXPECT_NEAR(steps, std::round(steps), 1e-9);
+  }
+}
+
+TEST(Rig, is_the_same_every_time) {
+  Hidden hidden;
+  hidden.zero_walk = 0.001;
+  SensorPlan sensors;
+  const auto text = [&] { return csv_text(run_of(forearm(), hidden, sensors), true); };
+  const std::string once = text();
+  EXPECT_EQ(once, text());
+  sensors.seed = 2;
+  EXPECT_NE(once, text());
+}
+
+TEST(Rig, a_run_has_the_strokes_the_speed_and_the_dwell_it_was_planned_with) {
+  const Log log = log_runs(forearm(), {}, {{0.0, radians(30.0), 2, 4.0}}, silent())[0];
+  ASSERT_EQ(log.size(), 1u + 4 * (80 + 10));
+  EXPECT_NEAR((log[1].alpha - log[0].alpha) / (log[1].time - log[0].time), radians(30.0), 1e-9);
+  EXPECT_EQ(log[80].alpha, log[90].alpha);
+  EXPECT_NEAR(log[90].time - log[80].time, 4.0, 1e-9);
+  EXPECT_LT(log[91].alpha, log[90].alpha);
+}
+
+TEST(Rig, its_files_are_read_by_fusee) {
+  const std::vector<Log> logs = log_runs(forearm(), {}, full_protocol(6.0));
+  Measurement measurement;
+  const fusee::Run run = parse_run(csv_text(logs[1], true), "run_2.csv", {}, measurement);
+  EXPECT_EQ(run.samples.size(), logs[1].size());
+  EXPECT_TRUE(run.has_time && run.has_load && run.has_temperature);
+  EXPECT_EQ(run.strokes.size(), 6u);
+  EXPECT_EQ(run.mean_load, 6.0);
+  EXPECT_NEAR(degrees(run.speed), 12.0, 0.01);
+}
+
+TEST(Rig, shares_no_equation_with_what_it_judges) {
+  for (const char* name : {"string_geometry.h", "string_geometry.cpp", "bench.h", "bench.cpp", "rig.h", "rig.cpp"}) {
+    std::ifstream file(std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/rig" / name);
+    std::stringstream text;
+    text << file.rdbuf();
+    EXPECT_THAT(text.str(), HasSubstr("namespace fusee::rig")) << name;
+    EXPECT_THAT(text.str(), Not(HasSubstr("calibration/"))) << name;
+    EXPECT_THAT(text.str(), Not(HasSubstr("transmission/"))) << name;
+  }
+}
+
+}  // namespace
+}  // namespace fusee::rig

@@ -1,0 +1,78 @@
+#include "rig/string_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+
+namespace fusee::rig {
+namespace {
+
+/// Unit direction along a straight of `span`, which begins `radius` to the left of its line and ends on it.
+Vec2 leaving_circle(const Vec2& span, double radius, double straight) {
+  return (straight * span - radius * turned_left(span)) / span.squaredNorm();
+}
+
+std::size_t wrapped(std::ptrdiff_t corner, std::size_t count) {
+  const auto n = static_cast<std::ptrdiff_t>(count);
+  return static_cast<std::size_t>(((corner % n) + n) % n);
+}
+
+double arc_at(const Hull& hull, std::ptrdiff_t corner) {
+  const std::size_t within = wrapped(corner, hull.corners.size());
+  const auto turns = (corner - static_cast<std::ptrdiff_t>(within)) / static_cast<std::ptrdiff_t>(hull.corners.size());
+  return static_cast<double>(turns) * hull.around + hull.arc[within];
+}
+
+}  // namespace
+
+Hull hull_of(const Polygon& points) {
+  Hull hull;
+  hull.corners = convex_hull(points);
+  for (std::size_t i = 0; i < hull.corners.size(); ++i) {
+    hull.arc.push_back(hull.around);
+    hull.around += (hull.corners[(i + 1) % hull.corners.size()] - hull.corners[i]).norm();
+  }
+  return hull;
+}
+
+UpperString upper_string(const Vec2& from, const Circle& pin) {
+  const Vec2 span = pin.centre - from;
+  const double straight = std::sqrt(span.squaredNorm() - pin.radius * pin.radius);
+  // Seen from its end the pin lies to the right: the circle is the far end here, which mirrors the offset.
+  const Vec2 along = (straight * span + pin.radius * turned_left(span)) / span.squaredNorm();
+  return {straight, turned_left(along), cross(along, from)};
+}
+
+LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t near) {
+  const std::size_t count = hull.corners.size();
+  LowerString string;
+  string.corner = near;
+  for (std::size_t steps = 0; steps <= 2 * count; ++steps) {
+    const Vec2& corner = hull.corners[wrapped(string.corner, count)];
+    const Vec2 span = corner - pin.centre;
+    string.length = std::sqrt(span.squaredNorm() - pin.radius * pin.radius);
+    const Vec2 along = leaving_circle(span, pin.radius, string.length);
+    string.normal = turned_left(along);
+    const auto beyond = [&](std::ptrdiff_t other) { return string.normal.dot(hull.corners[wrapped(other, count)] - corner); };
+    if (beyond(string.corner + 1) > 0) {
+      ++string.corner;
+    } else if (beyond(string.corner - 1) > 0) {
+      --string.corner;
+    } else {
+      string.arc = arc_at(hull, string.corner);
+      string.arm = string.normal.dot(corner);
+      return string;
+    }
+  }
+  throw Bug("no string touches a pin at (" + rounded(pin.centre.x()) + ", " + rounded(pin.centre.y()) + ") mm and the pulley");
+}
+
+std::ptrdiff_t first_look(const Hull& hull, const Circle& pin) {
+  const Vec2 outwards = -turned_left(pin.centre);
+  const auto further = [&](const Vec2& a, const Vec2& b) { return outwards.dot(a) < outwards.dot(b); };
+  return std::max_element(hull.corners.begin(), hull.corners.end(), further) - hull.corners.begin();
+}
+
+}  // namespace fusee::rig

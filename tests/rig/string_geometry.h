@@ -1,0 +1,53 @@
+/// \file
+/// A taut string between a point, a round pin and a convex polygon, by tangents alone. Right-hand image: the string runs down on the
+/// right of pin and pulley. mm, rad.
+///
+/// Nothing here knows the transmission's equations: no support functions, no moment-arm formulas.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fusee/base/plane.h"
+
+namespace fusee::rig {
+
+struct Circle {
+  Vec2 centre = Vec2::Zero();
+  double radius = 0;
+};
+
+/// A strictly convex polygon, counter-clockwise, with the length along it to each corner.
+struct Hull {
+  Polygon corners;
+  std::vector<double> arc;  ///< from corner 0 to corner i
+  double around = 0;        ///< once around
+};
+
+/// Around the points; what is not convex is bridged by the string.
+Hull hull_of(const Polygon& points);
+
+/// The string from its end `from`, down to the pin.
+struct UpperString {
+  double length = 0;  ///< to the pin's tangent point
+  Vec2 normal;        ///< unit, from the pin's centre to the tangent point
+  double arm = 0;     ///< of a pull about the origin, clockwise
+};
+/// `from` must lie outside the pin.
+UpperString upper_string(const Vec2& from, const Circle& pin);
+
+/// The string from the pin down to the corner at which it meets the polygon.
+struct LowerString {
+  double length = 0;          ///< between both points of contact
+  Vec2 normal;                ///< unit, outwards, of the straight string
+  std::ptrdiff_t corner = 0;  ///< counted on through turns
+  double arc = 0;             ///< along the polygon to that corner, counted on through turns
+  double arm = 0;             ///< about the origin
+};
+/// `near`: where to begin looking. The pin must lie outside the polygon.
+LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t near);
+
+/// A corner near the one that the string meets, found without knowing anything.
+std::ptrdiff_t first_look(const Hull& hull, const Circle& pin);
+
+}  // namespace fusee::rig
