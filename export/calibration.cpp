@@ -91,6 +91,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["after"] = figures_json(calibration.after);
   json["after_per_noise_floor"] = calibration.noise.rms > 0 ? number(calibration.after.rms / calibration.noise.rms) : Json();
   json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
+  json["rest_autocorrelation"] = number(calibration.rest_autocorrelation);
   json["unexplained_rms_deg"] = angle(calibration.unexplained_rms);
   json["unexplained_where"] = calibration.unexplained_where;
   json["detectable"] = detectable_json(calibration);

@@ -87,9 +87,12 @@ std::string figures_row(const std::string& name, double before, double after) {
 
 std::string held_out_words(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
-  if (!calibration.held_out_factors.empty()) return "Held out by " + joined(calibration.held_out_factors, " and ") + ": whole levels in turn.";
-  if (product.measurement.runs.size() == 1) return "Held out: strokes in turn.";
-  return calibration.held_out_runs.empty() ? "" : "Held out: " + joined(calibration.held_out_runs, ", ") + ".";
+  const std::size_t runs = product.measurement.runs.size();
+  const bool named = calibration.held_out_runs.size() < runs;
+  std::string words = "The error on data that were not fitted ";
+  words += named ? "is that of " + joined(calibration.held_out_runs, ", ") : runs == 1 ? "leaves out strokes in turn" : "leaves out whole runs in turn";
+  if (!calibration.held_out_factors.empty()) words += "; what decides between effects leaves out whole levels of " + joined(calibration.held_out_factors, " and of ");
+  return words + ".";
 }
 
 std::string figures_section(const CalibrationProduct& product) {
@@ -173,7 +176,7 @@ std::string effects_section(const CalibrationProduct& product) {
   for (const FoundEffect& effect : calibration.effects) html += effect_card(effect, known, product.measurement.load_unit);
   if (html.empty()) html = "<p>None was accepted.</p>";
   if (!calibration.null_combinations.empty()) {
-    html += "<h3>What these data leave free</h3><p class=\"lead\">Combinations that could change together without any of these runs showing it.</p>" +
+    html += "<h3>What these data cannot tell apart</h3><p class=\"lead\">In these runs the one looks like the other, with these numbers and but for this difference at the joint.</p>" +
             html_list(calibration.null_combinations);
   }
   return section("effects", "Effects found", html);
@@ -230,7 +233,8 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string words = calibration.unexplained_where.empty()
                                 ? "What is left is at the noise floor."
                                 : "Unexplained: " + degree_words(calibration.unexplained_rms) + " rms, " + calibration.unexplained_where + ".";
-  return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words) + "</p>" + plot);
+  const std::string colour = " Neighbouring rows of it are correlated by " + readable(calibration.rest_autocorrelation, 2) + "; noise would be near 0.";
+  return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot);
 }
 
 // ---- evidence -------------------------------------------------------------------------------------------------------

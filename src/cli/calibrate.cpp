@@ -168,7 +168,7 @@ std::string summary(const CalibrationProduct& product, bool verbose) {
   std::string text = product.file.mechanism.name + ": " + c.verdict + "\n" + wrapped(c.summary, "  ");
   if (c.verdict == "not_testable") return text + items("Measure next", c.next_runs);
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
-  text += items("Left free by these data", c.null_combinations) + items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
+  text += items("Cannot be told apart by these data", c.null_combinations) + items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
   if (verbose || c.verdict == "no_effect") text += items("Would have been seen, at the joint, rms", detectable_texts(c));
   return verbose ? text + tried_table(c) : text;
 }
