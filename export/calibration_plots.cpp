@@ -384,7 +384,7 @@ std::string rest_html(const CalibrationProduct& product) {
     for (std::size_t r = 0; r < judged; ++r) sum.add(product.measurement.runs[r], product.calibration.residuals_after[r], direction);
     plot.series.push_back(profile_series(sum.mean(), direction, alpha));
   }
-  if (floor > 0) plot.limits = {{floor, "noise floor of one row"}, {-floor, ""}};
+  if (floor > 0) plot.limits = {{floor, ""}, {-floor, ""}};
   plot.width = 560;
   plot.height = 260;
   return single(plot);

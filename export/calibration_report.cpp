@@ -233,58 +233,60 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string words = calibration.unexplained_where.empty()
                                 ? "What is left is at the noise floor."
                                 : "Unexplained: " + degree_words(calibration.unexplained_rms) + " rms, " + calibration.unexplained_where + ".";
-  const std::string colour = " Neighbouring rows of it are correlated by " + readable(calibration.rest_autocorrelation, 2) + "; noise would be near 0.";
+  const std::string colour = " Neighbouring rows of it are correlated by " + readable(calibration.rest_autocorrelation, 2) + "; noise would be near 0. Dashed: the noise floor of a single row.";
   return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot);
 }
 
 // ---- evidence -------------------------------------------------------------------------------------------------------
 
-std::string evidence_row(const Candidate& candidate, double start, const FoundEffect* winner) {
-  const bool alike = winner != nullptr && !candidate.accepted && std::find(winner->group.begin(), winner->group.end(), candidate.name) != winner->group.end();
-  const double width = start > 0 ? std::clamp(100 * candidate.held_out_rms / start, 0.0, 100.0) : 100;
-  return std::string("<tr") + (candidate.accepted ? " class=\"taken\"" : alike ? " class=\"alike\"" : "") + ">" +
-         cell((candidate.accepted ? "✓ " : alike ? "≈ " : "") + open_words(candidate.name)) + "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
-         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.margin, 1)) + number_cell(readable(candidate.delta_bic, 1)) +
-         cell(candidate.why + (alike ? "; as good within one standard error" : "")) + "</tr>";
-}
-
-const FoundEffect* found_as(const Calibration& calibration, const std::string& name) {
+/// Whether `name` stands in the group of an effect that `taken` names; two that came together are named "a + b".
+bool is_as_good(const Calibration& calibration, const std::string& name, const std::string& taken) {
+  const std::string padded = " + " + taken + " + ";
   for (const FoundEffect& effect : calibration.effects) {
-    if (effect.name == name) return &effect;
+    if (name == effect.name || padded.find(" + " + effect.name + " + ") == std::string::npos) continue;
+    if (std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end()) return true;
   }
-  return nullptr;
+  return false;
 }
 
-/// Candidates that were tried together; the one that was taken ends the list.
-std::string evidence_step(const Calibration& calibration, const std::vector<Candidate>& step, double start, std::size_t number) {
-  std::vector<Candidate> sorted = step;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Candidate& a, const Candidate& b) {
+std::string evidence_row(const Candidate& candidate, double most, bool as_good) {
+  const double width = most > 0 ? std::clamp(100 * candidate.held_out_rms / most, 0.0, 100.0) : 100;
+  std::string why = candidate.why.empty() ? "more was needed" : candidate.why;
+  if (as_good) why += "; as good in the end";
+  return std::string("<tr") + (candidate.accepted ? " class=\"taken\"" : as_good ? " class=\"alike\"" : "") + ">" +
+         cell((candidate.accepted ? "✓ " : as_good ? "≈ " : "") + open_words(candidate.name)) + "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
+         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.margin, 1)) + number_cell(readable(candidate.delta_bic, 1)) + cell(why) + "</tr>";
+}
+
+/// Candidates that were tried together, the one that was taken first.
+std::string evidence_step(const Calibration& calibration, std::vector<Candidate> step, std::size_t number) {
+  std::stable_sort(step.begin(), step.end(), [](const Candidate& a, const Candidate& b) {
     return a.accepted != b.accepted ? a.accepted : a.held_out_rms < b.held_out_rms;
   });
-  const FoundEffect* winner = sorted.front().accepted ? found_as(calibration, sorted.front().name) : nullptr;
+  double most = 0;
+  for (const Candidate& candidate : step) most = std::isfinite(candidate.held_out_rms) ? std::max(most, candidate.held_out_rms) : most;
+  const Candidate& first = step.front();
   std::string rows;
-  for (const Candidate& candidate : sorted) rows += evidence_row(candidate, start, winner);
-  return "<h3>" + std::to_string(number) + ". " + (sorted.front().accepted ? "Taken: " + safe_text(open_words(sorted.front().name)) : std::string("Nothing more was taken")) +
-         "; without it " + safe_text(degree_words(start)) + "</h3>" + html_table({"candidate", "", "#held-out RMS", "#margin", "#BIC drop", "why"}, rows);
+  for (const Candidate& candidate : step) rows += evidence_row(candidate, most, first.accepted && !candidate.accepted && is_as_good(calibration, candidate.name, first.name));
+  return "<h3>" + std::to_string(number) + ". " + (first.accepted ? "Taken: " + safe_text(open_words(first.name)) : std::string("Nothing more was taken")) + "</h3>" +
+         html_table({"candidate", "", "#held-out RMS", "#margin", "#BIC drop", "why"}, rows);
 }
 
 std::string evidence_section(const Calibration& calibration) {
   std::string html;
   std::vector<Candidate> step;
-  double start = calibration.before.held_out_rms;
   std::size_t number = 1;
   for (const Candidate& candidate : calibration.tried) {
     step.push_back(candidate);
     if (!candidate.accepted) continue;
-    html += evidence_step(calibration, step, start, number++);
-    start = candidate.held_out_rms;
+    html += evidence_step(calibration, step, number++);
     step.clear();
   }
-  if (!step.empty()) html += evidence_step(calibration, step, start, number);
+  if (!step.empty()) html += evidence_step(calibration, step, number);
   if (html.empty()) return "";
   return section("evidence", "Evidence, step by step",
-                 "<p class=\"lead\">Each candidate added to what was taken before it, and the error on data that it was not fitted to: the bar, full where it helps "
-                 "nothing. Margin: the fall of that error in standard errors over strokes. BIC drop: above 6 it is worth its numbers.</p>" +
+                 "<p class=\"lead\">Each candidate added to what was taken before it, and the error on data that it was not fitted to: a short bar is good. Margin: the fall of "
+                 "that error in standard errors over strokes. BIC drop: above 6 it is worth its numbers.</p>" +
                      html);
 }
 

@@ -17,9 +17,10 @@ struct NamedUnit {
   std::string_view shown;
 };
 // The longer ending first.
-constexpr std::array<NamedUnit, 9> k_units{{{"_deg_per_load", "° per "},
+constexpr std::array<NamedUnit, 10> k_units{{{"_percent_per_decade", " % per decade"},
+                                            {"_deg_per_load", "° per "},
                                             {"_percent", " %"},
-                                            {"_per_K_deg", "° per K"},
+                                            {"_ppm_per_K", " ppm per K"},
                                             {"_deg", "°"},
                                             {"_Nmm", " N·mm"},
                                             {"_mm", " mm"},
