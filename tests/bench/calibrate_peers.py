@@ -3,11 +3,11 @@
 
     calibrate_peers.py FUSEE
 
-Needs numpy and scipy. What is compared: the runs are of a joint with both pulleys at a scale that the file does not declare and a play at the shaft. scipy
-is told which two effects to fit (scale, play, and the joint sensor's zero) and fits them once, to all rows, over a forward model written anew here
-in numpy: exact kinematics over pins of their radius, a play operator, no elasticity. fusee is told nothing: it reads the files, finds the noise floor, tries every effect of its catalogue and
-pairs of them through an elastic model with friction, each several times with blocks left out, and writes the correction and a report. So the ratio is that of a whole
-calibration to one fit of a known model; the second figure, the time of one evaluation of either model, is no part of it.
+Needs numpy and scipy. What is compared: the runs are of a joint whose sensor shows too much and whose motor has play. scipy is told which effects to fit (gain, play,
+and the joint sensor's zero) and fits them once, to all rows, over a forward model written anew here in numpy: exact kinematics over pins of their radius and a play operator,
+no elasticity, no history but the play's. fusee is told nothing: it reads the files, finds the noise floor, tries every effect of its catalogue and pairs of them through an elastic
+model with friction, each with runs left out, looks for rivals, and writes the correction and a report. So the ratio is that of a whole calibration to one fit of three numbers of a known
+model; divided by the number of candidates it says what one of them costs. Both must end at the same rest, or the script fails.
 """
 
 import json
@@ -41,7 +41,7 @@ modulus_MPa = 200000.0
 pretension_N = 4
 """
 RUNS, ROWS, STROKES, NOISE = 5, 500, 6, 0.02
-SCALE, PLAY = -0.015, 2.0
+GAIN, PLAY = 0.015, 2.0
 
 
 def path_length(theta):
@@ -58,13 +58,14 @@ GRID = np.radians(np.linspace(-60, 60, 4001))
 LENGTH = path_length(GRID) - path_length(0.0)
 
 
-def joint_angle(alpha, scale):
-    """θ where a round P1 of radius r1 (1 + scale) has let out as much tendon 1 as the path has grown. α > 0 lets tendon 1 out."""
-    return np.interp(R1 * (1 + scale) * alpha, LENGTH, GRID)
+def joint_angle(alpha):
+    """θ where a round P1 of radius r1 has let out as much tendon 1 as the path has grown. α > 0 lets tendon 1 out."""
+    return np.interp(R1 * alpha, LENGTH, GRID)
 
 
 def behind_play(alpha, width):
-    half, state = 0.5 * width, alpha[0]
+    # The motor came down to where the log begins, and turns there.
+    half, state = 0.5 * width, alpha[0] + 0.5 * width
     follower = np.empty_like(alpha)
     for i, value in enumerate(alpha):
         state = min(max(state, value - half), value + half)
@@ -73,8 +74,8 @@ def behind_play(alpha, width):
 
 
 def model(parameters, runs):
-    scale, play, zero = parameters
-    return np.concatenate([joint_angle(behind_play(alpha, play), scale) + zero for alpha in runs])
+    gain, play, zero = parameters
+    return np.concatenate([(1 + gain) * joint_angle(behind_play(alpha, play)) + zero for alpha in runs])
 
 
 def motion(reach):
@@ -107,7 +108,7 @@ def main():
     random = np.random.default_rng(1)
     reach = 0.9 * min(-np.interp(np.radians(-30), GRID, LENGTH), np.interp(np.radians(30), GRID, LENGTH)) / R1
     runs = [motion(reach)] * RUNS
-    measured = [joint_angle(behind_play(alpha, np.radians(PLAY)), SCALE) + np.radians(NOISE) * random.standard_normal(ROWS) for alpha in runs]
+    measured = [(1 + GAIN) * joint_angle(behind_play(alpha, np.radians(PLAY))) + np.radians(NOISE) * random.standard_normal(ROWS) for alpha in runs]
     with tempfile.TemporaryDirectory() as folder:
         write(folder, runs, measured)
         command = [fusee, "calibrate", "joint.toml", *[f"run_{i}.csv" for i in range(1, RUNS + 1)], "--json"]
@@ -117,7 +118,7 @@ def main():
     answer = json.loads(process.stdout)
     solution, theirs = timed(lambda: fitted(runs, measured))
     rest = np.degrees(np.sqrt(np.mean(solution.fun**2)))
-    print(f"scipy least_squares, 3 numbers of a model that is known: {theirs:.3f} s, {solution.nfev} steps, scale {100 * solution.x[0]:.3f} %, "
+    print(f"scipy least_squares, 3 numbers of a model that is known: {theirs:.3f} s, {solution.nfev} steps, gain {100 * solution.x[0]:.3f} %, "
           f"play {np.degrees(abs(solution.x[1])):.3f} deg, rms {rest:.4f} deg")
     effects = "; ".join(f"{effect['name']} of {{{', '.join(effect['group'])}}} {effect['parameters']}" for effect in answer["effects"])
     print(f"fusee calibrate, told nothing, {len(answer['tried'])} candidates tried: {ours:.3f} s, {answer['verdict']}, rms {answer['after']['rms_deg']:.4f} deg: {effects}")
