@@ -15,26 +15,43 @@ constexpr std::size_t k_most_rows = 1500;
 constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 
+/// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are history.
+std::vector<bool> looked_at(const Run& run, std::size_t most_rows) {
+  const std::size_t pairs = (run.strokes.size() + 1) / 2;
+  const std::size_t most_pairs = std::max<std::size_t>(1, most_rows / (4 * k_least_rows_a_block));
+  std::vector<bool> chosen(run.strokes.size(), true);
+  for (std::size_t i = 0; pairs > most_pairs && i < chosen.size(); ++i) chosen[i] = (i / 2) * most_pairs / pairs != (i / 2 + 1) * most_pairs / pairs;
+  return chosen;
+}
+
 /// Every n-th row, and both ends of each stroke, which the motion's history needs. `counted`: the every n-th alone, lest ends weigh too much.
 Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
-  const std::size_t every = (run.samples.size() + most - 1) / std::max<std::size_t>(1, most);
-  if (every <= 1) {
+  if (run.samples.size() <= most) {
     counted.insert(counted.end(), run.samples.size(), true);
     return run;
   }
+  const std::vector<bool> chosen = looked_at(run, most);
+  // Rows before, between and after strokes are history where all strokes are looked at.
+  std::vector<bool> inside(run.samples.size(), std::find(chosen.begin(), chosen.end(), false) == chosen.end());
   std::set<std::size_t> ends;
-  for (const Stroke& stroke : run.strokes) {
+  for (std::size_t s = 0; s < run.strokes.size(); ++s) {
+    const Stroke& stroke = run.strokes[s];
     ends.insert(stroke.first);
     ends.insert(stroke.last);
+    for (std::size_t i = stroke.first; chosen[s] && i <= stroke.last; ++i) inside[i] = true;
   }
+  const auto rows = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), true));
+  const std::size_t every = (rows + most - 1) / std::max<std::size_t>(1, most);
   Run thin = run;
   thin.samples.clear();
   std::vector<std::size_t> place(run.samples.size());
+  std::size_t seen = 0;
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     place[i] = thin.samples.size();
-    if (i % every != 0 && !ends.count(i)) continue;
+    const bool takes = inside[i] && seen++ % every == 0;
+    if (!takes && !ends.count(i)) continue;
     thin.samples.push_back(run.samples[i]);
-    counted.push_back(i % every == 0);
+    counted.push_back(takes);
   }
   for (Stroke& stroke : thin.strokes) {
     stroke.first = place[stroke.first];

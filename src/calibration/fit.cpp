@@ -151,7 +151,9 @@ double error_of(const BlockSums& sums, const Eigen::VectorXd& step) {
 /// A caliper's reading is worth a row of the floor's noise that shows the member alone.
 void sum_up_readings(const Evidence& evidence, const std::vector<const EffectParameter*>& parameters, Fit& fit) {
   fit.readings = no_sums(fit.x.size());
+  fit.against_readings = 0;
   for (const HandReading& reading : evidence.readings) {
+    fit.against_readings += std::pow((reading.value - fit.at.*reading.member) / reading.uncertainty, 2);
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       if (parameters[k]->member != reading.member) continue;
       const auto i = static_cast<Eigen::Index>(k);
@@ -162,6 +164,11 @@ void sum_up_readings(const Evidence& evidence, const std::vector<const EffectPar
   }
 }
 
+/// dθ/dx of a row. Of a fit without parameters J holds nothing, not even a place to point at.
+Eigen::VectorXd slopes_of(const Fit& fit, Eigen::Index row) {
+  return fit.x.size() > 0 ? Eigen::VectorXd(fit.J.row(row).transpose()) : Eigen::VectorXd();
+}
+
 void sum_up(const Evidence& evidence, Fit& fit) {
   double rows = 0;
   double squares = 0;
@@ -170,7 +177,7 @@ void sum_up(const Evidence& evidence, Fit& fit) {
     BlockSums sums = no_sums(fit.x.size());
     for (const std::size_t i : block.rows) {
       const auto row = static_cast<Eigen::Index>(i);
-      const Eigen::VectorXd J = fit.J.row(row).transpose();
+      const Eigen::VectorXd J = slopes_of(fit, row);
       sums.JJ += J * J.transpose();
       sums.Jr += J * fit.residual[row];
       sums.rr += fit.residual[row] * fit.residual[row];
@@ -245,7 +252,7 @@ void judge(const Evidence& evidence, const std::vector<const EffectParameter*>& 
   for (const Block& block : evidence.blocks) {
     for (const std::size_t i : block.rows) {
       const auto row = static_cast<Eigen::Index>(i);
-      if (!std::isfinite(fit.residual[row]) || !fit.J.row(row).allFinite()) fit.usable = false;
+      if (!std::isfinite(fit.residual[row]) || !slopes_of(fit, row).allFinite()) fit.usable = false;
     }
   }
   if (!fit.usable) return;
@@ -271,10 +278,11 @@ Normal normal_equations(const Evidence& evidence, const Fit& fit) {
   for (const Block& block : evidence.blocks) {
     for (const std::size_t i : block.rows) {
       const auto row = static_cast<Eigen::Index>(i);
-      if (!std::isfinite(fit.residual[row]) || !fit.J.row(row).allFinite()) normal.finite = false;
+      if (!std::isfinite(fit.residual[row]) || !slopes_of(fit, row).allFinite()) normal.finite = false;
       if (!normal.finite) return normal;
-      normal.JJ.noalias() += fit.J.row(row).transpose() * fit.J.row(row);
-      normal.Jr.noalias() += fit.residual[row] * fit.J.row(row).transpose();
+      const Eigen::VectorXd J = slopes_of(fit, row);
+      normal.JJ.noalias() += J * J.transpose();
+      normal.Jr.noalias() += fit.residual[row] * J;
       normal.rr += fit.residual[row] * fit.residual[row];
     }
   }

@@ -37,6 +37,7 @@ struct Fit {
   HeldOut by_factor;              ///< Evidence::factor_folds: what decides
   HeldOut by_run;                 ///< Evidence::run_folds: what is reported
   double mean_square = 0;         ///< of the rows it was fitted to
+  double against_readings = 0;    ///< sum of squares of what was measured by hand, each by its uncertainty
   bool usable = false;
 };
 

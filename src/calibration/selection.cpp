@@ -19,6 +19,10 @@ constexpr double k_least_share = 0.30;
 constexpr double k_least_bic_drop = 6.0;
 /// Two explanations are one if their errors differ by less than this part of the floor's square, however surely they do.
 constexpr double k_same = 0.03;
+/// What was measured by hand speaks against an explanation that is off by three standard uncertainties.
+constexpr double k_contradicted = 9.0;
+/// Where structure is left, what was found must have taken this share of all there was: else it is the neighbour of a cause unknown.
+constexpr double k_most_of_it = 0.80;
 constexpr std::size_t k_most_effects = 5;
 constexpr std::size_t k_most_pairs = 10;
 constexpr int k_most_exchanges = 4;
@@ -63,6 +67,12 @@ bool accepted(const Evidence& evidence, const Fit& before, const Fit& after, Can
   return false;
 }
 
+/// Held-out mean square error, a caliper's reading counted as a row.
+double score(const Evidence& evidence, const Fit& fit) {
+  const double rows = static_cast<double>(std::max<std::size_t>(1, evidence.rows_used()));
+  return fit.by_factor.mean_square + evidence.floor * evidence.floor * fit.against_readings / rows;
+}
+
 struct Trial {
   Fit fit;
   Candidate candidate;
@@ -74,7 +84,6 @@ struct Addition {
   const Effect* effect = nullptr;
 };
 
-bool lower(const Trial& a, const Trial& b) { return a.fit.by_factor.mean_square < b.fit.by_factor.mean_square; }
 
 class Selector {
  public:
@@ -94,6 +103,7 @@ class Selector {
   void find_rivals();
   bool exchange();
   void drop_needless();
+  void retreat();
   Fit without(const Effect* effect);
   void note(const std::vector<Trial>& trials, const Trial* taken);
 
@@ -139,7 +149,7 @@ std::vector<Trial> Selector::trials(const std::string& what, const std::vector<A
       },
       [&](std::size_t done) { report(what, static_cast<double>(done) / count); });
   std::erase_if(all, [](const Trial& t) { return !t.fit.usable; });
-  std::stable_sort(all.begin(), all.end(), lower);
+  std::stable_sort(all.begin(), all.end(), [&](const Trial& a, const Trial& b) { return score(evidence_, a.fit) < score(evidence_, b.fit); });
   return all;
 }
 
@@ -305,9 +315,9 @@ void Selector::find_rivals() {
 bool Selector::exchange() {
   const Rival* best = nullptr;
   for (const Rival& rival : selection_.rivals) {
-    const double gain = selection_.best.by_factor.mean_square - rival.fit.by_factor.mean_square;
+    const double gain = score(evidence_, selection_.best) - score(evidence_, rival.fit);
     const bool clearly = gain > k_same * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
-    if (clearly && (best == nullptr || rival.fit.by_factor.mean_square < best->fit.by_factor.mean_square)) best = &rival;
+    if (clearly && (best == nullptr || score(evidence_, rival.fit) < score(evidence_, best->fit))) best = &rival;
   }
   if (best == nullptr) return false;
   Candidate candidate;
@@ -337,6 +347,23 @@ void Selector::drop_needless() {
   }
 }
 
+/// Part of an error that stays unexplained is no explanation.
+void Selector::retreat() {
+  const double floor2 = evidence_.floor * evidence_.floor;
+  const double all = selection_.none.by_run.mean_square - floor2;
+  const double left = selection_.best.by_run.mean_square - floor2;
+  if (at_floor(selection_.best) || left <= (1.0 - k_most_of_it) * all) return;
+  for (const Effect* effect : selection_.best.effects) {
+    Candidate candidate;
+    candidate.name = effect->name;
+    candidate.held_out_rms = std::sqrt(selection_.best.by_factor.mean_square);
+    candidate.why = "it resembles a part of what is there, and the rest has another cause";
+    selection_.tried.push_back(candidate);
+  }
+  selection_.best = selection_.none;
+  selection_.rivals.clear();
+}
+
 Selection Selector::run() {
   selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement);
   selection_.none = fit_effects(evidence_, workers_.one(), {}, {});
@@ -349,6 +376,7 @@ Selection Selector::run() {
     find_rivals();
     if (exchanges++ == k_most_exchanges || !exchange()) break;
   }
+  retreat();
   return std::move(selection_);
 }
 
@@ -357,6 +385,7 @@ Selection Selector::run() {
 double noise_limit(double floor) { return (1.0 + k_least_drop * k_least_drop) * floor * floor; }
 
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best) {
+  if (rival.against_readings > best.against_readings + k_contradicted) return false;
   const Comparison worse = compare(evidence, rival, best);
   return worse.mean <= std::max(worse.standard_error, k_same * evidence.floor * evidence.floor);
 }

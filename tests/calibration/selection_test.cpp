@@ -1,0 +1,222 @@
+// What calibrate() concludes from data made with its own model: every effect is found in data that hold it, and nothing in data that hold nothing.
+// Data made by another model stand in tests/rig.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "calibration/effects/effect.h"
+#include "fusee/base/units.h"
+#include "fusee/calibration/calibration.h"
+#include "fusee/mechanism/file.h"
+
+namespace fusee {
+namespace {
+
+using testing::Contains;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr double k_noise = radians(0.02);
+
+Mechanism bench_joint() {
+  const std::string folder = std::string(FUSEE_SOURCE_DIR) + "/tests/data/rig/a_declared_right/";
+  return read_mechanism(folder + "spec.toml").mechanism;
+}
+
+struct Plan {
+  double load = 0;   ///< N
+  double speed = 1;  ///< times 30°/s
+};
+
+/// Sawtooth strokes over nearly the whole range, warming up by 10 K.
+Run planned(const std::string& name, const Plan& plan, double alpha_most, double start) {
+  Run run;
+  run.name = name;
+  run.has_time = run.has_load = run.has_temperature = true;
+  run.mean_load = plan.load;
+  run.speed = radians(30) * plan.speed;
+  constexpr int strokes = 6;
+  constexpr int rows = 60;
+  double time = 0;
+  for (int s = 0; s < strokes; ++s) {
+    const double sign = s % 2 == 0 ? 1 : -1;
+    run.strokes.push_back({run.samples.size(), run.samples.size() + rows - 1, s % 2 == 0 ? 1 : -1, s / 2, false});
+    for (int i = 0; i < rows; ++i) {
+      Sample sample;
+      sample.time = time;
+      sample.alpha = sign * alpha_most * (2.0 * i / (rows - 1) - 1.0);
+      sample.load = plan.load;
+      sample.temperature = 20 + 10 * (1 - std::exp(-(start + time) / 200));
+      run.samples.push_back(sample);
+      time += 2 * alpha_most / (rows - 1) / run.speed;
+    }
+  }
+  return run;
+}
+
+/// What sensors with white noise would log of a joint that differs from its file by `at`.
+Measurement logged(const Mechanism& declared, const Imperfections& at, const std::vector<Plan>& plans, unsigned seed = 1) {
+  Measurement measurement;
+  measurement.load_unit = "N";
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    measurement.runs.push_back(planned("run_" + std::to_string(i + 1) + ".csv", plans[i], radians(100), 80.0 * static_cast<double>(i)));
+  }
+  const std::vector<std::vector<double>> theta = predict(declared, at, measurement);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, k_noise);
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    for (std::size_t k = 0; k < theta[i].size(); ++k) measurement.runs[i].samples[k].theta = theta[i][k] + noise(random);
+  }
+  return measurement;
+}
+
+const std::vector<Plan> k_full = {{0, 1}, {3, 1}, {0, 8}, {1.5, 1}, {-3, 1}};
+
+double apart(const std::vector<std::vector<double>>& one, const std::vector<std::vector<double>>& other) {
+  double squares = 0;
+  double rows = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (std::size_t k = 0; k < one[i].size(); ++k) {
+      squares += (one[i][k] - other[i][k]) * (one[i][k] - other[i][k]);
+      rows += 1;
+    }
+  }
+  return std::sqrt(squares / rows);
+}
+
+/// Of a size that moves θ by eight times the noise, rms.
+Imperfections well_seen(const Mechanism& declared, const Effect& effect) {
+  const Measurement measurement = logged(declared, {}, k_full);
+  const auto moved = [&](double size) {
+    Imperfections at;
+    double part = 1;
+    for (const EffectParameter& parameter : effect.parameters) {
+      if (parameter.searched) continue;
+      at.*parameter.member = std::clamp(part * size * parameter.step, parameter.least, parameter.most);
+      part *= -0.6;
+      if (parameter.least == 0) part = std::abs(part);
+    }
+    if (effect.starts_in_time) at.slip_time = 150;
+    return at;
+  };
+  const std::vector<std::vector<double>> as_declared = predict(declared, {}, measurement);
+  double size = 1;
+  for (int i = 0; i < 60 && apart(predict(declared, moved(size), measurement), as_declared) < 8 * k_noise; ++i) size *= 1.25;
+  return moved(size);
+}
+
+std::vector<std::string> all_groups(const Calibration& found) {
+  std::vector<std::string> names;
+  for (const FoundEffect& effect : found.effects) names.insert(names.end(), effect.group.begin(), effect.group.end());
+  return names;
+}
+
+class EveryEffect : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
+  const Mechanism declared = bench_joint();
+  const std::vector<Effect> effects = catalogue(declared, logged(declared, {}, k_full));
+  const auto effect = std::find_if(effects.begin(), effects.end(), [](const Effect& e) { return e.name == GetParam(); });
+  ASSERT_NE(effect, effects.end());
+  const Imperfections truth = well_seen(declared, *effect);
+  const Calibration found = calibrate(declared, logged(declared, truth, k_full));
+  EXPECT_THAT(found.verdict, testing::AnyOf("explained", "confounded"));
+  EXPECT_EQ(found.effects.size(), 1u);
+  EXPECT_THAT(all_groups(found), Contains(GetParam()));
+  EXPECT_LT(found.after.held_out_rms, 1.1 * k_noise);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect,
+                         testing::Values("zero_offset", "motor_offset", "joint_sensor_gain", "joint_sensor_eccentricity", "motor_sensor_eccentricity",
+                                         "sensor_lag", "radius_offset", "pulley_scale", "pulley_runout", "guide_radius", "guide_position",
+                                         "joint_length", "tendon_stretch", "capstan_friction", "backlash", "slack", "creep", "tendon_slip",
+                                         "thermal_expansion", "gravity", "profile_error"),
+                         [](const auto& info) { return info.param; });
+
+TEST(Selection, FindsNothingWhereNothingIs) {
+  const Mechanism declared = bench_joint();
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+    const Calibration found = calibrate(declared, logged(declared, {}, k_full, seed));
+    EXPECT_EQ(found.verdict, "no_effect") << found.summary;
+    EXPECT_THAT(found.effects, IsEmpty());
+    for (const Detectable& detectable : found.detectable) EXPECT_GT(detectable.smallest, 0) << detectable.name;
+  }
+}
+
+TEST(Selection, FindsBothOfAPairWithTheirNumbers) {
+  const Mechanism declared = bench_joint();
+  Imperfections truth;
+  truth.stretch = 2.0;
+  truth.backlash = radians(1.5);
+  const Calibration found = calibrate(declared, logged(declared, truth, k_full));
+  EXPECT_EQ(found.verdict, "explained");
+  ASSERT_EQ(found.effects.size(), 2u);
+  EXPECT_NEAR(found.identified.stretch, 2.0, 0.05);
+  EXPECT_NEAR(found.identified.backlash, radians(1.5), radians(0.03));
+}
+
+TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
+  const Mechanism declared = bench_joint();
+  Imperfections truth;
+  truth.backlash = radians(2);
+  const Calibration one_speed = calibrate(declared, logged(declared, truth, {{0, 1}}));
+  EXPECT_EQ(one_speed.verdict, "confounded");
+  EXPECT_THAT(all_groups(one_speed), Contains("backlash"));
+  EXPECT_THAT(one_speed.next_runs, Not(IsEmpty()));
+  EXPECT_THAT(one_speed.null_combinations, Not(IsEmpty()));
+  const Calibration two_speeds = calibrate(declared, logged(declared, truth, {{0, 1}, {0, 0.2}, {3, 1}}));
+  EXPECT_EQ(two_speeds.verdict, "explained");
+  EXPECT_THAT(all_groups(two_speeds), testing::ElementsAre("backlash"));
+}
+
+TEST(Selection, ACaliperSplitsAGroup) {
+  Mechanism declared = bench_joint();
+  Imperfections truth;
+  truth.pulley_scale = -0.02;
+  const Measurement measurement = logged(declared, truth, {{0, 1}});
+  const Calibration without = calibrate(declared, measurement);
+  ASSERT_THAT(all_groups(without), Contains("pulley_scale"));
+  ASSERT_THAT(all_groups(without), Contains("radius_offset"));
+  declared.prior.radius_offset = {0.0, 0.005};
+  const Calibration with = calibrate(declared, measurement);
+  EXPECT_THAT(all_groups(with), Contains("pulley_scale"));
+  EXPECT_THAT(all_groups(with), Not(Contains("radius_offset")));
+}
+
+TEST(Selection, AWalkingZeroIsNoEffectOfTheCatalogue) {
+  const Mechanism declared = bench_joint();
+  Measurement measurement = logged(declared, {}, k_full);
+  std::mt19937 random(3);
+  std::normal_distribution<double> step(0.0, 8 * k_noise);
+  for (Run& run : measurement.runs) {
+    for (const Stroke& stroke : run.strokes) {
+      const double off = step(random);
+      for (std::size_t k = stroke.first; k <= stroke.last; ++k) run.samples[k].theta += off;
+    }
+  }
+  const Calibration found = calibrate(declared, measurement);
+  EXPECT_EQ(found.verdict, "not_repeatable") << found.summary;
+  EXPECT_THAT(found.effects, IsEmpty());
+}
+
+TEST(Selection, NamedRunsAreNeverFittedTo) {
+  const Mechanism declared = bench_joint();
+  Imperfections truth;
+  truth.backlash = radians(2);
+  Measurement measurement = logged(declared, truth, k_full);
+  CalibrationOptions options;
+  options.hold_out = {"run_5.csv"};
+  const Calibration found = calibrate(declared, measurement, options);
+  EXPECT_THAT(found.held_out_runs, testing::ElementsAre("run_5.csv"));
+  EXPECT_LT(found.after.held_out_rms, 1.2 * k_noise);
+  // What the held-out run says changes nothing of what was found.
+  for (Sample& sample : measurement.runs.back().samples) sample.theta += radians(3);
+  const Calibration other = calibrate(declared, measurement, options);
+  EXPECT_EQ(other.identified.backlash, found.identified.backlash);
+  EXPECT_GT(other.after.held_out_rms, radians(2.9));
+}
+
+}  // namespace
+}  // namespace fusee
