@@ -24,11 +24,33 @@ constexpr double k_settled = 1e-3;
 
 constexpr std::size_t k_slip_times = 4;
 
+/// Of what all blocks know of a direction, what must be left without a fold for the fold to be held out.
+constexpr double k_least_known = 0.03;
+
 /// θ = offset + α/ratio declares its offset free.
 const EffectParameter& free_offset() {
   static const EffectParameter parameter{"offset_deg", &Imperfections::zero, -100.0, 100.0, 1e-2, shown::in_degrees};
   return parameter;
 }
+
+/// What a model says of the logged angles.
+struct Said {
+  Eigen::VectorXd residual;  ///< measured − model; beyond the play where the model's joint is loose
+  Eigen::VectorXd loose;     ///< half that play
+};
+
+Said said(const Evidence& evidence, Forward& forward, const Imperfections& at) {
+  Said words{evidence.theta - flat(forward(at)), flat(forward.looseness(at))};
+  for (Eigen::Index i = 0; i < words.residual.size(); ++i) {
+    const double beyond = std::max(0.0, std::abs(words.residual[i]) - words.loose[i]);
+    if (words.loose[i] > 0) words.residual[i] = std::copysign(beyond, words.residual[i]);
+  }
+  return words;
+}
+
+/// A loose joint may stand anywhere, which explains any reading and so each one less well: the likelihood of a place within the play against that
+/// of a reading with noise alone, as a square of residuals.
+double price_of_play(double loose, double floor) { return 2.0 * floor * floor * std::log1p(2.0 * loose / (std::sqrt(k_two_pi) * floor)); }
 
 Imperfections placed(const std::vector<const EffectParameter*>& parameters, Imperfections at, const double* x) {
   for (std::size_t i = 0; i < parameters.size(); ++i) at.*parameters[i]->member = x[i] * parameters[i]->step;
@@ -53,11 +75,11 @@ class Misfit : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const Eigen::VectorXd at = model(x[0]);
+    const Eigen::VectorXd at = residual(x[0]);
     std::vector<double> slopes(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(rows_[i]);
-      const double u = (evidence_.theta[row] - at[row]) / scale_;
+      const double u = at[row] / scale_;
       if (!std::isfinite(u)) return false;
       const double size = std::abs(u);
       const double robust = size <= k_robust ? size : std::sqrt(2.0 * k_robust * size - k_robust * k_robust);
@@ -81,11 +103,11 @@ class Misfit : public ceres::CostFunction {
       const EffectParameter& parameter = *parameters_[k];
       const double step = (y[k] + 1.0) * parameter.step <= parameter.most ? 1.0 : -1.0;
       y[k] += step;
-      const Eigen::VectorXd moved = model(y.data());
+      const Eigen::VectorXd moved = residual(y.data());
       y[k] -= step;
       for (std::size_t i = 0; i < rows_.size(); ++i) {
         const auto row = static_cast<Eigen::Index>(rows_[i]);
-        const double slope = -(moved[row] - at[row]) / step / scale_ * slopes[i];
+        const double slope = (moved[row] - at[row]) / step / scale_ * slopes[i];
         jacobian[i * count + k] = std::isfinite(slope) ? slope : 0.0;
       }
       for (std::size_t i = 0; i < evidence_.readings.size(); ++i) {
@@ -96,7 +118,7 @@ class Misfit : public ceres::CostFunction {
     }
   }
 
-  Eigen::VectorXd model(const double* x) const { return flat(forward_(placed(parameters_, from_, x))); }
+  Eigen::VectorXd residual(const double* x) const { return said(evidence_, forward_, placed(parameters_, from_, x)).residual; }
 
   const Evidence& evidence_;
   Forward& forward_;
@@ -180,7 +202,7 @@ void sum_up(const Evidence& evidence, Fit& fit) {
       const Eigen::VectorXd J = slopes_of(fit, row);
       sums.JJ += J * J.transpose();
       sums.Jr += J * fit.residual[row];
-      sums.rr += fit.residual[row] * fit.residual[row];
+      sums.rr += fit.residual[row] * fit.residual[row] + price_of_play(fit.loose[row], evidence.floor);
     }
     sums.rows = static_cast<double>(block.rows.size());
     rows += sums.rows;
@@ -190,24 +212,46 @@ void sum_up(const Evidence& evidence, Fit& fit) {
   fit.mean_square = squares / rows;
 }
 
+/// Whether the blocks outside a fold say enough of every direction that all of them together know: a level that alone carries what is known of a
+/// number cannot be held out.
+bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
+  if (all.rows() == 0) return true;
+  const Eigen::VectorXd size = all.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = size.asDiagonal() * all * size.asDiagonal();
+  const Eigen::MatrixXd part = size.asDiagonal() * rest * size.asDiagonal();
+  const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(all.rows(), all.cols());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> shares(part + ridge, scaled + ridge, Eigen::EigenvaluesOnly);
+  return shares.eigenvalues().minCoeff() > k_least_known;
+}
+
 /// One step of the fit from all of the data to those without a fold.
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds) {
   const std::size_t blocks = evidence.blocks.size();
+  BlockSums all = fit.readings;
+  for (const BlockSums& sums : fit.sums) {
+    all.JJ += sums.JJ;
+    all.Jr += sums.Jr;
+  }
   std::vector<double> error(blocks, 0.0);
   std::vector<int> times(blocks, 0);
-  for (const Fold& fold : folds) {
-    Eigen::MatrixXd JJ = fit.readings.JJ;
-    Eigen::VectorXd Jr = fit.readings.Jr;
-    for (std::size_t b = 0; b < blocks; ++b) {
-      if (std::find(fold.begin(), fold.end(), b) != fold.end()) continue;
-      JJ += fit.sums[b].JJ;
-      Jr += fit.sums[b].Jr;
+  const auto leave_out = [&](const Fold& fold, bool whole) {
+    Eigen::MatrixXd JJ = all.JJ;
+    Eigen::VectorXd Jr = all.Jr;
+    for (const std::size_t b : fold) {
+      JJ -= fit.sums[b].JJ;
+      Jr -= fit.sums[b].Jr;
     }
+    if (whole && !can_do_without(JJ, all.JJ)) return false;
     const Eigen::VectorXd step = fit.x.size() > 0 ? solved(JJ, Jr, fit.x, evidence.floor) : Eigen::VectorXd();
     for (const std::size_t b : fold) {
       error[b] += error_of(fit.sums[b], step);
       ++times[b];
     }
+    return true;
+  };
+  for (const Fold& fold : folds) {
+    if (leave_out(fold, true)) continue;
+    for (const std::size_t b : fold) leave_out({b}, false);
   }
   HeldOut held;
   double rows = 0;
@@ -224,11 +268,11 @@ HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fol
 
 // ---- one fit --------------------------------------------------------------------------------------------------------
 
-Eigen::VectorXd slope_at(Forward& forward, const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& reading) {
+Eigen::VectorXd slope_at(const Evidence& evidence, Forward& forward, const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual) {
   Imperfections moved = at;
   const double step = at.*parameter.member + parameter.step <= parameter.most ? 1.0 : -1.0;
   moved.*parameter.member += step * parameter.step;
-  return (flat(forward(moved)) - reading) / step;
+  return (residual - said(evidence, forward, moved).residual) / step;
 }
 
 bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
@@ -237,12 +281,13 @@ bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
 }
 
 void linearise(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters, Fit& fit) {
-  const Eigen::VectorXd reading = flat(forward(fit.at));
-  fit.residual = evidence.theta - reading;
-  fit.J.resize(reading.size(), fit.x.size());
+  Said words = said(evidence, forward, fit.at);
+  fit.residual = std::move(words.residual);
+  fit.loose = std::move(words.loose);
+  fit.J.resize(fit.residual.size(), fit.x.size());
   for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
     const EffectParameter& parameter = *parameters[static_cast<std::size_t>(k)];
-    fit.J.col(k) = slope_at(forward, fit.at, parameter, reading);
+    fit.J.col(k) = slope_at(evidence, forward, fit.at, parameter, fit.residual);
     // At its bound a parameter stays there, whatever part of the data it is fitted to.
     if (at_bound(fit.at, parameter)) fit.J.col(k).setZero();
   }
@@ -283,7 +328,7 @@ Normal normal_equations(const Evidence& evidence, const Fit& fit) {
       const Eigen::VectorXd J = slopes_of(fit, row);
       normal.JJ.noalias() += J * J.transpose();
       normal.Jr.noalias() += fit.residual[row] * J;
-      normal.rr += fit.residual[row] * fit.residual[row];
+      normal.rr += fit.residual[row] * fit.residual[row] + price_of_play(fit.loose[row], evidence.floor);
     }
   }
   return normal;
@@ -293,15 +338,16 @@ Normal normal_equations(const Evidence& evidence, const Fit& fit) {
 Fit widened(const Evidence& evidence, Forward& forward, const Fit& base, const std::vector<const EffectParameter*>& parameters, const Imperfections& at) {
   Fit wider;
   wider.at = at;
-  const Eigen::VectorXd reading = flat(forward(at));
-  wider.residual = evidence.theta - reading;
+  Said words = said(evidence, forward, at);
+  wider.residual = std::move(words.residual);
+  wider.loose = std::move(words.loose);
   wider.x.resize(static_cast<Eigen::Index>(parameters.size()));
-  wider.J.resize(reading.size(), wider.x.size());
+  wider.J.resize(wider.residual.size(), wider.x.size());
   wider.J.leftCols(base.x.size()) = base.J;
   for (Eigen::Index k = 0; k < wider.x.size(); ++k) {
     const EffectParameter& parameter = *parameters[static_cast<std::size_t>(k)];
     wider.x[k] = at.*parameter.member / parameter.step;
-    if (k >= base.x.size()) wider.J.col(k) = slope_at(forward, at, parameter, reading);
+    if (k >= base.x.size()) wider.J.col(k) = slope_at(evidence, forward, at, parameter, wider.residual);
   }
   sum_up_readings(evidence, parameters, wider);
   return wider;
@@ -430,7 +476,7 @@ Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& eff
   fit.effects = effects;
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, effects);
   std::vector<double> near;
-  const Eigen::VectorXd before = evidence.theta - flat(forward(from));
+  const Eigen::VectorXd before = said(evidence, forward, from).residual;
   for (const Block& block : evidence.blocks) {
     for (const std::size_t i : block.rows) near.push_back(before[static_cast<Eigen::Index>(i)]);
   }
@@ -509,10 +555,9 @@ Fit with_direction(const Evidence& evidence, Forward& forward, const Fit& fit, c
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, wider.effects);
   wider.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
   wider.x.head(fit.x.size()) = fit.x;
-  const Eigen::VectorXd reading = evidence.theta - fit.residual;
   wider.J.conservativeResize(Eigen::NoChange, wider.x.size());
   for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
-    wider.J.col(k) = slope_at(forward, wider.at, *parameters[static_cast<std::size_t>(k)], reading);
+    wider.J.col(k) = slope_at(evidence, forward, wider.at, *parameters[static_cast<std::size_t>(k)], fit.residual);
   }
   judge(evidence, parameters, wider);
   return wider;

@@ -31,12 +31,13 @@ struct Fit {
   Imperfections at;
   Eigen::VectorXd x;              ///< the fitted members, each by its step
   Eigen::MatrixXd J;              ///< dθ/dx, rows of all runs
-  Eigen::VectorXd residual;       ///< measured − model, rad
+  Eigen::VectorXd residual;       ///< measured − model, rad; zero where nothing holds the joint and it stands within its play
+  Eigen::VectorXd loose;          ///< half that play, rad
   std::vector<BlockSums> sums;
   BlockSums readings;             ///< what was measured by hand, in the same unit
   HeldOut by_factor;              ///< Evidence::factor_folds: what decides
   HeldOut by_run;                 ///< Evidence::run_folds: what is reported
-  double mean_square = 0;         ///< of the rows it was fitted to
+  double mean_square = 0;         ///< of the rows it was fitted to, and what its play must answer for
   double against_readings = 0;    ///< sum of squares of what was measured by hand, each by its uncertainty
   bool usable = false;
 };

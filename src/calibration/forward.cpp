@@ -228,21 +228,24 @@ TendonChange Forward::change(std::size_t index, const Sample& sample, const Impe
   return change;
 }
 
-std::vector<double> Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at) const {
+void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at, Motion& into) const {
   const Run& run = measurement_.runs[index];
-  std::vector<double> theta;
-  theta.reserve(run.samples.size());
-  if (run.samples.empty()) return theta;
+  std::vector<double>& theta = into.theta.emplace_back();
+  std::vector<double>& loose = into.loose.emplace_back();
+  if (run.samples.empty()) return;
   Play play(at.backlash, 0.0);
   const auto step = [&](double alpha, const Sample& sample) {
     const double pulley = wound_angle(play.to(shaft_angle(alpha, at)), at);
-    const EquilibriumPoint point = motion.to({pulley, tip_force(run, sample, declared_), declared_.load.torque, change(index, sample, at)});
-    return point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
+    return motion.to({pulley, tip_force(run, sample, declared_), declared_.load.torque, change(index, sample, at)});
   };
   const Sample& first = run.samples.front();
   for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first);
-  for (const Sample& sample : run.samples) theta.push_back(step(sample.alpha, sample));
-  return theta;
+  for (const Sample& sample : run.samples) {
+    const EquilibriumPoint point = step(sample.alpha, sample);
+    const bool held = point.status != EquilibriumStatus::no_equilibrium;
+    theta.push_back(held ? point.theta + 0.5 * (point.loose_above - point.loose_below) : std::numeric_limits<double>::quiet_NaN());
+    loose.push_back(0.5 * (point.loose_above + point.loose_below));
+  }
 }
 
 std::vector<double> Forward::geared(std::size_t index, const Imperfections& at) const {
@@ -270,22 +273,28 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at) 
   return theta;
 }
 
-const Readings& Forward::mechanism(const Imperfections& imperfections) {
+const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
   const Imperfections key = without_sensors(imperfections);
   for (const Motion& motion : latest_) {
-    if (motion.key == key && !motion.theta.empty()) return motion.theta;
+    if (motion.key == key && !motion.theta.empty()) return motion;
   }
   Motion& place = latest_[next_++ % latest_.size()];
-  place.key = key;
-  place.theta.clear();
+  place = {key, {}, {}};
   std::optional<JointMotion> home;
   if (made_) home.emplace(at_home(key));
-  for (std::size_t i = 0; i < measurement_.runs.size(); ++i) place.theta.push_back(home ? elastic(i, *home, key) : geared(i, key));
-  return place.theta;
+  for (std::size_t i = 0; i < measurement_.runs.size(); ++i) {
+    if (home) {
+      elastic(i, *home, key, place);
+    } else {
+      place.theta.push_back(geared(i, key));
+      place.loose.emplace_back(place.theta.back().size(), 0.0);
+    }
+  }
+  return place;
 }
 
 Readings Forward::operator()(const Imperfections& imperfections) {
-  Readings readings = mechanism(imperfections);
+  Readings readings = mechanism(imperfections).theta;
   for (std::size_t i = 0; i < readings.size(); ++i) readings[i] = shown(measurement_.runs[i], std::move(readings[i]), imperfections);
   return readings;
 }

@@ -38,13 +38,16 @@ class Forward {
  public:
   Forward(const Mechanism& declared, const Measurement& measurement);
 
-  /// NaN where the mechanism has no equilibrium.
+  /// NaN where the mechanism has no equilibrium. Where both tendons are slack, the middle of where the joint may be.
   Readings operator()(const Imperfections& imperfections);
+  /// Half the angle within which nothing holds the joint, rad; zero where a tendon is taut.
+  const Readings& looseness(const Imperfections& imperfections) { return mechanism(imperfections).loose; }
 
  private:
   struct Motion {
     Imperfections key;
     Readings theta;
+    Readings loose;
   };
 
   struct Geometry {
@@ -52,9 +55,9 @@ class Forward {
     std::optional<JointModel> model;
   };
 
-  const Readings& mechanism(const Imperfections& imperfections);
+  const Motion& mechanism(const Imperfections& imperfections);
   JointMotion at_home(const Imperfections& imperfections);
-  std::vector<double> elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections) const;
+  void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections, Motion& into) const;
   std::vector<double> geared(std::size_t run, const Imperfections& imperfections) const;
   TendonChange change(std::size_t run, const Sample& sample, const Imperfections& imperfections) const;
 

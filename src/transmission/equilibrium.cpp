@@ -304,7 +304,11 @@ EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, co
   point.friction = friction;
   point.shed = shed;
   const bool free = point.t1.upper == 0 && point.t2.upper == 0 && point.t1.slack + point.t2.slack > k_least_play;
-  if (free) point.status = EquilibriumStatus::loose;
+  if (free) {
+    point.status = EquilibriumStatus::loose;
+    point.loose_below = point.t2.slack / now[1].span.m;
+    point.loose_above = point.t1.slack / now[0].span.m;
+  }
   return point;
 }
 

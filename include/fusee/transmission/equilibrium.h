@@ -54,6 +54,8 @@ struct EquilibriumPoint {
   EquilibriumStatus status = EquilibriumStatus::held;
   double alpha = 0;  ///< rad
   double theta = 0;  ///< rad
+  double loose_below = 0;  ///< by how much the joint may turn down, and up, before a tendon is taut: where it is loose. rad
+  double loose_above = 0;
   TendonState t1;    ///< left
   TendonState t2;    ///< right
   /// What the motor must turn the pulley with, towards +α: T2_low p2 − T1_low p1, N·mm.
