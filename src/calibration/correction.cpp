@@ -5,96 +5,106 @@
 #include <limits>
 #include <optional>
 
-#include "calibration/forward.h"
-#include "fusee/transmission/equilibrium.h"
+#include "fusee/transmission/transmission.h"
 
-// The corrected pulley is drawn so that what was identified undoes itself:
-//   geometry, friction, tendon   the mechanism has them, and the law stays the declared θ(α) as a table (or P1 round where that suffices);
-//   radius offset δ              the tendon's centre line lies δ further out than drawn: a tendon thicker by 2δ over pins thinner by δ;
-//   scale 1 + s                  one more shrinkage;
-//   profile error                the law is drawn at the angle that the pulley acts at;
-//   runout                       the curves are drawn off the axis the other way (pulley_shift).
+// Everything here is re-simulated with predict(): the joint as it was found with the pulley it has, and the same joint with the pulley that
+// corrected.toml makes. What either misses of the declared θ(α) is its error; what the second still misses goes into the table.
 
 namespace fusee {
 namespace {
 
-/// P1 stays round below this miss of the declared law.
-constexpr double k_round_suffices = radians(0.02);
-constexpr int k_law_rows = 160;
+using Angles = std::vector<std::vector<double>>;
 
-/// What moves the joint's geometry or statics.
-bool changes_joint(const Imperfections& at) {
-  return at.guide_radius != 0 || at.guide_outward != 0 || at.guide_down != 0 || at.joint_length != 0 || at.stretch != 0 || at.pretension != 0 ||
-         at.friction != 0;
-}
-bool changes_geometry(const Imperfections& at) {
-  return at.guide_radius != 0 || at.guide_outward != 0 || at.guide_down != 0 || at.joint_length != 0;
-}
-bool changes_drawing(const Imperfections& at) { return at.radius_offset != 0 || at.pulley_scale != 0 || at.profile_sin != 0 || at.profile_cos != 0; }
+// ---- what is known now ----------------------------------------------------------------------------------------------
 
-double acting_angle(double alpha, const Imperfections& at) {
-  return alpha + at.profile_sin * std::sin(2 * alpha) + at.profile_cos * (std::cos(2 * alpha) - 1);
-}
-
-/// The declared law as rows, a little beyond the range where it goes on. Empty where it does not exist.
-std::vector<LawRow> declared_rows(const Mechanism& declared, const Imperfections& at) {
-  const Transmission law(declared);
-  if (law.dead_centre()) return {};
-  const double low = declared.joint.theta_min, high = declared.joint.theta_max;
-  const double more = 0.02 * (high - low);
-  std::vector<LawRow> rows;
-  for (int i = 0; i <= k_law_rows; ++i) {
-    const double theta = low - more + (high - low + 2 * more) * i / k_law_rows;
-    const LawRow row{acting_angle(law.alpha(theta), at), theta};
-    if (!std::isfinite(row.alpha) || (!rows.empty() && row.alpha <= rows.back().alpha)) continue;
-    rows.push_back(row);
+/// Mean of the logged tip force; the declared one where none was logged.
+double mean_load(const Measurement& measurement, const Mechanism& declared) {
+  double sum = 0, count = 0;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) {
+      sum += run.has_load ? sample.load : declared.load.tip_force;
+      count += 1;
+    }
   }
-  return rows;
+  return count > 0 ? sum / count : declared.load.tip_force;
 }
 
-Mechanism undrawn(Mechanism mechanism, const Imperfections& at) {
-  Tendon& tendon = mechanism.tendon;
-  const double drawn = tendon.diameter + 2 * at.radius_offset;
-  if (drawn > 0 && at.radius_offset != 0) {
-    tendon.modulus *= tendon.diameter * tendon.diameter / (drawn * drawn);
-    tendon.diameter = drawn;
-    mechanism.guides.radius -= at.radius_offset;
+/// One wave a turn is kept: of two the larger one.
+void add_profile(const Imperfections& before, Imperfections& total) {
+  const auto size = [](const Imperfections& at) { return std::hypot(at.profile_sin, at.profile_cos); };
+  if (size(total) == 0 || (before.profile_harmonic != total.profile_harmonic && size(before) > size(total))) {
+    total.profile_sin = before.profile_sin;
+    total.profile_cos = before.profile_cos;
+    total.profile_harmonic = before.profile_harmonic;
+  } else if (before.profile_harmonic == total.profile_harmonic) {
+    total.profile_sin += before.profile_sin;
+    total.profile_cos += before.profile_cos;
   }
-  if (at.pulley_scale != 0) mechanism.material.shrinkage = 1 - (1 - mechanism.material.shrinkage) * (1 + at.pulley_scale);
-  return mechanism;
 }
 
-// ---- what a pulley and a table take out -----------------------------------------------------------------------------
-
-/// The part that the pulley answers for, without sensors, shaft, loads and time.
-Imperfections pulley_part(const Imperfections& all) {
-  Imperfections part;
-  part.radius_offset = all.radius_offset;
-  part.pulley_scale = all.pulley_scale;
-  part.runout_x = all.runout_x;
-  part.runout_y = all.runout_y;
-  part.profile_sin = all.profile_sin;
-  part.profile_cos = all.profile_cos;
-  part.guide_radius = all.guide_radius;
-  part.guide_outward = all.guide_outward;
-  part.guide_down = all.guide_down;
-  part.joint_length = all.joint_length;
-  return part;
-}
-
-/// A function of α by straight pieces between evenly spaced places; flat beyond them.
-struct Curve {
-  double low = 0, high = 0;
-  std::vector<double> values;
-
-  double at(double alpha) const {
-    if (values.empty()) return 0;
-    const double last = static_cast<double>(values.size() - 1);
-    const double place = std::clamp((alpha - low) / (high - low) * last, 0.0, last);
-    const std::size_t i = std::min(static_cast<std::size_t>(place), values.size() - 2);
-    const double share = place - static_cast<double>(i);
-    return values[i] + share * (values[i + 1] - values[i]);
+/// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the rest was found anew.
+Imperfections composed(const Imperfections& before, const Imperfections& found) {
+  Imperfections total = found;
+  for (double Imperfections::* member :
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::pretension, &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward, &Imperfections::guide_down,
+        &Imperfections::joint_length, &Imperfections::gravity_cos, &Imperfections::gravity_sin}) {
+    total.*member += before.*member;
   }
+  total.stretch = (1 + before.stretch) * (1 + found.stretch) - 1;
+  total.pulley_scale = (1 + before.pulley_scale) * (1 + found.pulley_scale) - 1;
+  total.mean_load = before.mean_load;
+  add_profile(before, total);
+  return total;
+}
+
+/// Of what was found, all that the expected joint of a corrected file has or undoes itself.
+Imperfections without_the_mechanism(Imperfections found) {
+  for (double Imperfections::* member :
+       {&Imperfections::radius_offset, &Imperfections::pulley_scale, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin,
+        &Imperfections::profile_cos, &Imperfections::stretch, &Imperfections::pretension, &Imperfections::friction, &Imperfections::guide_radius,
+        &Imperfections::guide_outward, &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
+        &Imperfections::gravity_sin}) {
+    found.*member = 0;
+  }
+  return found;
+}
+
+/// Friction moves the joint, not the curves.
+bool same_drawing(const Mechanism& a, const Mechanism& b) {
+  Mechanism one = as_it_is(a), other = as_it_is(b);
+  one.guides.mu = other.guides.mu = 0;
+  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley && one.material == other.material &&
+         a.identified.radius_offset == b.identified.radius_offset && a.identified.runout_x == b.identified.runout_x &&
+         a.identified.runout_y == b.identified.runout_y;
+}
+
+std::string why_infeasible(const Mechanism& corrected) {
+  SynthesisOptions options;
+  options.advice = false;
+  const SynthesisResult made = synthesise(as_it_is(corrected), options);
+  return made.made() ? "" : made.brief();
+}
+
+// ---- errors ---------------------------------------------------------------------------------------------------------
+
+/// θ(α) as the file declares it.
+class DeclaredLaw {
+ public:
+  explicit DeclaredLaw(const Mechanism& declared) {
+    if (declared.transmission) {
+      ratio_ = declared.transmission->ratio;
+    } else {
+      Mechanism without_findings = declared;
+      without_findings.identified = {};
+      law_.emplace(without_findings);
+    }
+  }
+  bool exists() const { return !law_ || !law_->dead_centre(); }
+  double theta(double alpha) const { return law_ ? law_->theta(alpha) : alpha / ratio_; }
+
+ private:
+  double ratio_ = 1;
+  std::optional<Transmission> law_;
 };
 
 struct Seen {
@@ -114,50 +124,53 @@ Seen range_seen(const Measurement& measurement) {
   return seen;
 }
 
-/// θ of the unloaded joint over the range, the mean of both directions.
-Curve mean_motion(const Mechanism& declared, const Imperfections& at, const Seen& seen) {
-  constexpr int places = 160;
-  Mechanism unloaded = declared;
-  unloaded.load = {};
-  const JointModel model = imperfect_model(MadePulleys(declared), unloaded, at);
-  JointMotion motion(model);
-  const auto to = [&](double alpha) {
-    const EquilibriumPoint point = motion.to({acting_angle(alpha, at), 0, 0});
-    return point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
-  };
-  for (int i = 1; i <= 40; ++i) to(seen.low * i / 40);
-  Curve curve{seen.low, seen.high, std::vector<double>(places + 1, 0)};
-  const auto alpha_of = [&](int i) { return seen.low + (seen.high - seen.low) * i / places; };
-  for (int i = 0; i <= places; ++i) curve.values[static_cast<std::size_t>(i)] = 0.5 * to(alpha_of(i));
-  for (int i = places; i >= 0; --i) curve.values[static_cast<std::size_t>(i)] += 0.5 * to(alpha_of(i));
-  return curve;
+/// By how much simulated angles miss the declared law.
+Angles errors(const Measurement& measurement, const DeclaredLaw& law, Angles theta) {
+  for (std::size_t r = 0; r < theta.size(); ++r) {
+    for (std::size_t i = 0; i < theta[r].size(); ++i) theta[r][i] -= law.theta(measurement.runs[r].samples[i].alpha);
+  }
+  return theta;
 }
 
-/// θ(α) as declared, without elasticity.
-double declared_theta(const Mechanism& declared, const std::optional<Transmission>& law, double alpha) {
-  return law ? law->theta(alpha) : alpha / declared.transmission->ratio;
-}
-
-/// Calls visit(run index, sample index, direction) for every sample whose play is known.
+/// Calls visit(run index, sample index, stroke) for every sample whose play is known.
 template <typename Visit>
 void for_each_known(const Measurement& measurement, Visit visit) {
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
     for (const Stroke& stroke : measurement.runs[r].strokes) {
       if (stroke.partial) continue;
-      for (std::size_t i = stroke.first; i <= stroke.last; ++i) visit(r, i, stroke.direction);
+      for (std::size_t i = stroke.first; i <= stroke.last; ++i) visit(r, i, stroke);
     }
   }
 }
 
-/// What the accepted effects add to the declared model at a sample.
-double modelled(const Calibration& calibration, std::size_t run, std::size_t sample) {
-  if (run >= calibration.residuals_before.size() || run >= calibration.residuals_after.size()) return 0;
-  const auto& before = calibration.residuals_before[run];
-  const auto& after = calibration.residuals_after[run];
-  if (sample >= before.size() || sample >= after.size()) return 0;
-  const double change = before[sample] - after[sample];
-  return std::isfinite(change) ? change : 0;
+double rms(const Measurement& measurement, const Angles& error) {
+  double squares = 0, count = 0;
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke&) {
+    if (!std::isfinite(error[r][i])) return;
+    squares += error[r][i] * error[r][i];
+    count += 1;
+  });
+  return count > 0 ? std::sqrt(squares / count) : 0;
 }
+
+/// The part of `all` that goes when `rest` stays: both rms.
+double gone(double all, double rest) { return std::sqrt(std::max(0.0, all * all - rest * rest)); }
+
+// ---- the table ------------------------------------------------------------------------------------------------------
+
+/// A function of α by straight pieces between evenly spaced places; flat beyond them.
+struct Curve {
+  double low = 0, high = 0;
+  std::vector<double> values;
+
+  double at(double alpha) const {
+    const double last = static_cast<double>(values.size() - 1);
+    const double place = std::clamp((alpha - low) / (high - low) * last, 0.0, last);
+    const std::size_t i = std::min(static_cast<std::size_t>(place), values.size() - 2);
+    const double share = place - static_cast<double>(i);
+    return values[i] + share * (values[i + 1] - values[i]);
+  }
+};
 
 /// Mean over places of α, empty places filled from their neighbours.
 class BinnedMean {
@@ -196,6 +209,30 @@ class BinnedMean {
   std::vector<double> sums_, weights_;
 };
 
+/// What the joint is off on its way up and on its way down, play taken up: just after a reversal it still stands where it stood.
+struct BothWays {
+  Curve up, down;
+};
+
+BothWays both_ways(const Measurement& measurement, const Angles& error, double play) {
+  const Seen seen = range_seen(measurement);
+  BinnedMean up(seen), down(seen);
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
+    const std::vector<Sample>& samples = measurement.runs[r].samples;
+    const bool taken_up = std::abs(samples[i].alpha - samples[stroke.first].alpha) > play;
+    if (std::isfinite(error[r][i]) && taken_up) (stroke.direction > 0 ? up : down).add(samples[i].alpha, error[r][i]);
+  });
+  return {up.curve(), down.curve()};
+}
+
+/// What stays when the motor goes where the table says.
+Angles tabled(const Measurement& measurement, Angles error, const BothWays& table) {
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
+    error[r][i] -= (stroke.direction > 0 ? table.up : table.down).at(measurement.runs[r].samples[i].alpha);
+  });
+  return error;
+}
+
 /// α at which a curve of (θ, α), sorted by θ, has `theta`.
 double alpha_at(const std::vector<LawRow>& rows, double theta) {
   const auto above = std::lower_bound(rows.begin() + 1, rows.end() - 1, theta, [](const LawRow& row, double value) { return row.theta < value; });
@@ -205,12 +242,12 @@ double alpha_at(const std::vector<LawRow>& rows, double theta) {
 }
 
 /// Where the joint is, moving one way, by growing θ.
-std::vector<LawRow> motion_rows(const Mechanism& declared, const std::optional<Transmission>& law, const Curve& beyond) {
+std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Curve& beyond) {
   constexpr int places = 800;
   std::vector<LawRow> rows;
   for (int i = 0; i <= places; ++i) {
     const double alpha = beyond.low + (beyond.high - beyond.low) * i / places;
-    rows.push_back({alpha, declared_theta(declared, law, alpha) + beyond.at(alpha)});
+    rows.push_back({alpha, law.theta(alpha) + beyond.at(alpha)});
   }
   if (rows.back().theta < rows.front().theta) std::reverse(rows.begin(), rows.end());
   std::vector<LawRow> growing{rows.front()};
@@ -220,8 +257,8 @@ std::vector<LawRow> motion_rows(const Mechanism& declared, const std::optional<T
   return growing;
 }
 
-std::vector<CompensationRow> compensation_rows(const Mechanism& declared, const std::optional<Transmission>& law, const Curve& up, const Curve& down) {
-  const std::vector<LawRow> rising = motion_rows(declared, law, up), falling = motion_rows(declared, law, down);
+std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const BothWays& off) {
+  const std::vector<LawRow> rising = motion_rows(law, off.up), falling = motion_rows(law, off.down);
   if (rising.size() < 2 || falling.size() < 2) return {};
   const double low = std::max(rising.front().theta, falling.front().theta), high = std::min(rising.back().theta, falling.back().theta);
   std::vector<CompensationRow> table;
@@ -235,140 +272,33 @@ std::vector<CompensationRow> compensation_rows(const Mechanism& declared, const 
 
 }  // namespace
 
-Vec2 pulley_shift(const Mechanism& mechanism) { return {-mechanism.identified.runout_x, -mechanism.identified.runout_y}; }
-
-namespace {
-
-/// The joint with identified geometry and statics, still with the declared law's keys.
-Mechanism identified_joint(const Mechanism& mechanism) {
-  Mechanism joint = mounted(mechanism, mechanism.identified);
-  joint.identified = {};
-  joint.identified.runout_x = mechanism.identified.runout_x;
-  joint.identified.runout_y = mechanism.identified.runout_y;
-  return joint;
-}
-
-double worst_miss(const Mechanism& joint, const std::vector<LawRow>& rows) {
-  const Transmission law(joint);
-  if (law.dead_centre()) return std::numeric_limits<double>::infinity();
-  double worst = 0;
-  for (const LawRow& row : rows) worst = std::max(worst, std::abs(law.theta(row.alpha) - row.theta));
-  return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
-
-RoundChoice round_choice(const Mechanism& mechanism) {
-  Mechanism joint = identified_joint(mechanism);
-  const std::vector<LawRow> rows = declared_rows(mechanism, {});
-  RoundChoice choice;
-  choice.r1 = joint.pulley.r1;
-  if (mechanism.pulley.law != Law::compensate || rows.empty()) return choice;
-  // The worst miss has one minimum over r1: golden section.
-  double low = 0.8 * choice.r1, high = 1.25 * choice.r1;
-  const auto miss = [&](double r1) {
-    joint.pulley.r1 = r1;
-    return worst_miss(joint, rows);
-  };
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 40; ++i) {
-    const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (miss(a) < miss(b)) {
-      high = b;
-    } else {
-      low = a;
-    }
-  }
-  choice.r1 = 0.5 * (low + high);
-  choice.max_error = miss(choice.r1);
-  choice.suffices = choice.max_error <= k_round_suffices;
-  return choice;
-}
-
-Mechanism as_it_is(const Mechanism& mechanism) {
-  const Imperfections& at = mechanism.identified;
-  if (mechanism.transmission || !(changes_joint(at) || changes_drawing(at))) return mechanism;
-  Mechanism joint = identified_joint(mechanism);
-  if (changes_geometry(at) || at.profile_sin != 0 || at.profile_cos != 0) {
-    const RoundChoice choice = round_choice(mechanism);
-    const bool bent = at.profile_sin != 0 || at.profile_cos != 0;
-    if (choice.suffices && !bent) {
-      joint.pulley.r1 = choice.r1;
-    } else {
-      joint.pulley.rows = declared_rows(mechanism, at);
-      if (!joint.pulley.rows.empty()) joint.pulley.law = Law::table;
-    }
-  }
-  return undrawn(joint, at);
-}
-
-Mechanism expected_joint(const Mechanism& declared) {
-  // A corrected pulley's profile error undoes itself: it is drawn, and it is made.
-  Mechanism made = declared;
-  made.identified.profile_sin = made.identified.profile_cos = 0;
-  made = as_it_is(made);
-  made.identified = {};
-  return made;
-}
-
 Correction correct(const Mechanism& declared, const Measurement& measurement, const Calibration& calibration) {
-  Correction correction;
-  const Imperfections& before = declared.identified;
   const Imperfections& found = calibration.identified;
-  correction.identified = found;
-  Imperfections& total = correction.identified;
-  // What the earlier calibration put into the joint was its declared model this time; the rest was found anew.
-  for (double Imperfections::* member :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin, &Imperfections::profile_cos,
-        &Imperfections::pretension, &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward, &Imperfections::guide_down,
-        &Imperfections::joint_length}) {
-    total.*member += before.*member;
-  }
-  total.stretch = (1 + before.stretch) * (1 + found.stretch) - 1;
-  total.pulley_scale = (1 + before.pulley_scale) * (1 + found.pulley_scale) - 1;
-  const Seen seen = range_seen(measurement);
-  if (!seen.any()) return correction;
+  Correction correction;
+  correction.identified = composed(declared.identified, found);
+  const bool gives_way = found.stretch != 0 || found.gravity_cos != 0 || found.gravity_sin != 0;
+  if (gives_way && !declared.transmission) correction.identified.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
+  const DeclaredLaw law(declared);
+  if (!range_seen(measurement).any() || !law.exists()) return correction;
 
-  const Imperfections part = pulley_part(found);
-  correction.has_pulley = !declared.transmission && !(part == Imperfections{});
-  Curve pulley;
-  std::optional<Transmission> law;
-  const Mechanism expected = expected_joint(declared);
-  if (!declared.transmission) law.emplace(expected);
-  if (correction.has_pulley) {
-    const Curve actual = mean_motion(expected, part, seen), wanted = mean_motion(expected, {}, seen);
-    pulley = actual;
-    for (std::size_t i = 0; i < pulley.values.size(); ++i) {
-      const double change = actual.values[i] - wanted.values[i];
-      pulley.values[i] = std::isfinite(change) ? change : 0;
-    }
-    Mechanism corrected = declared;
-    corrected.identified = total;
-    if (declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
-  }
+  Mechanism corrected = declared;
+  corrected.identified = correction.identified;
+  correction.has_pulley = !declared.transmission && !same_drawing(declared, corrected);
+  if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
+  if (!correction.infeasible.empty()) correction.has_pulley = false;
+  if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
+  if (correction.has_pulley) correction.tied_at = tied_at(corrected);
 
-  BinnedMean up(seen), down(seen);
-  double squares = 0, count = 0;
-  for_each_known(measurement, [&](std::size_t r, std::size_t i, int direction) {
-    const double alpha = measurement.runs[r].samples[i].alpha;
-    const double taken = pulley.at(alpha);
-    squares += taken * taken;
-    count += 1;
-    (direction > 0 ? up : down).add(alpha, modelled(calibration, r, i) - taken);
-  });
-  if (count == 0) return correction;
-  correction.by_pulley = std::sqrt(squares / count);
-  const Curve rising = up.curve(), falling = down.curve();
-  double left = 0, left_after = 0;
-  for_each_known(measurement, [&](std::size_t r, std::size_t i, int direction) {
-    const double alpha = measurement.runs[r].samples[i].alpha;
-    const double rest = modelled(calibration, r, i) - pulley.at(alpha);
-    const double after = rest - (direction > 0 ? rising : falling).at(alpha);
-    left += rest * rest;
-    left_after += after * after;
-  });
-  correction.by_table = std::sqrt(std::max(0.0, left - left_after) / count);
-  correction.table = compensation_rows(expected, law, rising, falling);
+  const Angles now = errors(measurement, law, predict(expected_joint(declared), found, measurement));
+  Angles then = now;
+  if (correction.has_pulley) then = errors(measurement, law, predict(expected_joint(corrected), without_the_mechanism(found), measurement));
+  const BothWays table = both_ways(measurement, then, 2 * found.backlash);
+  correction.error_now = rms(measurement, now);
+  correction.error_with_pulley = rms(measurement, then);
+  correction.error_with_table = rms(measurement, tabled(measurement, then, table));
+  correction.by_pulley = gone(correction.error_now, correction.error_with_pulley);
+  correction.by_table = gone(correction.error_with_pulley, correction.error_with_table);
+  correction.table = compensation_rows(law, table);
   return correction;
 }
 

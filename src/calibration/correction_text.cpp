@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "fusee/base/text.h"
@@ -35,7 +36,7 @@ double tidy(double value) {
   return std::isfinite(scale) ? std::round(value * scale) / scale : 0;
 }
 
-constexpr const char* k_title = "# ---- found by fusee calibrate: without the table [identified] this is the declared joint again ----\n";
+constexpr const char* k_title = "# ---- found by fusee calibrate: without this table this is the declared joint again ----\n";
 
 /// Without the words of an earlier calibration.
 std::string without_earlier_words(std::string text) {
@@ -46,30 +47,55 @@ std::string without_earlier_words(std::string text) {
   return text.erase(title, end - title);
 }
 
-}  // namespace
-
-std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration, const Correction& correction) {
-  std::string text = without_earlier_words(std::string(declared_text));
-  if (!text.empty() && text.back() != '\n') text += '\n';
+std::string words_of(const Calibration& calibration, const Correction& correction) {
   std::string words = std::string(k_title) + "# verdict: " + one_line(calibration.verdict) + "\n";
   for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
+  if (correction.tied_at != 0) {
+    words += "# tendons tied with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
+             " deg: under its mean load the joint follows the law.\n# Tied at 0 deg, compensation.csv says where the motor must stand.\n";
+  }
+  return words;
+}
 
+std::vector<ValueEdit> identified_edits(const Mechanism& declared, const Imperfections& identified) {
   Mechanism corrected = declared;
-  corrected.identified = correction.identified;
+  corrected.identified = identified;
+  const Mechanism plain;
   std::vector<ValueEdit> edits;
   for (const Field& field : fields()) {
     if (field.table != "identified") continue;
-    const double value = tidy(field.get(corrected, 0));
-    if (value != 0 || field.get(declared, 0) != 0) edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
+    const double value = tidy(field.get(corrected, 0)), usual = field.get(plain, 0);
+    if (value != usual || field.get(declared, 0) != usual) edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
   }
-  const std::size_t table = text.find("\n[identified]");
-  if (table != std::string::npos) {
-    text.insert(table + 1, words);
-  } else {
-    text += "\n" + words + (edits.empty() ? "" : "[identified]\n");
+  return edits;
+}
+
+/// Where the line below the header [identified] begins; npos without that header.
+std::size_t below_header(const std::string& text) {
+  for (std::size_t line = 0; line < text.size();) {
+    const std::size_t end = std::min(text.find('\n', line), text.size());
+    std::string header = text.substr(line, end - line);
+    header.erase(std::min(header.find('#'), header.size()));
+    std::erase_if(header, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+    if (header == "[identified]") return std::min(end + 1, text.size());
+    line = end + 1;
   }
-  return edit_values(text, edits);
+  return std::string::npos;
+}
+
+}  // namespace
+
+// What is added stands in the table, words and numbers, so that deleting the table gives the declared file back byte for byte.
+std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration, const Correction& correction) {
+  std::string text = without_earlier_words(std::string(declared_text));
+  const std::vector<ValueEdit> edits = identified_edits(declared, correction.identified);
+  if (edits.empty() && below_header(text) == std::string::npos) text += (!text.empty() && text.back() != '\n' ? "\n\n" : "\n") + std::string("[identified]\n");
+  text = edit_values(text, edits);
+  const std::string words = words_of(calibration, correction);
+  const std::size_t place = below_header(text);
+  if (place == std::string::npos) return text + words;  // written as an inline table
+  return text.insert(place, words);
 }
 
 std::string compensation_csv(const Correction& correction) {

@@ -220,7 +220,10 @@ TendonChange Forward::change(std::size_t index, const Sample& sample, const Impe
   const Run& run = measurement_.runs[index];
   TendonChange change;
   change.compliance = 1.0 + at.creep * (at.creep != 0 ? decades(run, sample) : 0.0);
-  if (run.has_temperature) change.expansion = at.thermal * (sample.temperature - first_temperature_);
+  if (run.has_temperature) {
+    const double warmer = sample.temperature - first_temperature_;
+    change.expansion = {at.thermal1 * warmer, at.thermal2 * warmer};
+  }
   if (sample.time + clock_[index] >= at.slip_time) change.released = {std::max(0.0, at.slip), std::max(0.0, -at.slip)};
   return change;
 }

@@ -52,13 +52,6 @@ struct Workshop {
   }
 };
 
-/// A runout in making is undone by the opposite one in the drawing.
-void draw_off_axis(SynthesisResult& synthesis, const Vec2& shift) {
-  for (Outline* outline : {&synthesis.p1, &synthesis.p2}) {
-    for (OutlinePoint& point : outline->points) point.position += shift;
-  }
-}
-
 /// False when no such pulley can be made.
 bool design(Workshop& shop) {
   Product& product = shop.result.product;
@@ -67,8 +60,8 @@ bool design(Workshop& shop) {
   SynthesisOptions synthesis_options;
   synthesis_options.tolerance = shop.options.tolerance;
   product.synthesis = synthesise(mechanism, synthesis_options);
-  draw_off_axis(product.synthesis, pulley_shift(mechanism));
   if (!product.synthesis.made()) return false;
+  draw_for_making(product.synthesis, mechanism);
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
   if (!product.pulley.made()) product.pulley.advice = body_advice(mechanism);

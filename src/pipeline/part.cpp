@@ -49,16 +49,15 @@ Polygon counter_clockwise(Polygon polygon) {
   return polygon;
 }
 
-/// A floor drawn off the axis to undo a runout stands on it once it is made.
-Polygon on_axis(Polygon floor, const Mechanism& mechanism) {
-  for (Vec2& point : floor) point -= pulley_shift(mechanism);
-  return floor;
+/// On floors as they were drawn, of a joint that has its declared pins and tendon.
+RewindResult rewind_drawn(const Mechanism& mechanism, Polygon floor1, Polygon floor2) {
+  return rewind(with_inset(mechanism), as_made(std::move(floor1), mechanism), as_made(std::move(floor2), mechanism));
 }
 
 RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) {
   const DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
   const DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
-  if (floor1 && floor2) return rewind(mechanism, on_axis(counter_clockwise(floor1->points), mechanism), on_axis(counter_clockwise(floor2->points), mechanism));
+  if (floor1 && floor2) return rewind_drawn(mechanism, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
   const DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
   const DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
   if (!pitch1 || !pitch2) {
@@ -70,7 +69,7 @@ RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) 
   Mechanism centre_line = mechanism;
   centre_line.guides.radius = mechanism.guide_pitch_radius();
   centre_line.tendon.diameter = 0;
-  return rewind(centre_line, on_axis(counter_clockwise(pitch1->points), mechanism), on_axis(counter_clockwise(pitch2->points), mechanism));
+  return rewind_drawn(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
 }
 
 /// The loops of a mesh that is inside out, as if it were not.
@@ -98,8 +97,7 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
 
 RewindResult rewind_mesh(const Mechanism& mechanism, const TriangleMesh& mesh) {
   const BodyLayout layout = axial_layout(mechanism);
-  return rewind(mechanism, on_axis(floor_in_section(mesh, layout.z_p1, layout.scale), mechanism),
-                on_axis(floor_in_section(mesh, layout.z_p2, layout.scale), mechanism));
+  return rewind_drawn(mechanism, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ struct AtAlpha {
 };
 
 AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA, const TendonChange& change) {
-  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + change.expansion, {}};
+  const double expansion = change.expansion[tendon.side == Side::left ? 0 : 1];
+  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + expansion, {}};
   at.spans.EA = EA / change.compliance;
   at.spans.upper_material = at.swelling * tendon.upper_material;
   at.spans.lower_length = at.lower_length;

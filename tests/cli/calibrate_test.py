@@ -230,7 +230,7 @@ class Calibrate(harness.Scratch):
         self.expect("calibrate joint.toml", 2, err="needs RUN.csv")
         self.expect("calibrate joint.toml nothing.csv", 3, err="no such file")
         (self.folder / "text.csv").write_text("alpha_deg,theta_deg\n1,2\n3,four\n")
-        self.expect("calibrate joint.toml text.csv", 3, err='text.csv:3:1: error: theta_deg: "four" is not a number')
+        self.expect("calibrate joint.toml text.csv", 3, err='text.csv:3:3: error: theta_deg: "four" is not a number')
         (self.folder / "still.csv").write_text("alpha_deg,theta_deg\n" + "1,2\n" * 50)
         document = self.expect_json("calibrate joint.toml still.csv --dry-run", 0)
         self.assertEqual(document["verdict"], "not_testable")

@@ -168,7 +168,13 @@ std::string matrix(const std::vector<Judgement>& judgements) {
   text += "| unexplained or not repeatable, per joint with a fault without a name | " +
           percent(found.unexplained_outside) + " |\n";
   text += "| no effect, per joint as declared | " + percent(found.quiet) + " |\n";
-  return text + "\nheld: in a reported group; alone: the group has no other member.\n";
+  text += "\nheld: in a reported group; alone: the group has no other member.\nKin:";
+  for (const std::string& fault : fault_names()) {
+    if (const std::vector<std::string> kin = kin_of(fault); !kin.empty())
+      text += " " + fault + " is like " + joined(kin) + ";";
+  }
+  text.back() = '.';
+  return text + "\n";
 }
 
 }  // namespace fusee::rig

@@ -15,6 +15,7 @@ namespace {
 constexpr double k_noise = radians(0.02);
 constexpr double k_least_seen = 3.0;  // noise rms
 constexpr double k_most_seen = 15.0;
+constexpr int k_attempts = 40;  // joints drawn
 
 /// What a fault is like but for its size: fixed for a case.
 struct Character {
@@ -282,7 +283,7 @@ Case make_case(const Truth& truth, std::uint64_t seed, Protocol protocol) {
   made.faults = truth.faults;
   made.seed = seed;
   set_sensors(made);
-  for (int attempt = 0; attempt < 40; ++attempt) {
+  for (int attempt = 0; attempt < k_attempts; ++attempt) {
     if (!try_joint(truth, made, random, protocol)) continue;
     made.logs = log_runs(made.joint, made.hidden, made.plans, made.sensors);
     if (finite(made.logs)) return made;

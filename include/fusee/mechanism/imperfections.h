@@ -31,7 +31,8 @@ struct Imperfections {
   double creep = 0;                   ///< compliance added in every decade of time since a run began, as a fraction
   double slip = 0;                    ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
   double slip_time = 0;               ///< s, on the bench's clock: runs one after another
-  double thermal = 0;                 ///< unloaded length added per kelvin, as a fraction
+  double thermal1 = 0;                ///< unloaded length of tendon 1 added per kelvin, as a fraction
+  double thermal2 = 0;                ///< of tendon 2: one may lie nearer to what is warm
 
   // Pins.
   double friction = 0;                ///< added to the capstan coefficient
@@ -43,6 +44,7 @@ struct Imperfections {
   double joint_length = 0;            ///< added to OC, mm
   double gravity_cos = 0;             ///< torque against +θ: cos · cos θ + sin · sin θ, N·mm
   double gravity_sin = 0;
+  double mean_load = 0;               ///< tip force beside the declared one, under which the joint is to follow its law, N
   // Of a joint declared by a ratio, whose tendons are not known; rad.
   double compliance = 0;              ///< turned by a unit of load
   double dry_friction = 0;            ///< half loop per unit of |load|

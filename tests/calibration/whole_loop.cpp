@@ -1,0 +1,154 @@
+#include "calibration/whole_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/files.h"
+#include "fusee/mechanism/file.h"
+#include "fusee/profile/synthesis.h"
+#include "fusee/transmission/transmission.h"
+
+namespace fusee::rig {
+namespace {
+
+constexpr double k_slow = radians(12.0);
+constexpr double k_fast = radians(90.0);
+
+/// The same loads about a mean that stays.
+std::vector<RunPlan> about(double load) {
+  return {{load, k_slow, 3, 0.0}, {1.5 * load, k_slow, 2, 0.0}, {load, k_fast, 3, 0.0}, {0.5 * load, k_slow, 2, 0.0}};
+}
+
+std::vector<RunPlan> about_zero(double load) { return {{0.0, k_slow, 3, 0.0}, {load, k_slow, 2, 0.0}, {0.0, k_fast, 3, 0.0}, {-load, k_slow, 2, 0.0}}; }
+
+Log one_run(const MadeJoint& joint, const Hidden& hidden, double load) {
+  SensorPlan silent;
+  silent.noise = 0;
+  return log_runs(joint, hidden, {{load, k_slow, 2, 0.0}}, silent).front();
+}
+
+/// Of the rows from the first reversal on: before it the play's state is a matter of how the run began.
+template <typename Error>
+double rms(const Log& log, Error error) {
+  double squares = 0, count = 0;
+  for (std::size_t i = log.size() / 4 + 1; i < log.size(); ++i) {
+    const double off = error(log[i], log[i].alpha > log[i - 1].alpha);
+    squares += off * off;
+    count += 1;
+  }
+  return std::sqrt(squares / count);
+}
+
+double miss(const Log& log, const Transmission& law) {
+  return rms(log, [&](const Row& row, bool) { return row.theta - law.theta(row.alpha); });
+}
+
+/// θ that the table gives for an α on the way up or down.
+double tabled(const std::vector<CompensationRow>& table, double alpha, bool up) {
+  const auto of = [up](const CompensationRow& row) { return up ? row.alpha_up : row.alpha_down; };
+  const auto above = std::lower_bound(table.begin() + 1, table.end() - 1, alpha, [&](const CompensationRow& row, double value) { return of(row) < value; });
+  const CompensationRow& low = *(above - 1);
+  return low.theta + (above->theta - low.theta) * (alpha - of(low)) / (of(*above) - of(low));
+}
+
+std::string found_words(const Calibration& calibration) {
+  std::string text;
+  for (const FoundEffect& effect : calibration.effects) {
+    text += (text.empty() ? "" : ", ") + effect.name;
+    for (const std::string& rival : effect.group) text += rival == effect.name ? "" : " [" + rival + "]";
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+/// As printed: shrunk as the declared material does, not as the drawing was told.
+Outline printed(Outline outline, const Mechanism& declared, const Mechanism& drawn) {
+  const double scale = (1.0 - declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
+  for (OutlinePoint& point : outline.points) point.position *= scale;
+  return outline;
+}
+
+}  // namespace
+
+std::vector<LoopCase> loop_cases(const Mechanism& declared, double load) {
+  const double R = declared.joint.R;
+  std::vector<LoopCase> cases;
+  const auto add = [&](const std::string& name, auto set) {
+    LoopCase one{name, {}, full_protocol(load), 0};
+    set(one);
+    cases.push_back(one);
+  };
+  add("radius_offset", [&](LoopCase& c) { c.hidden.radius_offset = 0.003 * R; });
+  add("pulley_scale", [](LoopCase& c) { c.hidden.pulley_scale = -0.02; });
+  add("pulley_runout", [&](LoopCase& c) { c.hidden.runout_x = 0.004 * R, c.hidden.runout_y = -0.003 * R; });
+  add("profile_error", [&](LoopCase& c) { c.hidden.profile_error = 0.006 * R; });
+  add("guide_radius", [&](LoopCase& c) { c.hidden.guide_radius = 0.03 * R; });
+  add("guide_position", [&](LoopCase& c) { c.hidden.guide_outward = 0.01 * R, c.hidden.guide_down = -0.006 * R; });
+  add("joint_length", [&](LoopCase& c) { c.hidden.joint_length = -0.02 * R; });
+  add("tendon_stretch", [&](LoopCase& c) {
+    c.hidden.modulus = declared.tendon.modulus / 4.0;
+    c.plans = about(load);
+    c.load = load;
+  });
+  add("gravity", [&](LoopCase& c) {
+    c.hidden.gravity = 3 * load * R;
+    c.hidden.gravity_direction = 0.5;
+    c.plans = about_zero(load);
+  });
+  return cases;
+}
+
+MadeJoint with_corrected_pulley(const MadeJoint& declared, const Mechanism& corrected) {
+  const Mechanism drawn = as_it_is(corrected);
+  SynthesisOptions options;
+  options.tolerance = 2e-5;
+  options.advice = false;
+  SynthesisResult made = synthesise(drawn, options);
+  if (!made.made()) throw InputError("corrected.toml", made.brief());
+  draw_for_making(made, drawn);
+  MadeJoint joint = declared;
+  joint.p1 = printed(made.p1, declared.declared, drawn);
+  joint.p2 = printed(made.p2, declared.declared, drawn);
+  return joint;
+}
+
+Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder) {
+  OutputFolder target(folder, true);
+  std::vector<std::filesystem::path> runs;
+  int number = 0;
+  for (const Log& log : log_runs(joint, hidden.hidden, hidden.plans)) {
+    const std::string name = "run_" + std::to_string(++number) + ".csv";
+    target.stage({name, csv_text(log)});
+    runs.push_back(folder / name);
+  }
+  target.publish();
+  return read_measurement(runs);
+}
+
+double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at) {
+  Hidden mounted = hidden.hidden;
+  mounted.motor_offset -= tied_at;
+  return miss(one_run(joint, mounted, hidden.load), Transmission(joint.declared));
+}
+
+LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden, const std::filesystem::path& folder) {
+  const Measurement measurement = measured(joint, hidden, folder);
+  const Calibration calibration = calibrate(joint.declared, measurement);
+  const Correction correction = correct(joint.declared, measurement, calibration);
+  LoopOutcome outcome;
+  outcome.name = hidden.name;
+  outcome.found = found_words(calibration);
+  outcome.verdict = calibration.verdict;
+  outcome.corrected_toml = corrected_toml(spec, joint.declared, calibration, correction);
+  const MadeJoint then = with_corrected_pulley(joint, parse_mechanism(outcome.corrected_toml, "corrected.toml"));
+  outcome.before = joint_error(joint, hidden, 0);
+  outcome.declared = joint_error(joint, {}, 0);
+  outcome.after = joint_error(then, hidden, correction.tied_at);
+  outcome.after_tied_at_zero = joint_error(then, hidden, 0);
+  outcome.after_table =
+      rms(one_run(then, hidden.hidden, hidden.load), [&](const Row& row, bool up) { return row.theta - tabled(correction.table, row.alpha, up); });
+  outcome.predicted = correction.error_with_pulley;
+  return outcome;
+}
+
+}  // namespace fusee::rig

@@ -1,0 +1,52 @@
+/// \file
+/// The whole loop: a joint with a hidden fault is measured, calibrated, given the corrected pulley, and measured again with the same fault.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fusee/calibration/correction.h"
+#include "rig/rig.h"
+
+namespace fusee::rig {
+
+/// A fault that a pulley can take out.
+struct LoopCase {
+  std::string name;     ///< of the effect
+  Hidden hidden;
+  std::vector<RunPlan> plans;
+  double load = 0;      ///< under which the joint is judged: the mean of the plans' where the tendons' stretch matters, N
+};
+
+/// One of each kind, on the forearm-sized joint and on others.
+std::vector<LoopCase> loop_cases(const Mechanism& declared, double load);
+
+/// What one turn of the loop did. rad, rms of θ − θ(α) as declared, one unloaded or evenly loaded run without noise.
+struct LoopOutcome {
+  std::string name;
+  std::string found;       ///< what calibrate named
+  std::string verdict;
+  double before = 0;
+  double after = 0;        ///< with the corrected pulley, tendons tied as it says (Correction::tied_at)
+  double after_tied_at_zero = 0;
+  double after_table = 0;  ///< and angles by compensation.csv
+  double declared = 0;     ///< with no fault at all: what friction, stretch as declared and the polygon leave
+  double predicted = 0;    ///< of `after`, by calibrate
+  std::string corrected_toml;
+};
+
+/// The joint with the pulley that `fusee build` makes of `corrected`, on the bench of `declared`.
+MadeJoint with_corrected_pulley(const MadeJoint& declared, const Mechanism& corrected);
+
+/// What the same joint misses of its law with another pulley, its motor's zero moved as `tied_at` says. rad rms
+double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at);
+
+/// The data of a case as a bench would leave them; scratch files go to `folder`.
+Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder);
+
+/// `spec` is the text of the joint's file.
+LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden, const std::filesystem::path& folder);
+
+}  // namespace fusee::rig
