@@ -471,8 +471,8 @@ std::string logged_html(const Measurement& measurement) {
     const Run& run = measurement.runs[r];
     if (run.samples.empty()) continue;
     Plot plot{run_words(run, measurement.load_unit),
-              {"motor angle α", "°", {}, {}, 1e-3},
-              {"joint angle θ", "°", {}, {}, 1e-3},
+              {"motor angle α", "°", {}, {}, 1},
+              {"joint angle θ", "°", {}, {}, 1},
               {{"", Ink::main, {}}},
               {},
               {}};

@@ -129,7 +129,7 @@ std::vector<std::string> correction_items(const Correction& correction) {
   if (correction.has_pulley) {
     items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
                     " rms, by simulation.");
-    if (correction.round.r1 > 0) items.push_back(round_words(correction));
+    if (correction.round.r1 > 0) items.push_back(round_words(correction) + ".");
   } else {
     items.push_back("Nothing was identified that another pulley would take out.");
   }

@@ -81,12 +81,12 @@ std::vector<std::string> rivals_of(const FoundEffect& effect) {
 }
 
 std::string round_words(const Correction& correction) {
-  const double miss = degrees(correction.round.max_error);
-  const std::string round = "round, at its best radius of " + rounded(correction.round.r1, 5) +
-                            " mm, it misses the law by " +
-                            (miss < 0.001 ? "less than 0.001°" : "up to " + rounded(miss, 3) + "°");
-  return correction.round.suffices ? "P1 stays " + round + "; shaped, it would miss nothing."
-                                   : "P1 is shaped and follows the law; " + round + ".";
+  const double error = degrees(correction.round.max_error);
+  const std::string radius = "at its best radius of " + rounded(correction.round.r1, 5) + " mm it ";
+  const std::string miss = error < 0.001 ? "by less than 0.001°" : "by up to " + rounded(error, 3) + "°";
+  if (correction.round.suffices)
+    return "P1 stays round: " + radius + "misses the law " + miss + "; shaped, it would miss nothing";
+  return "P1 is shaped and misses nothing; round, " + radius + "would miss the law " + miss;
 }
 
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration) {
