@@ -26,7 +26,8 @@ Json angle(double value) { return number(degrees(value)); }
 Json effect_json(const FoundEffect& effect) {
   Json parameters = Json::object();
   for (const FittedParameter& parameter : effect.parameters) {
-    parameters[parameter.name] = {{"value", number(parameter.value)}, {"ci95", {number(parameter.low), number(parameter.high)}}};
+    parameters[parameter.name] = {{"value", number(parameter.value)},
+                                  {"ci95", {number(parameter.low), number(parameter.high)}}};
   }
   return {{"name", effect.name},
           {"group", effect.group},
@@ -37,11 +38,17 @@ Json effect_json(const FoundEffect& effect) {
 }
 
 Json figures_json(const ErrorFigures& figures) {
-  return {{"rms_deg", angle(figures.rms)}, {"max_deg", angle(figures.max)}, {"held_out_rms_deg", angle(figures.held_out_rms)}};
+  return {{"rms_deg", angle(figures.rms)},
+          {"max_deg", angle(figures.max)},
+          {"held_out_rms_deg", angle(figures.held_out_rms)}};
 }
 
 Json iso_json(const Iso230& iso) {
-  return {{"A_deg", angle(iso.A)}, {"R_deg", angle(iso.R)}, {"B_deg", angle(iso.B)}, {"E_deg", angle(iso.E)}, {"M_deg", angle(iso.M)}};
+  return {{"A_deg", angle(iso.A)},
+          {"R_deg", angle(iso.R)},
+          {"B_deg", angle(iso.B)},
+          {"E_deg", angle(iso.E)},
+          {"M_deg", angle(iso.M)}};
 }
 
 Json tried_json(const std::vector<Candidate>& tried) {
@@ -65,14 +72,17 @@ Json effects_json(const Calibration& calibration) {
 
 Json detectable_json(const Calibration& calibration) {
   Json list = Json::array();
-  for (const Detectable& detectable : calibration.detectable) list.push_back({{"name", detectable.name}, {"smallest_deg", angle(detectable.smallest)}});
+  for (const Detectable& detectable : calibration.detectable)
+    list.push_back({{"name", detectable.name}, {"smallest_deg", angle(detectable.smallest)}});
   return list;
 }
 
 Json correctable_json(const Correction& correction) {
   Json json = {{"by_pulley_rms_deg", angle(correction.by_pulley)}, {"by_table_rms_deg", angle(correction.by_table)}};
   if (correction.round.r1 > 0) {
-    json["p1_round"] = {{"best_r1_mm", number(correction.round.r1)}, {"max_error_deg", angle(correction.round.max_error)}, {"suffices", correction.round.suffices}};
+    json["p1_round"] = {{"best_r1_mm", number(correction.round.r1)},
+                        {"max_error_deg", angle(correction.round.max_error)},
+                        {"suffices", correction.round.suffices}};
   }
   return json;
 }
@@ -86,10 +96,12 @@ std::string calibration_json(const CalibrationProduct& product) {
   Json json = {{"schema", 1}, {"verdict", calibration.verdict}, {"summary", calibration.summary}};
   json["effects"] = effects_json(calibration);
   json["noise_floor_deg"] = angle(calibration.noise.rms);
-  json["noise_floor"] = {{"degrees_of_freedom", number(calibration.noise.degrees_of_freedom)}, {"from_repeats", calibration.noise.from_repeats}};
+  json["noise_floor"] = {{"degrees_of_freedom", number(calibration.noise.degrees_of_freedom)},
+                         {"from_repeats", calibration.noise.from_repeats}};
   json["before"] = figures_json(calibration.before);
   json["after"] = figures_json(calibration.after);
-  json["after_per_noise_floor"] = calibration.noise.rms > 0 ? number(calibration.after.rms / calibration.noise.rms) : Json();
+  json["after_per_noise_floor"] =
+      calibration.noise.rms > 0 ? number(calibration.after.rms / calibration.noise.rms) : Json();
   json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
   json["rest_autocorrelation"] = number(calibration.rest_autocorrelation);
   json["unexplained_rms_deg"] = angle(calibration.unexplained_rms);
@@ -107,12 +119,14 @@ std::string calibration_json(const CalibrationProduct& product) {
 
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs) {
   Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
-  json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()}, {"sha256", product.file.sha256}};
+  json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
+                   {"sha256", product.file.sha256}};
   json["runs"] = Json::array();
   for (const Run& run : product.measurement.runs) json["runs"].push_back(run.name);
   json["verdict"] = product.calibration.verdict;
   json["outputs"] = Json::array();
-  for (const OutputFile& file : outputs) json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  for (const OutputFile& file : outputs)
+    json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
   return text_of(json);
 }
 

@@ -60,23 +60,29 @@ Sign sign_of(const std::string& verdict) {
 
 std::string verdict_section(const Calibration& calibration) {
   const Sign sign = sign_of(calibration.verdict);
-  return "<section class=\"verdict " + sign.style + "\"><span class=\"sign\">" + sign.sign + "</span><p><b>" + safe_text(first_upper(open_words(calibration.verdict))) +
-         ".</b> " + safe_text(calibration.summary) + "</p></section>\n";
+  return "<section class=\"verdict " + sign.style + "\"><span class=\"sign\">" + sign.sign + "</span><p><b>" +
+         safe_text(first_upper(open_words(calibration.verdict))) + ".</b> " + safe_text(calibration.summary) +
+         "</p></section>\n";
 }
 
 std::string key_number(const std::string& name, const std::string& value, const std::string& beside = "") {
-  return "<div><dt>" + safe_text(name) + "</dt><dd>" + safe_text(value) + (beside.empty() ? "" : " <small>" + safe_text(beside) + "</small>") + "</dd></div>";
+  return "<div><dt>" + safe_text(name) + "</dt><dd>" + safe_text(value) +
+         (beside.empty() ? "" : " <small>" + safe_text(beside) + "</small>") + "</dd></div>";
 }
 
 std::string key_numbers(const CalibrationProduct& product) {
   const Calibration& c = product.calibration;
-  std::string html = key_number("Error on data not fitted, RMS", degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
+  std::string html = key_number("Error on data not fitted, RMS",
+                                degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
   html += key_number("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
-  html += key_number("Noise floor", degree_words(c.noise.rms), c.noise.from_repeats ? "from repeats" : "at least: no repeats");
+  html += key_number("Noise floor", degree_words(c.noise.rms),
+                     c.noise.from_repeats ? "from repeats" : "at least: no repeats");
   if (c.noise.rms > 0) html += key_number("What is left, per noise floor", readable(c.after.rms / c.noise.rms, 2));
   html += key_number("Unexplained, RMS", degree_words(c.unexplained_rms));
-  html += key_number("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
-  if (product.correction.has_pulley) html += key_number("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
+  html +=
+      key_number("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
+  if (product.correction.has_pulley)
+    html += key_number("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
   html += key_number("Taken out by the table, RMS", degree_words(product.correction.by_table));
   return section("numbers", "Key numbers", "<dl class=\"numbers\">" + html + "</dl>");
 }
@@ -90,22 +96,30 @@ std::string held_out_words(const CalibrationProduct& product) {
   const std::size_t runs = product.measurement.runs.size();
   const bool named = calibration.held_out_runs.size() < runs;
   std::string words = "The error on data that were not fitted ";
-  words += named ? "is that of " + joined(calibration.held_out_runs, ", ") : runs == 1 ? "leaves out strokes in turn" : "leaves out whole runs in turn";
-  if (!calibration.held_out_factors.empty()) words += "; what decides between effects leaves out whole levels of " + joined(calibration.held_out_factors, " and of ");
+  words += named       ? "is that of " + joined(calibration.held_out_runs, ", ")
+           : runs == 1 ? "leaves out strokes in turn"
+                       : "leaves out whole runs in turn";
+  if (!calibration.held_out_factors.empty())
+    words +=
+        "; what decides between effects leaves out whole levels of " + joined(calibration.held_out_factors, " and of ");
   return words + ".";
 }
 
 std::string figures_section(const CalibrationProduct& product) {
   const Calibration& c = product.calibration;
-  const std::string rows = figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
-                           figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
-                           figures_row("ISO 230-2 A, accuracy", c.iso_before.A, c.iso_after.A) +
-                           figures_row("ISO 230-2 R, repeatability both ways", c.iso_before.R, c.iso_after.R) +
-                           figures_row("ISO 230-2 B, reversal", c.iso_before.B, c.iso_after.B) + figures_row("ISO 230-2 E, systematic", c.iso_before.E, c.iso_after.E) +
-                           figures_row("ISO 230-2 M, mean of both ways", c.iso_before.M, c.iso_after.M);
+  const std::string rows =
+      figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
+      figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
+      figures_row("ISO 230-2 A, accuracy", c.iso_before.A, c.iso_after.A) +
+      figures_row("ISO 230-2 R, repeatability both ways", c.iso_before.R, c.iso_after.R) +
+      figures_row("ISO 230-2 B, reversal", c.iso_before.B, c.iso_after.B) +
+      figures_row("ISO 230-2 E, systematic", c.iso_before.E, c.iso_after.E) +
+      figures_row("ISO 230-2 M, mean of both ways", c.iso_before.M, c.iso_after.M);
   return section("figures", "Before and after",
-                 "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: with the effects below. " + safe_text(held_out_words(product)) +
-                     "</p>" + html_table({"at the joint", "#before", "#after"}, rows));
+                 "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: "
+                 "with the effects below. " +
+                     safe_text(held_out_words(product)) + "</p>" +
+                     html_table({"at the joint", "#before", "#after"}, rows));
 }
 
 // ---- what to do -----------------------------------------------------------------------------------------------------
@@ -113,13 +127,15 @@ std::string figures_section(const CalibrationProduct& product) {
 std::vector<std::string> correction_items(const Correction& correction) {
   std::vector<std::string> items;
   if (correction.has_pulley) {
-    items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) + " rms, by simulation.");
-    if (correction.round.r1 > 0) items.push_back(round_words(correction));
+    items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
+                    " rms, by simulation.");
+    if (correction.round.r1 > 0) items.push_back(round_words(correction) + ".");
   } else {
     items.push_back("Nothing was identified that another pulley would take out.");
   }
   if (!correction.table.empty()) {
-    items.push_back("compensation.csv, loaded into the motor’s controller" + std::string(correction.has_pulley ? " with the corrected pulley," : ",") + " takes away " +
+    items.push_back("compensation.csv, loaded into the motor’s controller" +
+                    std::string(correction.has_pulley ? " with the corrected pulley," : ",") + " takes away " +
                     degree_words(correction.by_table) + (correction.has_pulley ? " rms more." : " rms."));
   }
   return items;
@@ -128,7 +144,8 @@ std::vector<std::string> correction_items(const Correction& correction) {
 std::string compensation_table(const Correction& correction) {
   std::string rows;
   for (const CompensationRow& row : correction.table) {
-    rows += "<tr>" + number_cell(readable(degrees(row.theta), 3)) + number_cell(readable(degrees(row.alpha_up), 3)) + number_cell(readable(degrees(row.alpha_down), 3)) +
+    rows += "<tr>" + number_cell(readable(degrees(row.theta), 3)) + number_cell(readable(degrees(row.alpha_up), 3)) +
+            number_cell(readable(degrees(row.alpha_down), 3)) +
             number_cell(readable(degrees(row.alpha_up - row.alpha_down), 3)) + "</tr>";
   }
   if (rows.empty()) return "";
@@ -139,8 +156,10 @@ std::string compensation_table(const Correction& correction) {
 std::string action_section(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   std::string html;
-  if (!calibration.next_runs.empty()) html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol");
-  html += "<h3>Correction</h3>" + html_list(correction_items(product.correction)) + compensation_html(product) + compensation_table(product.correction);
+  if (!calibration.next_runs.empty())
+    html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol");
+  html += "<h3>Correction</h3>" + html_list(correction_items(product.correction)) + compensation_html(product) +
+          compensation_table(product.correction);
   return section("actions", "What to do", html);
 }
 
@@ -149,20 +168,26 @@ std::string action_section(const CalibrationProduct& product) {
 using Signatures = std::map<std::string, const Effect*>;
 
 std::string effect_card(const FoundEffect& effect, const Signatures& known, const std::string& load_unit) {
-  std::string html = "<div class=\"effect\"><h3>" + safe_text(first_upper(open_words(effect.name)) + ", at the " + effect.place) + "</h3><p class=\"found\">";
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i) html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
-  html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) + " rms off the error on data that were not fitted. " +
+  std::string html = "<div class=\"effect\"><h3>" +
+                     safe_text(first_upper(open_words(effect.name)) + ", at the " + effect.place) +
+                     "</h3><p class=\"found\">";
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+    html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
+  html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) +
+          " rms off the error on data that were not fitted. " +
           (effect.correctable_by == "pulley"  ? "A corrected pulley can take it out."
            : effect.correctable_by == "table" ? "The table can take it out."
                                               : "Neither a pulley nor a table can take it out.") +
           "</p>";
-  if (const auto found = known.find(effect.name); found != known.end()) html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
+  if (const auto found = known.find(effect.name); found != known.end())
+    html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   const std::vector<std::string> rivals = rivals_of(effect);
   if (rivals.empty()) return html + "<p>Nothing else in the catalogue explains these data as well.</p></div>";
   html += "<p><b>It may as well be:</b></p><ul>";
   for (const std::string& rival : rivals) {
     const auto found = known.find(rival);
-    html += "<li><b>" + safe_text(open_words(rival)) + "</b>" + (found == known.end() ? "" : " – " + safe_text(found->second->signature)) + "</li>";
+    html += "<li><b>" + safe_text(open_words(rival)) + "</b>" +
+            (found == known.end() ? "" : " – " + safe_text(found->second->signature)) + "</li>";
   }
   return html + "</ul></div>";
 }
@@ -173,11 +198,14 @@ std::string effects_section(const CalibrationProduct& product) {
   Signatures known;
   for (const Effect& effect : effects) known[effect.name] = &effect;
   std::string html;
-  for (const FoundEffect& effect : calibration.effects) html += effect_card(effect, known, product.measurement.load_unit);
+  for (const FoundEffect& effect : calibration.effects)
+    html += effect_card(effect, known, product.measurement.load_unit);
   if (html.empty()) html = "<p>None was accepted.</p>";
   if (!calibration.null_combinations.empty()) {
-    html += "<h3>What these data cannot tell apart</h3><p class=\"lead\">In these runs the one looks like the other, with these numbers and but for this difference at the joint.</p>" +
-            html_list(calibration.null_combinations);
+    html +=
+        "<h3>What these data cannot tell apart</h3><p class=\"lead\">In these runs the one looks like the other, with "
+        "these numbers and but for this difference at the joint.</p>" +
+        html_list(calibration.null_combinations);
   }
   return section("effects", "Effects found", html);
 }
@@ -213,17 +241,21 @@ std::string run_table(const CalibrationProduct& product) {
     rows += "</tr>";
   }
   if (rows.empty()) return "";
-  const std::string table =
-      html_table({"run", "#before ↑ mean", "#rms", "#before ↓ mean", "#rms", "#after ↑ mean", "#rms", "#after ↓ mean", "#rms"}, rows);
+  const std::string table = html_table(
+      {"run", "#before ↑ mean", "#rms", "#before ↓ mean", "#rms", "#after ↑ mean", "#rms", "#after ↓ mean", "#rms"},
+      rows);
   const std::string title = "<h3>By run, direction and load, in degrees</h3>";
   // Long tables hide what comes after them.
-  return product.measurement.runs.size() <= 12 ? title + table : "<details><summary>By run, direction and load, in degrees</summary>" + table + "</details>";
+  return product.measurement.runs.size() <= 12
+             ? title + table
+             : "<details><summary>By run, direction and load, in degrees</summary>" + table + "</details>";
 }
 
 std::string residuals_section(const CalibrationProduct& product) {
   const std::string map = residual_map_html(product);
   if (map.empty()) return "";
-  return section("residuals", "Residuals", map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
+  return section("residuals", "Residuals",
+                 map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
 }
 
 std::string rest_section(const CalibrationProduct& product) {
@@ -232,8 +264,11 @@ std::string rest_section(const CalibrationProduct& product) {
   if (plot.empty()) return "";
   const std::string words = calibration.unexplained_where.empty()
                                 ? "What is left is at the noise floor."
-                                : "Unexplained: " + degree_words(calibration.unexplained_rms) + " rms, " + calibration.unexplained_where + ".";
-  const std::string colour = " Neighbouring rows of it are correlated by " + readable(calibration.rest_autocorrelation, 2) + "; noise would be near 0. Dashed: the noise floor of a single row.";
+                                : "Unexplained: " + degree_words(calibration.unexplained_rms) + " rms, " +
+                                      calibration.unexplained_where + ".";
+  const std::string colour = " Neighbouring rows of it are correlated by " +
+                             readable(calibration.rest_autocorrelation, 2) +
+                             "; noise would be near 0. Dashed: the noise floor of a single row.";
   return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot);
 }
 
@@ -253,9 +288,18 @@ std::string evidence_row(const Candidate& candidate, double most, bool as_good) 
   const double width = most > 0 ? std::clamp(100 * candidate.held_out_rms / most, 0.0, 100.0) : 100;
   std::string why = candidate.why.empty() ? "more was needed" : candidate.why;
   if (as_good) why += "; as good in the end";
-  return std::string("<tr") + (candidate.accepted ? " class=\"taken\"" : as_good ? " class=\"alike\"" : "") + ">" +
-         cell((candidate.accepted ? "✓ " : as_good ? "≈ " : "") + open_words(candidate.name)) + "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
-         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.margin, 1)) + number_cell(readable(candidate.delta_bic, 1)) + cell(why) + "</tr>";
+  return std::string("<tr") +
+         (candidate.accepted ? " class=\"taken\""
+          : as_good          ? " class=\"alike\""
+                             : "") +
+         ">" +
+         cell((candidate.accepted ? "✓ "
+               : as_good          ? "≈ "
+                                  : "") +
+              open_words(candidate.name)) +
+         "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
+         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.margin, 1)) +
+         number_cell(readable(candidate.delta_bic, 1)) + cell(why) + "</tr>";
 }
 
 /// Candidates that were tried together, the one that was taken first.
@@ -264,12 +308,16 @@ std::string evidence_step(const Calibration& calibration, std::vector<Candidate>
     return a.accepted != b.accepted ? a.accepted : a.held_out_rms < b.held_out_rms;
   });
   double most = 0;
-  for (const Candidate& candidate : step) most = std::isfinite(candidate.held_out_rms) ? std::max(most, candidate.held_out_rms) : most;
+  for (const Candidate& candidate : step)
+    most = std::isfinite(candidate.held_out_rms) ? std::max(most, candidate.held_out_rms) : most;
   const Candidate& first = step.front();
   std::string rows;
-  for (const Candidate& candidate : step) rows += evidence_row(candidate, most, first.accepted && !candidate.accepted && is_as_good(calibration, candidate.name, first.name));
-  return "<h3>" + std::to_string(number) + ". " + (first.accepted ? "Taken: " + safe_text(open_words(first.name)) : std::string("Nothing more was taken")) + "</h3>" +
-         html_table({"candidate", "", "#held-out RMS", "#margin", "#BIC drop", "why"}, rows);
+  for (const Candidate& candidate : step)
+    rows += evidence_row(candidate, most,
+                         first.accepted && !candidate.accepted && is_as_good(calibration, candidate.name, first.name));
+  return "<h3>" + std::to_string(number) + ". " +
+         (first.accepted ? "Taken: " + safe_text(open_words(first.name)) : std::string("Nothing more was taken")) +
+         "</h3>" + html_table({"candidate", "", "#held-out RMS", "#margin", "#BIC drop", "why"}, rows);
 }
 
 std::string evidence_section(const Calibration& calibration) {
@@ -285,36 +333,44 @@ std::string evidence_section(const Calibration& calibration) {
   if (!step.empty()) html += evidence_step(calibration, step, number);
   if (html.empty()) return "";
   return section("evidence", "Evidence, step by step",
-                 "<p class=\"lead\">Each candidate added to what was taken before it, and the error on data that it was not fitted to: a short bar is good. Margin: the fall of "
+                 "<p class=\"lead\">Each candidate added to what was taken before it, and the error on data that it "
+                 "was not fitted to: a short bar is good. Margin: the fall of "
                  "that error in standard errors over strokes. BIC drop: above 6 it is worth its numbers.</p>" +
                      html);
 }
 
 std::string detectable_section(const Calibration& calibration) {
   std::string rows;
-  for (const auto& [size, names] : detectable_groups(calibration)) rows += "<tr>" + number_cell(degree_words(size)) + cell(open_words(joined(names, ", "))) + "</tr>";
+  for (const auto& [size, names] : detectable_groups(calibration))
+    rows += "<tr>" + number_cell(degree_words(size)) + cell(open_words(joined(names, ", "))) + "</tr>";
   if (rows.empty()) return "";
   return section("detectable", "What would have been seen",
-                 "<p class=\"lead\">The smallest error at the joint, rms, with which these data would have shown an effect that was not found.</p>" +
+                 "<p class=\"lead\">The smallest error at the joint, rms, with which these data would have shown an "
+                 "effect that was not found.</p>" +
                      html_table({"#at the joint", "effects"}, rows));
 }
 
 std::string data_section(const Measurement& measurement) {
   std::vector<std::string> notes = shortened_notes(measurement.notes);
   std::string html;
-  if (!measurement.not_testable.empty()) html += "<h3>Why nothing can be concluded</h3>" + html_list(measurement.not_testable) + "<h3>What was logged</h3>" + logged_html(measurement);
+  if (!measurement.not_testable.empty())
+    html += "<h3>Why nothing can be concluded</h3>" + html_list(measurement.not_testable) + "<h3>What was logged</h3>" +
+            logged_html(measurement);
   if (!notes.empty()) html += (html.empty() ? "" : "<h3>Notes</h3>") + html_list(notes);
   return section("data", "About the data", html);
 }
 
 std::string page_head(const CalibrationProduct& product, const std::string& name) {
   const std::size_t runs = product.measurement.runs.size();
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
+         "content=\"width=device-width, initial-scale=1\"/>\n"
          "<meta name=\"color-scheme\" content=\"light dark\"/>\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+         "script-src 'unsafe-inline'\"/>\n"
          "<meta name=\"generator\" content=\"" +
-         std::string(k_tool) + "\"/>\n<title>" + name + " – calibration</title>\n<style>" + std::string(embedded::figure_css) + std::string(embedded::page_css) +
-         std::string(embedded::calibration_css) + "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">Calibration report</p>\n<h1>" + name +
+         std::string(k_tool) + "\"/>\n<title>" + name + " – calibration</title>\n<style>" +
+         std::string(embedded::figure_css) + std::string(embedded::page_css) + std::string(embedded::calibration_css) +
+         "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">Calibration report</p>\n<h1>" + name +
          "</h1>\n<p class=\"source\">" + std::to_string(runs) + (runs == 1 ? " run" : " runs") + " against <code>" +
          safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code></p>\n</header>\n<main>\n";
 }
@@ -326,13 +382,15 @@ std::string calibration_report_html(const CalibrationProduct& product) {
   const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
   std::string html = page_head(product, name) + verdict_section(calibration);
   if (calibration.verdict != "not_testable") {
-    html += key_numbers(product) + action_section(product) + effects_section(product) + residuals_section(product) + rest_section(product) +
-            figures_section(product) + evidence_section(calibration) + detectable_section(calibration);
+    html += key_numbers(product) + action_section(product) + effects_section(product) + residuals_section(product) +
+            rest_section(product) + figures_section(product) + evidence_section(calibration) +
+            detectable_section(calibration);
   } else if (!calibration.next_runs.empty()) {
     html += section("actions", "Measure next", html_list(calibration.next_runs, "ol"));
   }
   html += data_section(product.measurement);
-  return html + "</main>\n<footer><p>Made by " + std::string(k_tool) + ". Angles in degrees at the joint, lengths in mm, forces in N.</p></footer>\n<script>//<![CDATA[\n" +
+  return html + "</main>\n<footer><p>Made by " + std::string(k_tool) +
+         ". Angles in degrees at the joint, lengths in mm, forces in N.</p></footer>\n<script>//<![CDATA[\n" +
          std::string(embedded::readout_js) + "//]]></script>\n</body>\n</html>\n";
 }
 

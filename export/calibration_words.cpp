@@ -18,17 +18,19 @@ struct NamedUnit {
 };
 // The longer ending first.
 constexpr std::array<NamedUnit, 10> k_units{{{"_percent_per_decade", " % per decade"},
-                                            {"_deg_per_load", "° per "},
-                                            {"_percent", " %"},
-                                            {"_ppm_per_K", " ppm per K"},
-                                            {"_deg", "°"},
-                                            {"_Nmm", " N·mm"},
-                                            {"_mm", " mm"},
-                                            {"_ms", " ms"},
-                                            {"_N", " N"},
-                                            {"_s", " s"}}};
+                                             {"_deg_per_load", "° per "},
+                                             {"_percent", " %"},
+                                             {"_ppm_per_K", " ppm per K"},
+                                             {"_deg", "°"},
+                                             {"_Nmm", " N·mm"},
+                                             {"_mm", " mm"},
+                                             {"_ms", " ms"},
+                                             {"_N", " N"},
+                                             {"_s", " s"}}};
 
-bool ends_with(std::string_view text, std::string_view ending) { return text.size() > ending.size() && text.substr(text.size() - ending.size()) == ending; }
+bool ends_with(std::string_view text, std::string_view ending) {
+  return text.size() > ending.size() && text.substr(text.size() - ending.size()) == ending;
+}
 
 /// What is the same in notes about different files: no name before the first ": ", no digits.
 std::string gist(const std::string& note) {
@@ -66,7 +68,8 @@ std::string parameter_words(const FittedParameter& parameter, const std::string&
     if (unit == "° per ") unit += load_unit.empty() ? "unit of load" : load_unit;
     break;
   }
-  return open_words(name) + " = " + readable_rounded(parameter.value) + unit + " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")";
+  return open_words(name) + " = " + readable_rounded(parameter.value) + unit +
+         " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")";
 }
 
 std::vector<std::string> rivals_of(const FoundEffect& effect) {
@@ -78,15 +81,18 @@ std::vector<std::string> rivals_of(const FoundEffect& effect) {
 }
 
 std::string round_words(const Correction& correction) {
-  const double miss = degrees(correction.round.max_error);
-  const std::string round = "round, at its best radius of " + rounded(correction.round.r1, 5) + " mm, it misses the law by " +
-                            (miss < 0.001 ? "less than 0.001°" : "up to " + rounded(miss, 3) + "°");
-  return correction.round.suffices ? "P1 stays " + round + "; shaped, it would miss nothing." : "P1 is shaped and follows the law; " + round + ".";
+  const double error = degrees(correction.round.max_error);
+  const std::string radius = "at its best radius of " + rounded(correction.round.r1, 5) + " mm it ";
+  const std::string miss = error < 0.001 ? "by less than 0.001°" : "by up to " + rounded(error, 3) + "°";
+  if (correction.round.suffices)
+    return "P1 stays round: " + radius + "misses the law " + miss + "; shaped, it would miss nothing";
+  return "P1 is shaped and misses nothing; round, " + radius + "would miss the law " + miss;
 }
 
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration) {
   std::vector<Detectable> sorted = calibration.detectable;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Detectable& a, const Detectable& b) { return a.smallest < b.smallest; });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Detectable& a, const Detectable& b) { return a.smallest < b.smallest; });
   std::vector<std::pair<double, std::vector<std::string>>> groups;
   std::string size;
   for (const Detectable& detectable : sorted) {

@@ -25,13 +25,15 @@ MeasurementOptions columns_from(const Arguments& arguments) {
   for (const std::string& text : arguments.texts("--column")) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-      throw UsageError("--column takes role=name; '" + text + "' is not of that form", "for example: --column load=tau_out_Nm");
+      throw UsageError("--column takes role=name; '" + text + "' is not of that form",
+                       "for example: --column load=tau_out_Nm");
     }
     const std::string role = text.substr(0, equals);
     if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
       const std::string nearest = nearest_word(role, roles);
       throw UsageError("--column: there is no role '" + role + "'",
-                       nearest.empty() ? "roles: alpha, theta, time, load, temperature, tension1, tension2, cycle" : "did you mean '" + nearest + "'?");
+                       nearest.empty() ? "roles: alpha, theta, time, load, temperature, tension1, tension2, cycle"
+                                       : "did you mean '" + nearest + "'?");
     }
     options.columns[role] = text.substr(equals + 1);
   }
@@ -58,7 +60,8 @@ Files files_from(const Arguments& arguments) {
   for (const std::string& name : held) {
     if (seen.insert(key(name)).second) files.all.emplace_back(name);
   }
-  if (files.fitted == 0) throw UsageError("every run is held out: none is left to fit", "leave --hold-out away for one of them");
+  if (files.fitted == 0)
+    throw UsageError("every run is held out: none is left to fit", "leave --hold-out away for one of them");
   return files;
 }
 
@@ -107,22 +110,29 @@ std::string joined(const std::vector<std::string>& words) {
 std::string deg(double value) { return fixed(degrees(value), 4); }
 
 std::string figures_table(const Calibration& c) {
-  const auto row = [](const std::string& name, double before, double after) { return std::vector<std::string>{name, deg(before), deg(after)}; };
-  return table({{"deg at the joint"}, {"before", Align::right}, {"after", Align::right}},
-               {row("  rms", c.before.rms, c.after.rms), row("  largest", c.before.max, c.after.max), row("  rms held out", c.before.held_out_rms, c.after.held_out_rms),
-                row("  ISO 230-2 A", c.iso_before.A, c.iso_after.A), row("  ISO 230-2 R", c.iso_before.R, c.iso_after.R), row("  ISO 230-2 B", c.iso_before.B, c.iso_after.B),
-                row("  ISO 230-2 E", c.iso_before.E, c.iso_after.E), row("  ISO 230-2 M", c.iso_before.M, c.iso_after.M)});
+  const auto row = [](const std::string& name, double before, double after) {
+    return std::vector<std::string>{name, deg(before), deg(after)};
+  };
+  return table(
+      {{"deg at the joint"}, {"before", Align::right}, {"after", Align::right}},
+      {row("  rms", c.before.rms, c.after.rms), row("  largest", c.before.max, c.after.max),
+       row("  rms held out", c.before.held_out_rms, c.after.held_out_rms),
+       row("  ISO 230-2 A", c.iso_before.A, c.iso_after.A), row("  ISO 230-2 R", c.iso_before.R, c.iso_after.R),
+       row("  ISO 230-2 B", c.iso_before.B, c.iso_after.B), row("  ISO 230-2 E", c.iso_before.E, c.iso_after.E),
+       row("  ISO 230-2 M", c.iso_before.M, c.iso_after.M)});
 }
 
 std::string noise_text(const Calibration& c) {
-  std::string words = "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
+  std::string words =
+      "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
   if (c.noise.rms > 0) words += "; what is left is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
   return wrapped(words, "  ");
 }
 
 std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
   std::string words = effect.name + " (" + effect.place + ")";
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i) words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+    words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
   const std::vector<std::string> rivals = rivals_of(effect);
   return words + (rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals));
@@ -132,7 +142,8 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   std::vector<std::string> texts;
   for (const FoundEffect& effect : c.effects) texts.push_back(effect_text(effect, load_unit));
   if (texts.empty()) texts.push_back("none accepted");
-  if (!c.unexplained_where.empty()) texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms, " + c.unexplained_where);
+  if (!c.unexplained_where.empty())
+    texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms, " + c.unexplained_where);
   return texts;
 }
 
@@ -144,7 +155,9 @@ std::vector<std::string> correction_texts(const Correction& correction) {
   } else {
     texts.push_back("nothing was identified that another pulley would take out");
   }
-  if (!correction.table.empty()) texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" + (correction.has_pulley ? " beyond that" : ""));
+  if (!correction.table.empty())
+    texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" +
+                    (correction.has_pulley ? " beyond that" : ""));
   return texts;
 }
 
@@ -158,9 +171,15 @@ std::string tried_table(const Calibration& c) {
   if (c.tried.empty()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : c.tried) {
-    rows.push_back({"  " + candidate.name, deg(candidate.held_out_rms), fixed(candidate.margin, 1), fixed(candidate.delta_bic, 1), candidate.accepted ? "taken" : ""});
+    rows.push_back({"  " + candidate.name, deg(candidate.held_out_rms), fixed(candidate.margin, 1),
+                    fixed(candidate.delta_bic, 1), candidate.accepted ? "taken" : ""});
   }
-  return "\n" + table({{"Tried, in this order"}, {"deg held out", Align::right}, {"margin", Align::right}, {"BIC drop", Align::right}, {""}}, rows);
+  return "\n" + table({{"Tried, in this order"},
+                       {"deg held out", Align::right},
+                       {"margin", Align::right},
+                       {"BIC drop", Align::right},
+                       {""}},
+                      rows);
 }
 
 std::string summary(const CalibrationProduct& product, bool verbose) {
@@ -168,8 +187,10 @@ std::string summary(const CalibrationProduct& product, bool verbose) {
   std::string text = product.file.mechanism.name + ": " + c.verdict + "\n" + wrapped(c.summary, "  ");
   if (c.verdict == "not_testable") return text + items("Measure next", c.next_runs);
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
-  text += items("Cannot be told apart by these data", c.null_combinations) + items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
-  if (verbose || c.verdict == "no_effect") text += items("Would have been seen, at the joint, rms", detectable_texts(c));
+  text += items("Cannot be told apart by these data", c.null_combinations) +
+          items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
+  if (verbose || c.verdict == "no_effect")
+    text += items("Would have been seen, at the joint, rms", detectable_texts(c));
   return verbose ? text + tried_table(c) : text;
 }
 
@@ -181,7 +202,8 @@ void add_law_table(const MechanismFile& file, std::string& corrected, std::vecto
   if (file.mechanism.transmission || pulley.law != Law::table) return;
   const std::filesystem::path table(pulley.table);
   const std::string name = table.filename().string();
-  if (const std::size_t at = corrected.find("\"" + pulley.table + "\""); at != std::string::npos) corrected.replace(at + 1, pulley.table.size(), name);
+  if (const std::size_t at = corrected.find("\"" + pulley.table + "\""); at != std::string::npos)
+    corrected.replace(at + 1, pulley.table.size(), name);
   outputs.push_back({name, read_file(std::filesystem::path(file.path).parent_path() / table, k_largest_law)});
 }
 
@@ -203,9 +225,11 @@ std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std:
 }
 
 std::vector<std::string> output_names(const MechanismFile& file) {
-  std::vector<std::string> names = {"calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"};
+  std::vector<std::string> names = {"calibration.json", "corrected.toml", "compensation.csv", "report.html",
+                                    "manifest.json"};
   const PulleyDrive& pulley = file.mechanism.pulley;
-  if (!file.mechanism.transmission && pulley.law == Law::table) names.push_back(std::filesystem::path(pulley.table).filename().string());
+  if (!file.mechanism.transmission && pulley.law == Law::table)
+    names.push_back(std::filesystem::path(pulley.table).filename().string());
   return names;
 }
 
@@ -225,7 +249,8 @@ std::string bar(const std::string& what, double share) {
   return "[" + std::string(full, '#') + std::string(20 - full, '.') + "] " + std::to_string(percent) + " %, " + what;
 }
 
-Calibration calibration_of(const Mechanism& mechanism, const Measurement& measurement, std::size_t fitted, Console& console) {
+Calibration calibration_of(const Mechanism& mechanism, const Measurement& measurement, std::size_t fitted,
+                           Console& console) {
   CalibrationOptions options;
   for (std::size_t i = fitted; i < measurement.runs.size(); ++i) options.hold_out.push_back(measurement.runs[i].name);
   options.progress = [&console](const std::string& what, double share) { console.progress(bar(what, share)); };
@@ -234,36 +259,43 @@ Calibration calibration_of(const Mechanism& mechanism, const Measurement& measur
 
 /// A torque is not a tip force: the elastic model of tendons takes N across OC.
 void convert_load(const Mechanism& mechanism, Measurement& measurement) {
-  const double per_newton = measurement.load_unit == "Nm" ? 1000.0 / mechanism.joint.R : measurement.load_unit == "Nmm" ? 1.0 / mechanism.joint.R : 0.0;
+  const double per_newton = measurement.load_unit == "Nm"    ? 1000.0 / mechanism.joint.R
+                            : measurement.load_unit == "Nmm" ? 1.0 / mechanism.joint.R
+                                                             : 0.0;
   if (mechanism.transmission || per_newton == 0) return;
   for (Run& run : measurement.runs) {
     for (Sample& sample : run.samples) sample.load *= per_newton;
     run.mean_load *= per_newton;
   }
-  measurement.notes.push_back("the load column holds a torque in " + measurement.load_unit + ": taken as a tip force across OC, positive against +theta");
+  measurement.notes.push_back("the load column holds a torque in " + measurement.load_unit +
+                              ": taken as a tip force across OC, positive against +theta");
   measurement.load_unit = "N";
 }
 
 std::string files_text(const std::vector<OutputFile>& outputs, const std::string& folder, bool published) {
   std::vector<std::vector<std::string>> rows;
   for (const OutputFile& file : outputs) rows.push_back({"  " + file.name, std::to_string(file.bytes.size()) + " B"});
-  return "\n" + table({{published ? "Files" : "Would be written (--dry-run)"}, {"", Align::right}}, rows) + "  in " + folder + "\n";
+  return "\n" + table({{published ? "Files" : "Would be written (--dry-run)"}, {"", Align::right}}, rows) + "  in " +
+         folder + "\n";
 }
 
 Json outputs_json(const std::vector<OutputFile>& outputs) {
   Json list = Json::array();
-  for (const OutputFile& file : outputs) list.push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  for (const OutputFile& file : outputs)
+    list.push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
   return list;
 }
 
 void add_notes(const CalibrationProduct& product, bool verbose, Reply& reply) {
   const std::vector<std::string>& notes = product.measurement.notes;
   reply.diagnostics = product.file.warnings;
-  for (const std::string& words : verbose ? notes : shortened_notes(notes)) reply.diagnostics.push_back(note(Severity::note, words));
+  for (const std::string& words : verbose ? notes : shortened_notes(notes))
+    reply.diagnostics.push_back(note(Severity::note, words));
 }
 
 /// What is looked for is what is still amiss: a corrected file describes the joint as it is.
-CalibrationProduct product_of(const Files& files, const MeasurementOptions& columns, MechanismFile file, Console& console) {
+CalibrationProduct product_of(const Files& files, const MeasurementOptions& columns, MechanismFile file,
+                              Console& console) {
   CalibrationProduct product;
   product.file = std::move(file);
   const Mechanism& declared = product.file.mechanism;
@@ -275,7 +307,8 @@ CalibrationProduct product_of(const Files& files, const MeasurementOptions& colu
   product.calibration = calibration_of(expected, product.measurement, files.fitted, console);
   console.progress("working out the correction");
   product.correction.identified = declared.identified;
-  if (product.calibration.verdict != "not_testable") product.correction = correct(declared, product.measurement, product.calibration);
+  if (product.calibration.verdict != "not_testable")
+    product.correction = correct(declared, product.measurement, product.calibration);
   return product;
 }
 
@@ -284,7 +317,8 @@ Reply run_calibrate(const Arguments& arguments, Console& console) {
   const MeasurementOptions columns = columns_from(arguments);
   const Files files = files_from(arguments);
   MechanismFile file = read_mechanism(spec, arguments.settings());
-  const std::string folder = arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_calibration")).string());
+  const std::string folder =
+      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_calibration")).string());
   OutputFolder target(folder, arguments.has("--force"));
   target.claim(output_names(file));  // before the work: a refusal should not cost a wait
   const std::string declared = declared_text(arguments, file);
@@ -295,7 +329,10 @@ Reply run_calibrate(const Arguments& arguments, Console& console) {
   if (published) publish(target, outputs);
   Reply reply;
   add_notes(product, console.verbose(), reply);
-  if (!arguments.settings().empty()) reply.diagnostics.push_back(note(Severity::note, "corrected.toml holds what --set gave, and so every key; the comments of the file are left out"));
+  if (!arguments.settings().empty())
+    reply.diagnostics.push_back(
+        note(Severity::note,
+             "corrected.toml holds what --set gave, and so every key; the comments of the file are left out"));
   reply.text = summary(product, console.verbose()) + files_text(outputs, folder, published);
   reply.fields = Json::parse(calibration_json(product));
   reply.fields["folder"] = folder;
@@ -319,7 +356,8 @@ Command calibrate_command() {
           "exit code is 0 when the data could be read and 3 when they could not.",
           {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
            {"--hold-out", "FILE", "a run to validate with only; may be given several times", true},
-           {"--column", "ROLE=NAME", "the column of a role: alpha, theta, time, load,\ntemperature …; may be given several times", true}},
+           {"--column", "ROLE=NAME",
+            "the column of a role: alpha, theta, time, load,\ntemperature …; may be given several times", true}},
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},
            {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "judge by run_2.csv alone"},
            {"fusee calibrate jaw.toml jaw.csv --column load=tau_out_Nm", "the load has another name"}},

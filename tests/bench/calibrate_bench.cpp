@@ -1,4 +1,5 @@
-// How long a calibration takes: five runs of 500 rows against the whole catalogue, and how it grows with the number of rows.
+// How long a calibration takes: five runs of 500 rows against the whole catalogue, and how it grows with the number of
+// rows.
 //
 // Peers: calibrate_peers.py FUSEE
 #include <benchmark/benchmark.h>
@@ -18,7 +19,8 @@ namespace {
 using namespace fusee;
 
 const Mechanism& forearm() {
-  static const Mechanism mechanism = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml").mechanism;
+  static const Mechanism mechanism =
+      read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml").mechanism;
   return mechanism;
 }
 
@@ -39,8 +41,8 @@ class Noise {
 };
 
 struct Plan {
-  double load = 0;         ///< N
-  double seconds = 75;     ///< the whole run
+  double load = 0;      ///< N
+  double seconds = 75;  ///< the whole run
 };
 constexpr Plan k_runs[] = {{0, 75}, {20, 75}, {0, 15}, {10, 75}, {-20, 75}};
 constexpr int k_strokes = 5;  // reversals fall on rows
@@ -54,7 +56,8 @@ double alpha_at(double share) {
   return 0.9 * (law.alpha_min() + (law.alpha_max() - law.alpha_min()) * (there <= 1 ? there : 2 - there));
 }
 
-/// θ over such runs with a tendon of 12000 instead of 40000 MPa and a play of 1.2°, without noise: at so many rows, whatever is logged in the end.
+/// θ over such runs with a tendon of 12000 instead of 40000 MPa and a play of 1.2°, without noise: at so many rows,
+/// whatever is logged in the end.
 const std::vector<std::vector<double>>& true_angles() {
   static const std::vector<std::vector<double>> angles = [] {
     Measurement measurement;
@@ -83,7 +86,8 @@ std::string run_text(std::size_t run, std::int64_t rows, Noise& noise) {
     const auto before = static_cast<std::size_t>(share * k_model_rows);
     const double between = share * k_model_rows - static_cast<double>(before);
     const double theta = truth[before] + between * (truth[before + 1] - truth[before]) + radians(0.02) * noise();
-    text += fixed(share * k_runs[run].seconds, 5) + "," + fixed(degrees(alpha_at(share)), 4) + "," + fixed(degrees(theta), 5) + "," + fixed(k_runs[run].load, 1) + "\n";
+    text += fixed(share * k_runs[run].seconds, 5) + "," + fixed(degrees(alpha_at(share)), 4) + "," +
+            fixed(degrees(theta), 5) + "," + fixed(k_runs[run].load, 1) + "\n";
   }
   return text;
 }
@@ -91,7 +95,8 @@ std::string run_text(std::size_t run, std::int64_t rows, Noise& noise) {
 std::vector<std::string> texts(std::int64_t rows) {
   Noise noise;
   std::vector<std::string> all;
-  for (std::size_t run = 0; run < std::size(k_runs); ++run) all.push_back(run_text(run, rows / static_cast<std::int64_t>(std::size(k_runs)), noise));
+  for (std::size_t run = 0; run < std::size(k_runs); ++run)
+    all.push_back(run_text(run, rows / static_cast<std::int64_t>(std::size(k_runs)), noise));
   return all;
 }
 
@@ -116,14 +121,32 @@ void calibrate_rows(benchmark::State& state) {
   }
   state.SetLabel(verdict);
 }
-BENCHMARK(calibrate_rows)->Name("calibrate, five runs of 500 rows")->Arg(2500)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
-BENCHMARK(calibrate_rows)->Name("calibrate, rows")->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+BENCHMARK(calibrate_rows)
+    ->Name("calibrate, five runs of 500 rows")
+    ->Arg(2500)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->Iterations(1);
+BENCHMARK(calibrate_rows)
+    ->Name("calibrate, rows")
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->Iterations(1);
 
 void read_rows(benchmark::State& state) {
   const std::vector<std::string> runs = texts(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(measured(runs));
   state.SetComplexityN(state.range(0));
 }
-BENCHMARK(read_rows)->Name("read, rows")->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
+BENCHMARK(read_rows)
+    ->Name("read, rows")
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oN);
 
 }  // namespace

@@ -21,7 +21,8 @@ Measurement rich_measurement() {
     run.has_time = run.has_load = run.has_temperature = true;
     run.speed = 0.2 * (1 + load);
     run.mean_load = load;
-    for (int i = 0; i <= 100; ++i) run.samples.push_back({i * 0.1, radians(-180 + 3.6 * i), radians(-30 + 0.6 * i), load, 20 + 0.2 * i, 5, 5});
+    for (int i = 0; i <= 100; ++i)
+      run.samples.push_back({i * 0.1, radians(-180 + 3.6 * i), radians(-30 + 0.6 * i), load, 20 + 0.2 * i, 5, 5});
     measurement.runs.push_back(run);
   }
   return measurement;
@@ -40,7 +41,9 @@ std::string catalogue_table() {
   const Measurement measurement = rich_measurement();
   const Mechanism ratio = parse_mechanism("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = 4\n", "ratio.toml");
   const std::vector<Effect> plain = catalogue(ratio, measurement);
-  std::string text = "| place | effect | how it shows | its numbers | taken out by | what tells it from its rivals |\n|---|---|---|---|---|---|\n";
+  std::string text =
+      "| place | effect | how it shows | its numbers | taken out by | what tells it from its rivals "
+      "|\n|---|---|---|---|---|---|\n";
   for (const Effect& effect : catalogue(read_mechanism(k_profiles / "forearm.toml").mechanism, measurement)) {
     std::string shown = numbers(effect), by = corrected_by(effect.correctable_by);
     for (const Effect& other : plain) {
@@ -48,7 +51,8 @@ std::string catalogue_table() {
       if (numbers(other) != shown) shown += "; ratio: " + numbers(other);
       if (other.correctable_by != effect.correctable_by) by += "; ratio: " + corrected_by(other.correctable_by);
     }
-    text += "| " + effect.place + " | `" + effect.name + "` | " + effect.signature + " | " + shown + " | " + by + " | " + effect.separating_run + " |\n";
+    text += "| " + effect.place + " | `" + effect.name + "` | " + effect.signature + " | " + shown + " | " + by +
+            " | " + effect.separating_run + " |\n";
   }
   return text;
 }
@@ -65,11 +69,29 @@ TEST(CalibrationPage, ItsCatalogueIsThatOfTheProgram) {
 
 TEST(CalibrationPage, TheCatalogueHoldsEveryNameThatWasPromised) {
   std::vector<std::string> names;
-  for (const Effect& effect : catalogue(read_mechanism(k_profiles / "forearm.toml").mechanism, rich_measurement())) names.push_back(effect.name);
-  for (const char* name :
-       {"zero_offset", "motor_offset", "joint_sensor_gain", "joint_sensor_eccentricity", "motor_sensor_eccentricity", "sensor_lag", "radius_offset",
-        "pulley_scale", "pulley_runout", "guide_radius", "guide_position", "joint_length", "tendon_stretch", "capstan_friction", "backlash", "slack", "creep",
-        "tendon_slip", "thermal_expansion", "gravity", "profile_error"}) {
+  for (const Effect& effect : catalogue(read_mechanism(k_profiles / "forearm.toml").mechanism, rich_measurement()))
+    names.push_back(effect.name);
+  for (const char* name : {"zero_offset",
+                           "motor_offset",
+                           "joint_sensor_gain",
+                           "joint_sensor_eccentricity",
+                           "motor_sensor_eccentricity",
+                           "sensor_lag",
+                           "radius_offset",
+                           "pulley_scale",
+                           "pulley_runout",
+                           "guide_radius",
+                           "guide_position",
+                           "joint_length",
+                           "tendon_stretch",
+                           "capstan_friction",
+                           "backlash",
+                           "slack",
+                           "creep",
+                           "tendon_slip",
+                           "thermal_expansion",
+                           "gravity",
+                           "profile_error"}) {
     EXPECT_THAT(names, testing::Contains(name));
   }
 }
