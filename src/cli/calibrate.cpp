@@ -110,17 +110,27 @@ std::string effect_text(const FoundEffect& effect) {
   return words + (rivals.empty() ? "" : "; as good: " + rivals);
 }
 
+std::string round_text(const RoundChoice& round) {
+  if (round.suffices) return "P1 stays round, r1 = " + rounded(round.r1, 5) + " mm: within " + deg(round.max_error) + " deg";
+  return "P1 is shaped: round (best r1 " + rounded(round.r1, 5) + " mm) it would miss by up to " + deg(round.max_error) + " deg";
+}
+
+std::string tied_text(double tied_at) {
+  return "tie the tendons with the unloaded joint at home and the motor at " + rounded(degrees(tied_at), 4) +
+         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which compensation.csv has";
+}
+
 std::string correction_text(const Correction& correction) {
   std::string text;
+  if (!correction.infeasible.empty()) text += item("the pulley that would correct this cannot be made: " + correction.infeasible);
   if (correction.has_pulley) {
     text += item("corrected.toml: its pulley takes away " + deg(correction.by_pulley) + " deg rms");
-    if (correction.round.r1 > 0) {
-      text += item(correction.round.suffices ? "P1 stays round, r1 = " + rounded(correction.round.r1, 5) + " mm: within " + deg(correction.round.max_error) + " deg"
-                                             : "P1 is shaped: round (best r1 " + rounded(correction.round.r1, 5) + " mm) it would miss by up to " +
-                                                   deg(correction.round.max_error) + " deg");
-    }
+    if (correction.round.r1 > 0) text += item(round_text(correction.round));
+    if (correction.tied_at != 0) text += item(tied_text(correction.tied_at));
   }
-  return text + item("compensation.csv takes away " + deg(correction.by_table) + " deg rms" + (correction.has_pulley ? " beyond that" : ""));
+  text += item("compensation.csv takes away " + deg(correction.by_table) + " deg rms" + (correction.has_pulley ? " beyond that" : ""));
+  return text + item("by simulation the joint misses its law by " + deg(correction.error_now) + " deg rms now, " + deg(correction.error_with_pulley) +
+                     " with the pulley, " + deg(correction.error_with_table) + " with the table");
 }
 
 std::string summary(const CalibrationProduct& product) {
