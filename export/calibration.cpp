@@ -91,10 +91,12 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["after"] = figures_json(calibration.after);
   json["after_per_noise_floor"] = calibration.noise.rms > 0 ? number(calibration.after.rms / calibration.noise.rms) : Json();
   json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
+  json["rest_autocorrelation"] = number(calibration.rest_autocorrelation);
   json["unexplained_rms_deg"] = angle(calibration.unexplained_rms);
   json["unexplained_where"] = calibration.unexplained_where;
   json["detectable"] = detectable_json(calibration);
   json["next_runs"] = calibration.next_runs;
+  json["null_combinations"] = calibration.null_combinations;
   json["iso230"] = {{"before", iso_json(calibration.iso_before)}, {"after", iso_json(calibration.iso_after)}};
   json["correctable"] = correctable_json(product.correction);
   json["tried"] = tried_json(calibration.tried);

@@ -18,8 +18,11 @@ constexpr double k_robust = 5.0;
 
 constexpr int k_resamples = 400;
 
-/// Starts from which a fit goes on; the others are looked at once.
-constexpr std::size_t k_starts = 2;
+/// Steps of a candidate's fit, and the share of the squares below which one more is not worth it.
+constexpr int k_chords = 4;
+constexpr double k_settled = 1e-3;
+
+constexpr std::size_t k_slip_times = 4;
 
 /// θ = offset + α/ratio declares its offset free.
 const EffectParameter& free_offset() {
@@ -252,56 +255,105 @@ void judge(const Evidence& evidence, const std::vector<const EffectParameter*>& 
   fit.by_run = hold_out(evidence, fit, evidence.run_folds);
 }
 
-/// Where a fit may begin: as things were, and each effect that is new at each of its own starts.
-std::vector<Imperfections> all_starts(const EffectSet& effects, const Imperfections& from) {
-  std::vector<Imperfections> starts{from};
-  for (const Effect* effect : effects) {
-    const bool known = std::any_of(effect->parameters.begin(), effect->parameters.end(), [&](const EffectParameter& parameter) {
-      return !parameter.searched && from.*parameter.member != 0;
-    });
-    if (known) continue;
-    const std::size_t before = starts.size();
-    for (const std::vector<double>& start : effect->starts) {
-      for (std::size_t i = 0; i < before; ++i) {
-        Imperfections at = starts[i];
-        for (std::size_t k = 0; k < start.size(); ++k) at.*effect->parameters[k].member = start[k];
-        starts.push_back(at);
-      }
-    }
-  }
-  return starts;
-}
-
-/// By how much one linear step from `start` would lower the sum of squares: what starts are ranked by.
-double promise(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters, const Imperfections& start) {
-  Fit fit;
-  fit.at = start;
-  fit.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
-  linearise(evidence, forward, parameters, fit);
-  Eigen::MatrixXd JJ = Eigen::MatrixXd::Zero(fit.x.size(), fit.x.size());
-  Eigen::VectorXd Jr = Eigen::VectorXd::Zero(fit.x.size());
+/// Sums over all rows in use and what was measured by hand: what one linear step needs.
+struct Normal {
+  Eigen::MatrixXd JJ;
+  Eigen::VectorXd Jr;
   double rr = 0;
+  bool finite = true;
+
+  Eigen::VectorXd step(const Eigen::VectorXd& x, double floor) const { return x.size() > 0 ? solved(JJ, Jr, x, floor) : Eigen::VectorXd(); }
+  double promised(const Eigen::VectorXd& step) const { return rr - 2.0 * step.dot(Jr) + step.dot(JJ * step); }
+};
+
+Normal normal_equations(const Evidence& evidence, const Fit& fit) {
+  Normal normal{fit.readings.JJ, fit.readings.Jr, 0, true};
   for (const Block& block : evidence.blocks) {
     for (const std::size_t i : block.rows) {
       const auto row = static_cast<Eigen::Index>(i);
-      if (!std::isfinite(fit.residual[row]) || !fit.J.row(row).allFinite()) return std::numeric_limits<double>::infinity();
-      JJ += fit.J.row(row).transpose() * fit.J.row(row);
-      Jr += fit.residual[row] * fit.J.row(row).transpose();
-      rr += fit.residual[row] * fit.residual[row];
+      if (!std::isfinite(fit.residual[row]) || !fit.J.row(row).allFinite()) normal.finite = false;
+      if (!normal.finite) return normal;
+      normal.JJ.noalias() += fit.J.row(row).transpose() * fit.J.row(row);
+      normal.Jr.noalias() += fit.residual[row] * fit.J.row(row).transpose();
+      normal.rr += fit.residual[row] * fit.residual[row];
     }
   }
-  return fit.x.size() > 0 ? rr - Jr.dot(solved(JJ, Jr, fit.x, evidence.floor)) : rr;
+  return normal;
 }
 
-std::vector<Imperfections> promising(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters,
-                                     std::vector<Imperfections> starts) {
-  if (starts.size() <= k_starts) return starts;
-  std::vector<std::pair<double, std::size_t>> ranked;
-  for (std::size_t i = 0; i < starts.size(); ++i) ranked.emplace_back(promise(evidence, forward, parameters, starts[i]), i);
-  std::sort(ranked.begin(), ranked.end());
-  std::vector<Imperfections> best;
-  for (std::size_t i = 0; i < k_starts; ++i) best.push_back(starts[ranked[i].second]);
-  return best;
+/// `base` and one effect more, whose parameters stand at `at`: slopes of the effect's own parameters anew, those of the others as they were.
+Fit widened(const Evidence& evidence, Forward& forward, const Fit& base, const std::vector<const EffectParameter*>& parameters, const Imperfections& at) {
+  Fit wider;
+  wider.at = at;
+  const Eigen::VectorXd reading = flat(forward(at));
+  wider.residual = evidence.theta - reading;
+  wider.x.resize(static_cast<Eigen::Index>(parameters.size()));
+  wider.J.resize(reading.size(), wider.x.size());
+  wider.J.leftCols(base.x.size()) = base.J;
+  for (Eigen::Index k = 0; k < wider.x.size(); ++k) {
+    const EffectParameter& parameter = *parameters[static_cast<std::size_t>(k)];
+    wider.x[k] = at.*parameter.member / parameter.step;
+    if (k >= base.x.size()) wider.J.col(k) = slope_at(forward, at, parameter, reading);
+  }
+  sum_up_readings(evidence, parameters, wider);
+  return wider;
+}
+
+/// A step of the fit, kept within bounds.
+Imperfections stepped(const std::vector<const EffectParameter*>& parameters, const Fit& fit, const Eigen::VectorXd& step) {
+  Imperfections at = fit.at;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const EffectParameter& parameter = *parameters[k];
+    at.*parameter.member = std::clamp((fit.x[static_cast<Eigen::Index>(k)] + step[static_cast<Eigen::Index>(k)]) * parameter.step, parameter.least, parameter.most);
+  }
+  return at;
+}
+
+/// Where a tendon may have slipped: the places of the bench's clock at which a step would take most out of the residual.
+std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
+  struct Row {
+    double time, residual;
+  };
+  std::vector<Row> rows;
+  const std::vector<double> clock = bench_clock(evidence.measurement);
+  std::size_t offset = 0;
+  for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
+    const Run& run = evidence.measurement.runs[i];
+    for (const Sample& sample : run.samples) rows.push_back({clock[i] + sample.time, base.residual[static_cast<Eigen::Index>(offset++)]});
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
+  double total = 0;
+  for (const Row& row : rows) total += row.residual;
+  const double count = static_cast<double>(rows.size());
+  std::vector<std::pair<double, std::size_t>> gains;
+  double sum = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    sum += rows[i - 1].residual;
+    const double before = static_cast<double>(i);
+    const double step = (total - sum) / (count - before) - sum / before;
+    gains.emplace_back(-step * step * before * (count - before), i);
+  }
+  std::sort(gains.begin(), gains.end());
+  std::vector<double> times;
+  for (const auto& [gain, i] : gains) {
+    const double time = 0.5 * (rows[i - 1].time + rows[i].time);
+    const double apart = 0.02 * (rows.back().time - rows.front().time);
+    const bool new_place = std::none_of(times.begin(), times.end(), [&, place = time](double other) { return std::abs(other - place) < apart; });
+    if (new_place) times.push_back(time);
+    if (times.size() == k_slip_times) break;
+  }
+  return times;
+}
+
+/// As things are, and the effect's own starts.
+std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& base, const Effect& effect) {
+  std::vector<std::vector<double>> starts = effect.starts;
+  if (effect.starts_in_time) {
+    for (const double time : steps_in_time(evidence, base)) starts.push_back({0, time});
+  }
+  const bool has_searched = std::any_of(effect.parameters.begin(), effect.parameters.end(), [](const EffectParameter& p) { return p.searched; });
+  if (!has_searched) starts.insert(starts.begin(), std::vector<double>(effect.parameters.size(), 0.0));
+  return starts;
 }
 
 // ---- statistics -----------------------------------------------------------------------------------------------------
@@ -377,32 +429,74 @@ Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& eff
   const double middle = median(near);
   for (double& value : near) value = std::abs(value - middle);
   const double scale = std::max(evidence.floor, 1.5 * median(near));
-  Imperfections first = from;
-  if (evidence.declared->transmission && from.zero == 0) first.zero = middle;
-  double best = std::numeric_limits<double>::infinity();
-  for (const Imperfections& start : promising(evidence, forward, parameters, all_starts(effects, first))) {
-    const Misfit misfit(evidence, forward, parameters, start, scale);
-    std::vector<double> x;
-    for (const EffectParameter* parameter : parameters) x.push_back(start.*parameter->member / parameter->step);
-    const double cost = parameters.empty() ? misfit.cost(x.data()) : solve(misfit, parameters, x);
-    if (!(cost < best)) continue;
-    best = cost;
-    fit.at = placed(parameters, start, x.data());
-    fit.x = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-    fit.usable = true;
-  }
+  Imperfections start = from;
+  if (evidence.declared->transmission && from.zero == 0) start.zero = middle;
+  const Misfit misfit(evidence, forward, parameters, start, scale);
+  std::vector<double> x;
+  for (const EffectParameter* parameter : parameters) x.push_back(start.*parameter->member / parameter->step);
+  const double cost = parameters.empty() ? misfit.cost(x.data()) : solve(misfit, parameters, x);
+  fit.usable = std::isfinite(cost);
   if (!fit.usable) return fit;
+  fit.at = placed(parameters, start, x.data());
+  fit.x = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
   linearise(evidence, forward, parameters, fit);
   judge(evidence, parameters, fit);
   return fit;
 }
 
+// Chords instead of tangents: the slopes of the parameters that `base` has are its own, those of the effect are found anew at every step. So a
+// candidate costs a dozen simulations, whatever stands beside it.
+Fit with_effect(const Evidence& evidence, Forward& forward, const Fit& base, const Effect& effect) {
+  EffectSet effects = base.effects;
+  effects.push_back(&effect);
+  const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, effects);
+  Fit best;
+  Eigen::VectorXd step;
+  double promised = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& values : starts_of(evidence, base, effect)) {
+    Imperfections start = base.at;
+    for (std::size_t k = 0; k < values.size(); ++k) start.*effect.parameters[k].member = values[k];
+    Fit wider = widened(evidence, forward, base, parameters, start);
+    const Normal normal = normal_equations(evidence, wider);
+    if (!normal.finite) continue;
+    const Eigen::VectorXd first = normal.step(wider.x, evidence.floor);
+    if (!(normal.promised(first) < promised)) continue;
+    promised = normal.promised(first);
+    step = first;
+    wider.mean_square = normal.rr;
+    best = std::move(wider);
+  }
+  if (!std::isfinite(promised)) return best;
+  double sum = best.mean_square;
+  for (int i = 0; i < k_chords; ++i) {
+    Fit next = widened(evidence, forward, base, parameters, stepped(parameters, best, step));
+    const Normal normal = normal_equations(evidence, next);
+    if (!normal.finite || !(normal.rr < sum)) {
+      step *= 0.3;
+      continue;
+    }
+    const bool settled = normal.rr > (1.0 - k_settled) * sum;
+    sum = normal.rr;
+    step = normal.step(next.x, evidence.floor);
+    best = std::move(next);
+    if (settled) break;
+  }
+  best.effects = effects;
+  best.usable = true;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (at_bound(best.at, *parameters[k])) best.J.col(static_cast<Eigen::Index>(k)).setZero();
+  }
+  judge(evidence, parameters, best);
+  return best;
+}
+
 Fit with_direction(const Evidence& evidence, Forward& forward, const Fit& fit, const Effect& effect) {
   Fit wider = fit;
   wider.effects.push_back(&effect);
+  const std::vector<std::vector<double>> starts = starts_of(evidence, fit, effect);
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
     const EffectParameter& parameter = effect.parameters[k];
-    if (parameter.searched && !effect.starts.empty()) wider.at.*parameter.member = effect.starts[effect.starts.size() / 2][k];
+    if (parameter.searched && !starts.empty()) wider.at.*parameter.member = starts.front()[k];
   }
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, wider.effects);
   wider.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));

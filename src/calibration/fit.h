@@ -40,8 +40,11 @@ struct Fit {
   bool usable = false;
 };
 
-/// The best of several starts. `from`: parameters known of effects that were fitted before.
+/// Robust, by Ceres, from where the members stand in `from`.
 Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& effects, const Imperfections& from);
+
+/// `base` with one effect more, from the best of its starts, close to its optimum: what candidates are compared by.
+Fit with_effect(const Evidence& evidence, Forward& forward, const Fit& base, const Effect& effect);
 
 /// `fit` with `effect` added where it does nothing: what the data would say of it. No fit.
 Fit with_direction(const Evidence& evidence, Forward& forward, const Fit& fit, const Effect& effect);

@@ -16,6 +16,9 @@ constexpr int k_approach = 24;
 /// What sensors and play may add to the angles that were logged, rad.
 constexpr double k_beyond = 0.1;
 
+/// Far below any sensor's noise, and far below what a fit's steps move θ by. rad
+constexpr double k_last_step = 1e-9;
+
 constexpr double k_least_stiffness = 1e-3;  // of the declared EA
 
 /// What the motor sensor hides.
@@ -150,6 +153,7 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& at) {
   set_statics(model, mounted(declared, at));
   model.wound = WoundTendon::at_home;
+  model.last_step = k_last_step;
   model.slack = 0.5 * at.slack;
   if (at.gravity_cos != 0 || at.gravity_sin != 0) {
     // weight · sin(tilt − θ) is added to what is declared.
@@ -216,7 +220,10 @@ TendonChange Forward::change(std::size_t index, const Sample& sample, const Impe
   const Run& run = measurement_.runs[index];
   TendonChange change;
   change.compliance = 1.0 + at.creep * (at.creep != 0 ? decades(run, sample) : 0.0);
-  if (run.has_temperature) change.expansion = at.thermal * (sample.temperature - first_temperature_);
+  if (run.has_temperature) {
+    const double warmer = sample.temperature - first_temperature_;
+    change.expansion = {at.thermal1 * warmer, at.thermal2 * warmer};
+  }
   if (sample.time + clock_[index] >= at.slip_time) change.released = {std::max(0.0, at.slip), std::max(0.0, -at.slip)};
   return change;
 }

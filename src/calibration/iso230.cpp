@@ -1,4 +1,5 @@
-// ISO 230-2: positions i, directions ↑ and ↓, x̄ the mean deviation of a position and direction, s its standard deviation.
+// ISO 230-2: positions i, directions ↑ and ↓, x̄ the mean deviation of a position and direction, s its standard
+// deviation.
 //   B = max |x̄i↑ − x̄i↓|            E = max x̄ − min x̄, all positions, both directions
 //   R = max over i of max[2si↑ + 2si↓ + |Bi|; 4si↑; 4si↓]
 //   M = range of (x̄i↑ + x̄i↓)/2     A = max(x̄ + 2s) − min(x̄ − 2s), both directions
@@ -58,7 +59,8 @@ Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations)
     const Spread up = spread_of(position[0]), down = spread_of(position[1]);
     const double reversal = std::abs(up.mean - down.mean);
     figures.B = std::max(figures.B, reversal);
-    figures.R = std::max({figures.R, 2 * up.deviation + 2 * down.deviation + reversal, 4 * up.deviation, 4 * down.deviation});
+    figures.R =
+        std::max({figures.R, 2 * up.deviation + 2 * down.deviation + reversal, 4 * up.deviation, 4 * down.deviation});
     for (const Spread& spread : {up, down}) {
       systematic.add(spread.mean);
       accuracy.add(spread.mean + 2 * spread.deviation);
@@ -73,7 +75,8 @@ Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations)
 }
 
 Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
-  // The range that every whole stroke passes would be empty for one short stroke: positions spread over all that was seen.
+  // The range that every whole stroke passes would be empty for one short stroke: positions spread over all that was
+  // seen.
   Extent seen;
   for (const Run& run : measurement.runs) {
     for (const Stroke& stroke : run.strokes) {
@@ -93,7 +96,8 @@ Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<doub
       for (int i = 0; i < positions; ++i) {
         const double alpha = seen.least + seen.range() * (0.05 + 0.9 * i / (positions - 1));
         const double value = residual_at(run, stroke, residuals[r], alpha);
-        if (std::isfinite(value)) deviations[static_cast<std::size_t>(i)][stroke.direction > 0 ? 0 : 1].push_back(value);
+        if (std::isfinite(value))
+          deviations[static_cast<std::size_t>(i)][stroke.direction > 0 ? 0 : 1].push_back(value);
       }
     }
   }

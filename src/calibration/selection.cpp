@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
 
 // Greedy, with a look one step further: causes come in pairs, of which neither may explain much alone, and a third that resembles both may explain
 // more than either. So pairs are tried from the best few wherever the best single does not reach the noise; and once there is a set, every
@@ -18,9 +20,10 @@ constexpr double k_least_bic_drop = 6.0;
 /// Two explanations are one if their errors differ by less than this part of the floor's square, however surely they do.
 constexpr double k_same = 0.03;
 constexpr std::size_t k_most_effects = 5;
-constexpr std::size_t k_pair_leaders = 4;
-constexpr std::size_t k_pair_seconds = 8;
+constexpr std::size_t k_most_pairs = 10;
 constexpr int k_most_exchanges = 4;
+/// A rival whose held-out error is within this of the best may be as good once it is fitted to the end.
+constexpr double k_near = 2.0;
 
 bool excludes_zero(const Evidence& evidence, const Fit& fit, const Effect& effect) {
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, fit.effects);
@@ -65,6 +68,12 @@ struct Trial {
   Candidate candidate;
 };
 
+/// A fit that is there, and what is tried beside it.
+struct Addition {
+  const Fit* base = nullptr;
+  const Effect* effect = nullptr;
+};
+
 bool lower(const Trial& a, const Trial& b) { return a.fit.by_factor.mean_square < b.fit.by_factor.mean_square; }
 
 class Selector {
@@ -75,15 +84,17 @@ class Selector {
   Selection run();
 
  private:
-  std::vector<Trial> trials(const std::string& what, const std::vector<EffectSet>& added);
-  Trial trial(Forward& forward, const EffectSet& added) const;
+  void judge(const Fit& before, Trial& trial) const;
+  std::vector<Trial> trials(const std::string& what, const std::vector<Addition>& added);
+  const Trial* best_of(std::vector<Trial>& trials);
   std::vector<Trial> singles();
+  std::vector<std::pair<const Trial*, const Trial*>> promising_pairs(const std::vector<Trial>& singles) const;
   std::optional<Trial> best_pair(const std::vector<Trial>& singles);
   bool grow();
   void find_rivals();
   bool exchange();
   void drop_needless();
-  Fit without(Forward& forward, const Effect* effect, const Effect* instead) const;
+  Fit without(const Effect* effect);
   void note(const std::vector<Trial>& trials, const Trial* taken);
 
   bool at_floor(const Fit& fit) const { return fit.by_run.mean_square <= noise_limit(evidence_.floor); }
@@ -101,63 +112,123 @@ class Selector {
   Selection selection_;
 };
 
-Trial Selector::trial(Forward& forward, const EffectSet& added) const {
-  Trial result;
-  const Fit& before = selection_.best;
-  EffectSet effects = before.effects;
-  effects.insert(effects.end(), added.begin(), added.end());
-  for (const Effect* effect : added) result.candidate.name += (result.candidate.name.empty() ? "" : " + ") + effect->name;
-  result.fit = fit_effects(evidence_, forward, effects, before.at);
-  bool holds = accepted(evidence_, before, result.fit, result.candidate);
-  for (const Effect* effect : added) {
-    if (!holds || excludes_zero(evidence_, result.fit, *effect)) continue;
+/// Whether what was added to `before` is to be believed.
+void Selector::judge(const Fit& before, Trial& trial) const {
+  trial.candidate.name.clear();
+  bool holds = accepted(evidence_, before, trial.fit, trial.candidate);
+  for (std::size_t i = before.effects.size(); i < trial.fit.effects.size(); ++i) {
+    const Effect& effect = *trial.fit.effects[i];
+    trial.candidate.name += (trial.candidate.name.empty() ? "" : " + ") + effect.name;
+    if (!holds || excludes_zero(evidence_, trial.fit, effect)) continue;
     holds = false;
-    result.candidate.why = "the interval of " + effect->name + " holds zero";
+    trial.candidate.why = "the interval of " + effect.name + " holds zero";
   }
-  result.candidate.accepted = holds;
-  return result;
+  trial.candidate.accepted = holds;
 }
 
-/// Usable ones, the lowest held-out error first.
-std::vector<Trial> Selector::trials(const std::string& what, const std::vector<EffectSet>& added) {
+/// One effect more than `base`, for each of `added`; usable ones, the lowest held-out error first.
+std::vector<Trial> Selector::trials(const std::string& what, const std::vector<Addition>& added) {
   std::vector<Trial> all(added.size());
   const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
   report(what, 0);
-  workers_.each(added.size(), [&](Forward& forward, std::size_t i) { all[i] = trial(forward, added[i]); },
-                [&](std::size_t done) { report(what, static_cast<double>(done) / count); });
+  workers_.each(
+      added.size(),
+      [&](Forward& forward, std::size_t i) {
+        all[i].fit = with_effect(evidence_, forward, *added[i].base, *added[i].effect);
+        judge(selection_.best, all[i]);
+      },
+      [&](std::size_t done) { report(what, static_cast<double>(done) / count); });
   std::erase_if(all, [](const Trial& t) { return !t.fit.usable; });
   std::stable_sort(all.begin(), all.end(), lower);
   return all;
 }
 
+/// The first of `trials` that is still to be believed once it is fitted to the end. Of those that do as well, the one of fewest numbers.
+const Trial* Selector::best_of(std::vector<Trial>& trials) {
+  const auto first = std::find_if(trials.begin(), trials.end(), [](const Trial& trial) { return trial.candidate.accepted; });
+  if (first == trials.end()) return nullptr;
+  auto simplest = first;
+  for (auto it = first; it != trials.end(); ++it) {
+    if (it->candidate.accepted && it->fit.x.size() < simplest->fit.x.size() && as_good(evidence_, it->fit, first->fit)) simplest = it;
+  }
+  std::rotate(trials.begin(), simplest, simplest + 1);
+  for (Trial& trial : trials) {
+    if (!trial.candidate.accepted) continue;
+    Fit settled = fit_effects(evidence_, workers_.one(), trial.fit.effects, trial.fit.at);
+    if (settled.usable) trial.fit = std::move(settled);
+    judge(selection_.best, trial);
+    if (trial.candidate.accepted) return &trial;
+  }
+  return nullptr;
+}
+
 std::vector<Trial> Selector::singles() {
-  std::vector<EffectSet> added;
+  std::vector<Addition> added;
   for (const Effect& effect : selection_.catalogue) {
-    if (!has(effect)) added.push_back({&effect});
+    if (!has(effect)) added.push_back({&selection_.best, &effect});
   }
   return trials("trying effects one by one", added);
+}
+
+/// All pairs of singles by what a linear fit of both would leave, the best first. A single's directions are its slopes and the way it went.
+std::vector<std::pair<const Trial*, const Trial*>> Selector::promising_pairs(const std::vector<Trial>& singles) const {
+  const Fit& base = selection_.best;
+  std::vector<Eigen::Index> rows;
+  for (const Block& block : evidence_.blocks) {
+    for (const std::size_t row : block.rows) rows.push_back(static_cast<Eigen::Index>(row));
+  }
+  std::vector<Eigen::Index> first{base.x.size()};
+  for (const Trial& single : singles) first.push_back(first.back() + single.fit.x.size() - base.x.size() + 1);
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()), first.back());
+  columns.leftCols(base.x.size()) = base.J(rows, Eigen::all);
+  for (std::size_t i = 0; i < singles.size(); ++i) {
+    const Fit& fit = singles[i].fit;
+    const Eigen::Index own = fit.x.size() - base.x.size();
+    columns.middleCols(first[i], own) = fit.J.rightCols(own)(rows, Eigen::all);
+    columns.col(first[i] + own) = (base.residual - fit.residual)(rows);
+  }
+  const Eigen::MatrixXd gram = columns.transpose() * columns;
+  const Eigen::VectorXd pull = columns.transpose() * base.residual(rows);
+  std::vector<std::tuple<double, std::size_t, std::size_t>> ranked;
+  for (std::size_t i = 0; i < singles.size(); ++i) {
+    for (std::size_t j = i + 1; j < singles.size(); ++j) {
+      std::vector<Eigen::Index> chosen;
+      for (Eigen::Index k = 0; k < base.x.size(); ++k) chosen.push_back(k);
+      for (const std::size_t single : {i, j}) {
+        for (Eigen::Index k = first[single]; k < first[single + 1]; ++k) chosen.push_back(k);
+      }
+      Eigen::MatrixXd JJ = gram(chosen, chosen);
+      JJ.diagonal() += 1e-9 * JJ.diagonal() + Eigen::VectorXd::Constant(JJ.rows(), 1e-300);
+      const Eigen::VectorXd Jr = pull(chosen);
+      ranked.emplace_back(-Jr.dot(JJ.ldlt().solve(Jr)), i, j);
+    }
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<std::pair<const Trial*, const Trial*>> pairs;
+  for (const auto& [gain, i, j] : ranked) {
+    if (pairs.size() < k_most_pairs) pairs.emplace_back(&singles[i], &singles[j]);
+  }
+  return pairs;
 }
 
 /// Of pairs in which each is needed beside the other, the one that explains most.
 std::optional<Trial> Selector::best_pair(const std::vector<Trial>& singles) {
   if (selection_.best.effects.size() + 2 > k_most_effects) return std::nullopt;
-  std::vector<EffectSet> added;
-  for (std::size_t i = 0; i < std::min(k_pair_leaders, singles.size()); ++i) {
-    for (std::size_t j = i + 1; j < std::min(k_pair_seconds, singles.size()); ++j) {
-      added.push_back({singles[i].fit.effects.back(), singles[j].fit.effects.back()});
-    }
-  }
+  std::vector<Addition> added;
+  for (const auto& [one, other] : promising_pairs(singles)) added.push_back({&one->fit, other->fit.effects.back()});
   const auto alone = [&](const Effect* effect) -> const Fit& {
     return std::find_if(singles.begin(), singles.end(), [&](const Trial& t) { return t.fit.effects.back() == effect; })->fit;
   };
-  for (Trial& pair : trials("trying effects in pairs", added)) {
+  std::vector<Trial> pairs = trials("trying effects in pairs", added);
+  std::erase_if(pairs, [&](const Trial& pair) {
     const EffectSet& effects = pair.fit.effects;
     Candidate scratch;
-    const bool needed = pair.candidate.accepted && accepted(evidence_, alone(effects.back()), pair.fit, scratch) &&
-                        accepted(evidence_, alone(effects[effects.size() - 2]), pair.fit, scratch);
-    if (needed) return std::move(pair);
-  }
-  return std::nullopt;
+    return !pair.candidate.accepted || !accepted(evidence_, alone(effects.back()), pair.fit, scratch) ||
+           !accepted(evidence_, alone(effects[effects.size() - 2]), pair.fit, scratch);
+  });
+  const Trial* best = best_of(pairs);
+  if (best == nullptr) return std::nullopt;
+  return *best;
 }
 
 void Selector::note(const std::vector<Trial>& trials, const Trial* taken) {
@@ -174,11 +245,11 @@ void Selector::note(const std::vector<Trial>& trials, const Trial* taken) {
 /// Takes one effect more, or two that come together.
 bool Selector::grow() {
   std::vector<Trial> alone = singles();
-  const auto first = std::find_if(alone.begin(), alone.end(), [](const Trial& t) { return t.candidate.accepted; });
+  const Trial* first = best_of(alone);
   std::optional<Trial> pair;
-  if (first == alone.end() || !at_floor(first->fit)) pair = best_pair(alone);
+  if (first == nullptr || !at_floor(first->fit)) pair = best_pair(alone);
   Candidate scratch;
-  if (pair && first != alone.end() && !accepted(evidence_, first->fit, pair->fit, scratch)) pair.reset();
+  if (pair && first != nullptr && !accepted(evidence_, first->fit, pair->fit, scratch)) pair.reset();
   if (pair) {
     note(alone, nullptr);
     pair->candidate.why = "neither explains as much alone";
@@ -186,40 +257,45 @@ bool Selector::grow() {
     selection_.best = std::move(pair->fit);
     return true;
   }
-  if (first == alone.end()) {
-    note(alone, nullptr);
-    return false;
-  }
-  first->candidate.why = "the held-out error falls by " + std::to_string(static_cast<int>(first->candidate.margin)) + " standard errors";
-  note(alone, &*first);
-  selection_.best = std::move(first->fit);
+  note(alone, first);
+  if (first == nullptr) return false;
+  selection_.tried.back().why = "the held-out error falls by " + std::to_string(static_cast<int>(first->candidate.margin)) + " standard errors";
+  Fit best = first->fit;
+  selection_.best = std::move(best);
   return true;
 }
 
-Fit Selector::without(Forward& forward, const Effect* effect, const Effect* instead) const {
+Fit Selector::without(const Effect* effect) {
   EffectSet effects;
   Imperfections from = selection_.best.at;
   for (const Effect* other : selection_.best.effects) {
     if (other != effect) effects.push_back(other);
   }
   for (const EffectParameter& parameter : effect->parameters) from.*parameter.member = Imperfections{}.*parameter.member;
-  if (instead) effects.push_back(instead);
-  return fit_effects(evidence_, forward, effects, from);
+  return fit_effects(evidence_, workers_.one(), effects, from);
 }
 
+/// Every effect in the place of every accepted one; those that come near are fitted to the end.
 void Selector::find_rivals() {
   selection_.rivals.clear();
-  for (const Effect* effect : selection_.best.effects) {
+  std::vector<Fit> bases;
+  for (const Effect* effect : selection_.best.effects) bases.push_back(without(effect));
+  std::vector<Addition> added;
+  for (std::size_t i = 0; i < bases.size(); ++i) {
     for (const Effect& rival : selection_.catalogue) {
-      if (!has(rival)) selection_.rivals.push_back({effect, &rival, {}});
+      if (has(rival) || !bases[i].usable) continue;
+      selection_.rivals.push_back({selection_.best.effects[i], &rival, {}});
+      added.push_back({&bases[i], &rival});
     }
   }
-  const double count = static_cast<double>(std::max<std::size_t>(1, selection_.rivals.size()));
+  const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
+  const double near = k_near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
   workers_.each(
-      selection_.rivals.size(),
+      added.size(),
       [&](Forward& forward, std::size_t i) {
-        Rival& rival = selection_.rivals[i];
-        rival.fit = without(forward, rival.accepted, rival.rival);
+        Fit& fit = selection_.rivals[i].fit;
+        fit = with_effect(evidence_, forward, *added[i].base, *added[i].effect);
+        if (fit.usable && fit.by_factor.mean_square < near) fit = fit_effects(evidence_, forward, fit.effects, fit.at);
       },
       [&](std::size_t done) { report("holding rivals against what was found", static_cast<double>(done) / count); });
   std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
@@ -247,7 +323,7 @@ bool Selector::exchange() {
 void Selector::drop_needless() {
   for (std::size_t i = 0; i < selection_.best.effects.size() && selection_.best.effects.size() > 1;) {
     const Effect* effect = selection_.best.effects[i];
-    Fit fewer = without(workers_.one(), effect, nullptr);
+    Fit fewer = without(effect);
     Candidate candidate;
     if (!fewer.usable || accepted(evidence_, fewer, selection_.best, candidate)) {
       ++i;

@@ -64,6 +64,11 @@ Files files_from(const Arguments& arguments) {
 
 // ---- what is answered -----------------------------------------------------------------------------------------------
 
+/// Characters of UTF-8 text: every byte that does not continue one.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 /// Words broken into lines of the terminal's usual width.
 std::string wrapped(const std::string& words, const std::string& indent) {
   std::string text, line = indent;
@@ -71,7 +76,7 @@ std::string wrapped(const std::string& words, const std::string& indent) {
   while (at < words.size()) {
     const std::size_t end = std::min(words.find(' ', at), words.size());
     const std::string word = words.substr(at, end - at);
-    if (line.size() > indent.size() && line.size() + 1 + word.size() > k_width) {
+    if (line.size() > indent.size() && characters(line) + 1 + characters(word) > k_width) {
       text += line + "\n";
       line = indent;
     }
@@ -87,69 +92,93 @@ std::string item(const std::string& words) {
   return text;
 }
 
+std::string items(const std::string& title, const std::vector<std::string>& all) {
+  std::string text = all.empty() ? "" : "\n" + title + "\n";
+  for (const std::string& one : all) text += item(one);
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 std::string deg(double value) { return fixed(degrees(value), 4); }
 
 std::string figures_table(const Calibration& c) {
   const auto row = [](const std::string& name, double before, double after) { return std::vector<std::string>{name, deg(before), deg(after)}; };
-  return table({{"deg at the joint", Align::left}, {"before", Align::right}, {"after", Align::right}},
+  return table({{"deg at the joint"}, {"before", Align::right}, {"after", Align::right}},
                {row("  rms", c.before.rms, c.after.rms), row("  largest", c.before.max, c.after.max), row("  rms held out", c.before.held_out_rms, c.after.held_out_rms),
                 row("  ISO 230-2 A", c.iso_before.A, c.iso_after.A), row("  ISO 230-2 R", c.iso_before.R, c.iso_after.R), row("  ISO 230-2 B", c.iso_before.B, c.iso_after.B),
                 row("  ISO 230-2 E", c.iso_before.E, c.iso_after.E), row("  ISO 230-2 M", c.iso_before.M, c.iso_after.M)});
 }
 
-std::string effect_text(const FoundEffect& effect) {
+std::string noise_text(const Calibration& c) {
+  std::string words = "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
+  if (c.noise.rms > 0) words += "; what is left is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
+  return wrapped(words, "  ");
+}
+
+std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
   std::string words = effect.name + " (" + effect.place + ")";
-  for (const FittedParameter& parameter : effect.parameters) {
-    words += ", " + parameter.name + " = " + rounded(parameter.value) + " [" + rounded(parameter.low) + ", " + rounded(parameter.high) + "]";
-  }
-  words += "; rms falls by " + deg(effect.rms_drop) + " deg";
-  std::string rivals;
-  for (const std::string& rival : effect.group) {
-    if (rival != effect.name) rivals += (rivals.empty() ? "" : ", ") + rival;
-  }
-  return words + (rivals.empty() ? "" : "; as good: " + rivals);
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
+  words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
+  const std::vector<std::string> rivals = rivals_of(effect);
+  return words + (rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals));
 }
 
-std::string round_text(const RoundChoice& round) {
-  if (round.suffices) return "P1 stays round, r1 = " + rounded(round.r1, 5) + " mm: within " + deg(round.max_error) + " deg";
-  return "P1 is shaped: round (best r1 " + rounded(round.r1, 5) + " mm) it would miss by up to " + deg(round.max_error) + " deg";
+std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {
+  std::vector<std::string> texts;
+  for (const FoundEffect& effect : c.effects) texts.push_back(effect_text(effect, load_unit));
+  if (texts.empty()) texts.push_back("none accepted");
+  if (!c.unexplained_where.empty()) texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms, " + c.unexplained_where);
+  return texts;
 }
 
-std::string tied_text(double tied_at) {
-  return "tie the tendons with the unloaded joint at home and the motor at " + rounded(degrees(tied_at), 4) +
+std::string tied_words(const Correction& correction) {
+  return "tie its tendons with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
          " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which compensation.csv has";
 }
 
-std::string correction_text(const Correction& correction) {
-  std::string text;
-  if (!correction.infeasible.empty()) text += item("the pulley that would correct this cannot be made: " + correction.infeasible);
+std::vector<std::string> correction_texts(const Correction& correction) {
+  std::vector<std::string> texts;
   if (correction.has_pulley) {
-    text += item("corrected.toml: its pulley takes away " + deg(correction.by_pulley) + " deg rms");
-    if (correction.round.r1 > 0) text += item(round_text(correction.round));
-    if (correction.tied_at != 0) text += item(tied_text(correction.tied_at));
+    texts.push_back("the pulley of corrected.toml takes away " + deg(correction.by_pulley) + " deg rms");
+    if (correction.round.r1 > 0) texts.push_back(round_words(correction));
+    if (correction.tied_at != 0) texts.push_back(tied_words(correction));
+  } else if (!correction.infeasible.empty()) {
+    texts.push_back("the pulley that would correct this cannot be made: " + correction.infeasible);
+  } else {
+    texts.push_back("nothing was identified that another pulley would take out");
   }
-  text += item("compensation.csv takes away " + deg(correction.by_table) + " deg rms" + (correction.has_pulley ? " beyond that" : ""));
-  return text + item("by simulation the joint misses its law by " + deg(correction.error_now) + " deg rms now, " + deg(correction.error_with_pulley) +
-                     " with the pulley, " + deg(correction.error_with_table) + " with the table");
+  if (!correction.table.empty()) texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" + (correction.has_pulley ? " beyond that" : ""));
+  return texts;
 }
 
-std::string summary(const CalibrationProduct& product) {
-  const Calibration& c = product.calibration;
-  std::string text = product.file.mechanism.name + ": " + c.verdict + "\n" + wrapped(c.summary, "  ") + "\n";
-  if (c.verdict == "not_testable") {
-    for (const std::string& reason : product.measurement.not_testable) text += item(reason);
-    return text;
+std::vector<std::string> detectable_texts(const Calibration& c) {
+  std::vector<std::string> texts;
+  for (const auto& [size, names] : detectable_groups(c)) texts.push_back(deg(size) + " deg: " + joined(names));
+  return texts;
+}
+
+std::string tried_table(const Calibration& c) {
+  if (c.tried.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const Candidate& candidate : c.tried) {
+    rows.push_back({"  " + candidate.name, deg(candidate.held_out_rms), fixed(candidate.margin, 1), fixed(candidate.delta_bic, 1), candidate.accepted ? "taken" : ""});
   }
-  text += figures_table(c) + "  noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " from repeats" : " at least (no repeats)");
-  if (c.noise.rms > 0) text += "; the rest is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
-  text += "\n\nEffects\n";
-  for (const FoundEffect& effect : c.effects) text += item(effect_text(effect));
-  if (c.effects.empty()) text += "  none accepted\n";
-  if (!c.unexplained_where.empty()) text += item("unexplained " + deg(c.unexplained_rms) + " deg rms: " + c.unexplained_where);
-  text += "\nCorrection\n" + correction_text(product.correction);
-  if (!c.next_runs.empty()) text += "\nMeasure next\n";
-  for (const std::string& run : c.next_runs) text += item(run);
-  return text;
+  return "\n" + table({{"Tried, in this order"}, {"deg held out", Align::right}, {"margin", Align::right}, {"BIC drop", Align::right}, {""}}, rows);
+}
+
+std::string summary(const CalibrationProduct& product, bool verbose) {
+  const Calibration& c = product.calibration;
+  std::string text = product.file.mechanism.name + ": " + c.verdict + "\n" + wrapped(c.summary, "  ");
+  if (c.verdict == "not_testable") return text + items("Measure next", c.next_runs);
+  text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
+  text += items("Cannot be told apart by these data", c.null_combinations) + items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
+  if (verbose || c.verdict == "no_effect") text += items("Would have been seen, at the joint, rms", detectable_texts(c));
+  return verbose ? text + tried_table(c) : text;
 }
 
 // ---- what is left behind --------------------------------------------------------------------------------------------
@@ -164,10 +193,15 @@ void add_law_table(const MechanismFile& file, std::string& corrected, std::vecto
   outputs.push_back({name, read_file(std::filesystem::path(file.path).parent_path() / table, k_largest_law)});
 }
 
-std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const Mechanism& declared, const std::string& spec_text) {
+/// The text that corrected.toml begins with: the person's own, or every key where --set gave others than stand there.
+std::string declared_text(const Arguments& arguments, const MechanismFile& file) {
+  return arguments.settings().empty() ? read_file(file.path, k_largest_spec) : write_mechanism(file.mechanism);
+}
+
+std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std::string& declared) {
   std::vector<OutputFile> outputs;
   outputs.push_back({"calibration.json", calibration_json(product)});
-  std::string corrected = corrected_toml(spec_text, declared, product.calibration, product.correction);
+  std::string corrected = corrected_toml(declared, product.file.mechanism, product.calibration, product.correction);
   add_law_table(product.file, corrected, outputs);
   outputs.push_back({"corrected.toml", corrected});
   outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
@@ -176,8 +210,10 @@ std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const Mech
   return outputs;
 }
 
-const std::vector<std::string>& calibration_output_names() {
-  static const std::vector<std::string> names = {"calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"};
+std::vector<std::string> output_names(const MechanismFile& file) {
+  std::vector<std::string> names = {"calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"};
+  const PulleyDrive& pulley = file.mechanism.pulley;
+  if (!file.mechanism.transmission && pulley.law == Law::table) names.push_back(std::filesystem::path(pulley.table).filename().string());
   return names;
 }
 
@@ -190,24 +226,17 @@ void publish(OutputFolder& folder, const std::vector<OutputFile>& outputs) {
   folder.publish();
 }
 
-/// Data that were read but cannot be judged.
-Calibration without_a_test(const Measurement& measurement) {
-  Calibration calibration;
-  calibration.verdict = "not_testable";
-  calibration.summary = "These data cannot be tested: " + measurement.not_testable.front() + ".";
-  if (measurement.not_testable.size() > 1) calibration.summary += " There is more: see the list.";
-  for (const Run& run : measurement.runs) {
-    calibration.residuals_before.emplace_back(run.samples.size(), 0.0);
-    calibration.residuals_after.emplace_back(run.samples.size(), 0.0);
-  }
-  return calibration;
+/// A bar of 20 places on the progress line.
+std::string bar(const std::string& what, double share) {
+  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
+  const auto full = static_cast<std::size_t>(percent / 5);
+  return "[" + std::string(full, '#') + std::string(20 - full, '.') + "] " + std::to_string(percent) + " %, " + what;
 }
 
 Calibration calibration_of(const Mechanism& mechanism, const Measurement& measurement, std::size_t fitted, Console& console) {
-  if (!measurement.not_testable.empty()) return without_a_test(measurement);
   CalibrationOptions options;
   for (std::size_t i = fitted; i < measurement.runs.size(); ++i) options.hold_out.push_back(measurement.runs[i].name);
-  options.progress = [&console](const std::string& what, double share) { console.progress(what + " " + fixed(100 * share, 0) + " %"); };
+  options.progress = [&console](const std::string& what, double share) { console.progress(bar(what, share)); };
   return calibrate(mechanism, measurement, options);
 }
 
@@ -223,46 +252,64 @@ void convert_load(const Mechanism& mechanism, Measurement& measurement) {
   measurement.load_unit = "N";
 }
 
-Reply reply_of(const CalibrationProduct& product, const std::string& folder, bool published) {
-  Reply reply;
+std::string files_text(const std::vector<OutputFile>& outputs, const std::string& folder, bool published) {
+  std::vector<std::vector<std::string>> rows;
+  for (const OutputFile& file : outputs) rows.push_back({"  " + file.name, std::to_string(file.bytes.size()) + " B"});
+  return "\n" + table({{published ? "Files" : "Would be written (--dry-run)"}, {"", Align::right}}, rows) + "  in " + folder + "\n";
+}
+
+Json outputs_json(const std::vector<OutputFile>& outputs) {
+  Json list = Json::array();
+  for (const OutputFile& file : outputs) list.push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  return list;
+}
+
+void add_notes(const CalibrationProduct& product, bool verbose, Reply& reply) {
+  const std::vector<std::string>& notes = product.measurement.notes;
   reply.diagnostics = product.file.warnings;
-  for (const std::string& words : product.measurement.notes) reply.diagnostics.push_back(note(Severity::note, words));
-  for (const std::string& words : product.measurement.not_testable) reply.diagnostics.push_back(note(Severity::warning, "not testable: " + words));
-  reply.text = summary(product) + "\n" + (published ? "Files in " + folder + "\n" : "No files written (--dry-run)\n");
-  reply.fields = Json::parse(calibration_json(product));
-  reply.fields["folder"] = folder;
-  reply.fields["published"] = published;
-  return reply;
+  for (const std::string& words : verbose ? notes : shortened_notes(notes)) reply.diagnostics.push_back(note(Severity::note, words));
+}
+
+/// What is looked for is what is still amiss: a corrected file describes the joint as it is.
+CalibrationProduct product_of(const Files& files, const MeasurementOptions& columns, MechanismFile file, Console& console) {
+  CalibrationProduct product;
+  product.file = std::move(file);
+  const Mechanism& declared = product.file.mechanism;
+  console.progress("reading the runs");
+  product.measurement = read_measurement(files.all, columns);
+  const Mechanism expected = expected_joint(declared);
+  compare_with_declared(expected, product.measurement);
+  convert_load(expected, product.measurement);
+  product.calibration = calibration_of(expected, product.measurement, files.fitted, console);
+  console.progress("working out the correction");
+  product.correction.identified = declared.identified;
+  if (product.calibration.verdict != "not_testable") product.correction = correct(declared, product.measurement, product.calibration);
+  return product;
 }
 
 Reply run_calibrate(const Arguments& arguments, Console& console) {
   const std::filesystem::path spec = arguments.positionals().front();
   const MeasurementOptions columns = columns_from(arguments);
   const Files files = files_from(arguments);
-  CalibrationProduct product;
-  product.file = read_mechanism(spec, arguments.settings());
-  const Mechanism declared = product.file.mechanism;
+  MechanismFile file = read_mechanism(spec, arguments.settings());
   const std::string folder = arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_calibration")).string());
   OutputFolder target(folder, arguments.has("--force"));
-  target.claim(calibration_output_names());  // before the work: a refusal should not cost a wait
+  target.claim(output_names(file));  // before the work: a refusal should not cost a wait
+  const std::string declared = declared_text(arguments, file);
 
-  console.progress("reading the runs");
-  product.measurement = read_measurement(files.all, columns);
-  // A corrected file describes the joint as it is; only what is still amiss is looked for.
-  const Mechanism expected = expected_joint(declared);
-  compare_with_declared(expected, product.measurement);
-  convert_load(expected, product.measurement);
-  product.calibration = calibration_of(expected, product.measurement, files.fitted, console);
-  console.progress("working out the correction");
-  if (product.calibration.verdict != "not_testable") {
-    product.correction = correct(declared, product.measurement, product.calibration);
-  } else {
-    product.correction.identified = declared.identified;
-  }
-  const std::vector<OutputFile> outputs = outputs_of(product, declared, read_file(spec, k_largest_spec));
+  const CalibrationProduct product = product_of(files, columns, std::move(file), console);
+  const std::vector<OutputFile> outputs = outputs_of(product, declared);
   const bool published = !arguments.has("--dry-run");
   if (published) publish(target, outputs);
-  return reply_of(product, folder, published);
+  Reply reply;
+  add_notes(product, console.verbose(), reply);
+  if (!arguments.settings().empty()) reply.diagnostics.push_back(note(Severity::note, "corrected.toml holds what --set gave, and so every key; the comments of the file are left out"));
+  reply.text = summary(product, console.verbose()) + files_text(outputs, folder, published);
+  reply.fields = Json::parse(calibration_json(product));
+  reply.fields["folder"] = folder;
+  reply.fields["published"] = published;
+  reply.fields["outputs"] = outputs_json(outputs);
+  return reply;
 }
 
 }  // namespace

@@ -31,7 +31,6 @@ namespace {
 /// Both tendons slack by more than this together: the joint has play. mm
 constexpr double k_least_play = 1e-6;
 
-constexpr double k_last_step = 1e-13;  // rad
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
@@ -62,7 +61,8 @@ struct AtAlpha {
 };
 
 AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA, const TendonChange& change) {
-  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + change.expansion, {}};
+  const double expansion = change.expansion[tendon.side == Side::left ? 0 : 1];
+  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + expansion, {}};
   at.spans.EA = EA / change.compliance;
   at.spans.upper_material = at.swelling * tendon.upper_material;
   at.spans.lower_length = at.lower_length;
@@ -109,9 +109,9 @@ struct Residual {
 };
 
 /// A root of a function that falls from `least` to `most`: Newton's steps, kept within what is known to enclose it. Where it is not known
-/// yet, steps grow towards the end. Null when the function does not change its sign.
+/// yet, steps grow towards the end; the last one is shorter than `last_step`. Null when the function does not change its sign.
 template <typename Function>
-std::optional<double> fallen_to_zero(double start, double least, double most, Function function) {
+std::optional<double> fallen_to_zero(double start, double least, double most, double last_step, Function function) {
   double low = least;
   double high = most;
   bool low_seen = false;
@@ -134,8 +134,8 @@ std::optional<double> fallen_to_zero(double start, double least, double most, Fu
       next = falls ? std::min(std::max(next, x), most) : std::max(std::min(next, x), least);
       stride *= 2.0;
     }
-    // Newton's steps square the miss: after one of this size nothing is left.
-    if (std::abs(next - x) <= k_last_step || !(high - low > k_last_step)) return next;
+    // Newton's steps square the miss, but for a kink in between.
+    if (std::abs(next - x) <= last_step || !(high - low > last_step)) return next;
     x = next;
   }
   return x;
@@ -277,7 +277,7 @@ std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>&
   const auto pull = [&](double at_theta) { return residual(at, step, at_theta); };
   // A joint that nothing pulls stays where it is; any other keeps its deviation from where it is expected.
   if (theta > model.theta_least && theta < model.theta_most && pull(theta).value == 0) return theta;
-  return fallen_to_zero(theta + expected_now - expected, model.theta_least, model.theta_most, pull);
+  return fallen_to_zero(theta + expected_now - expected, model.theta_least, model.theta_most, model.last_step, pull);
 }
 
 EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found) {

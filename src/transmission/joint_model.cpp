@@ -16,7 +16,7 @@ constexpr double k_reach = radians(60.0);
 /// The first θ from `start` towards `end` at which a moment arm vanishes; `end` when none does.
 double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double end) {
   const auto has_arms = [&](double theta) { return upper_span(pins[0], -theta).m > 0 && upper_span(pins[1], theta).m > 0; };
-  constexpr int steps = 180;
+  constexpr int steps = 60;
   double good = start;
   for (int i = 1; i <= steps; ++i) {
     double bad = start + (end - start) * i / steps;

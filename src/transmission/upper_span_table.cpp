@@ -6,23 +6,39 @@
 namespace fusee {
 namespace {
 
-constexpr std::size_t k_pieces = 1024;
+constexpr std::size_t k_pieces = 160;
 
-/// The cubic with these values and slopes at the ends of [0, 1].
-struct Cubic {
-  explicit Cubic(double u) : a(u * u * (2.0 * u - 3.0) + 1.0), b(u * (u - 1.0) * (u - 1.0)), c(u * u * (3.0 - 2.0 * u)), d(u * u * (u - 1.0)) {}
-  double operator()(double from, double slope_from, double to, double slope_to) const { return a * from + b * slope_from + c * to + d * slope_to; }
-  double a, b, c, d;
+/// A curve's value, slope and curvature at an end of a piece, by pieces.
+struct End {
+  double value, slope, bend;
+};
+
+/// The quintic with these ends on [0, 1].
+struct Quintic {
+  Quintic(const End& from, const End& to) : c0(from.value), c1(from.slope), c2(0.5 * from.bend) {
+    const double value = to.value - from.value - from.slope - 0.5 * from.bend;
+    const double slope = to.slope - from.slope - from.bend;
+    const double bend = to.bend - from.bend;
+    c3 = 10.0 * value - 4.0 * slope + 0.5 * bend;
+    c4 = -15.0 * value + 7.0 * slope - bend;
+    c5 = 6.0 * value - 3.0 * slope + 0.5 * bend;
+  }
+  double at(double u) const { return c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))); }
+  double slope(double u) const { return c1 + u * (2.0 * c2 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5))); }
+  double c0, c1, c2, c3, c4, c5;
 };
 
 }  // namespace
 
+// With f the free length, ψ the normal and a = R cos(θ + ψ): ψ' = −a/f, f' = −m − ρψ', and as a' = −m (1 + ψ'), ψ'' = (m (1 + ψ') − ψ' f')/f.
 UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most) : least_(least), step_((most - least) / k_pieces) {
   knots_.reserve(k_pieces + 1);
   for (std::size_t i = 0; i <= k_pieces; ++i) {
     const double theta = least + step_ * static_cast<double>(i);
     const UpperSpan span = upper_span(place, theta);
-    knots_.push_back({span.length, span.m, span.dm, span.d2m, span.normal, -place.R * std::cos(theta + span.normal) / span.free});
+    const double dnormal = -place.R * std::cos(theta + span.normal) / span.free;
+    const double dfree = -span.m - place.rho * dnormal;
+    knots_.push_back({span.length, span.m, span.dm, span.d2m, span.normal, dnormal, (span.m * (1.0 + dnormal) - dnormal * dfree) / span.free});
   }
 }
 
@@ -30,14 +46,13 @@ UpperSpanTable::Look UpperSpanTable::at(double theta) const {
   const double place = std::clamp((theta - least_) / step_, 0.0, static_cast<double>(k_pieces));
   const std::size_t i = std::min(static_cast<std::size_t>(place), k_pieces - 1);
   const double u = place - static_cast<double>(i);
-  const Cubic cubic(u);
+  const double h = step_;
   const Knot& from = knots_[i];
   const Knot& to = knots_[i + 1];
-  return {cubic(from.length, -step_ * from.m, to.length, -step_ * to.m),
-          cubic(from.m, step_ * from.dm, to.m, step_ * to.dm),
-          cubic(from.dm, step_ * from.d2m, to.dm, step_ * to.d2m),
-          cubic(from.normal, step_ * from.dnormal, to.normal, step_ * to.dnormal),
-          from.dnormal + u * (to.dnormal - from.dnormal)};
+  const Quintic length({from.length, -h * from.m, -h * h * from.dm}, {to.length, -h * to.m, -h * h * to.dm});
+  const Quintic m({from.m, h * from.dm, h * h * from.d2m}, {to.m, h * to.dm, h * h * to.d2m});
+  const Quintic normal({from.normal, h * from.dnormal, h * h * from.d2normal}, {to.normal, h * to.dnormal, h * h * to.d2normal});
+  return {length.at(u), m.at(u), m.slope(u) / h, normal.at(u), normal.slope(u) / h};
 }
 
 }  // namespace fusee

@@ -9,7 +9,8 @@
 
 namespace fusee {
 
-/// By cubics between 1024 places that take over values and slopes: upper_span() to 1e-10 of R where the span is not near its end.
+/// By quintics between places a degree or so apart that take over values, slopes and curvatures: upper_span() to 1e-10 of R where the span is
+/// not near its end.
 class UpperSpanTable {
  public:
   /// From `least` to `most` of the right-hand image's joint angle, rad.
@@ -26,7 +27,7 @@ class UpperSpanTable {
 
  private:
   struct Knot {
-    double length, m, dm, d2m, normal, dnormal;
+    double length, m, dm, d2m, normal, dnormal, d2normal;
   };
   double least_;
   double step_;

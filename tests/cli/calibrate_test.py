@@ -1,10 +1,33 @@
 """`fusee calibrate` as a person meets it: what it reads, refuses, leaves behind and says."""
 
 import csv
+import html.parser
 import json
 import math
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
 
 import harness
+
+OUTPUTS = {"calibration.json", "corrected.toml", "compensation.csv", "report.html", "manifest.json"}
+RIG = harness.SOURCE / "tests/data/rig"
+# Every key of the document, whatever the verdict.
+KEYS = {
+    "": {"schema", "verdict", "effects", "noise_floor_deg", "before", "after", "held_out", "unexplained_rms_deg", "detectable", "next_runs", "iso230", "correctable"},
+    "before": {"rms_deg", "max_deg", "held_out_rms_deg"},
+    "after": {"rms_deg", "max_deg", "held_out_rms_deg"},
+    "held_out": {"factors", "runs"},
+    "iso230": {"before", "after"},
+    "iso230.before": {"A_deg", "R_deg", "B_deg", "E_deg", "M_deg"},
+    "iso230.after": {"A_deg", "R_deg", "B_deg", "E_deg", "M_deg"},
+    "correctable": {"by_pulley_rms_deg", "by_table_rms_deg"},
+}
+EFFECT_KEYS = {"name", "group", "place", "parameters", "rms_drop_deg"}
+VERDICTS = {"not_testable", "not_repeatable", "unexplained", "confounded", "explained", "no_effect"}
 
 RATIO = 'schema = 1\nname = "joint"  # mine\n[transmission]\nkind = "ratio"\nratio = 4.0\n'
 
@@ -46,6 +69,104 @@ class Calibrate(harness.Scratch):
         middle = rows[len(rows) // 2]
         self.assertAlmostEqual(float(middle["alpha_up_deg"]) - float(middle["alpha_down_deg"]), 4.0, delta=0.3)
 
+    def assert_numbers(self, value, where):
+        """A finite number, not null, text or a switch."""
+        self.assertIsInstance(value, (int, float), where)
+        self.assertNotIsInstance(value, bool, where)
+        self.assertTrue(math.isfinite(value), where)
+
+    def assert_document(self, document, verdicts):
+        self.assertIn(document["verdict"], verdicts)
+        self.assertIn(document["verdict"], VERDICTS)
+        for path, keys in KEYS.items():
+            table = document
+            for step in path.split(".") if path else []:
+                table = table[step]
+            self.assertLessEqual(keys, set(table), path)
+            for key in keys:
+                if key.endswith("_deg"):
+                    self.assert_numbers(table[key], f"{path}.{key}")
+        for effect in document["effects"]:
+            self.assertLessEqual(EFFECT_KEYS, set(effect))
+            self.assertIn(effect["name"], effect["group"])
+            self.assert_numbers(effect["rms_drop_deg"], effect["name"])
+            self.assertTrue(effect["parameters"])
+            for name, parameter in effect["parameters"].items():
+                for number in [parameter["value"], *parameter["ci95"]]:
+                    self.assert_numbers(number, f"{effect['name']}.{name}")
+                self.assertLessEqual(parameter["ci95"][0], parameter["ci95"][1], name)
+        for detectable in document["detectable"]:
+            self.assertEqual(set(detectable), {"name", "smallest_deg"})
+            self.assert_numbers(detectable["smallest_deg"], detectable["name"])
+        for texts in [document["next_runs"], document["held_out"]["factors"], document["held_out"]["runs"], document["null_combinations"]]:
+            self.assertTrue(all(isinstance(text, str) and text for text in texts))
+        self.assertTrue(document["summary"].strip())
+
+    def test_every_key_whatever_the_verdict(self):
+        (self.folder / "still.csv").write_text("alpha_deg,theta_deg\n" + "1,2\n" * 50)
+        (self.folder / "none.csv").write_text(run_csv())
+        cases = [("joint.toml run_1.csv run_2.csv run_3.csv", {"explained", "confounded"}),
+                 ("joint.toml none.csv", {"no_effect"}),
+                 ("joint.toml still.csv", {"not_testable"}),
+                 (f"{RIG}/e_one_sweep_only/spec.toml {RIG}/e_one_sweep_only/run_1.csv", {"confounded"})]
+        for arguments, verdicts in cases:
+            with self.subTest(arguments):
+                self.assert_document(self.expect_json(f"calibrate {arguments} --dry-run", 0), verdicts)
+
+    def test_same_input_same_bytes(self):
+        self.expect("calibrate joint.toml run_1.csv run_2.csv -o one", 0)
+        os.environ["TZ"] = "Pacific/Chatham"
+        self.expect("calibrate joint.toml run_1.csv run_2.csv -o two", 0)
+        self.assertEqual(self.files("one"), self.files("two"))
+
+    def test_the_page_is_whole_and_asks_nobody(self):
+        class Page(html.parser.HTMLParser):
+            VOID = {"meta", "br"}
+
+            def __init__(self):
+                super().__init__()
+                self.open, self.ids, self.words = [], [], ""
+
+            def handle_starttag(self, tag, attributes):
+                for name, value in attributes:
+                    assert name not in ("src", "href", "srcset", "onload"), f"{tag} {name}={value}"
+                    if name == "id":
+                        self.ids.append(value)
+                if tag not in self.VOID:
+                    self.open.append(tag)
+
+            def handle_startendtag(self, tag, attributes):
+                pass
+
+            def handle_endtag(self, tag):
+                assert self.open.pop() == tag, tag
+
+            def handle_data(self, data):
+                if self.open and self.open[-1] not in ("style", "script"):
+                    self.words += data
+
+        (self.folder / "joint.toml").write_text(RATIO.replace('"joint"', '"<b>&joint"'))
+        self.expect("calibrate joint.toml run_1.csv run_2.csv run_3.csv -o out", 0)
+        text = (self.folder / "out/report.html").read_text()
+        page = Page()
+        page.feed(text)
+        self.assertEqual(page.open, [])
+        self.assertEqual(page.ids, ["numbers", "actions", "effects", "residuals", "rest", "figures", "evidence", "detectable"])
+        self.assertIn("<b>&joint", page.words)
+        self.assertIn("Taken: backlash", page.words)
+        self.assertNotRegex(page.words, r"\b(nan|inf|null)\b")
+        self.assertNotRegex(text, r"@import|url\(|https?://(?!www\.w3\.org)")
+        # Before and after on one axis: the same range in both plots of a run.
+        axes = re.findall(r"<title>(Before|After)</title>.*?data-plot=|data-plot=\"([^\"]*)\"[^>]*><title>(?:Before|After)</title>", text)
+        ranges = {tuple(values.split()[-2:]) for _, values in axes if values}
+        self.assertEqual(len(ranges), 1, ranges)
+
+    def test_data_that_cannot_be_tested_are_shown(self):
+        (self.folder / "still.csv").write_text("alpha_deg,theta_deg\n" + "1,2\n" * 50)
+        self.expect("calibrate joint.toml still.csv -o out", 0, "not_testable.*alpha does not change.*Measure next")
+        page = self.files("out")["report.html"].decode()
+        self.assertRegex(page, "(?s)Why nothing can be concluded.*alpha does not change.*What was logged.*<svg")
+
     def test_the_folder_has_a_default_and_is_ours_to_write_again(self):
         self.expect("calibrate joint.toml run_1.csv run_2.csv", 0, "joint_calibration")
         self.expect("calibrate joint.toml run_1.csv run_2.csv", 0)
@@ -53,9 +174,48 @@ class Calibrate(harness.Scratch):
         self.expect("calibrate joint.toml run_1.csv run_2.csv", 6, err="report.html")
 
     def test_the_summary_fits_a_terminal(self):
-        text = self.expect("calibrate joint.toml run_1.csv run_2.csv --dry-run", 0, "before +after").stdout.decode()
-        self.assertLessEqual(max(len(line) for line in text.splitlines()), 80)
+        for more in ["", "-v"]:
+            text = self.expect(f"calibrate joint.toml run_1.csv run_2.csv --dry-run {more}", 0, "before +after.*Effects.*backlash.*Correction").stdout.decode()
+            self.assertLessEqual(max(len(line) for line in text.splitlines()), 80)
+            self.assertRegex(text, r"(?s)Would be written \(--dry-run\).*corrected\.toml +\d+ B.*in out/joint_calibration")
+            self.assertEqual("Tried, in this order" in text, more == "-v")
         self.assertFalse((self.folder / "out").exists())
+
+    def test_quiet_verbose_and_the_bar(self):
+        line = "calibrate joint.toml run_1.csv run_2.csv --dry-run"
+        self.assertEqual(self.expect(line, 0).stderr.count(b"#"), 0)
+        self.assertEqual(self.expect(line + " -q", 0).stderr, b"")
+        self.expect(line + " -v", 0, err=r"reading the runs.*\[#+\.*\] \d+ %, .*working out the correction")
+        try:
+            ours, theirs = os.openpty()
+        except OSError as error:
+            self.skipTest(f"no terminal to be had: {error}")
+        process = subprocess.Popen([harness.PROGRAM, *line.split()], cwd=self.folder, env=harness.ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        shown = b""
+        try:
+            while part := os.read(ours, 4096):
+                shown += part
+        except OSError:
+            pass  # the other end was closed
+        os.close(ours)
+        process.wait(timeout=60)
+        self.assertRegex(shown, rb"\r\x1b\[K\[#+\.*\] \d+ %")
+        self.assertTrue(shown.endswith(b"\r\x1b[K"))
+
+    def test_notes_that_say_the_same_are_said_twice(self):
+        for i in range(1, 6):
+            text = run_csv(seed=i).splitlines()
+            (self.folder / f"mid_{i}.csv").write_text("\n".join([text[0], *text[20:]]) + "\n")
+        line = "calibrate joint.toml mid_1.csv mid_2.csv mid_3.csv mid_4.csv mid_5.csv --dry-run"
+        self.assertEqual(self.expect(line, 0, err="mid_2.csv: .*and 3 more like this").stderr.count(b"first stroke"), 2)
+        self.assertEqual(self.expect(line + " -v", 0).stderr.count(b"first stroke"), 5)
+        self.assertEqual(sum("first stroke" in note for note in self.expect_json(line, 0)["notes"]), 5)
+
+    def test_settings_stand_in_the_corrected_file(self):
+        self.expect("calibrate joint.toml run_1.csv run_2.csv --set transmission.ratio=4.02 -o out", 0, err="what --set gave")
+        self.assertRegex(self.files("out")["corrected.toml"], rb"ratio = 4\.02")
+        self.expect("calibrate out/corrected.toml run_1.csv --dry-run", 0)
 
     def test_hold_out_and_columns(self):
         document = self.expect_json("calibrate joint.toml run_1.csv run_2.csv --hold-out run_3.csv --dry-run", 0)
@@ -70,11 +230,72 @@ class Calibrate(harness.Scratch):
         self.expect("calibrate joint.toml", 2, err="needs RUN.csv")
         self.expect("calibrate joint.toml nothing.csv", 3, err="no such file")
         (self.folder / "text.csv").write_text("alpha_deg,theta_deg\n1,2\n3,four\n")
-        self.expect("calibrate joint.toml text.csv", 3, err='text.csv:3:1: error: theta_deg: "four" is not a number')
+        self.expect("calibrate joint.toml text.csv", 3, err='text.csv:3:3: error: theta_deg: "four" is not a number')
         (self.folder / "still.csv").write_text("alpha_deg,theta_deg\n" + "1,2\n" * 50)
         document = self.expect_json("calibrate joint.toml still.csv --dry-run", 0)
         self.assertEqual(document["verdict"], "not_testable")
         self.assertRegex(document["not_testable"][0], "alpha does not change")
+
+
+class Correction(harness.Scratch):
+    """From measured runs to a pulley that can be built."""
+
+    def calibrate(self, name):
+        folder = RIG / name
+        runs = " ".join(str(path) for path in sorted(folder.glob("run_*.csv")))
+        return self.expect_json(f"calibrate {folder}/spec.toml {runs} -o out", 0)
+
+    def test_the_corrected_pulley_is_built_and_passes_its_checks(self):
+        document = self.calibrate("e_one_sweep_only")
+        self.assertGreater(document["correctable"]["by_pulley_rms_deg"], 0.3)
+        self.assertIn("p1_round", document["correctable"])
+        self.expect("build out/corrected.toml --dry-run", 0)
+
+
+class SomebodysWork(harness.Scratch):
+    LINE = "calibrate joint.toml run.csv"
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "joint.toml").write_text(RATIO)
+        (self.folder / "run.csv").write_text(run_csv(lash=4.0))
+
+    def test_is_refused_without_force(self):
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/report.html").write_text("a week of work")
+        self.expect(f"{self.LINE} -o mine", 6, "^$", "fusee did not write: report.html.*--force")
+        self.expect(f"{self.LINE} -o mine --dry-run", 6, "^$", "report.html")
+        self.assertEqual(self.files("mine"), {"report.html": b"a week of work"})
+        self.expect(f"{self.LINE} -o mine --force", 0)
+        self.assertEqual(set(self.files("mine")), OUTPUTS)
+
+    def test_a_place_that_nobody_can_write(self):
+        self.expect(f"{self.LINE} -o /proc/fusee", 6, "^$", "/proc")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
+    def test_a_folder_that_cannot_be_written(self):
+        (self.folder / "locked").mkdir(mode=0o500)
+        self.expect(f"{self.LINE} -o locked/here", 6, "^$", "locked")
+
+    def test_interrupted_leaves_the_earlier_files_whole(self):
+        self.expect(f"{self.LINE} -o out", 0)
+        earlier = self.files("out")
+        (self.folder / "run.csv").write_text(run_csv(lash=3.0))
+        self.expect(f"{self.LINE} -o later", 0)
+        later = self.files("later")
+        for number in [signal.SIGINT, signal.SIGTERM]:
+            for delay in [0.005, 0.02, 0.05, 0.1]:
+                process = subprocess.Popen([harness.PROGRAM, *self.LINE.split(), "-o", "out", "--json"], cwd=self.folder, env=harness.ENVIRONMENT,
+                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                time.sleep(delay)
+                process.send_signal(number)
+                out, _ = process.communicate(timeout=60)
+                self.assertIn(process.returncode, (0, 130, -number))
+                if process.returncode == 130:
+                    self.assertEqual(json.loads(out)["exit"], 130)
+                self.assertEqual(self.files("out"), later if process.returncode == 0 else earlier)
+                if process.returncode == 0:
+                    earlier = later
 
 
 if __name__ == "__main__":

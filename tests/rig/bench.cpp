@@ -120,7 +120,8 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack) {
   tendon.mark = 0.5 * (direction(up.normal) + direction(low.normal));
   tendon.density = 1.0 / (1.0 + strain_at(tension));
   tendon.upper = tendon.density * (up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark)) + 0.25 * slack;
-  tendon.lower = tendon.density * (low.length + tendon.pin.radius * (tendon.mark - direction(low.normal))) + 0.25 * slack;
+  tendon.lower =
+      tendon.density * (low.length + tendon.pin.radius * (tendon.mark - direction(low.normal))) + 0.25 * slack;
   tendon.wound = low.arc;
   tendon.corner = low.corner;
   tendon.upper_tension = tendon.lower_tension = tension;
@@ -166,7 +167,8 @@ Bench::Below Bench::below(std::size_t side, double pulley, double alpha, const C
   below.length += tendon.sign * (lump(alpha) - lump(0.0));
   below.material = tendon.lower + at.let_go[side] - tendon.let_go;
   if (string.arc > tendon.wound) {
-    const double density = hidden_.keeps_winding_strain ? 1.0 / (1.0 + strain_at(tendon.lower_tension)) : tendon.density;
+    const double density =
+        hidden_.keeps_winding_strain ? 1.0 / (1.0 + strain_at(tendon.lower_tension)) : tendon.density;
     below.material -= density * (string.arc - tendon.wound);
   } else {
     below.material += unstretched(tendon.laid, tendon.density, string.arc, tendon.wound);
@@ -174,8 +176,8 @@ Bench::Below Bench::below(std::size_t side, double pulley, double alpha, const C
   return below;
 }
 
-// What slips is where the tensions above and below differ by as much as the bristle holds. Both tensions fall to nothing when all their
-// stretch has slipped away, which encloses it.
+// What slips is where the tensions above and below differ by as much as the bristle holds. Both tensions fall to
+// nothing when all their stretch has slipped away, which encloses it.
 Bench::Trial Bench::tried(std::size_t side, const Below& below, double theta, const Conditions& at) const {
   const BenchTendon& tendon = tendons_[side];
   const double image_theta = tendon.sign * theta;
@@ -222,6 +224,7 @@ double Bench::dry_friction(const Conditions& at) const {
 double Bench::balanced(const std::array<Below, 2>& below, const Conditions& at) const {
   const double dry = hidden_.bearing + hidden_.bearing_stick > 0 ? dry_friction(at) : 0.0;
   const double now = excess(below, theta_, at);
+  if (std::isnan(now)) return now;
   if (std::abs(now) <= dry) return theta_;
   const double towards = now > 0 ? 1.0 : -1.0;
   const auto left = [&](double way) { return towards * excess(below, theta_ + towards * way, at) - dry; };
@@ -257,7 +260,9 @@ double Bench::to(double pulley, double alpha, const Conditions& at) {
   }
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];
-    if (hidden_.keeps_winding_strain) lay(tendon.laid, tendon.wound, lower[side].wound, 1.0 / (1.0 + strain_at(tendon.lower_tension)));
+    if (hidden_.keeps_winding_strain) {
+      lay(tendon.laid, tendon.wound, lower[side].wound, 1.0 / (1.0 + strain_at(tendon.lower_tension)));
+    }
     tendon.upper -= now[side].slipped;
     tendon.lower = lower[side].material + now[side].slipped;
     tendon.wound = lower[side].wound;

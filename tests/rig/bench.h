@@ -13,38 +13,38 @@ namespace fusee::rig {
 
 /// What acts on the joint at a step.
 struct Conditions {
-  double load = 0;                  ///< tip force across OC, against +θ, N
-  double creep_time = 0;            ///< since the load came on, s
-  double warmth = 0;                ///< K above home's temperature
-  double seconds = 1;               ///< since the last step
-  std::array<double, 2> let_go{};   ///< material let go at each anchor so far, mm
+  double load = 0;                 ///< tip force across OC, against +θ, N
+  double creep_time = 0;           ///< since the load came on, s
+  double warmth = 0;               ///< K above home's temperature
+  double seconds = 1;              ///< since the last step
+  std::array<double, 2> let_go{};  ///< material let go at each anchor so far, mm
 };
 
 /// Tendon on the pulley from this arc on, up to the next piece.
 struct LaidTendon {
   double from = 0;
-  double density = 1;               ///< unstretched per wound length
+  double density = 1;  ///< unstretched per wound length
 };
 
 /// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
 struct BenchTendon {
-  Hull hull;                        ///< its pulley, in the pulley's frame at home
+  Hull hull;  ///< its pulley, in the pulley's frame at home
   Circle pin;
-  Vec2 axis = Vec2::Zero();         ///< of the pulley
-  double sign = 1;                  ///< of the image's angles
-  double mark = 0;                  ///< direction of the point of the pin's rim between the upper and the lower part
-  double upper = 0;                 ///< unstretched length above the mark, mm
-  double lower = 0;                 ///< below it, up to the pulley
-  double density = 1;               ///< unstretched per wound length, of home
-  double wound = 0;                 ///< arc on the pulley
-  std::ptrdiff_t corner = 0;        ///< at which it begins
-  double bristle = 0;               ///< −1…1: share of the friction in use; > 0 where tendon went down over the pin
+  Vec2 axis = Vec2::Zero();   ///< of the pulley
+  double sign = 1;            ///< of the image's angles
+  double mark = 0;            ///< direction of the point of the pin's rim between the upper and the lower part
+  double upper = 0;           ///< unstretched length above the mark, mm
+  double lower = 0;           ///< below it, up to the pulley
+  double density = 1;         ///< unstretched per wound length, of home
+  double wound = 0;           ///< arc on the pulley
+  std::ptrdiff_t corner = 0;  ///< at which it begins
+  double bristle = 0;         ///< −1…1: share of the friction in use; > 0 where tendon went down over the pin
   double let_go = 0;
-  double upper_tension = 0;         ///< N
+  double upper_tension = 0;  ///< N
   double lower_tension = 0;
-  Vec2 home_push = Vec2::Zero();    ///< force on the pin at home, N
+  Vec2 home_push = Vec2::Zero();  ///< force on the pin at home, N
   Vec2 push = Vec2::Zero();
-  std::vector<LaidTendon> laid;     ///< wound since home
+  std::vector<LaidTendon> laid;  ///< wound since home
 };
 
 class Bench {

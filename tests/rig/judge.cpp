@@ -11,9 +11,12 @@
 namespace fusee::rig {
 namespace {
 
-constexpr std::array k_verdicts = {"explained", "confounded", "unexplained", "no_effect", "not_repeatable", "not_testable"};
+constexpr std::array k_verdicts = {"explained", "confounded",     "unexplained",
+                                   "no_effect", "not_repeatable", "not_testable"};
 
-bool holds(const std::vector<std::string>& group, const std::string& name) { return std::find(group.begin(), group.end(), name) != group.end(); }
+bool holds(const std::vector<std::string>& group, const std::string& name) {
+  return std::find(group.begin(), group.end(), name) != group.end();
+}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -24,7 +27,8 @@ std::string joined(const std::vector<std::string>& words) {
 bool holds_truth(const std::vector<std::string>& group, const std::vector<std::string>& faults) {
   return std::any_of(faults.begin(), faults.end(), [&](const std::string& fault) {
     const std::vector<std::string> kin = kin_of(fault);
-    return holds(group, fault) || std::any_of(kin.begin(), kin.end(), [&](const std::string& name) { return holds(group, name); });
+    return holds(group, fault) ||
+           std::any_of(kin.begin(), kin.end(), [&](const std::string& name) { return holds(group, name); });
   });
 }
 
@@ -34,7 +38,9 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!file.flush()) throw OutputError("cannot write " + path.string(), "is there room, and permission?");
 }
 
-double share(std::size_t part, std::size_t all) { return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all); }
+double share(std::size_t part, std::size_t all) {
+  return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all);
+}
 
 std::string percent(double value) { return fixed(100.0 * value, 1) + " %"; }
 
@@ -58,7 +64,9 @@ void add(Sums& sums, const Judgement& one) {
 std::string row_text(const Sums& sums) {
   const auto count = [](std::size_t value) { return value == 0 ? std::string("·") : std::to_string(value); };
   std::string text = "| " + sums.truth + " | " + std::to_string(sums.joints) + " | ";
-  text += sums.named == 0 ? "– | – | – | " : count(sums.held) + " | " + count(sums.alone) + " | " + count(sums.named - sums.held) + " | ";
+  text += sums.named == 0
+              ? "– | – | – | "
+              : count(sums.held) + " | " + count(sums.alone) + " | " + count(sums.named - sums.held) + " | ";
   text += count(sums.blamed) + " | " + count(sums.wrong_alone);
   for (const std::size_t verdict : sums.verdicts) text += " | " + count(verdict);
   return text + " |\n";
@@ -78,7 +86,10 @@ Judgement judge(const Case& made, const Calibration& found) {
     ++one.named;
     const auto in = [&](const FoundEffect& effect) { return holds(effect.group, fault); };
     one.held += std::any_of(found.effects.begin(), found.effects.end(), in) ? 1 : 0;
-    one.alone += std::any_of(found.effects.begin(), found.effects.end(), [&](const FoundEffect& e) { return in(e) && e.group.size() == 1; }) ? 1 : 0;
+    one.alone += std::any_of(found.effects.begin(), found.effects.end(),
+                             [&](const FoundEffect& e) { return in(e) && e.group.size() == 1; })
+                     ? 1
+                     : 0;
   }
   std::string groups;
   for (const FoundEffect& effect : found.effects) {
@@ -89,7 +100,8 @@ Judgement judge(const Case& made, const Calibration& found) {
   }
   std::string seen;
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);
-  one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) + " x noise): " + found.verdict + groups;
+  one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
+              " x noise): " + found.verdict + groups;
   return one;
 }
 
@@ -112,7 +124,8 @@ Judgement calibrate_case(const Case& made, const std::filesystem::path& folder) 
 }
 
 Rates rates(const std::vector<Judgement>& judgements) {
-  std::size_t named = 0, held = 0, inside = 0, inside_blamed = 0, outside = 0, outside_blamed = 0, alone = 0, said = 0, plain = 0, quiet = 0;
+  std::size_t named = 0, held = 0, inside = 0, inside_blamed = 0, outside = 0, outside_blamed = 0, alone = 0, said = 0,
+              plain = 0, quiet = 0;
   for (const Judgement& one : judgements) {
     named += one.named;
     held += one.held;
@@ -124,7 +137,8 @@ Rates rates(const std::vector<Judgement>& judgements) {
     ++plain;
     quiet += one.verdict == "no_effect" ? 1 : 0;
   }
-  return {share(named - held, named), share(inside_blamed, inside), share(outside_blamed, outside), share(alone, judgements.size()), share(said, outside), share(quiet, plain)};
+  return {share(named - held, named),      share(inside_blamed, inside), share(outside_blamed, outside),
+          share(alone, judgements.size()), share(said, outside),         share(quiet, plain)};
 }
 
 std::string matrix(const std::vector<Judgement>& judgements) {
@@ -142,13 +156,25 @@ std::string matrix(const std::vector<Judgement>& judgements) {
   for (const Sums& row : rows) text += row_text(row);
   const Rates found = rates(judgements);
   text += "\n| rate | |\n|---|--:|\n";
-  text += "| miss: a fault with a name that stands in no reported group, per such fault | " + percent(found.miss) + " |\n";
-  text += "| false blame: a reported group that holds nothing of what is there, per joint whose faults all have names, or that has none | " + percent(found.false_blame) + " |\n";
-  text += "| the same per joint with a fault without a name (its kin among the named do not count) | " + percent(found.false_blame_outside) + " |\n";
+  text +=
+      "| miss: a fault with a name that stands in no reported group, per such fault | " + percent(found.miss) + " |\n";
+  text +=
+      "| false blame: a reported group that holds nothing of what is there, per joint whose faults all have names, or "
+      "that has none | " +
+      percent(found.false_blame) + " |\n";
+  text += "| the same per joint with a fault without a name (its kin among the named do not count) | " +
+          percent(found.false_blame_outside) + " |\n";
   text += "| named alone and not there, per joint | " + percent(found.wrong_alone) + " |\n";
-  text += "| unexplained or not repeatable, per joint with a fault without a name | " + percent(found.unexplained_outside) + " |\n";
+  text += "| unexplained or not repeatable, per joint with a fault without a name | " +
+          percent(found.unexplained_outside) + " |\n";
   text += "| no effect, per joint as declared | " + percent(found.quiet) + " |\n";
-  return text + "\nheld: in a reported group; alone: the group has no other member.\n";
+  text += "\nheld: in a reported group; alone: the group has no other member.\nKin:";
+  for (const std::string& fault : fault_names()) {
+    if (const std::vector<std::string> kin = kin_of(fault); !kin.empty())
+      text += " " + fault + " is like " + joined(kin) + ";";
+  }
+  text.back() = '.';
+  return text + "\n";
 }
 
 }  // namespace fusee::rig

@@ -15,13 +15,13 @@ namespace fusee::rig {
 struct Judgement {
   std::string truth;
   std::string verdict;
-  std::size_t named = 0;       ///< faults that have a name
-  std::size_t held = 0;        ///< of these, in a reported group
-  std::size_t alone = 0;       ///< of these, named alone
-  std::size_t false_groups = 0;   ///< reported groups that hold neither a fault nor its kin
-  std::size_t wrong_alone = 0;    ///< of these, with a single member
-  bool outside = false;        ///< a fault without a name is there
-  std::string words;           ///< one line for a person
+  std::size_t named = 0;         ///< faults that have a name
+  std::size_t held = 0;          ///< of these, in a reported group
+  std::size_t alone = 0;         ///< of these, named alone
+  std::size_t false_groups = 0;  ///< reported groups that hold neither a fault nor its kin
+  std::size_t wrong_alone = 0;   ///< of these, with a single member
+  bool outside = false;          ///< a fault without a name is there
+  std::string words;             ///< one line for a person
 };
 
 Judgement judge(const Case& made, const Calibration& found);
@@ -35,12 +35,13 @@ Judgement calibrate_case(const Case& made, const std::filesystem::path& folder);
 std::string matrix(const std::vector<Judgement>& judgements);
 
 struct Rates {
-  double miss = 0;         ///< share of named faults that stand in no reported group
-  double false_blame = 0;  ///< share of joints with a false group, all faults named or nothing there
+  double miss = 0;                 ///< share of named faults that stand in no reported group
+  double false_blame = 0;          ///< share of joints with a false group, all faults named or nothing there
   double false_blame_outside = 0;  ///< the same of joints with a fault without a name
-  double wrong_alone = 0;  ///< share of all joints in which something was named alone that is not there
-  double unexplained_outside = 0;  ///< share of joints with a fault without a name that were called unexplained or not_repeatable
-  double quiet = 0;        ///< share of joints as declared that were called no_effect
+  double wrong_alone = 0;          ///< share of all joints in which something was named alone that is not there
+  double unexplained_outside =
+      0;             ///< share of joints with a fault without a name that were called unexplained or not_repeatable
+  double quiet = 0;  ///< share of joints as declared that were called no_effect
 };
 Rates rates(const std::vector<Judgement>& judgements);
 

@@ -33,7 +33,8 @@ Case with(const std::vector<std::string>& faults) {
 }
 
 TEST(Judge, counts_what_was_found_and_what_was_not) {
-  const Judgement one = judge(with({"tendon_stretch", "backlash"}), answer("confounded", {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
+  const Judgement one =
+      judge(with({"tendon_stretch", "backlash"}), answer("confounded", {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
   EXPECT_EQ(one.named, 2u);
   EXPECT_EQ(one.held, 1u);
   EXPECT_EQ(one.alone, 0u);
@@ -70,10 +71,27 @@ TEST(Judge, rates_are_shares_of_what_they_say) {
 
 TEST(Truths, name_every_effect_of_the_contract_and_some_that_nobody_named) {
   const std::vector<std::string> names = fault_names();
-  for (const char* name :
-       {"zero_offset",  "motor_offset", "joint_sensor_gain", "joint_sensor_eccentricity", "motor_sensor_eccentricity", "sensor_lag",  "radius_offset",
-        "pulley_scale", "pulley_runout", "guide_radius",     "guide_position",            "joint_length",              "tendon_stretch", "capstan_friction",
-        "backlash",     "slack",         "creep",            "tendon_slip",               "thermal_expansion",         "gravity",     "profile_error"}) {
+  for (const char* name : {"zero_offset",
+                           "motor_offset",
+                           "joint_sensor_gain",
+                           "joint_sensor_eccentricity",
+                           "motor_sensor_eccentricity",
+                           "sensor_lag",
+                           "radius_offset",
+                           "pulley_scale",
+                           "pulley_runout",
+                           "guide_radius",
+                           "guide_position",
+                           "joint_length",
+                           "tendon_stretch",
+                           "capstan_friction",
+                           "backlash",
+                           "slack",
+                           "creep",
+                           "tendon_slip",
+                           "thermal_expansion",
+                           "gravity",
+                           "profile_error"}) {
     EXPECT_THAT(names, Contains(name));
     EXPECT_TRUE(has_name(name));
   }
@@ -82,7 +100,8 @@ TEST(Truths, name_every_effect_of_the_contract_and_some_that_nobody_named) {
 }
 
 TEST(Truths, each_fault_is_well_seen_and_none_in_a_joint_as_declared) {
-  for (const char* name : {"nothing", "backlash", "slack", "sensor_lag", "tendon_slip", "hardening_tendon", "bedding_in"}) {
+  for (const char* name :
+       {"nothing", "backlash", "slack", "sensor_lag", "tendon_slip", "hardening_tendon", "bedding_in"}) {
     const std::vector<Truth> all = all_truths();
     const Truth truth = *std::find_if(all.begin(), all.end(), [&](const Truth& one) { return one.name == name; });
     const Case made = make_case(truth, 1, Protocol::full);

@@ -12,12 +12,12 @@
 namespace fusee::rig {
 namespace {
 
-constexpr int k_approach = 40;        // steps from home to the start of the sweep
-constexpr int k_loading = 8;          // steps in which the load comes on
-constexpr int k_lag_steps = 4;        // between rows, where a late sensor shows what was there between them
+constexpr int k_approach = 40;  // steps from home to the start of the sweep
+constexpr int k_loading = 8;    // steps in which the load comes on
+constexpr int k_lag_steps = 4;  // between rows, where a late sensor shows what was there between them
 constexpr int k_dwell_rows = 10;
-constexpr double k_warm = 31.0;       // °C, when the session begins
-constexpr double k_cooling = 11.0;    // K, in the end
+constexpr double k_warm = 31.0;           // °C, when the session begins
+constexpr double k_cooling = 11.0;        // K, in the end
 constexpr double k_cooling_time = 150.0;  // s
 
 double temperature_at(double time) { return k_warm - k_cooling * (1.0 - std::exp(-time / k_cooling_time)); }
@@ -57,7 +57,8 @@ Way planned_way(const RunPlan& plan, const MotionPlan& motion, double low, doubl
 /// From the motor's sensor to the pulley, with the play's memory.
 class Drive {
  public:
-  Drive(const Hidden& hidden, double stroke) : hidden_(hidden), seat_(0.5 * stroke), shaft_(shaft(0.0)), pulley_(shaft_) {}
+  Drive(const Hidden& hidden, double stroke)
+      : hidden_(hidden), seat_(0.5 * stroke), shaft_(shaft(0.0)), pulley_(shaft_) {}
 
   double to(double alpha) {
     const double now = shaft(alpha);
@@ -71,7 +72,8 @@ class Drive {
 
  private:
   double shaft(double alpha) const {
-    const double eccentric = hidden_.motor_eccentricity * (std::sin(alpha + hidden_.motor_eccentricity_phase) - std::sin(hidden_.motor_eccentricity_phase));
+    const double eccentric = hidden_.motor_eccentricity * (std::sin(alpha + hidden_.motor_eccentricity_phase) -
+                                                           std::sin(hidden_.motor_eccentricity_phase));
     return alpha + hidden_.motor_offset + eccentric + hidden_.cogging * std::sin(hidden_.cogging_per_turn * alpha);
   }
 
@@ -105,7 +107,8 @@ struct Session {
   double zero_walk = 0;
 };
 
-Track follow(const MadeJoint& joint, const Hidden& hidden, const RunPlan& plan, const Way& way, std::size_t run, Session& session) {
+Track follow(const MadeJoint& joint, const Hidden& hidden, const RunPlan& plan, const Way& way, std::size_t run,
+             Session& session) {
   Bench bench(joint, hidden);
   Drive drive(hidden, *std::max_element(way.alpha.begin(), way.alpha.end()) - way.alpha.front());
   Conditions at;
@@ -144,7 +147,8 @@ Track follow(const MadeJoint& joint, const Hidden& hidden, const RunPlan& plan, 
 /// The joint's sensor, but for noise.
 double shown(double theta, const Hidden& hidden) {
   const double phase = hidden.joint_eccentricity_phase;
-  return hidden.zero + (1.0 + hidden.gain) * theta + hidden.joint_eccentricity * (std::sin(theta + phase) - std::sin(phase)) +
+  return hidden.zero + (1.0 + hidden.gain) * theta +
+         hidden.joint_eccentricity * (std::sin(theta + phase) - std::sin(phase)) +
          hidden.interpolation * std::sin(hidden.interpolation_per_turn * theta);
 }
 
@@ -166,7 +170,8 @@ class Noise {
   bool first_ = true;
 };
 
-Log sensed(const Track& track, const Way& way, const RunPlan& plan, const Hidden& hidden, const SensorPlan& sensors, std::size_t run, Session& session) {
+Log sensed(const Track& track, const Way& way, const RunPlan& plan, const Hidden& hidden, const SensorPlan& sensors,
+           std::size_t run, Session& session) {
   Noise noise(sensors, run);
   Random walk(sensors.seed * 7919 + 31 * run + 1);
   Log log;
@@ -192,7 +197,8 @@ MadeJoint make_joint(const Mechanism& declared) {
   return {declared, made.p1, made.p2, made.stroke.front().alpha, made.stroke.back().alpha};
 }
 
-std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs, const SensorPlan& sensors, const MotionPlan& motion) {
+std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
+                          const SensorPlan& sensors, const MotionPlan& motion) {
   Session session;
   std::vector<Log> logs;
   for (std::size_t run = 0; run < runs.size(); ++run) {
@@ -207,15 +213,21 @@ std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const st
 std::vector<RunPlan> full_protocol(double load) {
   constexpr double fast = radians(90.0);
   constexpr double slow = radians(12.0);
-  return {{0.0, slow, 3, 0.0}, {load, slow, 3, 0.0}, {0.0, fast, 4, 0.0}, {0.5 * load, slow, 2, 0.0}, {-load, slow, 2, 0.0}};
+  return {{0.0, slow, 3, 0.0},
+          {load, slow, 3, 0.0},
+          {0.0, fast, 4, 0.0},
+          {0.5 * load, slow, 2, 0.0},
+          {-load, slow, 2, 0.0}};
 }
 
 std::vector<RunPlan> single_protocol() { return {{0.0, radians(12.0), 2, 0.0}}; }
 
 std::string csv_text(const Log& log, bool temperature) {
-  std::string text = temperature ? "time_s,alpha_deg,theta_deg,load_N,temperature_C\n" : "time_s,alpha_deg,theta_deg,load_N\n";
+  std::string text =
+      temperature ? "time_s,alpha_deg,theta_deg,load_N,temperature_C\n" : "time_s,alpha_deg,theta_deg,load_N\n";
   for (const Row& row : log) {
-    text += fixed(row.time, 4) + "," + fixed(degrees(row.alpha), 4) + "," + fixed(degrees(row.theta), 5) + "," + shortest(row.load);
+    text += fixed(row.time, 4) + "," + fixed(degrees(row.alpha), 4) + "," + fixed(degrees(row.theta), 5) + "," +
+            shortest(row.load);
     if (temperature) text += "," + fixed(row.temperature, 2);
     text += "\n";
   }

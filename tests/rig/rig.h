@@ -1,10 +1,11 @@
 /// \file
 /// A joint on a bench whose faults are known: what calibration is judged by.
 ///
-/// It shares no equation with the fit. Strings are wound on the polygon of the pulley that was made (string_geometry.h); tendons are
-/// elastic between C, pin and pulley (bench.h); a tendon slips over its pin against a bristle that gives way (Dahl 1968), not by stick
-/// and slip; the joint stands where the torques balance, found by bracketing. Only the declared numbers and the outlines come from fusee.
-/// rad, mm, N, s unless the name says otherwise.
+/// It shares no equation with the fit. Strings are wound on the polygon of the pulley that was made
+/// (string_geometry.h); tendons are elastic between C, pin and pulley (bench.h); a tendon slips over its pin against a
+/// bristle that gives way (Dahl 1968), not by stick and slip; the joint stands where the torques balance, found by
+/// bracketing. Only the declared numbers and the outlines come from fusee. rad, mm, N, s unless the name says
+/// otherwise.
 #pragma once
 
 #include <cstddef>
@@ -23,95 +24,95 @@ struct Hidden {
   double motor_offset = 0;
   double motor_eccentricity = 0;
   double motor_eccentricity_phase = 0;
-  double backlash = 0;            ///< full width, of α
+  double backlash = 0;  ///< full width, of α
 
   // Pulleys.
-  double radius_offset = 0;       ///< both outlines further out, mm
-  double pulley_scale = 0;        ///< both outlines larger by this fraction
-  double runout_x = 0;            ///< outlines off the axis, at home, mm
+  double radius_offset = 0;  ///< both outlines further out, mm
+  double pulley_scale = 0;   ///< both outlines larger by this fraction
+  double runout_x = 0;       ///< outlines off the axis, at home, mm
   double runout_y = 0;
-  double profile_error = 0;       ///< amplitude of a wave on both outlines, mm
-  int profile_harmonic = 2;       ///< waves a turn
+  double profile_error = 0;  ///< amplitude of a wave on both outlines, mm
+  int profile_harmonic = 2;  ///< waves a turn
   double profile_phase = 0;
 
   // Tendons.
-  double modulus = 0;             ///< the true one, MPa; 0: as declared
+  double modulus = 0;                 ///< the true one, MPa; 0: as declared
   bool keeps_winding_strain = false;  ///< tendon on the pulley keeps the strain it was wound at; else that of home
-  double slack = 0;               ///< material too much, of both together; they hang loose at home, mm
-  double creep = 0;               ///< the elastic strain grows by this share with every decade of time in a run
-  double slip = 0;                ///< material let go at one anchor, mm
-  std::size_t slip_side = 1;      ///< 0: tendon 1, 1: tendon 2
-  std::size_t slip_run = 0;       ///< the run in which it happens
-  double slip_at = 0.5;           ///< share of that run
-  double expansion = 0;           ///< strain per K
-  double expansion_other = 0.3;   ///< tendon 1 stands in the draught: it follows by this share
+  double slack = 0;                   ///< material too much, of both together; they hang loose at home, mm
+  double creep = 0;                   ///< the elastic strain grows by this share with every decade of time in a run
+  double slip = 0;                    ///< material let go at one anchor, mm
+  std::size_t slip_side = 1;          ///< 0: tendon 1, 1: tendon 2
+  std::size_t slip_run = 0;           ///< the run in which it happens
+  double slip_at = 0.5;               ///< share of that run
+  double expansion = 0;               ///< strain per K
+  double expansion_other = 0.3;       ///< tendon 1 stands in the draught: it follows by this share
 
   // Pins.
-  double friction = 0;            ///< added to μ
-  double guide_radius = 0;        ///< added to the pins' radius, mm
-  double guide_outward = 0;       ///< both pins, mm
-  double guide_down = 0;          ///< both pins, mm
+  double friction = 0;       ///< added to μ
+  double guide_radius = 0;   ///< added to the pins' radius, mm
+  double guide_outward = 0;  ///< both pins, mm
+  double guide_down = 0;     ///< both pins, mm
 
   // Joint.
-  double joint_length = 0;        ///< added to OC, mm
-  double gravity = 0;             ///< weight times lever, N·mm
-  double gravity_direction = 0;   ///< of the pull; 0: from C to O at home, π/2: towards −θ
+  double joint_length = 0;       ///< added to OC, mm
+  double gravity = 0;            ///< weight times lever, N·mm
+  double gravity_direction = 0;  ///< of the pull; 0: from C to O at home, π/2: towards −θ
 
   // Joint sensor.
   double zero = 0;
   double gain = 0;
   double joint_eccentricity = 0;
   double joint_eccentricity_phase = 0;
-  double lag = 0;                 ///< s
+  double lag = 0;  ///< s
 
   // What no catalogue holds.
-  double lump = 0;                ///< both pulleys wrong at one place: tendon 2 wound, tendon 1 let out by this much more, mm
-  double lump_at = 0;             ///< α
-  double lump_width = 0;          ///< standard deviation, of α
-  double hardening = 0;           ///< T = EA ε (1 + ε/hardening), with EA such that the declared tension's tangent stays; 0: none
-  double bearing = 0;             ///< dry friction of the joint's bearing once it moves, N·mm
-  double bearing_stick = 0;       ///< more than that from rest, N·mm
-  double bearing_speed = 0.05;    ///< joint speed over which this more fades (Stribeck), rad/s
-  double cogging = 0;             ///< amplitude, of α
+  double lump = 0;        ///< both pulleys wrong at one place: tendon 2 wound, tendon 1 let out by this much more, mm
+  double lump_at = 0;     ///< α
+  double lump_width = 0;  ///< standard deviation, of α
+  double hardening = 0;   ///< strain h of T = E' ε (1 + ε/h), as stiff as declared at the pretension; 0: none
+  double bearing = 0;     ///< dry friction of the joint's bearing once it moves, N·mm
+  double bearing_stick = 0;     ///< more than that from rest, N·mm
+  double bearing_speed = 0.05;  ///< joint speed over which this more fades (Stribeck), rad/s
+  double cogging = 0;           ///< amplitude, of α
   int cogging_per_turn = 30;
-  double frame_give = 0;          ///< pins move by this along the tendon's force on them, mm/N
-  double interpolation = 0;       ///< amplitude, of θ
+  double frame_give = 0;     ///< pins move by this along the tendon's force on them, mm/N
+  double interpolation = 0;  ///< amplitude, of θ
   int interpolation_per_turn = 8;
-  double zero_walk = 0;           ///< step of the joint sensor's zero at every reversal, standard deviation
-  double bedding = 0;             ///< pulley still off its seat at the start of every run, of α
+  double zero_walk = 0;  ///< step of the joint sensor's zero at every reversal, standard deviation
+  double bedding = 0;    ///< pulley still off its seat at the start of every run, of α
 
   bool operator==(const Hidden&) const = default;
 };
 
 /// One run: there and back `cycles` times.
 struct RunPlan {
-  double load = 0;                ///< tip force across OC, against +θ, N
-  double speed = radians(12.0);   ///< of α, rad/s
+  double load = 0;               ///< tip force across OC, against +θ, N
+  double speed = radians(12.0);  ///< of α, rad/s
   int cycles = 3;
-  double dwell = 0;               ///< s at every reversal
+  double dwell = 0;  ///< s at every reversal
 };
 
 struct SensorPlan {
-  double noise = radians(0.02);   ///< standard deviation
-  double colour = 0;              ///< lag-1 autocorrelation of the noise
-  double quantum = 0;             ///< smallest step; 0: none
-  bool temperature = false;       ///< a column of it
+  double noise = radians(0.02);  ///< standard deviation
+  double colour = 0;             ///< lag-1 autocorrelation of the noise
+  double quantum = 0;            ///< smallest step; 0: none
+  bool temperature = false;      ///< a column of it
   std::uint64_t seed = 1;
 };
 
 /// How the motor is moved.
 struct MotionPlan {
   int rows_per_stroke = 80;
-  double reach = 0.93;            ///< share of the declared range of α that is swept
-  double pause = 5.0;             ///< s between runs
+  double reach = 0.93;  ///< share of the declared range of α that is swept
+  double pause = 5.0;   ///< s between runs
 };
 
 struct Row {
   double time = 0;
-  double alpha = 0;               ///< as the motor's sensor shows it
-  double theta = 0;               ///< as the joint's sensor shows it
+  double alpha = 0;  ///< as the motor's sensor shows it
+  double theta = 0;  ///< as the joint's sensor shows it
   double load = 0;
-  double temperature = 0;         ///< °C
+  double temperature = 0;  ///< °C
 };
 using Log = std::vector<Row>;
 
@@ -119,15 +120,16 @@ using Log = std::vector<Row>;
 struct MadeJoint {
   Mechanism declared;
   Outline p1, p2;
-  double alpha_min = 0;           ///< of the declared range
+  double alpha_min = 0;  ///< of the declared range
   double alpha_max = 0;
 };
 /// InputError when there is no pulley for it.
 MadeJoint make_joint(const Mechanism& declared);
 
-/// The runs one after another on one clock. Each begins unloaded at home, goes to the start of the sweep, is loaded there, and is logged.
-std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs, const SensorPlan& sensors = {},
-                          const MotionPlan& motion = {});
+/// The runs one after another on one clock. Each begins unloaded at home, goes to the start of the sweep, is loaded
+/// there, and is logged.
+std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
+                          const SensorPlan& sensors = {}, const MotionPlan& motion = {});
 
 /// Load 0 slow, `load` slow, 0 fast, half slow, reversed slow.
 std::vector<RunPlan> full_protocol(double load);

@@ -53,9 +53,12 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
     const Vec2& corner = hull.corners[wrapped(string.corner, count)];
     const Vec2 span = corner - pin.centre;
     string.length = std::sqrt(span.squaredNorm() - pin.radius * pin.radius);
+    if (!(string.length > 0)) break;
     const Vec2 along = leaving_circle(span, pin.radius, string.length);
     string.normal = turned_left(along);
-    const auto beyond = [&](std::ptrdiff_t other) { return string.normal.dot(hull.corners[wrapped(other, count)] - corner); };
+    const auto beyond = [&](std::ptrdiff_t other) {
+      return string.normal.dot(hull.corners[wrapped(other, count)] - corner);
+    };
     if (beyond(string.corner + 1) > 0) {
       ++string.corner;
     } else if (beyond(string.corner - 1) > 0) {
@@ -66,7 +69,8 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
       return string;
     }
   }
-  throw Bug("no string touches a pin at (" + rounded(pin.centre.x()) + ", " + rounded(pin.centre.y()) + ") mm and the pulley");
+  throw InputError("rig", "no string runs from a pin at (" + rounded(pin.centre.x()) + ", " + rounded(pin.centre.y()) +
+                              ") mm from the axis to the pulley");
 }
 
 std::ptrdiff_t first_look(const Hull& hull, const Circle& pin) {

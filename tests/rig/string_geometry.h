@@ -1,6 +1,6 @@
 /// \file
-/// A taut string between a point, a round pin and a convex polygon, by tangents alone. Right-hand image: the string runs down on the
-/// right of pin and pulley. mm, rad.
+/// A taut string between a point, a round pin and a convex polygon, by tangents alone. Right-hand image: the string
+/// runs down on the right of pin and pulley. mm, rad.
 ///
 /// Nothing here knows the transmission's equations: no support functions, no moment-arm formulas.
 #pragma once
@@ -44,7 +44,7 @@ struct LowerString {
   double arc = 0;             ///< along the polygon to that corner, counted on through turns
   double arm = 0;             ///< about the origin
 };
-/// `near`: where to begin looking. The pin must lie outside the polygon.
+/// `near`: where to begin looking. InputError when the pulley swallows the pin.
 LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t near);
 
 /// A corner near the one that the string meets, found without knowing anything.

@@ -21,7 +21,8 @@ struct Truth {
 std::vector<std::string> fault_names();
 /// Whether calibration has a name for it.
 bool has_name(const std::string& fault);
-/// Named effects that do nearly the same as a fault without a name: to report one of them is not held to be false blame.
+/// Named effects that do nearly the same as a fault without a name: to report one of them is not held to be false
+/// blame.
 std::vector<std::string> kin_of(const std::string& fault);
 
 /// Nothing at all (three kinds of noise), every fault alone, and pairs.
@@ -42,8 +43,8 @@ struct Case {
   std::vector<Log> logs;
 };
 
-/// Joint, size and character by the seed; a joint on which the fault cannot be made visible is drawn again. The truth stays the same
-/// joint whatever other truths there are.
+/// Joint, size, character and kind of sensor by the seed; a joint on which the fault cannot be made visible is drawn
+/// again. The truth stays the same joint whatever other truths there are.
 Case make_case(const Truth& truth, std::uint64_t seed, Protocol protocol);
 
 /// A joint of which a pulley can be made: 40 … 160 mm.

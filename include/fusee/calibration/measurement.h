@@ -16,6 +16,8 @@
 
 namespace fusee {
 
+/// Separators: comma, semicolon, tab or blanks, whichever the header has. Lines end with LF, CR LF or CR. Angles are in
+/// degrees and time in s, unless the column's name ends in _rad, _ms or _us.
 struct MeasurementOptions {
   std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
 };
@@ -37,45 +39,50 @@ struct Stroke {
   std::size_t last = 0;   ///< included
   int direction = 0;      ///< +1: α grows, −1: α falls
   int cycle = 0;
-  bool partial = false;   ///< the first stroke of a run that did not begin at a reversal: its play state is unknown
+  bool partial = false;  ///< the first stroke of a run that did not begin at a reversal: its play state is unknown
 };
 
 struct Run {
   std::string name;             ///< file name without its folder
   std::vector<Sample> samples;  ///< by time
   std::vector<Stroke> strokes;
-  double speed = 0;             ///< median |dα/dt|, rad/s; 0 without time
-  double mean_load = 0;         ///< mean of the load column; 0 without
+  double speed = 0;      ///< median |dα/dt|, rad/s; 0 without time
+  double mean_load = 0;  ///< mean of the load column; 0 without
   bool has_time = false, has_load = false, has_temperature = false;
 };
 
 struct Measurement {
   std::vector<Run> runs;
-  double alpha_quantum = 0;  ///< smallest step seen, rad
+  double alpha_quantum = 0;  ///< step of the sensor, rad; 0 when it is finer than can be told
   double theta_quantum = 0;
-  std::string load_unit;     ///< of the load column, from its name: "N", "Nm", "Nmm"; "" without one
-  std::vector<std::string> notes;        ///< what was dropped, repaired or suspected, with file and line
-  std::vector<std::string> not_testable; ///< reasons why nothing can be concluded; empty when it can
+  std::string load_unit;                  ///< of the load column, from its name: "N", "Nm", "Nmm"; "" without one
+  std::vector<std::string> notes;         ///< what was dropped, repaired or suspected, with file and line
+  std::vector<std::string> not_testable;  ///< reasons why nothing can be concluded; empty when it can
 };
 
-/// Reads and checks all files. InputError (file, line, what to change) for what cannot be read; `not_testable` for what can be read but not used.
+/// Reads and checks all files. InputError (file, line, what to change) for what cannot be read and for a run given
+/// twice; `not_testable` for what can be read but not used. Files of any length: of all together a million rows are
+/// kept, evenly, and a note says so.
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {});
 
 /// One run from text; `name` stands in the messages. InputError. Notes and reasons go to `into`.
 Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into);
 
-/// The roles that a column can have, and the column that has each unless the options say otherwise: {"alpha", "alpha_deg"} …
+/// The roles that a column can have, and the column that has each unless the options say otherwise: {"alpha",
+/// "alpha_deg"} …
 const std::vector<std::pair<std::string, std::string>>& column_roles();
 
-/// Data that cannot be of the declared joint, said and not fitted: α and θ exchanged, opposite sign, radians given as degrees.
-/// Adds the reasons to `not_testable`.
+/// Takes back whole turns at which an encoder began (with a note). Data that cannot be of the declared joint are said
+/// and not fitted: α and θ exchanged, opposite sign, radians given as degrees, a zero that was not set, a motion lost
+/// in noise. Adds the reasons to `not_testable`.
 void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 
-/// Scatter of θ between repeats at the same α, direction, load and speed, before any fit.
+/// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or
+/// where there are none, of runs that repeat one another. Single wild rows do not count.
 struct NoiseFloor {
-  double rms = 0;               ///< rad, the quantum included in quadrature
-  double degrees_of_freedom = 0;
-  bool from_repeats = false;    ///< false: no repeats; taken from differences of neighbours, a lower bound
+  double rms = 0;                 ///< rad; never below the error of the sensors' own steps, quantum/√12
+  double degrees_of_freedom = 0;  ///< of rms², colour and shared strokes allowed for
+  bool from_repeats = false;      ///< false: no repeats; taken from differences of neighbours, a lower bound
 };
 NoiseFloor noise_floor(const Measurement& measurement);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fusee/base/files.h"
@@ -23,5 +24,18 @@ std::string calibration_json(const CalibrationProduct& product);
 std::string calibration_report_html(const CalibrationProduct& product);
 /// Names the files beside it, so that the next run knows them as ours.
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs);
+
+// ---- in words, for the page and for a terminal alike ----
+
+/// "EA = 4515 N (95 %: 4479 … 4551)": the unit is taken from the end of the name; `load_unit` is that of the load column.
+std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit);
+/// The group without the effect itself.
+std::vector<std::string> rivals_of(const FoundEffect& effect);
+/// Whether P1 stays round, and by how much it would miss its law.
+std::string round_words(const Correction& correction);
+/// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands together. Smallest first.
+std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration);
+/// Of notes that say the same of many files, two and how many more.
+std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 
 }  // namespace fusee

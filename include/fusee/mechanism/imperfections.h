@@ -31,7 +31,8 @@ struct Imperfections {
   double creep = 0;                   ///< compliance added in every decade of time since a run began, as a fraction
   double slip = 0;                    ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
   double slip_time = 0;               ///< s, on the bench's clock: runs one after another
-  double thermal = 0;                 ///< unloaded length added per kelvin, as a fraction
+  double thermal1 = 0;                ///< unloaded length of tendon 1 added per kelvin, as a fraction
+  double thermal2 = 0;                ///< of tendon 2: one may lie nearer to what is warm
 
   // Pins.
   double friction = 0;                ///< added to the capstan coefficient

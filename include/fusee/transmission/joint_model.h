@@ -61,6 +61,7 @@ struct JointModel {
   WoundTendon wound = WoundTendon::keeps_strain;
   double weight = 0;      ///< mass · g · lever, N·mm
   double tilt = 0;        ///< θ at which the link points straight up, rad
+  double last_step = 1e-13;  ///< of the search for the equilibrium: how exactly θ is found, rad
   double theta_least = 0; ///< between here and theta_most both tendons have a moment arm about O, rad
   double theta_most = 0;
   std::shared_ptr<const UpperSpans> upper;  ///< of these pins between these angles

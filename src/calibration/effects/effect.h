@@ -34,6 +34,7 @@ struct Effect {
   std::string separating_run;  ///< the measurement that tells it from its rivals
   std::vector<EffectParameter> parameters;
   std::vector<std::vector<double>> starts;  ///< of the fit, beside zero; one value a parameter
+  bool starts_in_time = false;              ///< and {0, time} wherever the residual steps
   /// Whether the joint has what it needs and the data can show it at all.
   bool (*applies)(const Mechanism& declared, const Measurement& measurement) = nullptr;
 };

@@ -1,9 +1,8 @@
 #include "calibration/effects/effect.h"
-#include "calibration/forward.h"
 
 namespace fusee {
 
-Effect tendon_slip(const Mechanism& declared, const Measurement& measurement) {
+Effect tendon_slip(const Mechanism& declared, const Measurement&) {
   Effect effect;
   effect.name = "tendon_slip";
   effect.place = "tendon";
@@ -14,15 +13,7 @@ Effect tendon_slip(const Mechanism& declared, const Measurement& measurement) {
   effect.parameters = {{"released_mm", &Imperfections::slip, -20, 20, 1e-2, shown::as_is},
                       {"time_s", &Imperfections::slip_time, -1e12, 1e12, 1, shown::as_is, true}};
   if (declared.transmission) effect.parameters.front() = {"step_deg", &Imperfections::step, -0.5, 0.5, 1e-3, shown::in_degrees};
-  // Wherever a stroke begins and in its middle: where a tendon slips, it does so under load and on the move.
-  const std::vector<double> clock = bench_clock(measurement);
-  for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
-    const Run& run = measurement.runs[i];
-    for (const Stroke& stroke : run.strokes) {
-      effect.starts.push_back({0, clock[i] + run.samples[stroke.first].time});
-      effect.starts.push_back({0, clock[i] + run.samples[(stroke.first + stroke.last) / 2].time});
-    }
-  }
+  effect.starts_in_time = true;
   effect.applies = applies::with_time;
   return effect;
 }

@@ -1,0 +1,27 @@
+/// \file
+/// Pictures of a calibration: residuals before and after, always on the same axis.
+#pragma once
+
+#include <string>
+
+#include "fusee/export/calibration.h"
+
+namespace fusee {
+
+/// All runs at a glance: a row for each run and direction, a column for each place of α, the mean residual as colour.
+std::string residual_map_html(const CalibrationProduct& product);
+/// Residuals of each run over α, before beside after.
+std::string residual_runs_html(const CalibrationProduct& product);
+/// Mean residual of each run and direction over load and over speed, where these vary.
+std::string residual_levels_html(const CalibrationProduct& product);
+/// What is left over α, all runs together, on an axis of its own with the noise floor.
+std::string rest_html(const CalibrationProduct& product);
+/// Where the motor must stand, against where the declared law puts it.
+std::string compensation_html(const CalibrationProduct& product);
+/// θ over α as it was logged: for data that cannot be judged.
+std::string logged_html(const Measurement& measurement);
+
+/// "run_2.csv, 6 N, 12 °/s"
+std::string run_words(const Run& run, const std::string& load_unit);
+
+}  // namespace fusee

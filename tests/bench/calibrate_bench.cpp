@@ -1,0 +1,129 @@
+// How long a calibration takes: five runs of 500 rows against the whole catalogue, and how it grows with the number of rows.
+//
+// Peers: calibrate_peers.py FUSEE
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
+
+#include "fusee/base/text.h"
+#include "fusee/calibration/correction.h"
+#include "fusee/mechanism/file.h"
+#include "fusee/transmission/transmission.h"
+
+namespace {
+
+using namespace fusee;
+
+const Mechanism& forearm() {
+  static const Mechanism mechanism = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml").mechanism;
+  return mechanism;
+}
+
+/// The sum of twelve: near enough to a normal deviate, and the same on every machine.
+class Noise {
+ public:
+  double operator()() {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) {
+      state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+      sum += static_cast<double>(state_ >> 11) / 9007199254740992.0;
+    }
+    return sum;
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
+struct Plan {
+  double load = 0;         ///< N
+  double seconds = 75;     ///< the whole run
+};
+constexpr Plan k_runs[] = {{0, 75}, {20, 75}, {0, 15}, {10, 75}, {-20, 75}};
+constexpr int k_strokes = 5;  // reversals fall on rows
+constexpr int k_model_rows = 4000;
+
+/// α of a motor that goes to and fro, at a share of the run.
+double alpha_at(double share) {
+  static const Transmission law(forearm());
+  const double stroke = share * k_strokes;
+  const double there = stroke - 2 * std::floor(0.5 * stroke);
+  return 0.9 * (law.alpha_min() + (law.alpha_max() - law.alpha_min()) * (there <= 1 ? there : 2 - there));
+}
+
+/// θ over such runs with a tendon of 12000 instead of 40000 MPa and a play of 1.2°, without noise: at so many rows, whatever is logged in the end.
+const std::vector<std::vector<double>>& true_angles() {
+  static const std::vector<std::vector<double>> angles = [] {
+    Measurement measurement;
+    for (const Plan& plan : k_runs) {
+      Run run;
+      run.has_time = run.has_load = true;
+      for (int i = 0; i <= k_model_rows; ++i) {
+        const double share = static_cast<double>(i) / k_model_rows;
+        run.samples.push_back({share * plan.seconds, alpha_at(share), 0, plan.load, 0, 0, 0});
+      }
+      measurement.runs.push_back(run);
+    }
+    Imperfections hidden;
+    hidden.stretch = 40000.0 / 12000.0 - 1;
+    hidden.backlash = radians(1.2);
+    return predict(forearm(), hidden, measurement);
+  }();
+  return angles;
+}
+
+std::string run_text(std::size_t run, std::int64_t rows, Noise& noise) {
+  const std::vector<double>& truth = true_angles()[run];
+  std::string text = "time_s,alpha_deg,theta_deg,load_N\n";
+  for (std::int64_t i = 0; i < rows; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(rows);
+    const auto before = static_cast<std::size_t>(share * k_model_rows);
+    const double between = share * k_model_rows - static_cast<double>(before);
+    const double theta = truth[before] + between * (truth[before + 1] - truth[before]) + radians(0.02) * noise();
+    text += fixed(share * k_runs[run].seconds, 5) + "," + fixed(degrees(alpha_at(share)), 4) + "," + fixed(degrees(theta), 5) + "," + fixed(k_runs[run].load, 1) + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> texts(std::int64_t rows) {
+  Noise noise;
+  std::vector<std::string> all;
+  for (std::size_t run = 0; run < std::size(k_runs); ++run) all.push_back(run_text(run, rows / static_cast<std::int64_t>(std::size(k_runs)), noise));
+  return all;
+}
+
+Measurement measured(const std::vector<std::string>& runs) {
+  Measurement measurement;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Run run = parse_run(runs[i], "run_" + std::to_string(i + 1), {}, measurement);
+    measurement.runs.push_back(std::move(run));
+  }
+  return measurement;
+}
+
+/// `rows` in five runs, and the correction: all that `fusee calibrate` does but files.
+void calibrate_rows(benchmark::State& state) {
+  const Measurement measurement = measured(texts(state.range(0)));
+  std::string verdict;
+  for (auto _ : state) {
+    const Calibration calibration = calibrate(forearm(), measurement);
+    benchmark::DoNotOptimize(correct(forearm(), measurement, calibration));
+    verdict = calibration.verdict;
+    for (const FoundEffect& effect : calibration.effects) verdict += " " + effect.name;
+  }
+  state.SetLabel(verdict);
+}
+BENCHMARK(calibrate_rows)->Name("calibrate, five runs of 500 rows")->Arg(2500)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+BENCHMARK(calibrate_rows)->Name("calibrate, rows")->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+
+void read_rows(benchmark::State& state) {
+  const std::vector<std::string> runs = texts(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(measured(runs));
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(read_rows)->Name("read, rows")->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Complexity(benchmark::oN);
+
+}  // namespace

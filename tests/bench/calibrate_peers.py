@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""`fusee calibrate` and scipy.optimize.least_squares on the same runs, in the same run of this script.
+
+    calibrate_peers.py FUSEE
+
+Needs numpy and scipy. What is compared: the runs are of a joint whose sensor shows too much and whose motor has play. scipy is told which effects to fit (gain, play,
+and the joint sensor's zero) and fits them once, to all rows, over a forward model written anew here in numpy: exact kinematics over pins of their radius and a play operator,
+no elasticity, no history but the play's. fusee is told nothing: it reads the files, finds the noise floor, tries every effect of its catalogue and pairs of them through an elastic
+model with friction, each with runs left out, looks for rivals, and writes the correction and a report. So the ratio is that of a whole calibration to one fit of three numbers of a known
+model; divided by the number of candidates it says what one of them costs. Both must end at the same rest, or the script fails.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+from scipy.optimize import least_squares
+
+R, EB, OE, EF, PIN, R1, TENDON = 40.0, 18.0, -14.0, 40.0, 1.0, 6.0, 0.8
+SPEC = f"""schema = 1
+name = "peer"
+[joint]
+length_mm = {R}
+range_deg = [-30.0, 30.0]
+[guides]
+EB_mm = {EB}
+ED_mm = {EB}
+OE_mm = {OE}
+radius_mm = {PIN}
+friction = 0.1
+[pulley]
+EF_mm = {EF}
+r1_mm = {R1}
+[tendon]
+diameter_mm = {TENDON}
+modulus_MPa = 200000.0
+pretension_N = 4
+"""
+RUNS, ROWS, STROKES, NOISE = 5, 500, 6, 0.02
+GAIN, PLAY = 0.015, 2.0
+
+
+def path_length(theta):
+    """Free tendon of side 1 from C over pin B, up to where it leaves the pin towards the pulley, whose side does not move with θ: mm."""
+    rho = PIN + TENDON / 2
+    cx, cy = R * np.sin(theta), R * np.cos(theta)
+    dx, dy = cx + EB, cy + OE
+    distance = np.hypot(dx, dy)
+    # The tendon passes the outer side of the pin: a straight part, and an arc that ends where the lower part begins.
+    return np.sqrt(distance**2 - rho**2) + rho * (np.arcsin(rho / distance) + np.arctan2(dx, dy))
+
+
+GRID = np.radians(np.linspace(-60, 60, 4001))
+LENGTH = path_length(GRID) - path_length(0.0)
+
+
+def joint_angle(alpha):
+    """θ where a round P1 of radius r1 has let out as much tendon 1 as the path has grown. α > 0 lets tendon 1 out."""
+    return np.interp(R1 * alpha, LENGTH, GRID)
+
+
+def behind_play(alpha, width):
+    # The motor came down to where the log begins, and turns there.
+    half, state = 0.5 * width, alpha[0] + 0.5 * width
+    follower = np.empty_like(alpha)
+    for i, value in enumerate(alpha):
+        state = min(max(state, value - half), value + half)
+        follower[i] = state
+    return follower
+
+
+def model(parameters, runs):
+    gain, play, zero = parameters
+    return np.concatenate([(1 + gain) * joint_angle(behind_play(alpha, play)) + zero for alpha in runs])
+
+
+def motion(reach):
+    phase = np.linspace(0, STROKES, ROWS)
+    return reach * (2 * np.abs(phase - 2 * np.floor(phase / 2 + 0.5)) - 1)
+
+
+def write(folder, runs, measured):
+    for i, (alpha, theta) in enumerate(zip(runs, measured), 1):
+        seconds = np.arange(ROWS) * (0.15 if i != 3 else 0.03)
+        rows = "".join(f"{t:.3f},{np.degrees(a):.5f},{np.degrees(b):.5f},0\n" for t, a, b in zip(seconds, alpha, theta))
+        with open(f"{folder}/run_{i}.csv", "w") as file:
+            file.write("time_s,alpha_deg,theta_deg,load_N\n" + rows)
+    with open(f"{folder}/joint.toml", "w") as file:
+        file.write(SPEC)
+
+
+def timed(work):
+    start = time.perf_counter()
+    return work(), time.perf_counter() - start
+
+
+def fitted(runs, measured):
+    theta = np.concatenate(measured)
+    return least_squares(lambda p: model(p, runs) - theta, [0.0, np.radians(0.5), 0.0], x_scale=[1e-3, 1e-2, 1e-3])
+
+
+def main():
+    fusee = os.path.abspath(sys.argv[1])
+    random = np.random.default_rng(1)
+    reach = 0.9 * min(-np.interp(np.radians(-30), GRID, LENGTH), np.interp(np.radians(30), GRID, LENGTH)) / R1
+    runs = [motion(reach)] * RUNS
+    measured = [(1 + GAIN) * joint_angle(behind_play(alpha, np.radians(PLAY))) + np.radians(NOISE) * random.standard_normal(ROWS) for alpha in runs]
+    with tempfile.TemporaryDirectory() as folder:
+        write(folder, runs, measured)
+        command = [fusee, "calibrate", "joint.toml", *[f"run_{i}.csv" for i in range(1, RUNS + 1)], "--json"]
+        process, ours = timed(lambda: subprocess.run(command, cwd=folder, capture_output=True, text=True))
+        if process.returncode != 0:
+            sys.exit(process.stdout + process.stderr)
+    answer = json.loads(process.stdout)
+    solution, theirs = timed(lambda: fitted(runs, measured))
+    rest = np.degrees(np.sqrt(np.mean(solution.fun**2)))
+    print(f"scipy least_squares, 3 numbers of a model that is known: {theirs:.3f} s, {solution.nfev} steps, gain {100 * solution.x[0]:.3f} %, "
+          f"play {np.degrees(abs(solution.x[1])):.3f} deg, rms {rest:.4f} deg")
+    effects = "; ".join(f"{effect['name']} of {{{', '.join(effect['group'])}}} {effect['parameters']}" for effect in answer["effects"])
+    print(f"fusee calibrate, told nothing, {len(answer['tried'])} candidates tried: {ours:.3f} s, {answer['verdict']}, rms {answer['after']['rms_deg']:.4f} deg: {effects}")
+    print(f"fusee calibrate takes {ours / theirs:.1f} times as long as the one fit; for each candidate {ours / theirs / max(1, len(answer['tried'])):.2f} times")
+    if answer["after"]["rms_deg"] > 1.05 * rest:
+        sys.exit("fusee's rest is larger than scipy's")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,54 @@
+/// \file
+/// What holds of a measured run whatever the bytes it was read from. For the fuzz target and for the test that replays
+/// its corpus.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "fusee/calibration/measurement.h"
+
+namespace fusee::testing {
+
+/// "" or what is broken in what was made of the samples.
+inline std::string broken_law(const Run& run) {
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    const Sample& sample = run.samples[i];
+    if (!std::isfinite(sample.alpha) || !std::isfinite(sample.theta)) return "an angle is no number";
+    if (run.has_load && !std::isfinite(sample.load)) return "a load is no number";
+    if (run.has_time && i > 0 && !(sample.time >= run.samples[i - 1].time)) return "time goes back";
+  }
+  std::size_t next = 0;
+  for (const Stroke& stroke : run.strokes) {
+    if (stroke.first < next || stroke.last < stroke.first || stroke.last >= run.samples.size())
+      return "strokes overlap or leave the run";
+    if (stroke.direction != 1 && stroke.direction != -1) return "a stroke has no direction";
+    next = stroke.last + 1;
+  }
+  return {};
+}
+
+/// Reads `bytes` as a run, judges it and works out its figures. "" or what is broken; throws InputError where it cannot
+/// be read.
+inline std::string broken_law(std::string_view bytes) {
+  // A first byte ! turns to other columns, so that one corpus reaches roles too.
+  MeasurementOptions options;
+  if (!bytes.empty() && bytes.front() == '!') options.columns = {{"load", "x"}, {"alpha", "a_rad"}, {"time", "t_ms"}};
+  Measurement measurement;
+  measurement.runs.push_back(parse_run(bytes.substr(options.columns.empty() ? 0 : 1), "run.csv", options, measurement));
+  Mechanism ratio;
+  ratio.transmission = RatioTransmission{4.0};
+  const std::string broken = broken_law(measurement.runs[0]);
+  if (!broken.empty()) return broken;
+  if (!measurement.not_testable.empty()) return {};
+  compare_with_declared(ratio, measurement);
+  const NoiseFloor floor = noise_floor(measurement);
+  if (!(floor.rms >= 0) || !std::isfinite(floor.rms) || !std::isfinite(floor.degrees_of_freedom))
+    return "the noise floor is no number";
+  const Iso230 figures = iso230(measurement, {std::vector<double>(measurement.runs[0].samples.size(), 1.0)});
+  if (std::abs(figures.A) > 1e-9 || std::abs(figures.R) > 1e-9) return "a constant residual has a range";
+  return {};
+}
+
+}  // namespace fusee::testing
