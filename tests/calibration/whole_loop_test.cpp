@@ -1,4 +1,5 @@
-// Corrected pulleys on a rig that shares no equation with what made them: the same joint, the same fault, another pulley.
+// Corrected pulleys on a rig that shares no equation with what made them: the same joint, the same fault, another
+// pulley.
 #include "calibration/whole_loop.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,9 @@
 namespace fusee::rig {
 namespace {
 
-std::filesystem::path scratch(const std::string& name) { return std::filesystem::path(testing::TempDir()) / ("fusee_loop_" + name); }
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / ("fusee_loop_" + name);
+}
 
 struct Joint {
   std::string spec;
@@ -86,12 +89,16 @@ TEST_P(Known, FaultIsTakenOutByThePulley) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WholeLoop, Known,
-                         testing::Combine(testing::Values("profiles/forearm.toml", "profiles/unsymmetric.toml", "tests/data/rig/d_guide_radius/spec.toml"),
-                                          testing::Values("radius_offset", "pulley_scale", "pulley_runout", "guide_radius", "guide_position",
-                                                          "joint_length", "tendon_stretch", "gravity")),
+                         testing::Combine(testing::Values("profiles/forearm.toml", "profiles/unsymmetric.toml",
+                                                          "tests/data/rig/d_guide_radius/spec.toml"),
+                                          testing::Values("radius_offset", "pulley_scale", "pulley_runout",
+                                                          "guide_radius", "guide_position", "joint_length",
+                                                          "tendon_stretch", "gravity")),
                          [](const auto& each) {
                            const std::string file = std::get<0>(each.param);
-                           const std::string joint = file.find("forearm") != std::string::npos ? "forearm" : file.find("unsym") != std::string::npos ? "unsymmetric" : "rig";
+                           const std::string joint = file.find("forearm") != std::string::npos ? "forearm"
+                                                     : file.find("unsym") != std::string::npos ? "unsymmetric"
+                                                                                               : "rig";
                            return joint + "_" + std::get<1>(each.param);
                          });
 
@@ -112,7 +119,8 @@ TEST_P(Known, FaultGivesAPulleyThatPassesAllChecks) {
   corrected.identified = known_correction(joint, case_of(joint, name)).identified;
   const BuildResult result = built(corrected);
   EXPECT_EQ(result.status, BuildStatus::done) << result.product.synthesis.brief();
-  for (const Check& check : result.product.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
+  for (const Check& check : result.product.checks)
+    EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
 }
 
 /// A floor as it lies in the drawing, as the pitch curve of the rig's outline.
@@ -176,7 +184,8 @@ TEST(WholeLoop, ATableTakesOutWhatTheUntiedLoadLeaves) {
 }
 
 TEST(WholeLoop, GoesOnFromACorrectedFile) {
-  // Logged again with the corrected pulley, whose file describes the joint as it is: nothing is left to find, and nothing is forgotten.
+  // Logged again with the corrected pulley, whose file describes the joint as it is: nothing is left to find, and
+  // nothing is forgotten.
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "guide_position");
   const Correction first = known_correction(joint, hidden);
@@ -200,7 +209,8 @@ TEST(WholeLoop, WhatIsFoundLaterIsAdded) {
   second.identified.guide_radius = 0.5;
   second.identified.stretch = 0.5;
   second.identified.pulley_scale = 0.01;
-  const Imperfections total = correct(corrected, measured(joint.made, case_of(joint, "guide_radius"), scratch("added")), second).identified;
+  const Imperfections total =
+      correct(corrected, measured(joint.made, case_of(joint, "guide_radius"), scratch("added")), second).identified;
   EXPECT_EQ(total.guide_radius, 1.5);
   EXPECT_EQ(total.stretch, 2.0);
   EXPECT_NEAR(total.pulley_scale, 0.0201, 1e-12);
@@ -212,12 +222,14 @@ class Found : public testing::TestWithParam<const char*> {};
 
 TEST_P(Found, FaultIsTakenOutByThePulley) {
   const Joint joint = joint_of("profiles/forearm.toml");
-  const LoopOutcome outcome = turn_loop(joint.made, joint.spec, case_of(joint, GetParam()), scratch(std::string("found_") + GetParam()));
+  const LoopOutcome outcome =
+      turn_loop(joint.made, joint.spec, case_of(joint, GetParam()), scratch(std::string("found_") + GetParam()));
   EXPECT_LT(outcome.after, 0.15 * outcome.before) << outcome.found;
   EXPECT_NE(outcome.corrected_toml.find(joint.spec), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(WholeLoop, Found, testing::Values("pulley_scale", "tendon_stretch"), [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(WholeLoop, Found, testing::Values("pulley_scale", "tendon_stretch"),
+                         [](const auto& each) { return each.param; });
 
 }  // namespace
 }  // namespace fusee::rig
