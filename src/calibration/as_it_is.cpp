@@ -8,33 +8,38 @@
 #include "fusee/calibration/correction.h"
 
 // The corrected pulley is drawn so that what was identified undoes itself:
-//   geometry, friction, tendon   the mechanism has them, and the law stays the declared θ(α) as a table (or P1 round where that suffices);
-//   stretch, weight              the law is drawn further by what the joint gives way under its mean load (given_way);
-//   scale 1 + s                  one more shrinkage;
-//   profile error                the law is drawn at the angle that the pulley acts at;
-//   radius offset, runout        the curves are drawn further in and off the axis the other way (draw_for_making).
+//   geometry, friction, tendon   the mechanism has them, and the law stays the declared θ(α) as a table (or P1 round
+//   where that suffices); stretch, weight              the law is drawn further by what the joint gives way under its
+//   mean load (given_way); scale 1 + s                  one more shrinkage; profile error                the law is
+//   drawn at the angle that the pulley acts at; radius offset, runout        the curves are drawn further in and off
+//   the axis the other way (draw_for_making).
 
 namespace fusee {
 namespace {
 
-/// P1 stays round below this miss of the needed law: what tendons on a drawn outline miss anyway, and little beside any error worth a pulley.
+/// P1 stays round below this miss of the needed law: what tendons on a drawn outline miss anyway, and little beside any
+/// error worth a pulley.
 constexpr double k_round_suffices = radians(0.005);
 /// A joint that gives way by less is not worth another law.
 constexpr double k_least_shift = radians(0.002);
 /// What the loaded joint may still miss its law by when the search for the pulley's law ends.
 constexpr double k_law_reached = radians(1e-5);
 constexpr int k_law_rows = 152;
-constexpr int k_rows_beyond = 4;  ///< the same distance apart, at each end
+constexpr int k_rows_beyond = 4;       ///< the same distance apart, at each end
 constexpr double k_gravity = 9.80665;  // m/s²
 
 bool changes_geometry(const Imperfections& at) {
   return at.guide_radius != 0 || at.guide_outward != 0 || at.guide_down != 0 || at.joint_length != 0;
 }
 bool changes_statics(const Imperfections& at) {
-  return at.stretch != 0 || at.pretension != 0 || at.friction != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 || at.mean_load != 0;
+  return at.stretch != 0 || at.pretension != 0 || at.friction != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 ||
+         at.mean_load != 0;
 }
-/// What makes the declared law worth keeping under load. Friction and pretension alone hardly move the mean of both directions.
-bool gives_way(const Imperfections& at) { return at.stretch != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 || at.mean_load != 0; }
+/// What makes the declared law worth keeping under load. Friction and pretension alone hardly move the mean of both
+/// directions.
+bool gives_way(const Imperfections& at) {
+  return at.stretch != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 || at.mean_load != 0;
+}
 bool bends_profile(const Imperfections& at) { return at.profile_sin != 0 || at.profile_cos != 0; }
 
 double acting_angle(double alpha, const Imperfections& at) {
@@ -42,7 +47,8 @@ double acting_angle(double alpha, const Imperfections& at) {
   return alpha + at.profile_sin * std::sin(n * alpha) + at.profile_cos * (std::cos(n * alpha) - 1);
 }
 
-/// The declared law as rows, both ends of the range among them, a little beyond them where it goes on. Empty where it does not exist.
+/// The declared law as rows, both ends of the range among them, a little beyond them where it goes on. Empty where it
+/// does not exist.
 std::vector<LawRow> declared_rows(const Mechanism& declared) {
   const Transmission law(declared);
   if (law.dead_centre()) return {};
@@ -74,7 +80,8 @@ Mechanism identified_joint(const Mechanism& mechanism) {
   Mechanism joint = mounted(mechanism, mechanism.identified);
   joint.load = with_weight(joint.load, mechanism.identified, joint.joint.R);
   joint.identified = {};
-  for (double Imperfections::* member : {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y}) {
+  for (double Imperfections::*member :
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y}) {
     joint.identified.*member = mechanism.identified.*member;
   }
   return joint;
@@ -88,7 +95,7 @@ struct NeededLaw {
   double home = 0;           ///< α at which these rows have θ = 0
   double theta_min = 0;      ///< the range, without load; home lies within
   double theta_max = 0;
-  bool shifted = false;      ///< the rows are not the declared ones
+  bool shifted = false;  ///< the rows are not the declared ones
 };
 
 /// `rows` seen from the pulley, whose own home is where its tendons are tied at θ = 0.
@@ -131,12 +138,13 @@ std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow
   return mean;
 }
 
-/// Least squares by Chebyshev polynomials of α: a pulley's curvature holds the law's second derivative, so that a kink (a tendon that
-/// falls slack) would be a dent. What moderate loads do is smooth and comes through to 1e-5 of itself.
+/// Least squares by Chebyshev polynomials of α: a pulley's curvature holds the law's second derivative, so that a kink
+/// (a tendon that falls slack) would be a dent. What moderate loads do is smooth and comes through to 1e-5 of itself.
 class Smoothed {
  public:
   explicit Smoothed(const std::vector<LawRow>& rows) : basis_(static_cast<Eigen::Index>(rows.size()), k_terms) {
-    const double middle = 0.5 * (rows.front().alpha + rows.back().alpha), half = 0.5 * (rows.back().alpha - rows.front().alpha);
+    const double middle = 0.5 * (rows.front().alpha + rows.back().alpha),
+                 half = 0.5 * (rows.back().alpha - rows.front().alpha);
     for (Eigen::Index i = 0; i < basis_.rows(); ++i) {
       const double x = std::clamp((rows[static_cast<std::size_t>(i)].alpha - middle) / half, -1.0, 1.0);
       for (Eigen::Index k = 0; k < k_terms; ++k) basis_(i, k) = std::cos(static_cast<double>(k) * std::acos(x));
@@ -152,7 +160,8 @@ class Smoothed {
 };
 
 /// The rows drawn further by `miss`; null where θ would not grow with α or home is out of reach.
-std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRow>& wanted, const Joint& joint, const Eigen::VectorXd& miss) {
+std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRow>& wanted, const Joint& joint,
+                                       const Eigen::VectorXd& miss) {
   constexpr double rounding = 1e-12;
   double low = 0, high = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -169,7 +178,8 @@ std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRo
 
 /// The law by which `joint`, giving way under its load, stands where `wanted` says. Null where there is none.
 ///
-/// Without the pins' friction: that is a loop about this mean, and its turns at both ends of the range are none of the pulley's.
+/// Without the pins' friction: that is a loop about this mean, and its turns at both ends of the range are none of the
+/// pulley's.
 std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, double tip_force) {
   joint.guides.mu = 0;
   const std::vector<LawRow>& wanted = declared.rows;
@@ -190,14 +200,16 @@ std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, d
     needed.home = Transmission(with_law(joint, needed)).alpha(0.0);
     if (miss.cwiseAbs().maxCoeff() < k_law_reached) break;
   }
-  for (std::size_t k = 0; k < wanted.size(); ++k) needed.shifted = needed.shifted || std::abs(needed.rows[k].theta - wanted[k].theta) > k_least_shift;
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    needed.shifted = needed.shifted || std::abs(needed.rows[k].theta - wanted[k].theta) > k_least_shift;
   return needed;
 }
 
 NeededLaw needed_law(const Mechanism& mechanism) {
   const NeededLaw as_declared{declared_rows(mechanism), 0, mechanism.joint.theta_min, mechanism.joint.theta_max, false};
   if (as_declared.rows.empty() || !gives_way(mechanism.identified)) return as_declared;
-  const auto needed = given_way(identified_joint(mechanism), as_declared, mechanism.load.tip_force + mechanism.identified.mean_load);
+  const auto needed =
+      given_way(identified_joint(mechanism), as_declared, mechanism.load.tip_force + mechanism.identified.mean_load);
   return needed && needed->shifted ? *needed : as_declared;
 }
 
@@ -273,7 +285,8 @@ double tied_at(const Mechanism& mechanism) { return mechanism.transmission ? 0.0
 
 Mechanism as_it_is(const Mechanism& mechanism) {
   const Imperfections& at = mechanism.identified;
-  const bool nothing_to_do = !changes_geometry(at) && !changes_statics(at) && !bends_profile(at) && at.pulley_scale == 0;
+  const bool nothing_to_do =
+      !changes_geometry(at) && !changes_statics(at) && !bends_profile(at) && at.pulley_scale == 0;
   if (mechanism.transmission || nothing_to_do) return mechanism;
   Mechanism joint = identified_joint(mechanism);
   const NeededLaw needed = needed_law(mechanism);

@@ -7,8 +7,9 @@
 
 #include "fusee/transmission/transmission.h"
 
-// Everything here is re-simulated with predict(): the joint as it was found with the pulley it has, and the same joint with the pulley that
-// corrected.toml makes. What either misses of the declared θ(α) is its error; what the second still misses goes into the table.
+// Everything here is re-simulated with predict(): the joint as it was found with the pulley it has, and the same joint
+// with the pulley that corrected.toml makes. What either misses of the declared θ(α) is its error; what the second
+// still misses goes into the table.
 
 namespace fusee {
 namespace {
@@ -42,12 +43,15 @@ void add_profile(const Imperfections& before, Imperfections& total) {
   }
 }
 
-/// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the rest was found anew.
+/// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the
+/// rest was found anew.
 Imperfections composed(const Imperfections& before, const Imperfections& found) {
   Imperfections total = found;
-  for (double Imperfections::* member :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::pretension, &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward, &Imperfections::guide_down,
-        &Imperfections::joint_length, &Imperfections::gravity_cos, &Imperfections::gravity_sin}) {
+  for (double Imperfections::*member :
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::pretension,
+        &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward,
+        &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
+        &Imperfections::gravity_sin}) {
     total.*member += before.*member;
   }
   total.stretch = (1 + before.stretch) * (1 + found.stretch) - 1;
@@ -59,10 +63,11 @@ Imperfections composed(const Imperfections& before, const Imperfections& found) 
 
 /// Of what was found, all that the expected joint of a corrected file has or undoes itself.
 Imperfections without_the_mechanism(Imperfections found) {
-  for (double Imperfections::* member :
-       {&Imperfections::radius_offset, &Imperfections::pulley_scale, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin,
-        &Imperfections::profile_cos, &Imperfections::stretch, &Imperfections::pretension, &Imperfections::friction, &Imperfections::guide_radius,
-        &Imperfections::guide_outward, &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
+  for (double Imperfections::*member :
+       {&Imperfections::radius_offset, &Imperfections::pulley_scale, &Imperfections::runout_x, &Imperfections::runout_y,
+        &Imperfections::profile_sin, &Imperfections::profile_cos, &Imperfections::stretch, &Imperfections::pretension,
+        &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward,
+        &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
         &Imperfections::gravity_sin}) {
     found.*member = 0;
   }
@@ -73,9 +78,9 @@ Imperfections without_the_mechanism(Imperfections found) {
 bool same_drawing(const Mechanism& a, const Mechanism& b) {
   Mechanism one = as_it_is(a), other = as_it_is(b);
   one.guides.mu = other.guides.mu = 0;
-  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley && one.material == other.material &&
-         a.identified.radius_offset == b.identified.radius_offset && a.identified.runout_x == b.identified.runout_x &&
-         a.identified.runout_y == b.identified.runout_y;
+  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley &&
+         one.material == other.material && a.identified.radius_offset == b.identified.radius_offset &&
+         a.identified.runout_x == b.identified.runout_x && a.identified.runout_y == b.identified.runout_y;
 }
 
 std::string why_infeasible(const Mechanism& corrected) {
@@ -179,7 +184,8 @@ class BinnedMean {
 
   /// Shared between the two places around `alpha`.
   void add(double alpha, double value) {
-    const double place = std::clamp((alpha - seen_.low) / (seen_.high - seen_.low) * k_places, 0.0, static_cast<double>(k_places));
+    const double place =
+        std::clamp((alpha - seen_.low) / (seen_.high - seen_.low) * k_places, 0.0, static_cast<double>(k_places));
     const std::size_t i = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(k_places - 1));
     const double share = place - static_cast<double>(i);
     sums_[i] += (1 - share) * value;
@@ -209,7 +215,8 @@ class BinnedMean {
   std::vector<double> sums_, weights_;
 };
 
-/// What the joint is off on its way up and on its way down, play taken up: just after a reversal it still stands where it stood.
+/// What the joint is off on its way up and on its way down, play taken up: just after a reversal it still stands where
+/// it stood.
 struct BothWays {
   Curve up, down;
 };
@@ -235,7 +242,8 @@ Angles tabled(const Measurement& measurement, Angles error, const BothWays& tabl
 
 /// α at which a curve of (θ, α), sorted by θ, has `theta`.
 double alpha_at(const std::vector<LawRow>& rows, double theta) {
-  const auto above = std::lower_bound(rows.begin() + 1, rows.end() - 1, theta, [](const LawRow& row, double value) { return row.theta < value; });
+  const auto above = std::lower_bound(rows.begin() + 1, rows.end() - 1, theta,
+                                      [](const LawRow& row, double value) { return row.theta < value; });
   const LawRow& low = *(above - 1);
   const double span = above->theta - low.theta;
   return span > 0 ? low.alpha + (above->alpha - low.alpha) * (theta - low.theta) / span : low.alpha;
@@ -260,7 +268,8 @@ std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Curve& beyond) {
 std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const BothWays& off) {
   const std::vector<LawRow> rising = motion_rows(law, off.up), falling = motion_rows(law, off.down);
   if (rising.size() < 2 || falling.size() < 2) return {};
-  const double low = std::max(rising.front().theta, falling.front().theta), high = std::min(rising.back().theta, falling.back().theta);
+  const double low = std::max(rising.front().theta, falling.front().theta),
+               high = std::min(rising.back().theta, falling.back().theta);
   std::vector<CompensationRow> table;
   constexpr int rows = 60;
   for (int i = 0; i <= rows && high > low; ++i) {
@@ -277,7 +286,8 @@ Correction correct(const Mechanism& declared, const Measurement& measurement, co
   Correction correction;
   correction.identified = composed(declared.identified, found);
   const bool gives_way = found.stretch != 0 || found.gravity_cos != 0 || found.gravity_sin != 0;
-  if (gives_way && !declared.transmission) correction.identified.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
+  if (gives_way && !declared.transmission)
+    correction.identified.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const DeclaredLaw law(declared);
   if (!range_seen(measurement).any() || !law.exists()) return correction;
 
@@ -291,7 +301,8 @@ Correction correct(const Mechanism& declared, const Measurement& measurement, co
 
   const Angles now = errors(measurement, law, predict(expected_joint(declared), found, measurement));
   Angles then = now;
-  if (correction.has_pulley) then = errors(measurement, law, predict(expected_joint(corrected), without_the_mechanism(found), measurement));
+  if (correction.has_pulley)
+    then = errors(measurement, law, predict(expected_joint(corrected), without_the_mechanism(found), measurement));
   const BothWays table = both_ways(measurement, then, 2 * found.backlash);
   correction.error_now = rms(measurement, now);
   correction.error_with_pulley = rms(measurement, then);

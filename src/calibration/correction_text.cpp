@@ -19,7 +19,8 @@ std::string one_line(std::string text) {
 std::string found_text(const FoundEffect& effect) {
   std::string text = "# " + effect.name + " (" + effect.place + ")";
   for (const FittedParameter& parameter : effect.parameters) {
-    text += ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) + " to " + rounded(parameter.high);
+    text += ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) +
+            " to " + rounded(parameter.high);
   }
   if (effect.group.size() < 2) return text;
   text += "; or";
@@ -36,7 +37,8 @@ double tidy(double value) {
   return std::isfinite(scale) ? std::round(value * scale) / scale : 0;
 }
 
-constexpr const char* k_title = "# ---- found by fusee calibrate: without this table this is the declared joint again ----\n";
+constexpr const char* k_title =
+    "# ---- found by fusee calibrate: without this table this is the declared joint again ----\n";
 
 /// Without the words of an earlier calibration.
 std::string without_earlier_words(std::string text) {
@@ -52,8 +54,10 @@ std::string words_of(const Calibration& calibration, const Correction& correctio
   for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
   if (correction.tied_at != 0) {
-    words += "# tendons tied with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
-             " deg: under its mean load the joint follows the law.\n# Tied at 0 deg, compensation.csv says where the motor must stand.\n";
+    words += "# tendons tied with the unloaded joint at home and the motor at " +
+             rounded(degrees(correction.tied_at), 4) +
+             " deg: under its mean load the joint follows the law.\n# Tied at 0 deg, compensation.csv says where the "
+             "motor must stand.\n";
   }
   return words;
 }
@@ -66,7 +70,8 @@ std::vector<ValueEdit> identified_edits(const Mechanism& declared, const Imperfe
   for (const Field& field : fields()) {
     if (field.table != "identified") continue;
     const double value = tidy(field.get(corrected, 0)), usual = field.get(plain, 0);
-    if (value != usual || field.get(declared, 0) != usual) edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
+    if (value != usual || field.get(declared, 0) != usual)
+      edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
   }
   return edits;
 }
@@ -86,11 +91,14 @@ std::size_t below_header(const std::string& text) {
 
 }  // namespace
 
-// What is added stands in the table, words and numbers, so that deleting the table gives the declared file back byte for byte.
-std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration, const Correction& correction) {
+// What is added stands in the table, words and numbers, so that deleting the table gives the declared file back byte
+// for byte.
+std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration,
+                           const Correction& correction) {
   std::string text = without_earlier_words(std::string(declared_text));
   const std::vector<ValueEdit> edits = identified_edits(declared, correction.identified);
-  if (edits.empty() && below_header(text) == std::string::npos) text += (!text.empty() && text.back() != '\n' ? "\n\n" : "\n") + std::string("[identified]\n");
+  if (edits.empty() && below_header(text) == std::string::npos)
+    text += (!text.empty() && text.back() != '\n' ? "\n\n" : "\n") + std::string("[identified]\n");
   text = edit_values(text, edits);
   const std::string words = words_of(calibration, correction);
   const std::size_t place = below_header(text);
@@ -101,7 +109,8 @@ std::string corrected_toml(std::string_view declared_text, const Mechanism& decl
 std::string compensation_csv(const Correction& correction) {
   std::string text = "theta_deg,alpha_up_deg,alpha_down_deg\n";
   for (const CompensationRow& row : correction.table) {
-    text += fixed(degrees(row.theta), 4) + "," + fixed(degrees(row.alpha_up), 4) + "," + fixed(degrees(row.alpha_down), 4) + "\n";
+    text += fixed(degrees(row.theta), 4) + "," + fixed(degrees(row.alpha_up), 4) + "," +
+            fixed(degrees(row.alpha_down), 4) + "\n";
   }
   return text;
 }

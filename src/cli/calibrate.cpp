@@ -147,11 +147,19 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   return texts;
 }
 
+std::string tied_words(const Correction& correction) {
+  return "tie its tendons with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
+         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which compensation.csv has";
+}
+
 std::vector<std::string> correction_texts(const Correction& correction) {
   std::vector<std::string> texts;
   if (correction.has_pulley) {
     texts.push_back("the pulley of corrected.toml takes away " + deg(correction.by_pulley) + " deg rms");
     if (correction.round.r1 > 0) texts.push_back(round_words(correction));
+    if (correction.tied_at != 0) texts.push_back(tied_words(correction));
+  } else if (!correction.infeasible.empty()) {
+    texts.push_back("the pulley that would correct this cannot be made: " + correction.infeasible);
   } else {
     texts.push_back("nothing was identified that another pulley would take out");
   }

@@ -43,9 +43,10 @@ Mechanism frictionless() {
   return mechanism;
 }
 
-/// How far a joint with the true geometry `truth` and a pulley made for `drawn` misses the law of `wanted`: tendons wound on the
-/// outline, scaled by `scale` and `offset` further out, its centre moved by `runout`. rad
-double miss(const Mechanism& wanted, const Mechanism& truth, const Mechanism& drawn, double scale = 1, double offset = 0, const Vec2& runout = {0, 0}) {
+/// How far a joint with the true geometry `truth` and a pulley made for `drawn` misses the law of `wanted`: tendons
+/// wound on the outline, scaled by `scale` and `offset` further out, its centre moved by `runout`. rad
+double miss(const Mechanism& wanted, const Mechanism& truth, const Mechanism& drawn, double scale = 1,
+            double offset = 0, const Vec2& runout = {0, 0}) {
   SynthesisOptions options;
   options.tolerance = 0.001;
   SynthesisResult made = synthesise(drawn, options);
@@ -244,7 +245,8 @@ TEST(Correct, AGuideRadiusGoesIntoThePulley) {
 }
 
 TEST(Correct, ARatioHasATableOnly) {
-  const Mechanism jaw = parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.1\n", "jaw.toml");
+  const Mechanism jaw =
+      parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.1\n", "jaw.toml");
   Loop data = loop_of(declared(), radians(1.0));
   data.calibration.identified.backlash = 2 * 1.1 * radians(0.5);
   const Correction correction = correct(jaw, data.measurement, data.calibration);

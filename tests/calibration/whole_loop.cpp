@@ -20,7 +20,9 @@ std::vector<RunPlan> about(double load) {
   return {{load, k_slow, 3, 0.0}, {1.5 * load, k_slow, 2, 0.0}, {load, k_fast, 3, 0.0}, {0.5 * load, k_slow, 2, 0.0}};
 }
 
-std::vector<RunPlan> about_zero(double load) { return {{0.0, k_slow, 3, 0.0}, {load, k_slow, 2, 0.0}, {0.0, k_fast, 3, 0.0}, {-load, k_slow, 2, 0.0}}; }
+std::vector<RunPlan> about_zero(double load) {
+  return {{0.0, k_slow, 3, 0.0}, {load, k_slow, 2, 0.0}, {0.0, k_fast, 3, 0.0}, {-load, k_slow, 2, 0.0}};
+}
 
 Log one_run(const MadeJoint& joint, const Hidden& hidden, double load) {
   SensorPlan silent;
@@ -47,7 +49,8 @@ double miss(const Log& log, const Transmission& law) {
 /// θ that the table gives for an α on the way up or down.
 double tabled(const std::vector<CompensationRow>& table, double alpha, bool up) {
   const auto of = [up](const CompensationRow& row) { return up ? row.alpha_up : row.alpha_down; };
-  const auto above = std::lower_bound(table.begin() + 1, table.end() - 1, alpha, [&](const CompensationRow& row, double value) { return of(row) < value; });
+  const auto above = std::lower_bound(table.begin() + 1, table.end() - 1, alpha,
+                                      [&](const CompensationRow& row, double value) { return of(row) < value; });
   const CompensationRow& low = *(above - 1);
   return low.theta + (above->theta - low.theta) * (alpha - of(low)) / (of(*above) - of(low));
 }
@@ -83,8 +86,8 @@ std::vector<LoopCase> loop_cases(const Mechanism& declared, double load) {
   add("pulley_runout", [&](LoopCase& c) { c.hidden.runout_x = 0.004 * R, c.hidden.runout_y = -0.003 * R; });
   add("profile_error", [&](LoopCase& c) { c.hidden.profile_error = 0.006 * R; });
   add("guide_radius", [&](LoopCase& c) { c.hidden.guide_radius = 0.03 * R; });
-  add("guide_position", [&](LoopCase& c) { c.hidden.guide_outward = 0.01 * R, c.hidden.guide_down = -0.006 * R; });
-  add("joint_length", [&](LoopCase& c) { c.hidden.joint_length = -0.02 * R; });
+  add("guide_position", [&](LoopCase& c) { c.hidden.guide_outward = 0.012 * R, c.hidden.guide_down = -0.005 * R; });
+  add("joint_length", [&](LoopCase& c) { c.hidden.joint_length = -0.05 * R; });
   add("tendon_stretch", [&](LoopCase& c) {
     c.hidden.modulus = declared.tendon.modulus / 4.0;
     c.plans = about(load);
@@ -131,7 +134,8 @@ double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_a
   return miss(one_run(joint, mounted, hidden.load), Transmission(joint.declared));
 }
 
-LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden, const std::filesystem::path& folder) {
+LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden,
+                      const std::filesystem::path& folder) {
   const Measurement measurement = measured(joint, hidden, folder);
   const Calibration calibration = calibrate(joint.declared, measurement);
   const Correction correction = correct(joint.declared, measurement, calibration);
@@ -145,8 +149,9 @@ LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const Loo
   outcome.declared = joint_error(joint, {}, 0);
   outcome.after = joint_error(then, hidden, correction.tied_at);
   outcome.after_tied_at_zero = joint_error(then, hidden, 0);
-  outcome.after_table =
-      rms(one_run(then, hidden.hidden, hidden.load), [&](const Row& row, bool up) { return row.theta - tabled(correction.table, row.alpha, up); });
+  outcome.after_table = rms(one_run(then, hidden.hidden, hidden.load), [&](const Row& row, bool up) {
+    return row.theta - tabled(correction.table, row.alpha, up);
+  });
   outcome.predicted = correction.error_with_pulley;
   return outcome;
 }

@@ -1,5 +1,6 @@
 /// \file
-/// The whole loop: a joint with a hidden fault is measured, calibrated, given the corrected pulley, and measured again with the same fault.
+/// The whole loop: a joint with a hidden fault is measured, calibrated, given the corrected pulley, and measured again
+/// with the same fault.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +15,10 @@ namespace fusee::rig {
 
 /// A fault that a pulley can take out.
 struct LoopCase {
-  std::string name;     ///< of the effect
+  std::string name;  ///< of the effect
   Hidden hidden;
   std::vector<RunPlan> plans;
-  double load = 0;      ///< under which the joint is judged: the mean of the plans' where the tendons' stretch matters, N
+  double load = 0;  ///< under which the joint is judged: the mean of the plans' where the tendons' stretch matters, N
 };
 
 /// One of each kind, on the forearm-sized joint and on others.
@@ -26,10 +27,10 @@ std::vector<LoopCase> loop_cases(const Mechanism& declared, double load);
 /// What one turn of the loop did. rad, rms of θ − θ(α) as declared, one unloaded or evenly loaded run without noise.
 struct LoopOutcome {
   std::string name;
-  std::string found;       ///< what calibrate named
+  std::string found;  ///< what calibrate named
   std::string verdict;
   double before = 0;
-  double after = 0;        ///< with the corrected pulley, tendons tied as it says (Correction::tied_at)
+  double after = 0;  ///< with the corrected pulley, tendons tied as it says (Correction::tied_at)
   double after_tied_at_zero = 0;
   double after_table = 0;  ///< and angles by compensation.csv
   double declared = 0;     ///< with no fault at all: what friction, stretch as declared and the polygon leave
@@ -47,6 +48,7 @@ double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_a
 Measurement measured(const MadeJoint& joint, const LoopCase& hidden, const std::filesystem::path& folder);
 
 /// `spec` is the text of the joint's file.
-LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden, const std::filesystem::path& folder);
+LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const LoopCase& hidden,
+                      const std::filesystem::path& folder);
 
 }  // namespace fusee::rig

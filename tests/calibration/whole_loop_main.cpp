@@ -15,16 +15,20 @@ namespace {
 std::string deg(double angle) { return fixed(degrees(angle), 4); }
 
 void print_row(const LoopOutcome& outcome) {
-  std::printf("| %s | %s | %s | %s | %s | %s %% | %s | %s | %s |\n", outcome.name.c_str(), outcome.verdict.c_str(), outcome.found.c_str(),
-              deg(outcome.before).c_str(), deg(outcome.after).c_str(), fixed(100.0 * outcome.after / outcome.before, 1).c_str(),
-              deg(outcome.after_tied_at_zero).c_str(), deg(outcome.after_table).c_str(), deg(outcome.declared).c_str());
+  std::printf("| %s | %s | %s | %s | %s | %s %% | %s | %s | %s |\n", outcome.name.c_str(), outcome.verdict.c_str(),
+              outcome.found.c_str(), deg(outcome.before).c_str(), deg(outcome.after).c_str(),
+              fixed(100.0 * outcome.after / outcome.before, 1).c_str(), deg(outcome.after_tied_at_zero).c_str(),
+              deg(outcome.after_table).c_str(), deg(outcome.declared).c_str());
   std::fflush(stdout);
 }
 
 constexpr const char* k_head =
-    "Joint error: rms of θ − θ(α) as declared over two cycles, noise apart, in degrees. *After*: with the pulley of corrected.toml on the same joint\n"
-    "with the same fault, tendons tied where corrected.toml says; *tied at 0*: tied with the motor at 0 whatever it says; *by the table*: tied at 0,\n"
-    "against compensation.csv; *no fault*: the declared joint, which friction and the polygon leave. In brackets what the data cannot tell apart.\n\n"
+    "Joint error: rms of θ − θ(α) as declared over two cycles, noise apart, in degrees. *After*: with the pulley of "
+    "corrected.toml on the same joint\n"
+    "with the same fault, tendons tied where corrected.toml says; *tied at 0*: tied with the motor at 0 whatever it "
+    "says; *by the table*: tied at 0,\n"
+    "against compensation.csv; *no fault*: the declared joint, which friction and the polygon leave. In brackets what "
+    "the data cannot tell apart.\n\n"
     "| hidden effect | verdict | found | before | after | after / before | tied at 0 | by the table | no fault |\n"
     "|---|---|---|--:|--:|--:|--:|--:|--:|\n";
 
@@ -34,9 +38,14 @@ int run(const std::filesystem::path& spec, double load, const std::string& only)
   std::fputs(k_head, stdout);
   for (const LoopCase& one : loop_cases(joint.declared, load)) {
     if (!only.empty() && only != one.name) continue;
-    const LoopOutcome outcome = turn_loop(joint, text, one, std::filesystem::temp_directory_path() / ("fusee-whole-loop-" + one.name));
-    print_row(outcome);
-    if (!only.empty()) std::printf("\n%s\n", outcome.corrected_toml.c_str());
+    try {
+      const LoopOutcome outcome =
+          turn_loop(joint, text, one, std::filesystem::temp_directory_path() / ("fusee-whole-loop-" + one.name));
+      print_row(outcome);
+      if (!only.empty()) std::printf("\n%s\n", outcome.corrected_toml.c_str());
+    } catch (const InputError& error) {
+      std::printf("| %s | no such pulley: %s |\n", one.name.c_str(), error.what());
+    }
   }
   return 0;
 }

@@ -1,4 +1,5 @@
-// Corrected pulleys on a rig that shares no equation with what made them: the same joint, the same fault, another pulley.
+// Corrected pulleys on a rig that shares no equation with what made them: the same joint, the same fault, another
+// pulley.
 #include "calibration/whole_loop.h"
 
 #include <gtest/gtest.h>
@@ -7,11 +8,14 @@
 
 #include "fusee/base/files.h"
 #include "fusee/mechanism/file.h"
+#include "fusee/pipeline.h"
 
 namespace fusee::rig {
 namespace {
 
-std::filesystem::path scratch(const std::string& name) { return std::filesystem::path(testing::TempDir()) / ("fusee_loop_" + name); }
+std::filesystem::path scratch(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / ("fusee_loop_" + name);
+}
 
 struct Joint {
   std::string spec;
@@ -85,14 +89,78 @@ TEST_P(Known, FaultIsTakenOutByThePulley) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WholeLoop, Known,
-                         testing::Combine(testing::Values("profiles/forearm.toml", "profiles/unsymmetric.toml", "tests/data/rig/d_guide_radius/spec.toml"),
-                                          testing::Values("radius_offset", "pulley_scale", "pulley_runout", "guide_radius", "guide_position",
-                                                          "joint_length", "tendon_stretch", "gravity")),
+                         testing::Combine(testing::Values("profiles/forearm.toml", "profiles/unsymmetric.toml",
+                                                          "tests/data/rig/d_guide_radius/spec.toml"),
+                                          testing::Values("radius_offset", "pulley_scale", "pulley_runout",
+                                                          "guide_radius", "guide_position", "joint_length",
+                                                          "tendon_stretch", "gravity")),
                          [](const auto& each) {
                            const std::string file = std::get<0>(each.param);
-                           const std::string joint = file.find("forearm") != std::string::npos ? "forearm" : file.find("unsym") != std::string::npos ? "unsymmetric" : "rig";
+                           const std::string joint = file.find("forearm") != std::string::npos ? "forearm"
+                                                     : file.find("unsym") != std::string::npos ? "unsymmetric"
+                                                                                               : "rig";
                            return joint + "_" + std::get<1>(each.param);
                          });
+
+BuildResult built(const Mechanism& corrected, double tolerance = 0.01) {
+  MechanismFile file;
+  file.mechanism = corrected;
+  BuildOptions options;
+  options.tolerance = tolerance;
+  options.folder = scratch("build");
+  options.dry_run = true;
+  return build(file, options);
+}
+
+TEST_P(Known, FaultGivesAPulleyThatPassesAllChecks) {
+  const auto [file, name] = GetParam();
+  const Joint joint = joint_of(file);
+  Mechanism corrected = joint.made.declared;
+  corrected.identified = known_correction(joint, case_of(joint, name)).identified;
+  const BuildResult result = built(corrected);
+  EXPECT_EQ(result.status, BuildStatus::done) << result.product.synthesis.brief();
+  for (const Check& check : result.product.checks)
+    EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
+}
+
+/// A floor as it lies in the drawing, as the pitch curve of the rig's outline.
+Outline outline_of(const BuildResult& result, const std::string& layer, Side side, double diameter) {
+  for (const OutputFile& output : result.outputs) {
+    if (output.name != "profile.dxf") continue;
+    for (const DrawingPath& path : read_dxf(output.bytes, output.name).paths) {
+      if (path.layer != layer) continue;
+      const Polygon corners = convex_hull(path.points);
+      Outline outline;
+      outline.side = side;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec2 along = corners[(i + 1) % corners.size()] - corners[(i + corners.size() - 1) % corners.size()];
+        OutlinePoint point;
+        point.normal = Vec2(along.y(), -along.x()).normalized();
+        point.psi = std::atan2(point.normal.y(), point.normal.x());
+        point.position = corners[i] + 0.5 * diameter * point.normal;
+        outline.points.push_back(point);
+      }
+      return outline;
+    }
+  }
+  ADD_FAILURE() << layer;
+  return {};
+}
+
+TEST(WholeLoop, TheDrawingThatBuildWritesTakesTheFaultOut) {
+  const Joint joint = joint_of("profiles/forearm.toml");
+  LoopCase hidden = case_of(joint, "pulley_runout");
+  hidden.hidden.radius_offset = -0.2;
+  hidden.hidden.guide_outward = 0.5;
+  Mechanism corrected = joint.made.declared;
+  corrected.identified = known_correction(joint, hidden).identified;
+  const BuildResult result = built(corrected, 2e-4);
+  MadeJoint drawn = joint.made;
+  drawn.p1 = outline_of(result, "P1_FLOOR", Side::left, corrected.tendon.diameter);
+  drawn.p2 = outline_of(result, "P2_FLOOR", Side::right, corrected.tendon.diameter);
+  EXPECT_GT(degrees(joint_error(joint.made, hidden, 0)), 0.3);
+  EXPECT_LT(degrees(joint_error(drawn, hidden, 0)), 0.01);
+}
 
 TEST(WholeLoop, TheWrongCauseIsSeen) {
   // The same loop with half of the truth leaves half of the error: the rig does not take the correction's word.
@@ -115,17 +183,53 @@ TEST(WholeLoop, ATableTakesOutWhatTheUntiedLoadLeaves) {
   EXPECT_LT(correction.error_with_table, correction.error_with_pulley);
 }
 
+TEST(WholeLoop, GoesOnFromACorrectedFile) {
+  // Logged again with the corrected pulley, whose file describes the joint as it is: nothing is left to find, and
+  // nothing is forgotten.
+  const Joint joint = joint_of("profiles/forearm.toml");
+  const LoopCase hidden = case_of(joint, "guide_position");
+  const Correction first = known_correction(joint, hidden);
+  Mechanism corrected = joint.made.declared;
+  corrected.identified = first.identified;
+  const Measurement again = measured(corrected_joint(joint, first), hidden, scratch("again"));
+  const Calibration second = calibrate(expected_joint(corrected), again);
+  EXPECT_EQ(second.verdict, "no_effect") << second.summary;
+  EXPECT_LT(degrees(second.before.rms), 0.022);
+  EXPECT_EQ(correct(corrected, again, second).identified, first.identified);
+}
+
+TEST(WholeLoop, WhatIsFoundLaterIsAdded) {
+  const Joint joint = joint_of("profiles/forearm.toml");
+  Mechanism corrected = joint.made.declared;
+  corrected.identified.guide_radius = 1;
+  corrected.identified.stretch = 1;
+  corrected.identified.pulley_scale = 0.01;
+  corrected.identified.backlash = 0.02;
+  Calibration second;
+  second.identified.guide_radius = 0.5;
+  second.identified.stretch = 0.5;
+  second.identified.pulley_scale = 0.01;
+  const Imperfections total =
+      correct(corrected, measured(joint.made, case_of(joint, "guide_radius"), scratch("added")), second).identified;
+  EXPECT_EQ(total.guide_radius, 1.5);
+  EXPECT_EQ(total.stretch, 2.0);
+  EXPECT_NEAR(total.pulley_scale, 0.0201, 1e-12);
+  EXPECT_EQ(total.backlash, 0);  // a table's matter: not found again, it is gone
+}
+
 /// From what the bench logged to the pulley, nothing told.
 class Found : public testing::TestWithParam<const char*> {};
 
 TEST_P(Found, FaultIsTakenOutByThePulley) {
   const Joint joint = joint_of("profiles/forearm.toml");
-  const LoopOutcome outcome = turn_loop(joint.made, joint.spec, case_of(joint, GetParam()), scratch(std::string("found_") + GetParam()));
+  const LoopOutcome outcome =
+      turn_loop(joint.made, joint.spec, case_of(joint, GetParam()), scratch(std::string("found_") + GetParam()));
   EXPECT_LT(outcome.after, 0.15 * outcome.before) << outcome.found;
   EXPECT_NE(outcome.corrected_toml.find(joint.spec), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(WholeLoop, Found, testing::Values("pulley_scale", "tendon_stretch"), [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(WholeLoop, Found, testing::Values("pulley_scale", "tendon_stretch"),
+                         [](const auto& each) { return each.param; });
 
 }  // namespace
 }  // namespace fusee::rig
