@@ -8,11 +8,12 @@
 #include "fusee/calibration/correction.h"
 
 // The corrected pulley is drawn so that what was identified undoes itself:
-//   geometry, friction, tendon   the mechanism has them, and the law stays the declared θ(α) as a table (or P1 round
-//   where that suffices); stretch, weight              the law is drawn further by what the joint gives way under its
-//   mean load (given_way); scale 1 + s                  one more shrinkage; profile error                the law is
-//   drawn at the angle that the pulley acts at; radius offset, runout        the curves are drawn further in and off
-//   the axis the other way (draw_for_making).
+//   geometry, friction, tendon            the mechanism has them, and the law stays the declared θ(α) as a table, or P1 round where that suffices;
+//   stretch, weight                       the law is drawn further by what the joint gives way under its mean load (given_way);
+//   scale 1 + s                           one more shrinkage;
+//   radius offset, wave of the profile,
+//   runout                                the curves are drawn further in, with the wave the other way, and off the axis the other way
+//                                         (draw_for_making).
 
 namespace fusee {
 namespace {
@@ -40,11 +41,12 @@ bool changes_statics(const Imperfections& at) {
 bool gives_way(const Imperfections& at) {
   return at.stretch != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 || at.mean_load != 0;
 }
-bool bends_profile(const Imperfections& at) { return at.profile_sin != 0 || at.profile_cos != 0; }
-
-double acting_angle(double alpha, const Imperfections& at) {
-  const double n = at.profile_harmonic;
-  return alpha + at.profile_sin * std::sin(n * alpha) + at.profile_cos * (std::cos(n * alpha) - 1);
+/// A wave of the made curves: outwards along the normal of the part, and by its slope along the tangent, which keeps the normal.
+Vec2 wave(const Vec2& normal, const Imperfections& at) {
+  const double turns = at.profile_harmonic * std::atan2(normal.y(), normal.x());
+  const double outward = at.profile_sin * std::sin(turns) + at.profile_cos * std::cos(turns);
+  const double slope = at.profile_harmonic * (at.profile_sin * std::cos(turns) - at.profile_cos * std::sin(turns));
+  return outward * normal + slope * Vec2(-normal.y(), normal.x());
 }
 
 /// The declared law as rows, both ends of the range among them, a little beyond them where it goes on. Empty where it
@@ -81,7 +83,8 @@ Mechanism identified_joint(const Mechanism& mechanism) {
   joint.load = with_weight(joint.load, mechanism.identified, joint.joint.R);
   joint.identified = {};
   for (double Imperfections::*member :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y}) {
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin, &Imperfections::profile_cos,
+        &Imperfections::profile_harmonic}) {
     joint.identified.*member = mechanism.identified.*member;
   }
   return joint;
@@ -262,14 +265,23 @@ void draw_for_making(SynthesisResult& synthesis, const Mechanism& mechanism) {
   const Imperfections& at = mechanism.identified;
   for (Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     for (OutlinePoint& point : outline->points) {
-      point.position -= Vec2(at.runout_x, at.runout_y) + at.radius_offset * point.normal;
-      point.curvature_radius -= at.radius_offset;
+      const double n = at.profile_harmonic;
+      const Vec2 out = wave(point.normal, at);
+      point.position -= Vec2(at.runout_x, at.runout_y) + at.radius_offset * point.normal + out;
+      point.curvature_radius -= at.radius_offset + (1.0 - n * n) * out.dot(point.normal);
     }
   }
 }
 
 Polygon as_made(Polygon drawn, const Mechanism& mechanism) {
-  for (Vec2& point : drawn) point += Vec2(mechanism.identified.runout_x, mechanism.identified.runout_y);
+  const Imperfections& at = mechanism.identified;
+  const Polygon centred = drawn;
+  const std::size_t n = drawn.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 along = (centred[(i + 1) % n] - centred[(i + n - 1) % n]).normalized();
+    drawn[i] += Vec2(at.runout_x, at.runout_y);
+    if (at.profile_sin != 0 || at.profile_cos != 0) drawn[i] += wave(Vec2(along.y(), -along.x()), at);
+  }
   return drawn;
 }
 
@@ -286,19 +298,18 @@ double tied_at(const Mechanism& mechanism) { return mechanism.transmission ? 0.0
 Mechanism as_it_is(const Mechanism& mechanism) {
   const Imperfections& at = mechanism.identified;
   const bool nothing_to_do =
-      !changes_geometry(at) && !changes_statics(at) && !bends_profile(at) && at.pulley_scale == 0;
+      !changes_geometry(at) && !changes_statics(at) && at.pulley_scale == 0;
   if (mechanism.transmission || nothing_to_do) return mechanism;
   Mechanism joint = identified_joint(mechanism);
   const NeededLaw needed = needed_law(mechanism);
-  if ((changes_geometry(at) || needed.shifted || bends_profile(at)) && !needed.rows.empty()) {
+  if ((changes_geometry(at) || needed.shifted) && !needed.rows.empty()) {
     const RoundChoice choice = round_choice(mechanism, needed);
-    if (choice.suffices && !bends_profile(at)) {
+    if (choice.suffices) {
       joint.pulley.r1 = choice.r1;
       joint.joint.theta_min = needed.theta_min;
       joint.joint.theta_max = needed.theta_max;
     } else {
       joint = with_law(joint, needed);
-      for (LawRow& row : joint.pulley.rows) row.alpha = acting_angle(row.alpha, at);
     }
   }
   joint.material.shrinkage = 1 - (1 - joint.material.shrinkage) * (1 + at.pulley_scale);
@@ -306,10 +317,7 @@ Mechanism as_it_is(const Mechanism& mechanism) {
 }
 
 Mechanism expected_joint(const Mechanism& declared) {
-  // A corrected pulley's profile error undoes itself: it is drawn, and it is made.
-  Mechanism made = declared;
-  made.identified.profile_sin = made.identified.profile_cos = 0;
-  made = as_it_is(made);
+  Mechanism made = as_it_is(declared);
   made.identified = {};
   return made;
 }

@@ -459,6 +459,40 @@ double autocorrelation(const Evidence& evidence, const Fit& fit) {
   return squares > 0 ? std::clamp(products / squares, 0.0, 0.999) : 0.0;
 }
 
+StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
+  std::map<std::pair<std::size_t, int>, std::vector<double>> alike;
+  double squares = 0;
+  double products = 0;
+  double rows = 0;
+  for (const Block& block : evidence.blocks) {
+    double mean = 0;
+    for (const std::size_t i : block.rows) mean += fit.residual[static_cast<Eigen::Index>(i)] / static_cast<double>(block.rows.size());
+    alike[{block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction}].push_back(mean);
+    double last = 0;
+    for (const std::size_t i : block.rows) {
+      const double deviation = fit.residual[static_cast<Eigen::Index>(i)] - mean;
+      squares += deviation * deviation;
+      products += deviation * last;
+      last = deviation;
+    }
+    rows += static_cast<double>(block.rows.size());
+  }
+  double between = 0;
+  double freedom = 0;
+  for (const auto& [key, means] : alike) {
+    const double centre = std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(means.size());
+    for (const double mean : means) between += (mean - centre) * (mean - centre);
+    freedom += static_cast<double>(means.size()) - 1.0;
+  }
+  StrokeScatter scatter;
+  scatter.within = rows > 0 ? std::sqrt(squares / rows) : 0.0;
+  const double colour = squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
+  const double rows_a_stroke = rows / static_cast<double>(std::max<std::size_t>(1, evidence.blocks.size()));
+  const double of_noise = scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) / std::max(1.0, rows_a_stroke);
+  if (freedom > 0) scatter.between = std::sqrt(std::max(0.0, between / freedom - of_noise));
+  return scatter;
+}
+
 std::vector<const EffectParameter*> varied(const Mechanism& declared, const EffectSet& effects) {
   std::vector<const EffectParameter*> parameters;
   if (declared.transmission) parameters.push_back(&free_offset());

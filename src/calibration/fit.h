@@ -67,6 +67,13 @@ double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better);
 /// Lag-1 autocorrelation of the residual within blocks.
 double autocorrelation(const Evidence& evidence, const Fit& fit);
 
+/// Of the residual: rms of the means of strokes about their run and direction, beyond what noise does to means, and rms within strokes. rad
+struct StrokeScatter {
+  double between = 0;
+  double within = 0;
+};
+StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit);
+
 struct Interval {
   double low = 0;
   double high = 0;

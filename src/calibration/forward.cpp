@@ -27,10 +27,17 @@ double shaft_angle(double alpha, const Imperfections& at) {
   return alpha + at.motor_offset + at.motor_eccentricity_sin * std::sin(alpha) + at.motor_eccentricity_cos * (std::cos(alpha) - 1.0);
 }
 
-double wound_angle(double shaft, const Imperfections& at) {
-  if (at.profile_sin == 0 && at.profile_cos == 0) return shaft;
-  const double turns = at.profile_harmonic * shaft;
-  return shaft + at.profile_sin * std::sin(turns) + at.profile_cos * (std::cos(turns) - 1.0);
+/// A wave of the outline, n a turn: what it adds to the curve's support along the normal `psi` of the part, and to the arc up to there.
+struct Wave {
+  double outward = 0;
+  double arc = 0;
+};
+
+Wave wave(double psi, const Imperfections& at) {
+  const double n = at.profile_harmonic;
+  const double s = std::sin(n * psi);
+  const double c = std::cos(n * psi);
+  return {at.profile_sin * s + at.profile_cos * c, (at.profile_cos * s - at.profile_sin * c) / n};
 }
 
 /// What the mechanism does not see: the same for all sensors.
@@ -50,6 +57,9 @@ Imperfections geometry(const Imperfections& at) {
   key.guide_radius = at.guide_radius;
   key.guide_outward = at.guide_outward;
   key.guide_down = at.guide_down;
+  key.profile_sin = at.profile_sin;
+  key.profile_cos = at.profile_cos;
+  key.profile_harmonic = at.profile_harmonic;
   return key;
 }
 
@@ -144,6 +154,19 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       return paths;
     };
   }
+  // To first order a wave moves the line it touches and nothing else; on the left the image's arc runs the other way.
+  if (at.profile_sin != 0 || at.profile_cos != 0) {
+    model.lower = [without = model.lower, at](double alpha) {
+      std::array<LowerPath, 2> paths = without(alpha);
+      const Wave left = wave(k_pi - paths[0].normal + alpha, at);
+      const Wave right = wave(paths[1].normal + alpha, at);
+      paths[0].p += left.outward;
+      paths[0].wound -= left.arc;
+      paths[1].p += right.outward;
+      paths[1].wound += right.arc;
+      return paths;
+    };
+  }
   return model;
 }
 
@@ -235,7 +258,7 @@ void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections
   if (run.samples.empty()) return;
   Play play(at.backlash, 0.0);
   const auto step = [&](double alpha, const Sample& sample) {
-    const double pulley = wound_angle(play.to(shaft_angle(alpha, at)), at);
+    const double pulley = play.to(shaft_angle(alpha, at));
     return motion.to({pulley, tip_force(run, sample, declared_), declared_.load.torque, change(index, sample, at)});
   };
   const Sample& first = run.samples.front();
@@ -264,7 +287,7 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at) 
     if (pulley != before) direction = (pulley > before) == (ratio > 0) ? 1.0 : -1.0;
     before = pulley;
     const double load = run.has_load ? sample.load : 0.0;
-    double angle = wound_angle(pulley, at) / ratio - at.compliance * load - at.dry_friction * std::abs(load) * direction;
+    double angle = pulley / ratio - at.compliance * load - at.dry_friction * std::abs(load) * direction;
     if (at.drift != 0) angle -= at.drift * load * decades(run, sample);
     if (at.step != 0 && sample.time + clock_[index] >= at.slip_time) angle += at.step;
     if (run.has_temperature) angle += at.warmth * (sample.temperature - first_temperature_);

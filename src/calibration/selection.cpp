@@ -17,12 +17,15 @@ constexpr double k_least_drop = 0.5;
 /// A cause explains a good part of what stands above the floor; what explains a small part of it is the neighbour of a cause unknown.
 constexpr double k_least_share = 0.30;
 constexpr double k_least_bic_drop = 6.0;
-/// Two explanations are one if their errors differ by less than this part of the floor's square, however surely they do.
-constexpr double k_same = 0.03;
+/// A rival takes an effect's place if it does better by this part of the floor's square.
+constexpr double k_better = 0.03;
+/// Strokes that should be alike are apart by this part of the noise within them: the joint does not repeat.
+constexpr double k_walks = 0.7;
 /// What was measured by hand speaks against an explanation that is off by three standard uncertainties.
 constexpr double k_contradicted = 9.0;
 /// Where structure is left, what was found must have taken this share of all there was: else it is the neighbour of a cause unknown.
 constexpr double k_most_of_it = 0.80;
+constexpr double k_most_of_what_walks = 0.95;
 constexpr std::size_t k_most_effects = 5;
 constexpr std::size_t k_most_pairs = 10;
 constexpr int k_most_exchanges = 4;
@@ -316,7 +319,7 @@ bool Selector::exchange() {
   const Rival* best = nullptr;
   for (const Rival& rival : selection_.rivals) {
     const double gain = score(evidence_, selection_.best) - score(evidence_, rival.fit);
-    const bool clearly = gain > k_same * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
+    const bool clearly = gain > k_better * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
     if (clearly && (best == nullptr || score(evidence_, rival.fit) < score(evidence_, best->fit))) best = &rival;
   }
   if (best == nullptr) return false;
@@ -352,7 +355,9 @@ void Selector::retreat() {
   const double floor2 = evidence_.floor * evidence_.floor;
   const double all = selection_.none.by_run.mean_square - floor2;
   const double left = selection_.best.by_run.mean_square - floor2;
-  if (at_floor(selection_.best) || left <= (1.0 - k_most_of_it) * all) return;
+  const bool walks = is_walking(stroke_scatter(evidence_, selection_.best));
+  if (!walks && at_floor(selection_.best)) return;
+  if (left <= (1.0 - (walks ? k_most_of_what_walks : k_most_of_it)) * all) return;
   for (const Effect* effect : selection_.best.effects) {
     Candidate candidate;
     candidate.name = effect->name;
@@ -387,8 +392,10 @@ double noise_limit(double floor) { return (1.0 + k_least_drop * k_least_drop) * 
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best) {
   if (rival.against_readings > best.against_readings + k_contradicted) return false;
   const Comparison worse = compare(evidence, rival, best);
-  return worse.mean <= std::max(worse.standard_error, k_same * evidence.floor * evidence.floor);
+  return worse.mean <= std::max(worse.standard_error, std::pow(k_least_drop * evidence.floor, 2));
 }
+
+bool is_walking(const StrokeScatter& scatter) { return scatter.between > k_walks * scatter.within; }
 
 Selection select_effects(const Evidence& evidence, Workers& workers, const std::function<void(const std::string&, double)>& progress) {
   return Selector(evidence, workers, progress).run();

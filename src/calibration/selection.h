@@ -30,6 +30,9 @@ struct Selection {
 /// Mean square error that counts as noise, rad².
 double noise_limit(double floor);
 
+/// Whether strokes of one run and direction differ by more than noise lets them.
+bool is_walking(const StrokeScatter& scatter);
+
 /// Whether two held-out errors are the same as far as the data can tell: within a standard error, or within a small part of the noise.
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 

@@ -1,10 +1,8 @@
 #include "calibration/verdict.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "fusee/base/text.h"
 
@@ -22,21 +20,6 @@ struct Bin {
   double count = 0;
   double mean() const { return count > 0 ? sum / count : 0; }
 };
-
-/// White noise of the residual from second differences within strokes: blind to everything smooth.
-double white_noise(const Evidence& evidence, const Fit& fit) {
-  double squares = 0;
-  double count = 0;
-  for (const Block& block : evidence.blocks) {
-    for (std::size_t i = 1; i + 1 < block.rows.size(); ++i) {
-      const auto at = [&](std::size_t k) { return fit.residual[static_cast<Eigen::Index>(block.rows[k])]; };
-      const double second = at(i - 1) - 2.0 * at(i) + at(i + 1);
-      squares += second * second / 6.0;
-      count += 1;
-    }
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0;
-}
 
 std::string list(const std::vector<std::string>& names) {
   std::string text;
@@ -62,40 +45,21 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   const auto bin_of = [&](std::size_t row) {
     return std::clamp(static_cast<int>(k_bins * (samples[row]->alpha - least) / (most - least)), 0, k_bins - 1);
   };
-  // By place and direction over all runs; by place in each stroke.
-  std::map<std::pair<int, int>, Bin> places;
-  std::map<std::tuple<std::size_t, int, int>, std::vector<Bin>> alike;
+  std::map<std::pair<int, int>, Bin> places;  // by place and direction, over all runs
   double products = 0;
   double squares = 0;
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
-    std::array<Bin, k_bins> bins;
     for (std::size_t i = 0; i < block.rows.size(); ++i) {
       const double r = fit.residual[static_cast<Eigen::Index>(block.rows[i])];
       if (i > 0) products += r * fit.residual[static_cast<Eigen::Index>(block.rows[i - 1])];
       squares += r * r;
-      const int bin = bin_of(block.rows[i]);
-      for (Bin* into : {&places[{bin, direction}], &bins[static_cast<std::size_t>(bin)]}) {
-        into->sum += r;
-        into->count += 1;
-      }
-    }
-    for (int bin = 0; bin < k_bins; ++bin) {
-      if (bins[static_cast<std::size_t>(bin)].count > 2) alike[{block.run, direction, bin}].push_back(bins[static_cast<std::size_t>(bin)]);
+      Bin& bin = places[{bin_of(block.rows[i]), direction}];
+      bin.sum += r;
+      bin.count += 1;
     }
   }
   rest.autocorrelation = squares > 0 ? products / squares : 0;
-  const double noise = white_noise(evidence, fit);
-  double between = 0;
-  double freedom = 0;
-  for (const auto& [key, bins] : alike) {
-    if (bins.size() < 2) continue;
-    double mean = 0;
-    for (const Bin& bin : bins) mean += bin.mean() / static_cast<double>(bins.size());
-    for (const Bin& bin : bins) between += std::pow(bin.mean() - mean, 2) - noise * noise / bin.count * (1.0 - 1.0 / static_cast<double>(bins.size()));
-    freedom += static_cast<double>(bins.size()) - 1.0;
-  }
-  rest.scatter = freedom > 0 ? std::sqrt(std::max(0.0, between / freedom)) : 0;
   const auto largest = std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
     return std::abs(a.second.mean()) < std::abs(b.second.mean());
   });
@@ -112,8 +76,7 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
   const double floor = evidence.floor;
   const double after = selection.best.by_run.mean_square;
   const bool above = after > k_at_floor * floor * floor;
-  const double noise = white_noise(evidence, selection.best);
-  const bool scattered = rest.scatter > 2.0 * noise && rest.scatter * rest.scatter > 0.5 * after;
+  const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
   std::vector<std::string> names;
   bool confounded = false;
   for (const FoundEffect& effect : calibration.effects) {
@@ -127,9 +90,9 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     calibration.unexplained_rms = rest.structure;
     calibration.unexplained_where = rest.where;
   }
-  if (scattered) {
+  if (is_walking(scatter)) {
     calibration.verdict = "not_repeatable";
-    calibration.summary = "The same angle, direction and load give joint angles that differ by " + in_degrees(rest.scatter) +
+    calibration.summary = "The same angle, direction and load give joint angles that differ by " + in_degrees(scatter.between) +
                           " rms from stroke to stroke: look for something loose before any correction. " + figures;
     calibration.next_runs.insert(calibration.next_runs.begin(), "tighten what can be loose and repeat one run five times without touching anything");
   } else if (above) {

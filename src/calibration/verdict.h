@@ -9,10 +9,9 @@
 
 namespace fusee {
 
-/// Structure of the residual that repeats, and scatter of strokes that should be alike.
+/// Structure of the residual that repeats.
 struct Rest {
   double structure = 0;       ///< rms above the noise floor, rad
-  double scatter = 0;         ///< rms between strokes of the same run and direction, beyond their own noise, rad
   double autocorrelation = 0; ///< lag 1, within strokes
   std::string where;          ///< where it is largest
 };

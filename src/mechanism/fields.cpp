@@ -392,10 +392,10 @@ void add_identified(std::vector<Field>& table) {
       {"identified.runout_x_mm", "", "0", "centre of the made curves off the axis, at home"}, "mm", -100, 100));
   table.push_back(number<identified, &Imperfections::runout_y>(
       {"identified.runout_y_mm", "", "0", "the same across"}, "mm", -100, 100));
-  table.push_back(number<identified, &Imperfections::profile_sin, degrees, radians>(
-      {"identified.profile_sin_deg", "", "0", "tendon wound too far n times a turn: sin n alpha"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::profile_cos, degrees, radians>(
-      {"identified.profile_cos_deg", "", "0", "the same: cos n alpha - 1"}, "deg", -360, 360));
+  table.push_back(number<identified, &Imperfections::profile_sin>(
+      {"identified.profile_sin_mm", "", "0", "a wave of the made curves, further out along the normal psi by sin n psi"}, "mm", -100, 100));
+  table.push_back(number<identified, &Imperfections::profile_cos>(
+      {"identified.profile_cos_mm", "", "0", "the same: cos n psi"}, "mm", -100, 100));
   table.push_back(number<identified, &Imperfections::profile_harmonic>(
       {"identified.profile_harmonic", "", "2", "that n"}, "", 1, 100));
   table.push_back(number<identified, &Imperfections::stretch>(

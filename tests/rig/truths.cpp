@@ -48,7 +48,7 @@ std::vector<Fault> faults() {
       {"pulley_scale", 0.01, 0.06, [](H& h, double s, const C& c, const J&) { h.pulley_scale = c.sign * s; }, {}},
       {"pulley_runout", 0.1, 1.5,
        [](H& h, double s, const C& c, const J&) { h.runout_x = s * std::cos(c.angle), h.runout_y = s * std::sin(c.angle); }, {}},
-      {"profile_error", 0.05, 1.0,
+      {"profile_error", 0.05, 0.3,
        [](H& h, double s, const C& c, const J&) { h.profile_error = s, h.profile_phase = c.angle, h.profile_harmonic = c.share < 0.5 ? 2 : 3; }, {}},
       {"tendon_stretch", 1.0, 12.0,
        [](H& h, double s, const C&, const J& j) { h.modulus = j.declared.tendon.modulus / (1.0 + s); }, {}},

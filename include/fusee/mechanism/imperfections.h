@@ -20,8 +20,8 @@ struct Imperfections {
   double pulley_scale = 0;            ///< pitch curves larger by this fraction
   double runout_x = 0;                ///< centre of the pitch curves off the axis, at home, mm
   double runout_y = 0;                ///< mm
-  double profile_sin = 0;             ///< tendon wound too far n times per turn, as an angle: sin nα, rad
-  double profile_cos = 0;             ///< cos nα − 1, rad
+  double profile_sin = 0;             ///< a wave all round: pitch curves further out by sin nψ along the normal ψ of the part, mm
+  double profile_cos = 0;             ///< and by cos nψ, mm
   double profile_harmonic = 2;        ///< n
 
   // Tendon.
