@@ -20,7 +20,7 @@ std::vector<std::vector<double>> residuals(const Measurement& measurement, const
 }
 
 /// Of whole strokes.
-ErrorFigures figures(const Measurement& measurement, const std::vector<std::vector<double>>& all, double held_out_mean_square) {
+ErrorFigures figures(const Measurement& measurement, const std::vector<std::vector<double>>& all, double held_out) {
   ErrorFigures error;
   double squares = 0;
   double rows = 0;
@@ -35,7 +35,7 @@ ErrorFigures figures(const Measurement& measurement, const std::vector<std::vect
     }
   }
   error.rms = rows > 0 ? std::sqrt(squares / rows) : 0;
-  error.held_out_rms = std::sqrt(held_out_mean_square);
+  error.held_out_rms = held_out;
   return error;
 }
 
@@ -126,8 +126,8 @@ Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
   calibration.identified = selection.best.at;
   calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, measurement));
   calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, measurement));
-  calibration.before = figures(measurement, calibration.residuals_before, selection.none.by_run.mean_square);
-  calibration.after = figures(measurement, calibration.residuals_after, selection.best.by_run.mean_square);
+  calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(selection.none));
+  calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(selection.best));
   calibration.iso_before = iso230(measurement, calibration.residuals_before);
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
   calibration.correctable_by_pulley = moved_by(evidence, selection, "pulley");

@@ -194,6 +194,7 @@ Eigen::VectorXd slopes_of(const Fit& fit, Eigen::Index row) {
 void sum_up(const Evidence& evidence, Fit& fit) {
   double rows = 0;
   double squares = 0;
+  double prices = 0;
   fit.sums.clear();
   for (const Block& block : evidence.blocks) {
     BlockSums sums = no_sums(fit.x.size());
@@ -202,7 +203,9 @@ void sum_up(const Evidence& evidence, Fit& fit) {
       const Eigen::VectorXd J = slopes_of(fit, row);
       sums.JJ += J * J.transpose();
       sums.Jr += J * fit.residual[row];
-      sums.rr += fit.residual[row] * fit.residual[row] + price_of_play(fit.loose[row], evidence.floor);
+      const double price = price_of_play(fit.loose[row], evidence.floor);
+      sums.rr += fit.residual[row] * fit.residual[row] + price;
+      prices += price;
     }
     sums.rows = static_cast<double>(block.rows.size());
     rows += sums.rows;
@@ -210,6 +213,7 @@ void sum_up(const Evidence& evidence, Fit& fit) {
     fit.sums.push_back(std::move(sums));
   }
   fit.mean_square = squares / rows;
+  fit.price = prices / rows;
 }
 
 /// Whether the blocks outside a fold say enough of every direction that all of them together know: a level that alone carries what is known of a
@@ -403,7 +407,9 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
 std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& base, const Effect& effect) {
   std::vector<std::vector<double>> starts = effect.starts;
   if (effect.starts_in_time) {
-    for (const double time : steps_in_time(evidence, base)) starts.push_back({0, time});
+    for (const double time : steps_in_time(evidence, base)) {
+      for (const double size : {0.0, 10.0, -10.0, 50.0, -50.0}) starts.push_back({size * effect.parameters.front().step, time});
+    }
   }
   const bool has_searched = std::any_of(effect.parameters.begin(), effect.parameters.end(), [](const EffectParameter& p) { return p.searched; });
   if (!has_searched) starts.insert(starts.begin(), std::vector<double>(effect.parameters.size(), 0.0));

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "calibration/effects/effect.h"
@@ -26,6 +28,7 @@ struct HeldOut {
   double mean_square = 0;
 };
 
+/// A fit, and what it says of data that it did not see.
 struct Fit {
   EffectSet effects;
   Imperfections at;
@@ -37,10 +40,14 @@ struct Fit {
   BlockSums readings;             ///< what was measured by hand, in the same unit
   HeldOut by_factor;              ///< Evidence::factor_folds: what decides
   HeldOut by_run;                 ///< Evidence::run_folds: what is reported
-  double mean_square = 0;         ///< of the rows it was fitted to, and what its play must answer for
+  double mean_square = 0;         ///< of the rows it was fitted to, with `price`
+  double price = 0;               ///< part of every mean square here: what the play of a loose joint must answer for, rad²
   double against_readings = 0;    ///< sum of squares of what was measured by hand, each by its uncertainty
   bool usable = false;
 };
+
+/// Held-out rms of the residual itself, by runs, rad.
+inline double held_out_rms(const Fit& fit) { return std::sqrt(std::max(0.0, fit.by_run.mean_square - fit.price)); }
 
 /// Robust, by Ceres, from where the members stand in `from`.
 Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& effects, const Imperfections& from);

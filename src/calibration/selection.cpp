@@ -21,6 +21,8 @@ constexpr double k_least_bic_drop = 6.0;
 constexpr double k_better = 0.03;
 /// Strokes that should be alike are apart by this part of the noise within them: the joint does not repeat.
 constexpr double k_walks = 0.7;
+/// A joint that is loose nearly everywhere explains everything: play that costs more than this is no explanation. In squares of the floor.
+constexpr double k_dearest_play = 2.0;
 /// What was measured by hand speaks against an explanation that is off by three standard uncertainties.
 constexpr double k_contradicted = 9.0;
 /// Where structure is left, what was found must have taken this share of all there was: else it is the neighbour of a cause unknown.
@@ -110,7 +112,10 @@ class Selector {
   Fit without(const Effect* effect);
   void note(const std::vector<Trial>& trials, const Trial* taken);
 
-  bool at_floor(const Fit& fit) const { return fit.by_run.mean_square <= noise_limit(evidence_.floor); }
+  bool at_floor(const Fit& fit) const {
+    const double floor2 = evidence_.floor * evidence_.floor;
+    return fit.by_run.mean_square - fit.price <= noise_limit(evidence_.floor) && fit.price <= k_dearest_play * floor2;
+  }
   bool has(const Effect& effect) const {
     const EffectSet& all = selection_.best.effects;
     return std::find(all.begin(), all.end(), &effect) != all.end();

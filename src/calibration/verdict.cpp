@@ -31,7 +31,7 @@ std::string list(const std::vector<std::string>& names) {
 
 Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   Rest rest;
-  rest.structure = std::sqrt(std::max(0.0, fit.by_run.mean_square - evidence.floor * evidence.floor));
+  rest.structure = std::sqrt(std::max(0.0, fit.by_run.mean_square - fit.price - evidence.floor * evidence.floor));
   double least = 1e300;
   double most = -1e300;
   std::vector<const Sample*> samples;
@@ -74,7 +74,7 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
 void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
   const double floor = evidence.floor;
-  const double after = selection.best.by_run.mean_square;
+  const double after = std::pow(held_out_rms(selection.best), 2);
   const bool above = after > k_at_floor * floor * floor;
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
   std::vector<std::string> names;

@@ -34,7 +34,7 @@ struct Effect {
   std::string separating_run;  ///< the measurement that tells it from its rivals
   std::vector<EffectParameter> parameters;
   std::vector<std::vector<double>> starts;  ///< of the fit, beside zero; one value a parameter
-  bool starts_in_time = false;              ///< and {0, time} wherever the residual steps
+  bool starts_in_time = false;              ///< and wherever the residual steps: size and time are the first two parameters
   /// Whether the joint has what it needs and the data can show it at all.
   bool (*applies)(const Mechanism& declared, const Measurement& measurement) = nullptr;
 };
