@@ -354,7 +354,7 @@ Reply run_calibrate(const Arguments& arguments, Console& console) {
 Command calibrate_command() {
   return {"calibrate",
           "SPEC RUN.csv...",
-          "measured data: what is off, why, and the pulley for it",
+          "measured data: what is off, why, a better pulley",
           "Holds measured runs of a joint (CSV with alpha_deg,theta_deg and, if logged,\n"
           "time_s,load_N,temperature_C) against the mechanism file SPEC: finds the residual,\n"
           "names the effects behind it that hold on data they were not fitted to, with those\n"

@@ -411,9 +411,9 @@ void add_identified(std::vector<Field>& table) {
   table.push_back(number<identified, &Imperfections::slip_time>(
       {"identified.slip_time_s", "", "0", "when it slipped, the runs one after another"}, "s", -1e+12, 1e+12));
   table.push_back(number<identified, &Imperfections::thermal1, per_million, of_a_million>(
-      {"identified.thermal1_ppm_per_K", "", "0", "length that the unloaded tendon 1 gains by a kelvin"}, "ppm/K", -1e+05, 1e+05));
+      {"identified.thermal1_ppm_per_K", "", "0", "length that the unloaded tendon 1 gains by a kelvin"}, "ppm_per_K", -1e+05, 1e+05));
   table.push_back(number<identified, &Imperfections::thermal2, per_million, of_a_million>(
-      {"identified.thermal2_ppm_per_K", "", "0", "the same of tendon 2"}, "ppm/K", -1e+05, 1e+05));
+      {"identified.thermal2_ppm_per_K", "", "0", "the same of tendon 2"}, "ppm_per_K", -1e+05, 1e+05));
   table.push_back(number<identified, &Imperfections::friction>(
       {"identified.friction", "", "0", "added to guides.friction"}, "", -2, 2));
   table.push_back(number<identified, &Imperfections::guide_radius>(

@@ -715,7 +715,7 @@ TEST(Rig, its_files_are_read_by_fusee) {
   EXPECT_EQ(run.samples.size(), logs[1].size());
   EXPECT_TRUE(run.has_time && run.has_load && run.has_temperature);
   EXPECT_EQ(run.strokes.size(), 6u);
-  EXPECT_EQ(run.mean_load, 6.0);
+  EXPECT_NEAR(run.mean_load, 6.0, 1e-9);
   EXPECT_NEAR(degrees(run.speed), 12.0, 0.01);
 }
 
