@@ -11,7 +11,10 @@ namespace {
 /// Apart by this many times the noise: told apart.
 constexpr double k_told = 3.0;
 constexpr std::size_t k_most_proposals = 4;
-constexpr double k_caliper = 0.05;  // mm
+constexpr double k_caliper = 0.05;           // mm
+constexpr double k_diameters = 0.003;        // of a print's size, by a caliper
+constexpr double k_square = 0.005;           // of a sensor's gain, by a square
+constexpr double k_mark = radians(0.2);      // of a sensor's zero, by a mark
 constexpr double k_lever_load = 0.3;  // of the pretension, as a tip force
 
 /// A run that could be made: what it would log, and what is changed on the bench for it.
@@ -105,10 +108,11 @@ std::vector<Proposal> proposals(const Evidence& evidence) {
   return all;
 }
 
-/// A caliper tells those apart that give a length different values.
+/// A reading by hand tells those apart that give a member different values.
 struct Caliper {
   std::string words;
   double Imperfections::* member;
+  double uncertainty = k_caliper;
 };
 
 std::vector<Caliper> calipers(const Evidence& evidence) {
@@ -117,7 +121,10 @@ std::vector<Caliper> calipers(const Evidence& evidence) {
           {"measure the pins' distance from the middle and write [prior] EB_mm and ED_mm", &Imperfections::guide_outward},
           {"measure how far the pins lie below the joint and write [prior] OE_mm", &Imperfections::guide_down},
           {"measure from the joint's axis to the tendons' attachment and write [prior] length_mm", &Imperfections::joint_length},
-          {"measure the pulley's groove floor and the tendon with a caliper and write [prior] radius_offset_mm", &Imperfections::radius_offset}};
+          {"measure the pulley's groove floor and the tendon with a caliper and write [prior] radius_offset_mm", &Imperfections::radius_offset},
+          {"measure two diameters of the print with a caliper and write [prior] pulley_scale", &Imperfections::pulley_scale, k_diameters},
+          {"read the joint's sensor against a square at two angles", &Imperfections::gain, k_square},
+          {"drive the joint to a mark at home and read its sensor there", &Imperfections::zero, k_mark}};
 }
 
 double rms_apart(const Readings& one, const Readings& other) {
@@ -147,7 +154,7 @@ std::string sentence(const Ranked& ranked, const std::vector<const Rival*>& pair
   std::string told;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (ranked.apart[i] <= k_told) continue;
-    told += (told.empty() ? "" : ", ") + pairs[i]->accepted->name + " from " + pairs[i]->rival->name + " (" + rounded(std::min(ranked.apart[i], 999.0), 2) + " × the noise)";
+    told += (told.empty() ? "" : ", ") + pairs[i]->accepted->name + " from " + pairs[i]->rival->name + " (" + rounded(std::min(ranked.apart[i], 999.0), 2) + " × what it is uncertain by)";
   }
   return ranked.words + ": it tells " + told;
 }
@@ -170,7 +177,7 @@ std::vector<std::string> next_runs(const Evidence& evidence, const Selection& se
   }
   for (const Caliper& caliper : calipers(evidence)) {
     Ranked entry{caliper.words, {}};
-    for (const Rival* pair : pairs) entry.apart.push_back(std::abs(selection.best.at.*caliper.member - pair->fit.at.*caliper.member) / k_caliper);
+    for (const Rival* pair : pairs) entry.apart.push_back(std::abs(selection.best.at.*caliper.member - pair->fit.at.*caliper.member) / caliper.uncertainty);
     ranked.push_back(std::move(entry));
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.told() != b.told() ? a.told() > b.told() : a.most() > b.most(); });

@@ -90,6 +90,7 @@ class MechanismReader {
   void check_unused();
   void check_bore();
   void check_optimize();
+  void check_prior();
   void load_table();
 
   bool has(const std::string& key) const { return entries_.count(key) > 0; }
@@ -480,6 +481,17 @@ void MechanismReader::check_optimize() {
   check_optimize_table(mechanism_.optimize, is_good, item_place, errors_);
 }
 
+void MechanismReader::check_prior() {
+  for (const Field& field : fields()) {
+    const auto entry = entries_.find(field.name());
+    if (field.table != "prior" || entry == entries_.end() || !good_[field.name()]) continue;
+    const std::vector<double>& reading = field.numbers(mechanism_);
+    if (reading.empty() || (reading.size() == 2 && reading[1] > 0)) continue;
+    fail(entry->second.place, field.name() + " takes two numbers: the value read and its standard uncertainty, above 0",
+         "for example " + field.name() + " = [2.4, 0.02]");
+  }
+}
+
 void MechanismReader::load_table() {
   const PulleyDrive& pulley = mechanism_.pulley;
   if (pulley.law != Law::table || !good_["pulley.table"] || !good_["joint.range_deg"]) return;
@@ -529,6 +541,7 @@ Mechanism MechanismReader::read(std::string_view text, const std::vector<Setting
   check_unused();
   check_bore();
   check_optimize();
+  check_prior();
   load_table();
   finish(warnings);
   return mechanism_;

@@ -217,6 +217,14 @@ TEST(Reader, SettingsNameThemselvesInErrors) {
   EXPECT_THAT(text_of({"guides.EB_mm", "1e999"}), HasSubstr("guides.EB_mm must be a"));
 }
 
+TEST(Reader, WantsAnUncertaintyOfWhatWasMeasuredByHand) {
+  EXPECT_TRUE(errors_of(k_good_file + "[prior]\nguide_radius_mm = [2.4, 0.02]\nEB_mm = []\n").empty());
+  for (const char* wrong : {"[2.4]", "[2.4, 0]", "[2.4, -0.1]", "[2.4, 0.1, 0.2]"}) {
+    const std::string error = only_error(k_good_file + "[prior]\nguide_radius_mm = " + wrong + "\n");
+    EXPECT_THAT(error, HasSubstr("prior.guide_radius_mm takes two numbers")) << wrong;
+  }
+}
+
 TEST(Reader, SyntaxErrorsHaveAPlace) {
   EXPECT_THAT(only_error("schema = 1\nname = \n"), HasSubstr("2:8 not TOML: "));
   EXPECT_THAT(only_error("schema = 1\nschema = 1\n"), HasSubstr("2:"));
