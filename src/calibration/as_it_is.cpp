@@ -41,12 +41,30 @@ bool changes_statics(const Imperfections& at) {
 bool gives_way(const Imperfections& at) {
   return at.stretch != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 || at.mean_load != 0;
 }
-/// A wave of the made curves: outwards along the normal of the part, and by its slope along the tangent, which keeps the normal.
-Vec2 wave(const Vec2& normal, const Imperfections& at) {
-  const double turns = at.profile_harmonic * std::atan2(normal.y(), normal.x());
-  const double outward = at.profile_sin * std::sin(turns) + at.profile_cos * std::cos(turns);
-  const double slope = at.profile_harmonic * (at.profile_sin * std::cos(turns) - at.profile_cos * std::sin(turns));
-  return outward * normal + slope * Vec2(-normal.y(), normal.x());
+/// By how much a made curve stands further out where the normal is `psi`: s sin nψ + c cos nψ, and its derivatives.
+struct Wave {
+  double outward = 0;
+  double slope = 0;
+  double bend = 0;
+};
+
+Wave wave(double psi, const Imperfections& at) {
+  const double n = at.profile_harmonic;
+  const double outward = at.profile_sin * std::sin(n * psi) + at.profile_cos * std::cos(n * psi);
+  const double slope = n * (at.profile_sin * std::cos(n * psi) - at.profile_cos * std::sin(n * psi));
+  return {outward, slope, -n * n * outward};
+}
+
+/// Draws a point further in by what making moves it out. Making moves points w along their normals, which moves the support of a curve with radius of
+/// curvature ρ by w + w'²/(2ρ) (forward.cpp).
+void draw_wave_out(OutlinePoint& point, const Imperfections& at) {
+  if (at.profile_sin == 0 && at.profile_cos == 0) return;
+  const Wave w = wave(point.psi, at);
+  const double rho = point.curvature_radius;
+  const double support = w.outward + 0.5 * w.slope * w.slope / rho;
+  const double slope = w.slope + w.slope * w.bend / rho;
+  point.position -= support * point.normal + slope * Vec2(-point.normal.y(), point.normal.x());
+  point.curvature_radius -= w.outward + w.bend;
 }
 
 /// The declared law as rows, both ends of the range among them, a little beyond them where it goes on. Empty where it
@@ -265,10 +283,9 @@ void draw_for_making(SynthesisResult& synthesis, const Mechanism& mechanism) {
   const Imperfections& at = mechanism.identified;
   for (Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     for (OutlinePoint& point : outline->points) {
-      const double n = at.profile_harmonic;
-      const Vec2 out = wave(point.normal, at);
-      point.position -= Vec2(at.runout_x, at.runout_y) + at.radius_offset * point.normal + out;
-      point.curvature_radius -= at.radius_offset + (1.0 - n * n) * out.dot(point.normal);
+      draw_wave_out(point, at);
+      point.position -= Vec2(at.runout_x, at.runout_y) + at.radius_offset * point.normal;
+      point.curvature_radius -= at.radius_offset;
     }
   }
 }
@@ -280,7 +297,8 @@ Polygon as_made(Polygon drawn, const Mechanism& mechanism) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 along = (centred[(i + 1) % n] - centred[(i + n - 1) % n]).normalized();
     drawn[i] += Vec2(at.runout_x, at.runout_y);
-    if (at.profile_sin != 0 || at.profile_cos != 0) drawn[i] += wave(Vec2(along.y(), -along.x()), at);
+    const Vec2 normal(along.y(), -along.x());
+    drawn[i] += wave(std::atan2(normal.y(), normal.x()), at).outward * normal;
   }
   return drawn;
 }

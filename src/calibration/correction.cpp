@@ -78,9 +78,11 @@ Imperfections without_the_mechanism(Imperfections found) {
 bool same_drawing(const Mechanism& a, const Mechanism& b) {
   Mechanism one = as_it_is(a), other = as_it_is(b);
   one.guides.mu = other.guides.mu = 0;
-  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley &&
-         one.material == other.material && a.identified.radius_offset == b.identified.radius_offset &&
-         a.identified.runout_x == b.identified.runout_x && a.identified.runout_y == b.identified.runout_y;
+  for (double Imperfections::*drawn_out :
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin, &Imperfections::profile_cos}) {
+    if (a.identified.*drawn_out != b.identified.*drawn_out) return false;
+  }
+  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley && one.material == other.material;
 }
 
 std::string why_infeasible(const Mechanism& corrected) {

@@ -33,11 +33,17 @@ struct Wave {
   double arc = 0;
 };
 
-Wave wave(double psi, const Imperfections& at) {
+// Every point of the outline is moved along its normal by w = s sin nψ + c cos nψ. The farthest point along ψ is then a neighbour: beside w it
+// gains w'²/(2ρ), with ρ the radius of curvature, for which the support stands.
+Wave wave(double psi, double support, const Imperfections& at) {
   const double n = at.profile_harmonic;
-  const double s = std::sin(n * psi);
-  const double c = std::cos(n * psi);
-  return {at.profile_sin * s + at.profile_cos * c, (at.profile_cos * s - at.profile_sin * c) / n};
+  const double s = at.profile_sin;
+  const double c = at.profile_cos;
+  const double sine = std::sin(n * psi);
+  const double cosine = std::cos(n * psi);
+  const double slope = n * (s * cosine - c * sine);
+  const double squares = 0.5 * n * n * ((s * s + c * c) * psi + ((s * s - c * c) * sine * cosine + s * c * (cosine * cosine - sine * sine)) / n);
+  return {s * sine + c * cosine + 0.5 * slope * slope / support, (c * sine - s * cosine) / n + 0.5 * squares / support};
 }
 
 /// What the mechanism does not see: the same for all sensors.
@@ -154,12 +160,12 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       return paths;
     };
   }
-  // To first order a wave moves the line it touches and nothing else; on the left the image's arc runs the other way.
+  // A wave moves the line that touches it and turns it too little to matter; on the left the image's arc runs the other way.
   if (at.profile_sin != 0 || at.profile_cos != 0) {
     model.lower = [without = model.lower, at](double alpha) {
       std::array<LowerPath, 2> paths = without(alpha);
-      const Wave left = wave(k_pi - paths[0].normal + alpha, at);
-      const Wave right = wave(paths[1].normal + alpha, at);
+      const Wave left = wave(k_pi - paths[0].normal + alpha, paths[0].p, at);
+      const Wave right = wave(paths[1].normal + alpha, paths[1].p, at);
       paths[0].p += left.outward;
       paths[0].wound -= left.arc;
       paths[1].p += right.outward;
