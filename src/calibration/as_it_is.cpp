@@ -8,12 +8,13 @@
 #include "fusee/calibration/correction.h"
 
 // The corrected pulley is drawn so that what was identified undoes itself:
-//   geometry, friction, tendon            the mechanism has them, and the law stays the declared θ(α) as a table, or P1 round where that suffices;
-//   stretch, weight                       the law is drawn further by what the joint gives way under its mean load (given_way);
-//   scale 1 + s                           one more shrinkage;
-//   radius offset, wave of the profile,
-//   runout                                the curves are drawn further in, with the wave the other way, and off the axis the other way
-//                                         (draw_for_making).
+//
+// - geometry, friction, tendon: the mechanism has them, and the law stays the declared θ(α), with P1 round where that
+//   suffices and as a table where not;
+// - stretch, weight: the law is drawn further by what the joint gives way under its mean load (given_way);
+// - scale 1 + s: one more shrinkage;
+// - radius offset, wave of the profile, runout: the curves are drawn further in, with the wave the other way, and off
+//   the axis the other way (draw_for_making).
 
 namespace fusee {
 namespace {
@@ -55,8 +56,8 @@ Wave wave(double psi, const Imperfections& at) {
   return {outward, slope, -n * n * outward};
 }
 
-/// Draws a point further in by what making moves it out. Making moves points w along their normals, which moves the support of a curve with radius of
-/// curvature ρ by w + w'²/(2ρ) (forward.cpp).
+/// Draws a point further in by what making moves it out. Making moves points w along their normals, which moves the
+/// support of a curve with radius of curvature ρ by w + w'²/(2ρ) (forward.cpp).
 void draw_wave_out(OutlinePoint& point, const Imperfections& at) {
   if (at.profile_sin == 0 && at.profile_cos == 0) return;
   const Wave w = wave(point.psi, at);
@@ -101,8 +102,8 @@ Mechanism identified_joint(const Mechanism& mechanism) {
   joint.load = with_weight(joint.load, mechanism.identified, joint.joint.R);
   joint.identified = {};
   for (double Imperfections::*member :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin, &Imperfections::profile_cos,
-        &Imperfections::profile_harmonic}) {
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin,
+        &Imperfections::profile_cos, &Imperfections::profile_harmonic}) {
     joint.identified.*member = mechanism.identified.*member;
   }
   return joint;
@@ -315,8 +316,7 @@ double tied_at(const Mechanism& mechanism) { return mechanism.transmission ? 0.0
 
 Mechanism as_it_is(const Mechanism& mechanism) {
   const Imperfections& at = mechanism.identified;
-  const bool nothing_to_do =
-      !changes_geometry(at) && !changes_statics(at) && at.pulley_scale == 0;
+  const bool nothing_to_do = !changes_geometry(at) && !changes_statics(at) && at.pulley_scale == 0;
   if (mechanism.transmission || nothing_to_do) return mechanism;
   Mechanism joint = identified_joint(mechanism);
   const NeededLaw needed = needed_law(mechanism);

@@ -1,11 +1,10 @@
-#include "fusee/calibration/calibration.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/explanation.h"
 #include "calibration/next_runs.h"
 #include "calibration/verdict.h"
+#include "fusee/calibration/calibration.h"
 
 namespace fusee {
 namespace {
@@ -14,7 +13,8 @@ std::vector<std::vector<double>> residuals(const Measurement& measurement, const
   std::vector<std::vector<double>> all;
   for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
     all.emplace_back();
-    for (std::size_t k = 0; k < model[i].size(); ++k) all.back().push_back(measurement.runs[i].samples[k].theta - model[i][k]);
+    for (std::size_t k = 0; k < model[i].size(); ++k)
+      all.back().push_back(measurement.runs[i].samples[k].theta - model[i][k]);
   }
   return all;
 }
@@ -78,11 +78,14 @@ Calibration not_testable(const std::vector<std::string>& reasons) {
   Calibration calibration;
   calibration.verdict = "not_testable";
   for (const std::string& reason : reasons) calibration.summary += (calibration.summary.empty() ? "" : " ") + reason;
-  calibration.next_runs = {"several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster"};
+  calibration.next_runs = {
+      "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster"};
   return calibration;
 }
 
-bool is_named(const Run& run, const std::vector<std::string>& names) { return std::find(names.begin(), names.end(), run.name) != names.end(); }
+bool is_named(const Run& run, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), run.name) != names.end();
+}
 
 /// The runs that may be learnt from, or those kept for validation.
 Measurement part(const Measurement& measurement, const std::vector<std::string>& hold_out, bool held) {
@@ -92,9 +95,12 @@ Measurement part(const Measurement& measurement, const std::vector<std::string>&
 }
 
 /// Where runs were named, theirs are the held-out figures.
-void validate(const Mechanism& declared, const Measurement& kept, const Selection& selection, Calibration& calibration) {
+void validate(const Mechanism& declared, const Measurement& kept, const Selection& selection,
+              Calibration& calibration) {
   if (kept.runs.empty()) return;
-  const auto rms = [&](const Imperfections& at) { return figures(kept, residuals(kept, predict(declared, at, kept)), 0).rms; };
+  const auto rms = [&](const Imperfections& at) {
+    return figures(kept, residuals(kept, predict(declared, at, kept)), 0).rms;
+  };
   calibration.before.held_out_rms = rms(selection.none.at);
   calibration.after.held_out_rms = rms(selection.best.at);
   calibration.held_out_runs.clear();
@@ -103,7 +109,8 @@ void validate(const Mechanism& declared, const Measurement& kept, const Selectio
 
 }  // namespace
 
-std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections, const Measurement& measurement) {
+std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections,
+                                         const Measurement& measurement) {
   return Forward(declared, measurement)(imperfections);
 }
 
@@ -112,10 +119,14 @@ Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
   const NoiseFloor noise = noise_floor(measurement);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
-  if (evidence.blocks.size() < 2) return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
+  if (evidence.blocks.size() < 2)
+    return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Workers workers(evidence);
   const Selection selection = select_effects(evidence, workers, options.progress);
-  if (!selection.none.usable) return not_testable({"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not of one joint."});
+  if (!selection.none.usable)
+    return not_testable(
+        {"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not "
+         "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
   calibration.effects = found_effects(evidence, workers, selection);

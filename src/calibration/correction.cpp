@@ -79,10 +79,12 @@ bool same_drawing(const Mechanism& a, const Mechanism& b) {
   Mechanism one = as_it_is(a), other = as_it_is(b);
   one.guides.mu = other.guides.mu = 0;
   for (double Imperfections::*drawn_out :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin, &Imperfections::profile_cos}) {
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin,
+        &Imperfections::profile_cos}) {
     if (a.identified.*drawn_out != b.identified.*drawn_out) return false;
   }
-  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley && one.material == other.material;
+  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley &&
+         one.material == other.material;
 }
 
 std::string why_infeasible(const Mechanism& corrected) {

@@ -15,16 +15,19 @@ constexpr std::size_t k_most_rows = 1500;
 constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 
-/// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are history.
+/// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are
+/// history.
 std::vector<bool> looked_at(const Run& run, std::size_t most_rows) {
   const std::size_t pairs = (run.strokes.size() + 1) / 2;
   const std::size_t most_pairs = std::max<std::size_t>(1, most_rows / (4 * k_least_rows_a_block));
   std::vector<bool> chosen(run.strokes.size(), true);
-  for (std::size_t i = 0; pairs > most_pairs && i < chosen.size(); ++i) chosen[i] = (i / 2) * most_pairs / pairs != (i / 2 + 1) * most_pairs / pairs;
+  for (std::size_t i = 0; pairs > most_pairs && i < chosen.size(); ++i)
+    chosen[i] = (i / 2) * most_pairs / pairs != (i / 2 + 1) * most_pairs / pairs;
   return chosen;
 }
 
-/// Every n-th row, and both ends of each stroke, which the motion's history needs. `counted`: the every n-th alone, lest ends weigh too much.
+/// Every n-th row, and both ends of each stroke, which the motion's history needs. `counted`: the every n-th alone,
+/// lest ends weigh too much.
 Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   if (run.samples.size() <= most) {
     counted.insert(counted.end(), run.samples.size(), true);
@@ -149,7 +152,8 @@ void choose_factor_folds(Evidence& evidence) {
 }
 
 /// Rows of a stroke that lie with their neighbours: none of the effects makes a single row jump.
-std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::size_t first, std::size_t last, double floor) {
+std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::size_t first, std::size_t last,
+                                          double floor) {
   std::vector<std::size_t> rows;
   for (std::size_t i = first; i <= last; ++i) {
     std::vector<double> near;
@@ -157,7 +161,8 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
     for (std::size_t j = from; j <= std::min(last, i + 2); ++j) near.push_back(residual[static_cast<Eigen::Index>(j)]);
     const double middle = median(near);
     double spread = 0;
-    for (const double value : near) spread = std::max(spread, value == residual[static_cast<Eigen::Index>(i)] ? 0.0 : std::abs(value - middle));
+    for (const double value : near)
+      spread = std::max(spread, value == residual[static_cast<Eigen::Index>(i)] ? 0.0 : std::abs(value - middle));
     if (std::abs(residual[static_cast<Eigen::Index>(i)] - middle) <= 6.0 * floor + 3.0 * spread) rows.push_back(i);
   }
   return rows;
@@ -165,8 +170,10 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
 
 // ---- what was measured by hand --------------------------------------------------------------------------------------
 
-/// A reading [value, standard uncertainty] of something that is `declared`, as a reading of by how much the joint differs from its file.
-void add_reading(std::vector<HandReading>& readings, double Imperfections::* member, const std::vector<double>& reading, double declared) {
+/// A reading [value, standard uncertainty] of something that is `declared`, as a reading of by how much the joint
+/// differs from its file.
+void add_reading(std::vector<HandReading>& readings, double Imperfections::*member, const std::vector<double>& reading,
+                 double declared) {
   if (reading.size() == 2) readings.push_back({member, reading[0] - declared, reading[1]});
 }
 
@@ -182,7 +189,8 @@ std::vector<HandReading> hand_readings(const Mechanism& declared) {
   add_reading(readings, &Imperfections::radius_offset, prior.radius_offset, 0);
   add_reading(readings, &Imperfections::pulley_scale, prior.pulley_scale, 1);
   // The pulley's axis stays where it is declared: pins further down are pins closer to it.
-  if (prior.EF.size() == 2) readings.push_back({&Imperfections::guide_down, declared.pulley.EF - prior.EF[0], prior.EF[1]});
+  if (prior.EF.size() == 2)
+    readings.push_back({&Imperfections::guide_down, declared.pulley.EF - prior.EF[0], prior.EF[1]});
   if (prior.modulus.size() == 2 && prior.modulus[0] > 0) {
     const double ratio = declared.tendon.modulus / prior.modulus[0];
     readings.push_back({&Imperfections::stretch, ratio - 1.0, ratio * prior.modulus[1] / prior.modulus[0]});
@@ -241,7 +249,9 @@ Evidence gather(const Mechanism& declared, const Measurement& measurement, doubl
       // Where the play stood when the log began is not known: the first stroke finds out.
       if (run.strokes[s].partial || (s == 0 && run.strokes.size() > 2)) continue;
       Block block{i, s, without_outliers(residual, offset + run.strokes[s].first, offset + run.strokes[s].last, floor)};
-      block.rows.erase(std::remove_if(block.rows.begin(), block.rows.end(), [&](std::size_t row) { return !counted[row]; }), block.rows.end());
+      block.rows.erase(
+          std::remove_if(block.rows.begin(), block.rows.end(), [&](std::size_t row) { return !counted[row]; }),
+          block.rows.end());
       if (block.rows.size() >= k_least_rows_a_block) evidence.blocks.push_back(std::move(block));
     }
     offset += run.samples.size();

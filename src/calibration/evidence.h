@@ -1,5 +1,6 @@
 /// \file
-/// What a calibration is held against: thinned runs, how they are cut into blocks, and which blocks are held out together.
+/// What a calibration is held against: thinned runs, how they are cut into blocks, and which blocks are held out
+/// together.
 #pragma once
 
 #include <Eigen/Dense>
@@ -22,21 +23,21 @@ using Fold = std::vector<std::size_t>;
 
 /// What a caliper says of a member: [prior] of the file.
 struct HandReading {
-  double Imperfections::* member = nullptr;
+  double Imperfections::*member = nullptr;
   double value = 0;
   double uncertainty = 0;  ///< standard
 };
 
 struct Evidence {
   const Mechanism* declared = nullptr;
-  Measurement measurement;          ///< thinned
-  Eigen::VectorXd theta;            ///< all runs, one after another
+  Measurement measurement;  ///< thinned
+  Eigen::VectorXd theta;    ///< all runs, one after another
   std::vector<Block> blocks;
-  std::vector<Fold> run_folds;      ///< whole runs; strokes of a lone run
-  std::vector<Fold> factor_folds;   ///< whole levels of load and speed where the data vary them, or as run_folds
-  std::vector<std::string> factors; ///< by which whole levels are held out
+  std::vector<Fold> run_folds;       ///< whole runs; strokes of a lone run
+  std::vector<Fold> factor_folds;    ///< whole levels of load and speed where the data vary them, or as run_folds
+  std::vector<std::string> factors;  ///< by which whole levels are held out
   std::vector<HandReading> readings;
-  double floor = 0;                 ///< rms noise, rad
+  double floor = 0;  ///< rms noise, rad
 
   std::size_t rows_used() const;
 };

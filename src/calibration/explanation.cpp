@@ -8,12 +8,14 @@
 namespace fusee {
 namespace {
 
-/// The size that five of six would be found of: a one-sided 95 % test with 80 % power takes 2.5 standard errors, blocks being few 2.8.
+/// The size that five of six would be found of: a one-sided 95 % test with 80 % power takes 2.5 standard errors, blocks
+/// being few 2.8.
 constexpr double k_detectable = 2.8;
 /// Nothing smaller than this part of the noise is accepted (selection.cpp).
 constexpr double k_least = 0.5;
 
-std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit, const std::vector<Interval>& ranges, const Effect& effect) {
+std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit,
+                                               const std::vector<Interval>& ranges, const Effect& effect) {
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, fit.effects);
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
@@ -34,7 +36,8 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
 std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect& effect) {
   std::string numbers;
   for (const EffectParameter& own : effect.parameters) {
-    numbers += (numbers.empty() ? "" : ", ") + own.name + " = " + rounded(own.shown(fit.at.*own.member, *evidence.declared), 4);
+    numbers += (numbers.empty() ? "" : ", ") + own.name + " = " +
+               rounded(own.shown(fit.at.*own.member, *evidence.declared), 4);
   }
   return effect.name + " (" + numbers + ")";
 }
@@ -57,8 +60,10 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& worker
     }
     EffectSet others;
     Imperfections from = best.at;
-    for (const EffectParameter& parameter : effect->parameters) from.*parameter.member = Imperfections{}.*parameter.member;
-    std::copy_if(best.effects.begin(), best.effects.end(), std::back_inserter(others), [&](const Effect* other) { return other != effect; });
+    for (const EffectParameter& parameter : effect->parameters)
+      from.*parameter.member = Imperfections{}.*parameter.member;
+    std::copy_if(best.effects.begin(), best.effects.end(), std::back_inserter(others),
+                 [&](const Effect* other) { return other != effect; });
     const Fit without = fit_effects(evidence, workers.one(), others, from);
     found.rms_drop = std::sqrt(without.by_factor.mean_square) - std::sqrt(best.by_factor.mean_square);
     all.push_back(std::move(found));
@@ -84,8 +89,9 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
   for (const Rival& rival : selection.rivals) {
     if (!as_good(evidence, rival.fit, selection.best)) continue;
     const double apart = rms_apart(evidence, rival.fit.residual, selection.best.residual);
-    all.push_back(with_numbers(evidence, selection.best, *rival.accepted) + " or " + with_numbers(evidence, rival.fit, *rival.rival) + ": " +
-                  rounded(degrees(apart), 2) + "° rms apart in these runs");
+    all.push_back(with_numbers(evidence, selection.best, *rival.accepted) + " or " +
+                  with_numbers(evidence, rival.fit, *rival.rival) + ": " + rounded(degrees(apart), 2) +
+                  "° rms apart in these runs");
   }
   return all;
 }
@@ -93,7 +99,9 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
 std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& workers, const Selection& selection) {
   std::vector<const Effect*> others;
   for (const Effect& effect : selection.catalogue) {
-    if (std::find(selection.best.effects.begin(), selection.best.effects.end(), &effect) == selection.best.effects.end()) others.push_back(&effect);
+    if (std::find(selection.best.effects.begin(), selection.best.effects.end(), &effect) ==
+        selection.best.effects.end())
+      others.push_back(&effect);
   }
   std::vector<double> sizes(others.size(), -1);
   workers.each(others.size(), [&](Forward& forward, std::size_t i) {

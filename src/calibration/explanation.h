@@ -1,5 +1,6 @@
 /// \file
-/// What was found, in the words of CONTRACT §6: effects with their groups, what they cannot be told from, what would have been seen of the others.
+/// What was found, in the words of CONTRACT §6: effects with their groups, what they cannot be told from, what would
+/// have been seen of the others.
 #pragma once
 
 #include <string>
@@ -12,7 +13,8 @@ namespace fusee {
 /// In the order of selection.best.effects.
 std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& workers, const Selection& selection);
 
-/// "pulley_scale (scale_percent = −2.01) or slack (slack_mm = 0.31): 0.004° rms apart in these runs", one for each rival that does as well.
+/// "pulley_scale (scale_percent = −2.01) or slack (slack_mm = 0.31): 0.004° rms apart in these runs", one for each
+/// rival that does as well.
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection);
 
 /// Of every effect that was not found: the least that these data would have shown, at the joint.

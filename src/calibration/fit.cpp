@@ -48,9 +48,11 @@ Said said(const Evidence& evidence, Forward& forward, const Imperfections& at) {
   return words;
 }
 
-/// A loose joint may stand anywhere, which explains any reading and so each one less well: the likelihood of a place within the play against that
-/// of a reading with noise alone, as a square of residuals.
-double price_of_play(double loose, double floor) { return 2.0 * floor * floor * std::log1p(2.0 * loose / (std::sqrt(k_two_pi) * floor)); }
+/// A loose joint may stand anywhere, which explains any reading and so each one less well: the likelihood of a place
+/// within the play against that of a reading with noise alone, as a square of residuals.
+double price_of_play(double loose, double floor) {
+  return 2.0 * floor * floor * std::log1p(2.0 * loose / (std::sqrt(k_two_pi) * floor));
+}
 
 Imperfections placed(const std::vector<const EffectParameter*>& parameters, Imperfections at, const double* x) {
   for (std::size_t i = 0; i < parameters.size(); ++i) at.*parameters[i]->member = x[i] * parameters[i]->step;
@@ -60,7 +62,8 @@ Imperfections placed(const std::vector<const EffectParameter*>& parameters, Impe
 /// Robust residuals, in units of the scale, of the rows in use and of what was measured by hand.
 class Misfit : public ceres::CostFunction {
  public:
-  Misfit(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters, const Imperfections& from, double scale)
+  Misfit(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters,
+         const Imperfections& from, double scale)
       : evidence_(evidence), forward_(forward), parameters_(parameters), from_(from), scale_(scale) {
     for (const Block& block : evidence.blocks) rows_.insert(rows_.end(), block.rows.begin(), block.rows.end());
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
@@ -89,14 +92,16 @@ class Misfit : public ceres::CostFunction {
     const Imperfections here = placed(parameters_, from_, x[0]);
     for (std::size_t i = 0; i < evidence_.readings.size(); ++i) {
       const HandReading& reading = evidence_.readings[i];
-      residuals[rows_.size() + i] = (reading.value - here.*reading.member) / reading.uncertainty * evidence_.floor / scale_;
+      residuals[rows_.size() + i] =
+          (reading.value - here.*reading.member) / reading.uncertainty * evidence_.floor / scale_;
     }
     if (jacobians != nullptr && jacobians[0] != nullptr) differentiate(x[0], at, slopes, jacobians[0]);
     return true;
   }
 
  private:
-  void differentiate(const double* x, const Eigen::VectorXd& at, const std::vector<double>& slopes, double* jacobian) const {
+  void differentiate(const double* x, const Eigen::VectorXd& at, const std::vector<double>& slopes,
+                     double* jacobian) const {
     const std::size_t count = parameters_.size();
     std::vector<double> y(x, x + count);
     for (std::size_t k = 0; k < count; ++k) {
@@ -113,12 +118,15 @@ class Misfit : public ceres::CostFunction {
       for (std::size_t i = 0; i < evidence_.readings.size(); ++i) {
         const HandReading& reading = evidence_.readings[i];
         const bool own = reading.member == parameter.member;
-        jacobian[(rows_.size() + i) * count + k] = own ? -parameter.step / reading.uncertainty * evidence_.floor / scale_ : 0.0;
+        jacobian[(rows_.size() + i) * count + k] =
+            own ? -parameter.step / reading.uncertainty * evidence_.floor / scale_ : 0.0;
       }
     }
   }
 
-  Eigen::VectorXd residual(const double* x) const { return said(evidence_, forward_, placed(parameters_, from_, x)).residual; }
+  Eigen::VectorXd residual(const double* x) const {
+    return said(evidence_, forward_, placed(parameters_, from_, x)).residual;
+  }
 
   const Evidence& evidence_;
   Forward& forward_;
@@ -156,7 +164,9 @@ void silence_glog() {
 
 // ---- normal equations -----------------------------------------------------------------------------------------------
 
-BlockSums no_sums(Eigen::Index count) { return {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count), 0, 0}; }
+BlockSums no_sums(Eigen::Index count) {
+  return {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count), 0, 0};
+}
 
 Eigen::VectorXd solved(const Eigen::MatrixXd& JJ, const Eigen::VectorXd& Jr, const Eigen::VectorXd& x, double floor) {
   // A wide prior about no effect: what the rows in hand cannot tell stays nothing.
@@ -216,15 +226,16 @@ void sum_up(const Evidence& evidence, Fit& fit) {
   fit.price = prices / rows;
 }
 
-/// Whether the blocks outside a fold say enough of every direction that all of them together know: a level that alone carries what is known of a
-/// number cannot be held out.
+/// Whether the blocks outside a fold say enough of every direction that all of them together know: a level that alone
+/// carries what is known of a number cannot be held out.
 bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
   if (all.rows() == 0) return true;
   const Eigen::VectorXd size = all.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = size.asDiagonal() * all * size.asDiagonal();
   const Eigen::MatrixXd part = size.asDiagonal() * rest * size.asDiagonal();
   const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(all.rows(), all.cols());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> shares(part + ridge, scaled + ridge, Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> shares(part + ridge, scaled + ridge,
+                                                                         Eigen::EigenvaluesOnly);
   return shares.eigenvalues().minCoeff() > k_least_known;
 }
 
@@ -272,7 +283,8 @@ HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fol
 
 // ---- one fit --------------------------------------------------------------------------------------------------------
 
-Eigen::VectorXd slope_at(const Evidence& evidence, Forward& forward, const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual) {
+Eigen::VectorXd slope_at(const Evidence& evidence, Forward& forward, const Imperfections& at,
+                         const EffectParameter& parameter, const Eigen::VectorXd& residual) {
   Imperfections moved = at;
   const double step = at.*parameter.member + parameter.step <= parameter.most ? 1.0 : -1.0;
   moved.*parameter.member += step * parameter.step;
@@ -284,7 +296,8 @@ bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
   return value <= parameter.least + 1e-9 * parameter.step || value >= parameter.most - 1e-9 * parameter.step;
 }
 
-void linearise(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters, Fit& fit) {
+void linearise(const Evidence& evidence, Forward& forward, const std::vector<const EffectParameter*>& parameters,
+               Fit& fit) {
   Said words = said(evidence, forward, fit.at);
   fit.residual = std::move(words.residual);
   fit.loose = std::move(words.loose);
@@ -318,7 +331,9 @@ struct Normal {
   double rr = 0;
   bool finite = true;
 
-  Eigen::VectorXd step(const Eigen::VectorXd& x, double floor) const { return x.size() > 0 ? solved(JJ, Jr, x, floor) : Eigen::VectorXd(); }
+  Eigen::VectorXd step(const Eigen::VectorXd& x, double floor) const {
+    return x.size() > 0 ? solved(JJ, Jr, x, floor) : Eigen::VectorXd();
+  }
   double promised(const Eigen::VectorXd& step) const { return rr - 2.0 * step.dot(Jr) + step.dot(JJ * step); }
 };
 
@@ -338,8 +353,10 @@ Normal normal_equations(const Evidence& evidence, const Fit& fit) {
   return normal;
 }
 
-/// `base` and one effect more, whose parameters stand at `at`: slopes of the effect's own parameters anew, those of the others as they were.
-Fit widened(const Evidence& evidence, Forward& forward, const Fit& base, const std::vector<const EffectParameter*>& parameters, const Imperfections& at) {
+/// `base` and one effect more, whose parameters stand at `at`: slopes of the effect's own parameters anew, those of the
+/// others as they were.
+Fit widened(const Evidence& evidence, Forward& forward, const Fit& base,
+            const std::vector<const EffectParameter*>& parameters, const Imperfections& at) {
   Fit wider;
   wider.at = at;
   Said words = said(evidence, forward, at);
@@ -358,16 +375,20 @@ Fit widened(const Evidence& evidence, Forward& forward, const Fit& base, const s
 }
 
 /// A step of the fit, kept within bounds.
-Imperfections stepped(const std::vector<const EffectParameter*>& parameters, const Fit& fit, const Eigen::VectorXd& step) {
+Imperfections stepped(const std::vector<const EffectParameter*>& parameters, const Fit& fit,
+                      const Eigen::VectorXd& step) {
   Imperfections at = fit.at;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const EffectParameter& parameter = *parameters[k];
-    at.*parameter.member = std::clamp((fit.x[static_cast<Eigen::Index>(k)] + step[static_cast<Eigen::Index>(k)]) * parameter.step, parameter.least, parameter.most);
+    at.*parameter.member =
+        std::clamp((fit.x[static_cast<Eigen::Index>(k)] + step[static_cast<Eigen::Index>(k)]) * parameter.step,
+                   parameter.least, parameter.most);
   }
   return at;
 }
 
-/// Where a tendon may have slipped: the places of the bench's clock at which a step would take most out of the residual.
+/// Where a tendon may have slipped: the places of the bench's clock at which a step would take most out of the
+/// residual.
 std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
   struct Row {
     double time, residual;
@@ -377,7 +398,8 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
   std::size_t offset = 0;
   for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
     const Run& run = evidence.measurement.runs[i];
-    for (const Sample& sample : run.samples) rows.push_back({clock[i] + sample.time, base.residual[static_cast<Eigen::Index>(offset++)]});
+    for (const Sample& sample : run.samples)
+      rows.push_back({clock[i] + sample.time, base.residual[static_cast<Eigen::Index>(offset++)]});
   }
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time < b.time; });
   double total = 0;
@@ -396,7 +418,8 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
   for (const auto& [gain, i] : gains) {
     const double time = 0.5 * (rows[i - 1].time + rows[i].time);
     const double apart = 0.02 * (rows.back().time - rows.front().time);
-    const bool new_place = std::none_of(times.begin(), times.end(), [&, place = time](double other) { return std::abs(other - place) < apart; });
+    const bool new_place = std::none_of(times.begin(), times.end(),
+                                        [&, place = time](double other) { return std::abs(other - place) < apart; });
     if (new_place) times.push_back(time);
     if (times.size() == k_slip_times) break;
   }
@@ -408,10 +431,12 @@ std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& 
   std::vector<std::vector<double>> starts = effect.starts;
   if (effect.starts_in_time) {
     for (const double time : steps_in_time(evidence, base)) {
-      for (const double size : {0.0, 10.0, -10.0, 50.0, -50.0}) starts.push_back({size * effect.parameters.front().step, time});
+      for (const double size : {0.0, 10.0, -10.0, 50.0, -50.0})
+        starts.push_back({size * effect.parameters.front().step, time});
     }
   }
-  const bool has_searched = std::any_of(effect.parameters.begin(), effect.parameters.end(), [](const EffectParameter& p) { return p.searched; });
+  const bool has_searched = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                        [](const EffectParameter& p) { return p.searched; });
   if (!has_searched) starts.insert(starts.begin(), std::vector<double>(effect.parameters.size(), 0.0));
   return starts;
 }
@@ -472,7 +497,8 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   double rows = 0;
   for (const Block& block : evidence.blocks) {
     double mean = 0;
-    for (const std::size_t i : block.rows) mean += fit.residual[static_cast<Eigen::Index>(i)] / static_cast<double>(block.rows.size());
+    for (const std::size_t i : block.rows)
+      mean += fit.residual[static_cast<Eigen::Index>(i)] / static_cast<double>(block.rows.size());
     alike[{block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction}].push_back(mean);
     double last = 0;
     for (const std::size_t i : block.rows) {
@@ -494,7 +520,8 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   scatter.within = rows > 0 ? std::sqrt(squares / rows) : 0.0;
   const double colour = squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
   const double rows_a_stroke = rows / static_cast<double>(std::max<std::size_t>(1, evidence.blocks.size()));
-  const double of_noise = scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) / std::max(1.0, rows_a_stroke);
+  const double of_noise =
+      scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) / std::max(1.0, rows_a_stroke);
   if (freedom > 0) scatter.between = std::sqrt(std::max(0.0, between / freedom - of_noise));
   return scatter;
 }
@@ -538,8 +565,8 @@ Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& eff
   return fit;
 }
 
-// Chords instead of tangents: the slopes of the parameters that `base` has are its own, those of the effect are found anew at every step. So a
-// candidate costs a dozen simulations, whatever stands beside it.
+// Chords instead of tangents: the slopes of the parameters that `base` has are its own, those of the effect are found
+// anew at every step. So a candidate costs a dozen simulations, whatever stands beside it.
 Fit with_effect(const Evidence& evidence, Forward& forward, const Fit& base, const Effect& effect) {
   EffectSet effects = base.effects;
   effects.push_back(&effect);
@@ -616,7 +643,8 @@ Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better
   comparison.t = t_of(drops, &comparison.mean, &comparison.standard_error);
   comparison.needed_t = t95(static_cast<double>(drops.size()) - 1.0);
   std::vector<double> runs;
-  for (const auto& [run, values] : by_run) runs.push_back(std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()));
+  for (const auto& [run, values] : by_run)
+    runs.push_back(std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()));
   comparison.t_over_runs = runs.size() > 2 ? t_of(runs, nullptr, nullptr) : comparison.t;
   return comparison;
 }
@@ -666,7 +694,8 @@ std::vector<Interval> intervals(const Evidence& evidence, const Fit& fit) {
   }
   Eigen::MatrixXd information = fit.readings.JJ + 1e-18 * Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size());
   for (const BlockSums& sums : fit.sums) information += sums.JJ;
-  const Eigen::VectorXd between = scatter_between_runs(evidence, fit, information.ldlt().solve(Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size())));
+  const Eigen::VectorXd between = scatter_between_runs(
+      evidence, fit, information.ldlt().solve(Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size())));
   std::vector<Interval> found(count);
   for (std::size_t k = 0; k < count; ++k) {
     std::sort(values[k].begin(), values[k].end());

@@ -1,5 +1,6 @@
 /// \file
-/// Fits of a set of effects to the data, and what they say of data that they did not see. Strokes are the sample, not rows.
+/// Fits of a set of effects to the data, and what they say of data that they did not see. Strokes are the sample, not
+/// rows.
 #pragma once
 
 #include <Eigen/Dense>
@@ -24,7 +25,8 @@ struct BlockSums {
 
 /// Errors of data that were not fitted to.
 struct HeldOut {
-  std::vector<double> by_block;  ///< mean square error of each block, fitted without its fold, rad²; NaN where no fold holds it
+  std::vector<double>
+      by_block;  ///< mean square error of each block, fitted without its fold, rad²; NaN where no fold holds it
   double mean_square = 0;
 };
 
@@ -32,17 +34,18 @@ struct HeldOut {
 struct Fit {
   EffectSet effects;
   Imperfections at;
-  Eigen::VectorXd x;              ///< the fitted members, each by its step
-  Eigen::MatrixXd J;              ///< dθ/dx, rows of all runs
-  Eigen::VectorXd residual;       ///< measured − model, rad; zero where nothing holds the joint and it stands within its play
-  Eigen::VectorXd loose;          ///< half that play, rad
+  Eigen::VectorXd x;  ///< the fitted members, each by its step
+  Eigen::MatrixXd J;  ///< dθ/dx, rows of all runs
+  Eigen::VectorXd
+      residual;           ///< measured − model, rad; zero where nothing holds the joint and it stands within its play
+  Eigen::VectorXd loose;  ///< half that play, rad
   std::vector<BlockSums> sums;
-  BlockSums readings;             ///< what was measured by hand, in the same unit
-  HeldOut by_factor;              ///< Evidence::factor_folds: what decides
-  HeldOut by_run;                 ///< Evidence::run_folds: what is reported
-  double mean_square = 0;         ///< of the rows it was fitted to, with `price`
-  double price = 0;               ///< part of every mean square here: what the play of a loose joint must answer for, rad²
-  double against_readings = 0;    ///< sum of squares of what was measured by hand, each by its uncertainty
+  BlockSums readings;      ///< what was measured by hand, in the same unit
+  HeldOut by_factor;       ///< Evidence::factor_folds: what decides
+  HeldOut by_run;          ///< Evidence::run_folds: what is reported
+  double mean_square = 0;  ///< of the rows it was fitted to, with `price`
+  double price = 0;        ///< part of every mean square here: what the play of a loose joint must answer for, rad²
+  double against_readings = 0;  ///< sum of squares of what was measured by hand, each by its uncertainty
   bool usable = false;
 };
 
@@ -74,7 +77,8 @@ double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better);
 /// Lag-1 autocorrelation of the residual within blocks.
 double autocorrelation(const Evidence& evidence, const Fit& fit);
 
-/// Of the residual: rms of the means of strokes about their run and direction, beyond what noise does to means, and rms within strokes. rad
+/// Of the residual: rms of the means of strokes about their run and direction, beyond what noise does to means, and rms
+/// within strokes. rad
 struct StrokeScatter {
   double between = 0;
   double within = 0;

@@ -9,8 +9,8 @@
 namespace fusee {
 namespace {
 
-/// Steps in which a joint is brought from home to where its run begins. What happened before the log is not known; a joint that came
-/// straight from home is the least that can be assumed.
+/// Steps in which a joint is brought from home to where its run begins. What happened before the log is not known; a
+/// joint that came straight from home is the least that can be assumed.
 constexpr int k_approach = 24;
 
 /// What sensors and play may add to the angles that were logged, rad.
@@ -24,17 +24,19 @@ constexpr double k_least_stiffness = 1e-3;  // of the declared EA
 /// What the motor sensor hides.
 double shaft_angle(double alpha, const Imperfections& at) {
   if (at.motor_eccentricity_sin == 0 && at.motor_eccentricity_cos == 0) return alpha + at.motor_offset;
-  return alpha + at.motor_offset + at.motor_eccentricity_sin * std::sin(alpha) + at.motor_eccentricity_cos * (std::cos(alpha) - 1.0);
+  return alpha + at.motor_offset + at.motor_eccentricity_sin * std::sin(alpha) +
+         at.motor_eccentricity_cos * (std::cos(alpha) - 1.0);
 }
 
-/// A wave of the outline, n a turn: what it adds to the curve's support along the normal `psi` of the part, and to the arc up to there.
+/// A wave of the outline, n a turn: what it adds to the curve's support along the normal `psi` of the part, and to the
+/// arc up to there.
 struct Wave {
   double outward = 0;
   double arc = 0;
 };
 
-// Every point of the outline is moved along its normal by w = s sin nψ + c cos nψ. The farthest point along ψ is then a neighbour: beside w it
-// gains w'²/(2ρ), with ρ the radius of curvature, for which the support stands.
+// Every point of the outline is moved along its normal by w = s sin nψ + c cos nψ. The farthest point along ψ is then a
+// neighbour: beside w it gains w'²/(2ρ), with ρ the radius of curvature, for which the support stands.
 Wave wave(double psi, double support, const Imperfections& at) {
   const double n = at.profile_harmonic;
   const double s = at.profile_sin;
@@ -42,7 +44,9 @@ Wave wave(double psi, double support, const Imperfections& at) {
   const double sine = std::sin(n * psi);
   const double cosine = std::cos(n * psi);
   const double slope = n * (s * cosine - c * sine);
-  const double squares = 0.5 * n * n * ((s * s + c * c) * psi + ((s * s - c * c) * sine * cosine + s * c * (cosine * cosine - sine * sine)) / n);
+  const double squares =
+      0.5 * n * n *
+      ((s * s + c * c) * psi + ((s * s - c * c) * sine * cosine + s * c * (cosine * cosine - sine * sine)) / n);
   return {s * sine + c * cosine + 0.5 * slope * slope / support, (c * sine - s * cosine) / n + 0.5 * squares / support};
 }
 
@@ -106,7 +110,9 @@ std::vector<double> shown(const Run& run, std::vector<double> theta, const Imper
   return theta;
 }
 
-double decades(const Run& run, const Sample& sample) { return std::log10(1.0 + std::max(0.0, sample.time - run.samples.front().time)); }
+double decades(const Run& run, const Sample& sample) {
+  return std::log10(1.0 + std::max(0.0, sample.time - run.samples.front().time));
+}
 
 }  // namespace
 
@@ -135,11 +141,12 @@ namespace {
 JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
   const MadePulleys larger = made.offset_by(at.radius_offset / (1.0 + at.pulley_scale));
   JointModel model = joint_model(larger, mounted(declared, at));
-  // The pulley's centre off the axis is, to a tendon, a pin that moves the other way; a pulley larger by a factor, pins that stand
-  // closer by it.
+  // The pulley's centre off the axis is, to a tendon, a pin that moves the other way; a pulley larger by a factor, pins
+  // that stand closer by it.
   const bool as_made = at.pulley_scale == 0 && at.runout_x == 0 && at.runout_y == 0;
   if (!as_made) {
-    model.lower = [larger, pins = model.pins, scale = 1.0 + at.pulley_scale, x = at.runout_x, y = at.runout_y](double alpha) {
+    model.lower = [larger, pins = model.pins, scale = 1.0 + at.pulley_scale, x = at.runout_x,
+                   y = at.runout_y](double alpha) {
       const double c = std::cos(alpha);
       const double s = std::sin(alpha);
       const Vec2 centre(c * x + s * y, c * y - s * x);  // turned clockwise
@@ -153,14 +160,16 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       std::array<LowerPath, 2> paths = larger.paths(seen, alpha);
       for (std::size_t i = 0; i < 2; ++i) {
         const double sign = i == 0 ? -1.0 : 1.0;
-        paths[i].p = paths[i].p * scale + sign * centre.x() * std::cos(paths[i].normal) + centre.y() * std::sin(paths[i].normal);
+        paths[i].p =
+            paths[i].p * scale + sign * centre.x() * std::cos(paths[i].normal) + centre.y() * std::sin(paths[i].normal);
         paths[i].reach *= scale;
         paths[i].wound *= scale;
       }
       return paths;
     };
   }
-  // A wave moves the line that touches it and turns it too little to matter; on the left the image's arc runs the other way.
+  // A wave moves the line that touches it and turns it too little to matter; on the left the image's arc runs the other
+  // way.
   if (at.profile_sin != 0 || at.profile_cos != 0) {
     model.lower = [without = model.lower, at](double alpha) {
       std::array<LowerPath, 2> paths = without(alpha);
@@ -176,9 +185,9 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
   return model;
 }
 
-// What is wound holds home's strain. With the strain of the moment the same numbers give a joint that yields under load by 15 % more where much
-// is wound; six joints measured on a rig with other numerics (tests/data/rig) decide for this one, with residuals at the sensors' noise for
-// both loads, directions and all places.
+// What is wound holds home's strain. With the strain of the moment the same numbers give a joint that yields under load
+// by 15 % more where much is wound; six joints measured on a rig with other numerics (tests/data/rig) decide for this
+// one, with residuals at the sensors' noise for both loads, directions and all places.
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& at) {
   set_statics(model, mounted(declared, at));
   model.wound = WoundTendon::at_home;
@@ -219,7 +228,10 @@ std::vector<double> bench_clock(const Measurement& measurement) {
 }
 
 Forward::Forward(const Mechanism& declared, const Measurement& measurement)
-    : declared_(declared), measurement_(measurement), clock_(bench_clock(measurement)), first_temperature_(first_temperature(measurement)) {
+    : declared_(declared),
+      measurement_(measurement),
+      clock_(bench_clock(measurement)),
+      first_temperature_(first_temperature(measurement)) {
   if (!declared.transmission) made_.emplace(declared);
   for (const Run& run : measurement.runs) {
     for (const Sample& sample : run.samples) {
@@ -272,7 +284,8 @@ void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections
   for (const Sample& sample : run.samples) {
     const EquilibriumPoint point = step(sample.alpha, sample);
     const bool held = point.status != EquilibriumStatus::no_equilibrium;
-    theta.push_back(held ? point.theta + 0.5 * (point.loose_above - point.loose_below) : std::numeric_limits<double>::quiet_NaN());
+    theta.push_back(held ? point.theta + 0.5 * (point.loose_above - point.loose_below)
+                         : std::numeric_limits<double>::quiet_NaN());
     loose.push_back(0.5 * (point.loose_above + point.loose_below));
   }
 }
@@ -324,7 +337,8 @@ const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
 
 Readings Forward::operator()(const Imperfections& imperfections) {
   Readings readings = mechanism(imperfections).theta;
-  for (std::size_t i = 0; i < readings.size(); ++i) readings[i] = shown(measurement_.runs[i], std::move(readings[i]), imperfections);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    readings[i] = shown(measurement_.runs[i], std::move(readings[i]), imperfections);
   return readings;
 }
 

@@ -28,13 +28,16 @@ Knot slope_at(const std::vector<Knot>& values, std::size_t i) {
 
 }  // namespace
 
-LowerPathTable::LowerPathTable(const JointModel& model, double least, double most) : least_(least), exact_(model.lower), exact_expected_(model.expected) {
-  const auto pieces = static_cast<std::size_t>(std::clamp(std::ceil((most - least) / k_step), 8.0, static_cast<double>(k_most_pieces)));
+LowerPathTable::LowerPathTable(const JointModel& model, double least, double most)
+    : least_(least), exact_(model.lower), exact_expected_(model.expected) {
+  const auto pieces =
+      static_cast<std::size_t>(std::clamp(std::ceil((most - least) / k_step), 8.0, static_cast<double>(k_most_pieces)));
   step_ = (most - least) / static_cast<double>(pieces);
   for (std::size_t i = 0; i <= pieces; ++i) {
     const double alpha = least + step_ * static_cast<double>(i);
     const auto [left, right] = exact_(alpha);
-    values_.push_back({left.p, left.normal, left.reach, left.wound, right.p, right.normal, right.reach, right.wound, exact_expected_(alpha)});
+    values_.push_back({left.p, left.normal, left.reach, left.wound, right.p, right.normal, right.reach, right.wound,
+                       exact_expected_(alpha)});
   }
   for (std::size_t i = 0; i <= pieces; ++i) slopes_.push_back(slope_at(values_, i));
 }
@@ -49,7 +52,8 @@ std::array<LowerPath, 2> LowerPathTable::paths(double alpha) const {
   const double c = u * u * (3.0 - 2.0 * u);
   const double d = u * u * (u - 1.0);
   std::array<double, k_members> at{};
-  for (std::size_t k = 0; k < k_members; ++k) at[k] = a * values_[i][k] + b * slopes_[i][k] + c * values_[i + 1][k] + d * slopes_[i + 1][k];
+  for (std::size_t k = 0; k < k_members; ++k)
+    at[k] = a * values_[i][k] + b * slopes_[i][k] + c * values_[i + 1][k] + d * slopes_[i + 1][k];
   // Next to where the law ends a cubic knows nothing.
   if (!std::isfinite(at[3]) || !std::isfinite(at[7])) return exact_(alpha);
   return {LowerPath{at[0], at[1], at[2], at[3]}, LowerPath{at[4], at[5], at[6], at[7]}};

@@ -10,7 +10,8 @@
 
 namespace fusee {
 
-/// By cubics over pulley angles half a degree or so apart: to 1e-7 mm of JointModel::lower. The function itself answers outside and where a tendon has no path.
+/// By cubics over pulley angles half a degree or so apart: to 1e-7 mm of JointModel::lower. The function itself answers
+/// outside and where a tendon has no path.
 class LowerPathTable {
  public:
   /// Over pulley angles from `least` to `most`, rad.

@@ -1,5 +1,6 @@
 /// \file
-/// Which measurement would tell the members of a group apart, and by how much: every proposal is simulated with each member as it was fitted.
+/// Which measurement would tell the members of a group apart, and by how much: every proposal is simulated with each
+/// member as it was fitted.
 #pragma once
 
 #include <string>

@@ -177,7 +177,8 @@ std::vector<std::vector<Pass>> repeats(const Measurement& measurement, double to
   std::vector<std::vector<Pass>> groups;
   for (const Run& run : measurement.runs) {
     for (const Stroke& stroke : run.strokes) {
-      // Of several strokes the first is not judged by (evidence.cpp): play, and what must bed in, are still on their way.
+      // Of several strokes the first is not judged by (evidence.cpp): play, and what must bed in, are still on their
+      // way.
       const bool still_settling = run.strokes.size() > 2 && &stroke == &run.strokes.front();
       if (stroke.partial || still_settling) continue;
       const Pass pass{&run, &stroke, middle_load(run, stroke)};

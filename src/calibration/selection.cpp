@@ -5,27 +5,31 @@
 #include <optional>
 #include <tuple>
 
-// Greedy, with a look one step further: causes come in pairs, of which neither may explain much alone, and a third that resembles both may explain
-// more than either. So pairs are tried from the best few wherever the best single does not reach the noise; and once there is a set, every
-// member is held against every effect in its place, and gives way where that does better. What is needless beside the others goes last.
+// Greedy, with a look one step further: causes come in pairs, of which neither may explain much alone, and a third that
+// resembles both may explain more than either. So pairs are tried from the best few wherever the best single does not
+// reach the noise; and once there is a set, every member is held against every effect in its place, and gives way where
+// that does better. What is needless beside the others goes last.
 
 namespace fusee {
 namespace {
 
 /// An effect smaller than this part of the noise floor is not worth a name: the model's own error may be as large.
 constexpr double k_least_drop = 0.5;
-/// A cause explains a good part of what stands above the floor; what explains a small part of it is the neighbour of a cause unknown.
+/// A cause explains a good part of what stands above the floor; what explains a small part of it is the neighbour of a
+/// cause unknown.
 constexpr double k_least_share = 0.30;
 constexpr double k_least_bic_drop = 6.0;
 /// A rival takes an effect's place if it does better by this part of the floor's square.
 constexpr double k_better = 0.03;
 /// Strokes that should be alike are apart by this part of the noise within them: the joint does not repeat.
 constexpr double k_walks = 0.7;
-/// A joint that is loose nearly everywhere explains everything: play that costs more than this is no explanation. In squares of the floor.
+/// A joint that is loose nearly everywhere explains everything: play that costs more than this is no explanation. In
+/// squares of the floor.
 constexpr double k_dearest_play = 2.0;
 /// What was measured by hand speaks against an explanation that is off by three standard uncertainties.
 constexpr double k_contradicted = 9.0;
-/// Where structure is left, what was found must have taken this share of all there was: else it is the neighbour of a cause unknown.
+/// Where structure is left, what was found must have taken this share of all there was: else it is the neighbour of a
+/// cause unknown.
 constexpr double k_most_of_it = 0.80;
 constexpr double k_most_of_what_walks = 0.95;
 constexpr std::size_t k_most_effects = 5;
@@ -88,7 +92,6 @@ struct Addition {
   const Fit* base = nullptr;
   const Effect* effect = nullptr;
 };
-
 
 class Selector {
  public:
@@ -157,17 +160,21 @@ std::vector<Trial> Selector::trials(const std::string& what, const std::vector<A
       },
       [&](std::size_t done) { report(what, static_cast<double>(done) / count); });
   std::erase_if(all, [](const Trial& t) { return !t.fit.usable; });
-  std::stable_sort(all.begin(), all.end(), [&](const Trial& a, const Trial& b) { return score(evidence_, a.fit) < score(evidence_, b.fit); });
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Trial& a, const Trial& b) { return score(evidence_, a.fit) < score(evidence_, b.fit); });
   return all;
 }
 
-/// The first of `trials` that is still to be believed once it is fitted to the end. Of those that do as well, the one of fewest numbers.
+/// The first of `trials` that is still to be believed once it is fitted to the end. Of those that do as well, the one
+/// of fewest numbers.
 const Trial* Selector::best_of(std::vector<Trial>& trials) {
-  const auto first = std::find_if(trials.begin(), trials.end(), [](const Trial& trial) { return trial.candidate.accepted; });
+  const auto first =
+      std::find_if(trials.begin(), trials.end(), [](const Trial& trial) { return trial.candidate.accepted; });
   if (first == trials.end()) return nullptr;
   auto simplest = first;
   for (auto it = first; it != trials.end(); ++it) {
-    if (it->candidate.accepted && it->fit.x.size() < simplest->fit.x.size() && as_good(evidence_, it->fit, first->fit)) simplest = it;
+    if (it->candidate.accepted && it->fit.x.size() < simplest->fit.x.size() && as_good(evidence_, it->fit, first->fit))
+      simplest = it;
   }
   std::rotate(trials.begin(), simplest, simplest + 1);
   for (Trial& trial : trials) {
@@ -188,7 +195,8 @@ std::vector<Trial> Selector::singles() {
   return trials("trying effects one by one", added);
 }
 
-/// All pairs of singles by what a linear fit of both would leave, the best first. A single's directions are its slopes and the way it went.
+/// All pairs of singles by what a linear fit of both would leave, the best first. A single's directions are its slopes
+/// and the way it went.
 std::vector<std::pair<const Trial*, const Trial*>> Selector::promising_pairs(const std::vector<Trial>& singles) const {
   const Fit& base = selection_.best;
   std::vector<Eigen::Index> rows;
@@ -235,7 +243,8 @@ std::optional<Trial> Selector::best_pair(const std::vector<Trial>& singles) {
   std::vector<Addition> added;
   for (const auto& [one, other] : promising_pairs(singles)) added.push_back({&one->fit, other->fit.effects.back()});
   const auto alone = [&](const Effect* effect) -> const Fit& {
-    return std::find_if(singles.begin(), singles.end(), [&](const Trial& t) { return t.fit.effects.back() == effect; })->fit;
+    return std::find_if(singles.begin(), singles.end(), [&](const Trial& t) { return t.fit.effects.back() == effect; })
+        ->fit;
   };
   std::vector<Trial> pairs = trials("trying effects in pairs", added);
   std::erase_if(pairs, [&](const Trial& pair) {
@@ -277,7 +286,8 @@ bool Selector::grow() {
   }
   note(alone, first);
   if (first == nullptr) return false;
-  selection_.tried.back().why = "the held-out error falls by " + std::to_string(static_cast<int>(first->candidate.margin)) + " standard errors";
+  selection_.tried.back().why =
+      "the held-out error falls by " + std::to_string(static_cast<int>(first->candidate.margin)) + " standard errors";
   Fit best = first->fit;
   selection_.best = std::move(best);
   return true;
@@ -289,7 +299,8 @@ Fit Selector::without(const Effect* effect) {
   for (const Effect* other : selection_.best.effects) {
     if (other != effect) effects.push_back(other);
   }
-  for (const EffectParameter& parameter : effect->parameters) from.*parameter.member = Imperfections{}.*parameter.member;
+  for (const EffectParameter& parameter : effect->parameters)
+    from.*parameter.member = Imperfections{}.*parameter.member;
   return fit_effects(evidence_, workers_.one(), effects, from);
 }
 
@@ -324,7 +335,8 @@ bool Selector::exchange() {
   const Rival* best = nullptr;
   for (const Rival& rival : selection_.rivals) {
     const double gain = score(evidence_, selection_.best) - score(evidence_, rival.fit);
-    const bool clearly = gain > k_better * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
+    const bool clearly =
+        gain > k_better * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
     if (clearly && (best == nullptr || score(evidence_, rival.fit) < score(evidence_, best->fit))) best = &rival;
   }
   if (best == nullptr) return false;
@@ -402,7 +414,8 @@ bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best) {
 
 bool is_walking(const StrokeScatter& scatter) { return scatter.between > k_walks * scatter.within; }
 
-Selection select_effects(const Evidence& evidence, Workers& workers, const std::function<void(const std::string&, double)>& progress) {
+Selection select_effects(const Evidence& evidence, Workers& workers,
+                         const std::function<void(const std::string&, double)>& progress) {
   return Selector(evidence, workers, progress).run();
 }
 

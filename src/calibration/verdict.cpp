@@ -65,8 +65,10 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   });
   if (largest != places.end()) {
     const double from = least + (most - least) * largest->first.first / k_bins;
-    rest.where = "largest at alpha " + rounded(degrees(from), 3) + " … " + rounded(degrees(from + (most - least) / k_bins), 3) + "°, " +
-                 (largest->first.second > 0 ? "rising" : "falling") + ": " + in_degrees(largest->second.mean()) + " on average";
+    rest.where = "largest at alpha " + rounded(degrees(from), 3) + " … " +
+                 rounded(degrees(from + (most - least) / k_bins), 3) + "°, " +
+                 (largest->first.second > 0 ? "rising" : "falling") + ": " + in_degrees(largest->second.mean()) +
+                 " on average";
   }
   return rest;
 }
@@ -84,7 +86,8 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     confounded = confounded || effect.group.size() > 1;
   }
   const std::string figures = "Held-out error " + in_degrees(calibration.before.held_out_rms) + " before, " +
-                              in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) + ".";
+                              in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) +
+                              ".";
   calibration.rest_autocorrelation = rest.autocorrelation;
   if (above) {
     calibration.unexplained_rms = rest.structure;
@@ -92,14 +95,19 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
   }
   if (is_walking(scatter)) {
     calibration.verdict = "not_repeatable";
-    calibration.summary = "The same angle, direction and load give joint angles that differ by " + in_degrees(scatter.between) +
+    calibration.summary = "The same angle, direction and load give joint angles that differ by " +
+                          in_degrees(scatter.between) +
                           " rms from stroke to stroke: look for something loose before any correction. " + figures;
-    calibration.next_runs.insert(calibration.next_runs.begin(), "tighten what can be loose and repeat one run five times without touching anything");
+    calibration.next_runs.insert(calibration.next_runs.begin(),
+                                 "tighten what can be loose and repeat one run five times without touching anything");
   } else if (above) {
     calibration.verdict = "unexplained";
-    calibration.summary = (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + list(names)) + "; " +
-                          in_degrees(rest.structure) + " rms stay unexplained, " + rest.where + ". " + figures;
-    calibration.next_runs.push_back("turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the pulley's");
+    calibration.summary =
+        (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + list(names)) + "; " +
+        in_degrees(rest.structure) + " rms stay unexplained, " + rest.where + ". " + figures;
+    calibration.next_runs.push_back(
+        "turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the "
+        "pulley's");
   } else if (confounded) {
     calibration.verdict = "confounded";
     calibration.summary = "The data are explained by " + list(names) + ", and cannot tell which. " + figures;

@@ -11,9 +11,9 @@ namespace fusee {
 
 /// Structure of the residual that repeats.
 struct Rest {
-  double structure = 0;       ///< rms above the noise floor, rad
-  double autocorrelation = 0; ///< lag 1, within strokes
-  std::string where;          ///< where it is largest
+  double structure = 0;        ///< rms above the noise floor, rad
+  double autocorrelation = 0;  ///< lag 1, within strokes
+  std::string where;           ///< where it is largest
 };
 Rest look_at_rest(const Evidence& evidence, const Fit& fit);
 

@@ -18,7 +18,8 @@ Workers::Workers(const Evidence& evidence) {
   for (unsigned i = 0; i < threads; ++i) forwards_.emplace_back(*evidence.declared, evidence.measurement);
 }
 
-void Workers::each(std::size_t count, const std::function<void(Forward&, std::size_t)>& job, const std::function<void(std::size_t)>& done) {
+void Workers::each(std::size_t count, const std::function<void(Forward&, std::size_t)>& job,
+                   const std::function<void(std::size_t)>& done) {
   std::atomic<std::size_t> next{0};
   std::mutex guard;
   std::exception_ptr failure;

@@ -16,7 +16,8 @@ class Workers {
 
   /// Calls `job` for 0 … count − 1, each with a simulation of its own thread. The first exception is passed on.
   /// `done(n)` is called from this thread whenever n of the jobs were seen to have ended; it may throw.
-  void each(std::size_t count, const std::function<void(Forward&, std::size_t)>& job, const std::function<void(std::size_t)>& done = {});
+  void each(std::size_t count, const std::function<void(Forward&, std::size_t)>& job,
+            const std::function<void(std::size_t)>& done = {});
   /// For a single simulation in between.
   Forward& one() { return forwards_.front(); }
 

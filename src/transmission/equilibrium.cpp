@@ -10,27 +10,28 @@
 #include "transmission/upper_span_table.h"
 #include "transmission/wound_profile.h"
 
-// What is known of a tendon is how much material lies above its reference point on the pin's rim, below it, and on the pulley.
-// Material crosses the reference point only by slipping. The reference stands still, so the tendon's pull on the joint is
-// exactly T_up m(θ) and on the pulley exactly T_low p(α), and energy balances: with U = T²/(2 EA) per material, motor work − load work =
-// stored + (T_up + U_up − T_low − U_low) · crossed + what is shed where tendon leaves the pulley at another strain.
+// What is known of a tendon is how much material lies above its reference point on the pin's rim, below it, and on the
+// pulley. Material crosses the reference point only by slipping. The reference stands still, so the tendon's pull on
+// the joint is exactly T_up m(θ) and on the pulley exactly T_low p(α), and energy balances: with U = T²/(2 EA) per
+// material, motor work − load work = stored + (T_up + U_up − T_low − U_low) · crossed + what is shed where tendon
+// leaves the pulley at another strain.
 //
-// Winding an arc ds takes ds/(1 + T_low/EA) of material: by the trapezoid over a step, with the step's own T_low, so that B − crossed
-// = (L_low + ½Δs)/(1 + T_low/EA) stays a span of its own. Paying out gives back what was wound, last first. The simpler law, to pay
-// out at the tension of the moment, was tried and is wrong with friction: as tension is higher while winding than while paying out, each
-// cycle carries material past the pulley, and θ creeps by 0.005° a cycle (EA 31 kN, 5 N on both, μ 0.15; 0.18° at EA 850 N) for ever,
-// where the profile settles within three cycles. Without friction the two differ by what lay on the pulley before the load came on:
-// 0.0036° and 0.13°.
+// Winding an arc ds takes ds/(1 + T_low/EA) of material: by the trapezoid over a step, with the step's own T_low, so
+// that B − crossed = (L_low + ½Δs)/(1 + T_low/EA) stays a span of its own. Paying out gives back what was wound, last
+// first. The simpler law, to pay out at the tension of the moment, was tried and is wrong with friction: as tension is
+// higher while winding than while paying out, each cycle carries material past the pulley, and θ creeps by 0.005° a
+// cycle (EA 31 kN, 5 N on both, μ 0.15; 0.18° at EA 850 N) for ever, where the profile settles within three cycles.
+// Without friction the two differ by what lay on the pulley before the load came on: 0.0036° and 0.13°.
 //
-// WoundTendon::at_home keeps no profile: every arc holds home's material, whatever the tension it was wound at. ds/(1 + ε) leaves the span under
-// the pull of ε and is stored at home's ε_0, which gives ½ EA (ε − ε_0)² back while winding and takes it while paying out: `shed` may fall.
+// WoundTendon::at_home keeps no profile: every arc holds home's material, whatever the tension it was wound at. ds/(1 +
+// ε) leaves the span under the pull of ε and is stored at home's ε_0, which gives ½ EA (ε − ε_0)² back while winding
+// and takes it while paying out: `shed` may fall.
 
 namespace fusee {
 namespace {
 
 /// Both tendons slack by more than this together: the joint has play. mm
 constexpr double k_least_play = 1e-6;
-
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
@@ -46,9 +47,9 @@ struct TendonHistory {
   double rim_reference = 0;  ///< normal of the point of the rim between upper and lower part, rad
   double upper_material = 0;
   double lower_material = 0;
-  double density = 1;        ///< material per length of the lower span
+  double density = 1;  ///< material per length of the lower span
   WoundProfile wound;
-  double upper = 0;          ///< tensions at the last step
+  double upper = 0;  ///< tensions at the last step
   double lower = 0;
 };
 
@@ -60,7 +61,8 @@ struct AtAlpha {
   Spans spans;              ///< all but the upper length and the capstan factor
 };
 
-AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA, const TendonChange& change) {
+AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA,
+                 const TendonChange& change) {
   const double expansion = change.expansion[tendon.side == Side::left ? 0 : 1];
   AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + expansion, {}};
   at.spans.EA = EA / change.compliance;
@@ -87,7 +89,8 @@ struct Trial {
   double slope = 0;  ///< of pull with respect to the image's θ
 };
 
-Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, double rho, double mu, double theta) {
+Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, double rho, double mu,
+            double theta) {
   Trial trial;
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
   trial.spans = at.spans;
@@ -108,8 +111,9 @@ struct Residual {
   double slope = 0;
 };
 
-/// A root of a function that falls from `least` to `most`: Newton's steps, kept within what is known to enclose it. Where it is not known
-/// yet, steps grow towards the end; the last one is shorter than `last_step`. Null when the function does not change its sign.
+/// A root of a function that falls from `least` to `most`: Newton's steps, kept within what is known to enclose it.
+/// Where it is not known yet, steps grow towards the end; the last one is shorter than `last_step`. Null when the
+/// function does not change its sign.
 template <typename Function>
 std::optional<double> fallen_to_zero(double start, double least, double most, double last_step, Function function) {
   double low = least;
@@ -148,8 +152,10 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   tendon.side = side;
   tendon.rim_reference = 0.5 * (span.normal + path.normal);
   tendon.density = 1.0 / (1.0 + tension / model.EA);
-  tendon.upper_material = tendon.density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
-  tendon.lower_material = tendon.density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
+  tendon.upper_material =
+      tendon.density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
+  tendon.lower_material =
+      tendon.density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
   tendon.wound = WoundProfile(path.wound, tendon.density, model.wound == WoundTendon::keeps_strain);
   tendon.upper = tendon.lower = tension;
   return tendon;
@@ -185,7 +191,9 @@ Spent wind_or_pay_out(TendonHistory& tendon, double arc, double density, double 
     spent.shed = -shed_by(piece, EA, tendon.density, density);
     return spent;
   }
-  const auto density_at = [&](double place) { return tendon.density + (density - tendon.density) * (from - place) / (from - arc); };
+  const auto density_at = [&](double place) {
+    return tendon.density + (density - tendon.density) * (from - place) / (from - arc);
+  };
   for (const WoundPiece& piece : tendon.wound.pay_out(arc)) {
     spent.wound -= energy(piece, EA);
     spent.shed += shed_by(piece, EA, density_at(piece.from), density_at(piece.to));
@@ -221,14 +229,16 @@ TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial
   state.lower = trial.balance.lower;
   state.wrap = trial.wrap;
   state.contact = trial.balance.contact;
-  for (const double stretch : {trial.spans.upper_length - at.swelling * tendon.upper_material, at.lower_length - at.swelling * tendon.lower_material}) {
+  for (const double stretch : {trial.spans.upper_length - at.swelling * tendon.upper_material,
+                               at.lower_length - at.swelling * tendon.lower_material}) {
     (stretch > 0 ? state.stretch : state.slack) += std::abs(stretch);
   }
   return state;
 }
 
 double energy_of_spans(const TendonHistory& tendon, double EA) {
-  return tendon.upper_material * energy_per_material(tendon.upper, EA) + tendon.lower_material * energy_per_material(tendon.lower, EA);
+  return tendon.upper_material * energy_per_material(tendon.upper, EA) +
+         tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 
 }  // namespace
@@ -264,7 +274,8 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
 }
 
 std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
-  return {tried(tendons[0], at[0], model.upper->left, model.pins[0].rho, model.mu, at_theta), tried(tendons[1], at[1], model.upper->right, model.pins[1].rho, model.mu, at_theta)};
+  return {tried(tendons[0], at[0], model.upper->left, model.pins[0].rho, model.mu, at_theta),
+          tried(tendons[1], at[1], model.upper->right, model.pins[1].rho, model.mu, at_theta)};
 }
 
 Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
@@ -273,7 +284,8 @@ Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const Jo
           right.slope + left.slope - model.weight_slope(at_theta)};
 }
 
-std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const {
+std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step,
+                                                   double expected_now) const {
   const auto pull = [&](double at_theta) { return residual(at, step, at_theta); };
   // A joint that nothing pulls stays where it is; any other keeps its deviation from where it is expected.
   if (theta > model.theta_least && theta < model.theta_most && pull(theta).value == 0) return theta;

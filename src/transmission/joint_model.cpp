@@ -15,7 +15,9 @@ constexpr double k_reach = radians(60.0);
 
 /// The first θ from `start` towards `end` at which a moment arm vanishes; `end` when none does.
 double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double end) {
-  const auto has_arms = [&](double theta) { return upper_span(pins[0], -theta).m > 0 && upper_span(pins[1], theta).m > 0; };
+  const auto has_arms = [&](double theta) {
+    return upper_span(pins[0], -theta).m > 0 && upper_span(pins[1], theta).m > 0;
+  };
   constexpr int steps = 60;
   double good = start;
   for (int i = 1; i <= steps; ++i) {
@@ -33,17 +35,18 @@ double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double 
   return end;
 }
 
-/// What the pitch curve has at the element that touches the tendon when the declared joint stands at `at`, seen in the image.
+/// What the pitch curve has at the element that touches the tendon when the declared joint stands at `at`, seen in the
+/// image.
 struct CurveElement {
-  double normal = 0;   ///< in the pulley's frame
+  double normal = 0;  ///< in the pulley's frame
   double support = 0;
-  double arc = 0;      ///< but for a constant
-  double reach = 0;    ///< of the declared line
-  double slope = 0;    ///< d support / d declared α
+  double arc = 0;    ///< but for a constant
+  double reach = 0;  ///< of the declared line
+  double slope = 0;  ///< d support / d declared α
 };
 
-// Inextensible tendon: what is above the pin, what lies between it and the pulley, and what is wound add up to a constant along
-// the declared law, which gives the arc in closed form: s = −L_up(θ) − w + ρψ.
+// Inextensible tendon: what is above the pin, what lies between it and the pulley, and what is wound add up to a
+// constant along the declared law, which gives the arc in closed form: s = −L_up(θ) − w + ρψ.
 CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& at, double offset) {
   const double sign = mirror_sign(side);
   const TendonPoint& tendon = side == Side::right ? at.t2 : at.t1;
@@ -65,10 +68,11 @@ MadePulleys MadePulleys::offset_by(double by) const {
   return larger;
 }
 
-// A line of the pulley's frame with normal ψ_b stands at ψ = ψ_b − α; it touches the mounted pin's circle on the outer side when
+// A line of the pulley's frame with normal ψ_b stands at ψ = ψ_b − α; it touches the mounted pin's circle on the outer
+// side when
 //   F = c cos(φ − ψ) + ρ − h(ψ_b) = 0.
-// The curve is known by the declared α0 at which each of its elements is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h' with w the
-// mounted reach c sin(φ − ψ). Mounted as declared, the first look (α0 = α) is the answer.
+// The curve is known by the declared α0 at which each of its elements is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h'
+// with w the mounted reach c sin(φ − ψ). Mounted as declared, the first look (α0 = α) is the answer.
 LowerPath MadePulleys::path(Side side, const PinPlace& mounted, double alpha, const TransmissionPoint& first) const {
   const PinPlace& place = declared_.place(side);
   const double sign = mirror_sign(side);
@@ -96,11 +100,14 @@ std::array<LowerPath, 2> MadePulleys::paths(const std::array<PinPlace, 2>& mount
   return {path(Side::left, mounted[0], alpha, first), path(Side::right, mounted[1], alpha, first)};
 }
 
-double section_stiffness(const Tendon& tendon) { return tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter; }
+double section_stiffness(const Tendon& tendon) {
+  return tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter;
+}
 
 double load_torque(const Mechanism& mechanism, double theta) {
   const Load& load = mechanism.load;
-  return load.tip_force * mechanism.joint.R + load.torque + load.mass * k_gravity * load.lever * std::sin(load.tilt - theta);
+  return load.tip_force * mechanism.joint.R + load.torque +
+         load.mass * k_gravity * load.lever * std::sin(load.tilt - theta);
 }
 
 JointModel joint_model(const Mechanism& mechanism) { return joint_model(MadePulleys(mechanism), mechanism); }

@@ -30,15 +30,18 @@ struct Quintic {
 
 }  // namespace
 
-// With f the free length, ψ the normal and a = R cos(θ + ψ): ψ' = −a/f, f' = −m − ρψ', and as a' = −m (1 + ψ'), ψ'' = (m (1 + ψ') − ψ' f')/f.
-UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most) : least_(least), step_((most - least) / k_pieces) {
+// With f the free length, ψ the normal and a = R cos(θ + ψ): ψ' = −a/f, f' = −m − ρψ', and as a' = −m (1 + ψ'), ψ'' =
+// (m (1 + ψ') − ψ' f')/f.
+UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most)
+    : least_(least), step_((most - least) / k_pieces) {
   knots_.reserve(k_pieces + 1);
   for (std::size_t i = 0; i <= k_pieces; ++i) {
     const double theta = least + step_ * static_cast<double>(i);
     const UpperSpan span = upper_span(place, theta);
     const double dnormal = -place.R * std::cos(theta + span.normal) / span.free;
     const double dfree = -span.m - place.rho * dnormal;
-    knots_.push_back({span.length, span.m, span.dm, span.d2m, span.normal, dnormal, (span.m * (1.0 + dnormal) - dnormal * dfree) / span.free});
+    knots_.push_back({span.length, span.m, span.dm, span.d2m, span.normal, dnormal,
+                      (span.m * (1.0 + dnormal) - dnormal * dfree) / span.free});
   }
 }
 
@@ -51,7 +54,8 @@ UpperSpanTable::Look UpperSpanTable::at(double theta) const {
   const Knot& to = knots_[i + 1];
   const Quintic length({from.length, -h * from.m, -h * h * from.dm}, {to.length, -h * to.m, -h * h * to.dm});
   const Quintic m({from.m, h * from.dm, h * h * from.d2m}, {to.m, h * to.dm, h * h * to.d2m});
-  const Quintic normal({from.normal, h * from.dnormal, h * h * from.d2normal}, {to.normal, h * to.dnormal, h * h * to.d2normal});
+  const Quintic normal({from.normal, h * from.dnormal, h * h * from.d2normal},
+                       {to.normal, h * to.dnormal, h * h * to.d2normal});
   return {length.at(u), m.at(u), m.slope(u) / h, normal.at(u), normal.slope(u) / h};
 }
 

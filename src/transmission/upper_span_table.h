@@ -1,5 +1,6 @@
 /// \file
-/// A tendon's upper span over all joint angles, looked up: the geometry that an equilibrium asks for many times at every step.
+/// A tendon's upper span over all joint angles, looked up: the geometry that an equilibrium asks for many times at
+/// every step.
 #pragma once
 
 #include <array>
@@ -9,8 +10,8 @@
 
 namespace fusee {
 
-/// By quintics between places a degree or so apart that take over values, slopes and curvatures: upper_span() to 1e-10 of R where the span is
-/// not near its end.
+/// By quintics between places a degree or so apart that take over values, slopes and curvatures: upper_span() to 1e-10
+/// of R where the span is not near its end.
 class UpperSpanTable {
  public:
   /// From `least` to `most` of the right-hand image's joint angle, rad.

@@ -1,4 +1,5 @@
-// Six joints measured on a rig that shares no code with the fit, and a real one: each is read as its truth says, with no option set.
+// Six joints measured on a rig that shares no code with the fit, and a real one: each is read as its truth says, with
+// no option set.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -93,14 +94,17 @@ TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
 TEST(RealJaw, backlash_and_stretch_and_no_delay) {
   const char* folder = std::getenv("FUSEE_DAVINCI_JAW");
   if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW names no folder";
-  const Mechanism declared = parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.0928961748633879\n", "jaw.toml");
+  const Mechanism declared = parse_mechanism(
+      "schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.0928961748633879\n", "jaw.toml");
   MeasurementOptions options;
   options.columns = {{"load", "tau_out_Nm"}};
   const Measurement measurement = read_measurement(runs_in(folder), options);
-  // As in the published figures: 0.3 and 0.5 Hz are for validation only. Whole levels of load left out in turn are harder: 0.345°.
+  // As in the published figures: 0.3 and 0.5 Hz are for validation only. Whole levels of load left out in turn are
+  // harder: 0.345°.
   CalibrationOptions speeds;
   for (const auto& run : measurement.runs) {
-    if (run.name.find("_f2_") != std::string::npos || run.name.find("_f4_") != std::string::npos) speeds.hold_out.push_back(run.name);
+    if (run.name.find("_f2_") != std::string::npos || run.name.find("_f4_") != std::string::npos)
+      speeds.hold_out.push_back(run.name);
   }
   ASSERT_EQ(speeds.hold_out.size(), 8u);
   const Calibration found = calibrate(declared, measurement, speeds);

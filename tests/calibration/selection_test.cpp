@@ -1,5 +1,5 @@
-// What calibrate() concludes from data made with its own model: every effect is found in data that hold it, and nothing in data that hold nothing.
-// Data made by another model stand in tests/rig.
+// What calibrate() concludes from data made with its own model: every effect is found in data that hold it, and nothing
+// in data that hold nothing. Data made by another model stand in tests/rig.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -57,17 +57,20 @@ Run planned(const std::string& name, const Plan& plan, double alpha_most, double
 }
 
 /// What sensors with white noise would log of a joint that differs from its file by `at`.
-Measurement logged(const Mechanism& declared, const Imperfections& at, const std::vector<Plan>& plans, unsigned seed = 1) {
+Measurement logged(const Mechanism& declared, const Imperfections& at, const std::vector<Plan>& plans,
+                   unsigned seed = 1) {
   Measurement measurement;
   measurement.load_unit = "N";
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    measurement.runs.push_back(planned("run_" + std::to_string(i + 1) + ".csv", plans[i], radians(100), 80.0 * static_cast<double>(i)));
+    measurement.runs.push_back(
+        planned("run_" + std::to_string(i + 1) + ".csv", plans[i], radians(100), 80.0 * static_cast<double>(i)));
   }
   const std::vector<std::vector<double>> theta = predict(declared, at, measurement);
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, k_noise);
   for (std::size_t i = 0; i < theta.size(); ++i) {
-    for (std::size_t k = 0; k < theta[i].size(); ++k) measurement.runs[i].samples[k].theta = theta[i][k] + noise(random);
+    for (std::size_t k = 0; k < theta[i].size(); ++k)
+      measurement.runs[i].samples[k].theta = theta[i][k] + noise(random);
   }
   return measurement;
 }
@@ -102,7 +105,8 @@ Imperfections well_seen(const Mechanism& declared, const Effect& effect) {
   };
   const std::vector<std::vector<double>> as_declared = predict(declared, {}, measurement);
   double size = 1;
-  for (int i = 0; i < 60 && apart(predict(declared, moved(size), measurement), as_declared) < 8 * k_noise; ++i) size *= 1.25;
+  for (int i = 0; i < 60 && apart(predict(declared, moved(size), measurement), as_declared) < 8 * k_noise; ++i)
+    size *= 1.25;
   return moved(size);
 }
 
@@ -115,7 +119,8 @@ std::vector<std::string> all_groups(const Calibration& found) {
 std::string why(const Calibration& found) {
   std::string words;
   for (const Candidate& candidate : found.tried) {
-    words += candidate.name + " " + std::to_string(degrees(candidate.held_out_rms)) + "° t " + std::to_string(candidate.margin) + ": " + candidate.why + "\n";
+    words += candidate.name + " " + std::to_string(degrees(candidate.held_out_rms)) + "° t " +
+             std::to_string(candidate.margin) + ": " + candidate.why + "\n";
   }
   return words;
 }
@@ -125,7 +130,8 @@ class EveryEffect : public testing::TestWithParam<std::string> {};
 TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
   const Mechanism declared = bench_joint();
   const std::vector<Effect> effects = catalogue(declared, logged(declared, {}, k_full));
-  const auto effect = std::find_if(effects.begin(), effects.end(), [](const Effect& e) { return e.name == GetParam(); });
+  const auto effect =
+      std::find_if(effects.begin(), effects.end(), [](const Effect& e) { return e.name == GetParam(); });
   ASSERT_NE(effect, effects.end());
   const Imperfections truth = well_seen(declared, *effect);
   const Calibration found = calibrate(declared, logged(declared, truth, k_full));
@@ -137,10 +143,11 @@ TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
 
 // tendon_slip leaves this joint loose, and where a loose joint rests only a bench knows: rig.known_truth has it.
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect,
-                         testing::Values("zero_offset", "motor_offset", "joint_sensor_gain", "joint_sensor_eccentricity", "motor_sensor_eccentricity",
-                                         "sensor_lag", "radius_offset", "pulley_scale", "pulley_runout", "guide_radius", "guide_position",
-                                         "joint_length", "tendon_stretch", "capstan_friction", "backlash", "slack", "creep",
-                                         "thermal_expansion", "gravity", "profile_error"),
+                         testing::Values("zero_offset", "motor_offset", "joint_sensor_gain",
+                                         "joint_sensor_eccentricity", "motor_sensor_eccentricity", "sensor_lag",
+                                         "radius_offset", "pulley_scale", "pulley_runout", "guide_radius",
+                                         "guide_position", "joint_length", "tendon_stretch", "capstan_friction",
+                                         "backlash", "slack", "creep", "thermal_expansion", "gravity", "profile_error"),
                          [](const auto& one) { return one.param; });
 
 TEST(Selection, FindsNothingWhereNothingIs) {

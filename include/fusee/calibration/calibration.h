@@ -14,14 +14,15 @@
 namespace fusee {
 
 struct CalibrationOptions {
-  std::vector<std::string> hold_out;  ///< names of runs kept for validation only; empty: whole runs are left out in turn
+  std::vector<std::string>
+      hold_out;  ///< names of runs kept for validation only; empty: whole runs are left out in turn
   std::function<void(const std::string& what, double share)> progress;
 };
 
 struct FittedParameter {
-  std::string name;   ///< "EA_N": the unit stands in the name
-  double value = 0;   ///< in that unit
-  double low = 0;     ///< 95 % interval
+  std::string name;  ///< "EA_N": the unit stands in the name
+  double value = 0;  ///< in that unit
+  double low = 0;    ///< 95 % interval
   double high = 0;
 };
 
@@ -31,22 +32,22 @@ struct FoundEffect {
   std::vector<std::string> group;  ///< `name` and every effect whose held-out error is within one standard error
   std::string place;               ///< "tendon", "pins", "motor sensor" …
   std::vector<FittedParameter> parameters;
-  double rms_drop = 0;             ///< of the held-out residual, rad
-  std::string correctable_by;      ///< "pulley", "table" or ""
+  double rms_drop = 0;         ///< of the held-out residual, rad
+  std::string correctable_by;  ///< "pulley", "table" or ""
 };
 
 /// A candidate that was tried: the evidence for it, or against.
 struct Candidate {
   std::string name;
-  double held_out_rms = 0;         ///< rad, with it added to what was accepted before
-  double margin = 0;               ///< drop of the held-out error in standard errors over blocks
+  double held_out_rms = 0;  ///< rad, with it added to what was accepted before
+  double margin = 0;        ///< drop of the held-out error in standard errors over blocks
   double delta_bic = 0;
   bool accepted = false;
-  std::string why;                 ///< in words
+  std::string why;  ///< in words
 };
 
 struct ErrorFigures {
-  double rms = 0;           ///< rad
+  double rms = 0;  ///< rad
   double max = 0;
   double held_out_rms = 0;
 };
@@ -66,23 +67,26 @@ struct Calibration {
   ErrorFigures before, after;
   std::vector<std::vector<double>> residuals_before;  ///< rad, run by run, sample by sample
   std::vector<std::vector<double>> residuals_after;
-  std::vector<std::string> held_out_factors;          ///< "load", "speed"
+  std::vector<std::string> held_out_factors;  ///< "load", "speed"
   std::vector<std::string> held_out_runs;
-  double rest_autocorrelation = 0;                    ///< of the residual after all effects, row to row; 0: white
+  double rest_autocorrelation = 0;  ///< of the residual after all effects, row to row; 0: white
   double unexplained_rms = 0;
-  std::string unexplained_where;                      ///< where in α, which direction, load, harmonic
+  std::string unexplained_where;  ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
-  std::vector<std::string> null_combinations;         ///< accepted effects and rivals that do as well, with their numbers
-  std::vector<std::string> next_runs;                 ///< the best first
+  std::vector<std::string> null_combinations;  ///< accepted effects and rivals that do as well, with their numbers
+  std::vector<std::string> next_runs;          ///< the best first
   Iso230 iso_before, iso_after;
-  double correctable_by_pulley = 0;                   ///< rms that a new pulley would take away, rad
+  double correctable_by_pulley = 0;  ///< rms that a new pulley would take away, rad
   double correctable_by_table = 0;
 };
 
 /// Nothing is fitted before the noise floor is known; nothing is accepted that does not hold on data it did not see.
-Calibration calibrate(const Mechanism& declared, const Measurement& measurement, const CalibrationOptions& options = {});
+Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
+                      const CalibrationOptions& options = {});
 
-/// θ as the joint's sensor would have logged it, rad, run by run, sample by sample. NaN where the joint has no equilibrium.
-std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections, const Measurement& measurement);
+/// θ as the joint's sensor would have logged it, rad, run by run, sample by sample. NaN where the joint has no
+/// equilibrium.
+std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections,
+                                         const Measurement& measurement);
 
 }  // namespace fusee

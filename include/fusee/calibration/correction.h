@@ -16,7 +16,8 @@ namespace fusee {
 /// The joint as [identified] says it is, asked to follow the law that the file declares: identified geometry, tendon
 /// and weight; a law that, given way under the mean load, is the declared θ(α); and shrinkage that a pulley scaled in
 /// making comes out right from. The range is that of the unloaded joint. Of `identified` only what draw_for_making()
-/// takes out stays: radius offset, wave of the profile and runout. The mechanism itself when nothing of this was identified.
+/// takes out stays: radius offset, wave of the profile and runout. The mechanism itself when nothing of this was
+/// identified.
 Mechanism as_it_is(const Mechanism& mechanism);
 /// The joint that a measurement is held against: as it is, with the pulley that was made for it. Nothing is left in
 /// `identified`.

@@ -1,5 +1,6 @@
 /// \file
-/// The upper half of a tendon: from the attachment C over its guide pin. Moment arm, lengths, and their derivatives, in closed form.
+/// The upper half of a tendon: from the attachment C over its guide pin. Moment arm, lengths, and their derivatives, in
+/// closed form.
 ///
 /// One derivation serves both tendons: tendon 1 is the mirror image of tendon 2 (x → −x, θ → −θ, α → −α).
 #pragma once
@@ -34,11 +35,11 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho);
 
 /// The span from C to its tangent point on the pin, in the right-hand image, at joint angle `theta` of that image.
 struct UpperSpan {
-  double m = 0;        ///< moment arm about O: −dL/dθ, mm [4]
-  double dm = 0;       ///< dm/dθ
-  double d2m = 0;      ///< d²m/dθ²
-  double free = 0;     ///< C to the tangent point, mm [2],[3]
-  double normal = 0;   ///< direction of the line's outward normal, rad
+  double m = 0;       ///< moment arm about O: −dL/dθ, mm [4]
+  double dm = 0;      ///< dm/dθ
+  double d2m = 0;     ///< d²m/dθ²
+  double free = 0;    ///< C to the tangent point, mm [2],[3]
+  double normal = 0;  ///< direction of the line's outward normal, rad
   /// free + ρp · normal: the tendon's length above any fixed point of the pin's rim, but for a constant. mm
   double length = 0;
 };

@@ -12,8 +12,8 @@ namespace fusee {
 
 /// One tendon at one place of the stroke. Derivatives are with respect to α.
 struct TendonPoint {
-  double m = 0;             ///< moment arm about O, mm
-  double p = 0;             ///< moment arm about G = support of the pitch curve: r1 or r2, mm
+  double m = 0;  ///< moment arm about O, mm
+  double p = 0;  ///< moment arm about G = support of the pitch curve: r1 or r2, mm
   double dp = 0;
   double d2p = 0;
   double upper_normal = 0;  ///< world direction of the outward normal of C–pin, rad
@@ -30,8 +30,8 @@ struct TransmissionPoint {
   double g = 0;      ///< dθ/dα
   double dg = 0;
   double d2g = 0;
-  TendonPoint t1;    ///< left
-  TendonPoint t2;    ///< right
+  TendonPoint t1;  ///< left
+  TendonPoint t2;  ///< right
 };
 
 /// The declared law over its stroke. Cheap to copy; immutable.
@@ -46,7 +46,8 @@ class Transmission {
   explicit Transmission(const Mechanism& mechanism);
 
   /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, or a formula has no value; null when
-  /// the law exists over the whole range. The other members, but alpha() and place(), may be called only when it is null.
+  /// the law exists over the whole range. The other members, but alpha() and place(), may be called only when it is
+  /// null.
   std::optional<double> dead_centre() const { return dead_centre_; }
 
   double alpha_min() const { return alpha_min_; }

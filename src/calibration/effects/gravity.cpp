@@ -10,7 +10,7 @@ Effect gravity(const Mechanism&, const Measurement&) {
   effect.correctable_by = "pulley";
   effect.separating_run = "repeat one run with the joint lying on its side";
   effect.parameters = {{"cos_Nmm", &Imperfections::gravity_cos, -1e6, 1e6, 1, shown::as_is},
-                      {"sin_Nmm", &Imperfections::gravity_sin, -1e6, 1e6, 1, shown::as_is}};
+                       {"sin_Nmm", &Imperfections::gravity_sin, -1e6, 1e6, 1, shown::as_is}};
   effect.applies = applies::to_tendons;
   return effect;
 }

@@ -10,7 +10,7 @@ Effect guide_position(const Mechanism&, const Measurement&) {
   effect.correctable_by = "pulley";
   effect.separating_run = "measure the pins' distance from each other and from the joint's axis with a caliper";
   effect.parameters = {{"outward_mm", &Imperfections::guide_outward, -20, 20, 1e-2, shown::as_is},
-                      {"down_mm", &Imperfections::guide_down, -20, 20, 1e-2, shown::as_is}};
+                       {"down_mm", &Imperfections::guide_down, -20, 20, 1e-2, shown::as_is}};
   effect.applies = applies::to_tendons;
   return effect;
 }

@@ -10,7 +10,7 @@ Effect joint_sensor_eccentricity(const Mechanism&, const Measurement&) {
   effect.correctable_by = "table";
   effect.separating_run = "turn the joint's encoder on its axis by a quarter turn and repeat the slow unloaded run";
   effect.parameters = {{"sin_deg", &Imperfections::joint_eccentricity_sin, -0.3, 0.3, 2e-3, shown::in_degrees},
-                      {"cos_deg", &Imperfections::joint_eccentricity_cos, -0.5, 0.5, 5e-3, shown::in_degrees}};
+                       {"cos_deg", &Imperfections::joint_eccentricity_cos, -0.5, 0.5, 5e-3, shown::in_degrees}};
   effect.applies = applies::to_tendons;
   return effect;
 }

@@ -10,7 +10,7 @@ Effect motor_sensor_eccentricity(const Mechanism&, const Measurement&) {
   effect.correctable_by = "table";
   effect.separating_run = "turn the motor's encoder on its shaft by a quarter turn and repeat the slow unloaded run";
   effect.parameters = {{"sin_deg", &Imperfections::motor_eccentricity_sin, -0.2, 0.2, 1e-3, shown::in_degrees},
-                      {"cos_deg", &Imperfections::motor_eccentricity_cos, -0.2, 0.2, 1e-3, shown::in_degrees}};
+                       {"cos_deg", &Imperfections::motor_eccentricity_cos, -0.2, 0.2, 1e-3, shown::in_degrees}};
   effect.applies = applies::to_full_turn;
   return effect;
 }

@@ -10,8 +10,8 @@ Effect profile_error(const Mechanism&, const Measurement&) {
   effect.correctable_by = "pulley";
   effect.separating_run = "turn the pulley on its shaft by an eighth of a turn and repeat the slow unloaded run";
   effect.parameters = {{"sin_mm", &Imperfections::profile_sin, -2, 2, 2e-3, shown::as_is},
-                      {"cos_mm", &Imperfections::profile_cos, -2, 2, 2e-3, shown::as_is},
-                      {"harmonic", &Imperfections::profile_harmonic, 2, 3, 1, shown::as_is, true}};
+                       {"cos_mm", &Imperfections::profile_cos, -2, 2, 2e-3, shown::as_is},
+                       {"harmonic", &Imperfections::profile_harmonic, 2, 3, 1, shown::as_is, true}};
   effect.starts = {{0, 0, 2}, {0, 0, 3}};
   effect.applies = applies::to_full_turn;
   return effect;

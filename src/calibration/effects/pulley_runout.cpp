@@ -10,7 +10,7 @@ Effect pulley_runout(const Mechanism&, const Measurement&) {
   effect.correctable_by = "pulley";
   effect.separating_run = "turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run";
   effect.parameters = {{"x_mm", &Imperfections::runout_x, -2, 2, 2e-3, shown::as_is},
-                      {"y_mm", &Imperfections::runout_y, -2, 2, 2e-3, shown::as_is}};
+                       {"y_mm", &Imperfections::runout_y, -2, 2, 2e-3, shown::as_is}};
   effect.applies = applies::to_tendons;
   return effect;
 }

@@ -16,7 +16,8 @@ Effect thermal_expansion(const Mechanism& declared, const Measurement&) {
   effect.separating_run = "log temperature_C over a warm-up without motion";
   effect.parameters = {{"tendon1_ppm_per_K", &Imperfections::thermal1, -5e-3, 5e-3, 2e-6, in_ppm},
                        {"tendon2_ppm_per_K", &Imperfections::thermal2, -5e-3, 5e-3, 2e-6, in_ppm}};
-  if (declared.transmission) effect.parameters = {{"per_K_deg", &Imperfections::warmth, -0.05, 0.05, 1e-4, shown::in_degrees}};
+  if (declared.transmission)
+    effect.parameters = {{"per_K_deg", &Imperfections::warmth, -0.05, 0.05, 1e-4, shown::in_degrees}};
   effect.applies = applies::with_temperature;
   return effect;
 }
