@@ -39,29 +39,6 @@ ErrorFigures figures(const Measurement& measurement, const std::vector<std::vect
   return error;
 }
 
-/// What the effects that something can correct do to θ, rms.
-double moved_by(const Evidence& evidence, const Selection& selection, const std::string& correctable_by) {
-  Imperfections corrected = selection.best.at;
-  for (const Effect* effect : selection.best.effects) {
-    if (effect->correctable_by != correctable_by) continue;
-    for (const EffectParameter& parameter : effect->parameters) corrected.*parameter.member = 0;
-  }
-  Forward forward(*evidence.declared, evidence.measurement);
-  const Readings with = forward(selection.best.at);
-  const Readings without = forward(corrected);
-  double squares = 0;
-  double rows = 0;
-  for (std::size_t i = 0; i < with.size(); ++i) {
-    for (std::size_t k = 0; k < with[i].size(); ++k) {
-      const double difference = with[i][k] - without[i][k];
-      if (!std::isfinite(difference)) continue;
-      squares += difference * difference;
-      rows += 1;
-    }
-  }
-  return rows > 0 ? std::sqrt(squares / rows) : 0;
-}
-
 void name_held_out(const Evidence& evidence, Calibration& calibration) {
   calibration.held_out_factors = evidence.factors;
   const std::vector<Run>& runs = evidence.measurement.runs;
@@ -141,8 +118,6 @@ Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
   calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(selection.best));
   calibration.iso_before = iso230(measurement, calibration.residuals_before);
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
-  calibration.correctable_by_pulley = moved_by(evidence, selection, "pulley");
-  calibration.correctable_by_table = moved_by(evidence, selection, "table");
   name_held_out(evidence, calibration);
   validate(declared, part(measurement, options.hold_out, true), selection, calibration);
   conclude(evidence, selection, calibration);

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <set>
 
+#include "calibration/strokes.h"
+
 namespace fusee {
 namespace {
 
@@ -159,7 +161,7 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
     std::vector<double> near;
     const std::size_t from = i >= first + 2 ? i - 2 : first;
     for (std::size_t j = from; j <= std::min(last, i + 2); ++j) near.push_back(residual[static_cast<Eigen::Index>(j)]);
-    const double middle = median(near);
+    const double middle = median_of(near);
     double spread = 0;
     for (const double value : near)
       spread = std::max(spread, value == residual[static_cast<Eigen::Index>(i)] ? 0.0 : std::abs(value - middle));
@@ -199,13 +201,6 @@ std::vector<HandReading> hand_readings(const Mechanism& declared) {
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Eigen::VectorXd flat(const Readings& readings) {
   std::size_t count = 0;

@@ -46,6 +46,5 @@ Evidence gather(const Mechanism& declared, const Measurement& measurement, doubl
 
 /// All runs, one after another.
 Eigen::VectorXd flat(const Readings& readings);
-double median(std::vector<double> values);
 
 }  // namespace fusee

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <numeric>
 
+#include "calibration/strokes.h"
+
 namespace fusee {
 namespace {
 
@@ -547,9 +549,9 @@ Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& eff
   for (const Block& block : evidence.blocks) {
     for (const std::size_t i : block.rows) near.push_back(before[static_cast<Eigen::Index>(i)]);
   }
-  const double middle = median(near);
+  const double middle = median_of(near);
   for (double& value : near) value = std::abs(value - middle);
-  const double scale = std::max(evidence.floor, 1.5 * median(near));
+  const double scale = std::max(evidence.floor, 1.5 * median_of(near));
   Imperfections start = from;
   if (evidence.declared->transmission && from.zero == 0) start.zero = middle;
   const Misfit misfit(evidence, forward, parameters, start, scale);

@@ -76,8 +76,6 @@ struct Calibration {
   std::vector<std::string> null_combinations;  ///< accepted effects and rivals that do as well, with their numbers
   std::vector<std::string> next_runs;          ///< the best first
   Iso230 iso_before, iso_after;
-  double correctable_by_pulley = 0;  ///< rms that a new pulley would take away, rad
-  double correctable_by_table = 0;
 };
 
 /// Nothing is fitted before the noise floor is known; nothing is accepted that does not hold on data it did not see.
