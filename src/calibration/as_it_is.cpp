@@ -42,25 +42,11 @@ bool changes_statics(const Imperfections& at) {
 bool gives_way(const Imperfections& at) {
   return at.stretch != 0 || at.gravity_cos != 0 || at.gravity_sin != 0 || at.mean_load != 0;
 }
-/// By how much a made curve stands further out where the normal is `psi`: s sin nψ + c cos nψ, and its derivatives.
-struct Wave {
-  double outward = 0;
-  double slope = 0;
-  double bend = 0;
-};
-
-Wave wave(double psi, const Imperfections& at) {
-  const double n = at.profile_harmonic;
-  const double outward = at.profile_sin * std::sin(n * psi) + at.profile_cos * std::cos(n * psi);
-  const double slope = n * (at.profile_sin * std::cos(n * psi) - at.profile_cos * std::sin(n * psi));
-  return {outward, slope, -n * n * outward};
-}
-
 /// Draws a point further in by what making moves it out. Making moves points w along their normals, which moves the
 /// support of a curve with radius of curvature ρ by w + w'²/(2ρ) (forward.cpp).
 void draw_wave_out(OutlinePoint& point, const Imperfections& at) {
   if (at.profile_sin == 0 && at.profile_cos == 0) return;
-  const Wave w = wave(point.psi, at);
+  const OutlineWave w = outline_wave(point.psi, at);
   const double rho = point.curvature_radius;
   const double support = w.outward + 0.5 * w.slope * w.slope / rho;
   const double slope = w.slope + w.slope * w.bend / rho;
@@ -299,7 +285,7 @@ Polygon as_made(Polygon drawn, const Mechanism& mechanism) {
     const Vec2 along = (centred[(i + 1) % n] - centred[(i + n - 1) % n]).normalized();
     drawn[i] += Vec2(at.runout_x, at.runout_y);
     const Vec2 normal(along.y(), -along.x());
-    drawn[i] += wave(std::atan2(normal.y(), normal.x()), at).outward * normal;
+    drawn[i] += outline_wave(std::atan2(normal.y(), normal.x()), at).outward * normal;
   }
   return drawn;
 }

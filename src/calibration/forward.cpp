@@ -28,26 +28,25 @@ double shaft_angle(double alpha, const Imperfections& at) {
          at.motor_eccentricity_cos * (std::cos(alpha) - 1.0);
 }
 
-/// A wave of the outline, n a turn: what it adds to the curve's support along the normal `psi` of the part, and to the
-/// arc up to there.
-struct Wave {
+/// What a wave of the outline adds to the curve's support, and to the arc up to there.
+struct SupportWave {
   double outward = 0;
   double arc = 0;
 };
 
-// Every point of the outline is moved along its normal by w = s sin nψ + c cos nψ. The farthest point along ψ is then a
-// neighbour: beside w it gains w'²/(2ρ), with ρ the radius of curvature, for which the support stands.
-Wave wave(double psi, double support, const Imperfections& at) {
+// Every point of the outline is moved along its normal by w. The farthest point along ψ is then a neighbour: beside w
+// it gains w'²/(2ρ), with ρ the radius of curvature, for which the support stands.
+SupportWave support_wave(double psi, double support, const Imperfections& at) {
   const double n = at.profile_harmonic;
   const double s = at.profile_sin;
   const double c = at.profile_cos;
   const double sine = std::sin(n * psi);
   const double cosine = std::cos(n * psi);
-  const double slope = n * (s * cosine - c * sine);
+  const OutlineWave w = outline_wave(psi, at);
   const double squares =
       0.5 * n * n *
       ((s * s + c * c) * psi + ((s * s - c * c) * sine * cosine + s * c * (cosine * cosine - sine * sine)) / n);
-  return {s * sine + c * cosine + 0.5 * slope * slope / support, (c * sine - s * cosine) / n + 0.5 * squares / support};
+  return {w.outward + 0.5 * w.slope * w.slope / support, (c * sine - s * cosine) / n + 0.5 * squares / support};
 }
 
 /// What the mechanism does not see: the same for all sensors.
@@ -116,6 +115,13 @@ double decades(const Run& run, const Sample& sample) {
 
 }  // namespace
 
+OutlineWave outline_wave(double psi, const Imperfections& at) {
+  const double n = at.profile_harmonic;
+  const double outward = at.profile_sin * std::sin(n * psi) + at.profile_cos * std::cos(n * psi);
+  const double slope = n * (at.profile_sin * std::cos(n * psi) - at.profile_cos * std::sin(n * psi));
+  return {outward, slope, -n * n * outward};
+}
+
 double Play::to(double input) {
   output_ = std::clamp(output_, input - half_, input + half_);
   return output_;
@@ -173,8 +179,8 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
   if (at.profile_sin != 0 || at.profile_cos != 0) {
     model.lower = [without = model.lower, at](double alpha) {
       std::array<LowerPath, 2> paths = without(alpha);
-      const Wave left = wave(k_pi - paths[0].normal + alpha, paths[0].p, at);
-      const Wave right = wave(paths[1].normal + alpha, paths[1].p, at);
+      const SupportWave left = support_wave(k_pi - paths[0].normal + alpha, paths[0].p, at);
+      const SupportWave right = support_wave(paths[1].normal + alpha, paths[1].p, at);
       paths[0].p += left.outward;
       paths[0].wound -= left.arc;
       paths[1].p += right.outward;

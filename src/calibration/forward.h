@@ -21,6 +21,14 @@ using Readings = std::vector<std::vector<double>>;
 /// What is added to each run's time so that runs whose clocks begin anew follow one another. s
 std::vector<double> bench_clock(const Measurement& measurement);
 
+/// By how much making moves a point of an outline out along its normal `psi`: s sin nψ + c cos nψ, and its derivatives.
+struct OutlineWave {
+  double outward = 0;  ///< mm
+  double slope = 0;
+  double bend = 0;
+};
+OutlineWave outline_wave(double psi, const Imperfections& imperfections);
+
 /// The play operator: follows `input` at a distance of half the `width`, and stands still in between.
 class Play {
  public:
