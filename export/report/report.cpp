@@ -12,7 +12,7 @@
 #include "export/report/report_parts.h"
 #include "export/report/report_plots.h"
 #include "export/report/tables.h"
-#include "export/tendon_lengths.h"
+#include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/export/export.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fusee/transmission/joint_model.h"
+#include "fusee/joint/joint_model.h"
 
 namespace fusee {
 

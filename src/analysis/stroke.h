@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fusee/transmission/equilibrium.h"
+#include "fusee/joint/equilibrium.h"
 
 namespace fusee {
 

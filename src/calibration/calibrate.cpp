@@ -5,6 +5,7 @@
 #include "calibration/next_runs.h"
 #include "calibration/verdict.h"
 #include "fusee/calibration/calibration.h"
+#include "fusee/joint/simulate.h"
 
 namespace fusee {
 namespace {
@@ -85,11 +86,6 @@ void validate(const Mechanism& declared, const Measurement& kept, const Selectio
 }
 
 }  // namespace
-
-std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections,
-                                         const Measurement& measurement) {
-  return Forward(declared, measurement)(imperfections);
-}
 
 Calibration calibrate(const Mechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
   if (!measurement.not_testable.empty()) return not_testable(measurement.not_testable);

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "calibration/strokes.h"
+#include "measurement/strokes.h"
 
 namespace fusee {
 namespace {

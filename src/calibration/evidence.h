@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/forward.h"
+#include "joint/forward.h"
 
 namespace fusee {
 

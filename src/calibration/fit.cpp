@@ -10,7 +10,7 @@
 #include <mutex>
 #include <numeric>
 
-#include "calibration/strokes.h"
+#include "measurement/strokes.h"
 
 namespace fusee {
 namespace {

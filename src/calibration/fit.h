@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "calibration/effects/effect.h"
+#include "mechanism/effects/effect.h"
 #include "calibration/evidence.h"
 
 namespace fusee {

@@ -6,7 +6,7 @@
 #include "fusee/analysis/analysis.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
-#include "fusee/calibration/correction.h"
+#include "fusee/correction/correction.h"
 
 namespace fusee::cli {
 namespace {

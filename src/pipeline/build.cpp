@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "fusee/calibration/correction.h"
+#include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"
 

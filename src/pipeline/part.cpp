@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fusee/base/text.h"
-#include "fusee/calibration/correction.h"
+#include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 
 namespace fusee {

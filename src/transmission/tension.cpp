@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/transmission/joint_model.h"
+#include "fusee/transmission/load.h"
 
 namespace fusee {
 namespace {

@@ -9,8 +9,9 @@
 #include <filesystem>
 #include <iterator>
 
+#include "fusee/joint/simulate.h"
 #include "fusee/base/text.h"
-#include "fusee/calibration/correction.h"
+#include "fusee/correction/correction.h"
 #include "fusee/mechanism/file.h"
 #include "fusee/transmission/transmission.h"
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "fusee/transmission/equilibrium.h"
+#include "fusee/joint/equilibrium.h"
 #include "support/mechanisms.h"
 
 namespace {

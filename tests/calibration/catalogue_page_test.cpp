@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "calibration/effects/effect.h"
+#include "mechanism/effects/effect.h"
 #include "fusee/base/files.h"
 #include "fusee/mechanism/file.h"
 

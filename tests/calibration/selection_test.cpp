@@ -6,7 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "calibration/effects/effect.h"
+#include "mechanism/effects/effect.h"
+#include "fusee/joint/simulate.h"
 #include "fusee/base/units.h"
 #include "fusee/calibration/calibration.h"
 #include "fusee/mechanism/file.h"

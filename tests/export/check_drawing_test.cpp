@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "drawing_tools.h"
-#include "export/dxf_writer.h"
+#include "export/drawings/dxf_writer.h"
 #include "fusee/base/units.h"
 
 namespace fusee {

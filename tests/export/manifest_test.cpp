@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "export/mesh_samples.h"
-#include "export/tendon_lengths.h"
+#include "export/report/tendon_lengths.h"
 #include "support/shapes.h"
 
 namespace fusee {

@@ -1,13 +1,13 @@
 // plates.dxf: kerf, dowels, order, nesting; all measured on the drawing or on the plates it was drawn from.
-#include "export/plates.h"
+#include "export/drawings/plates.h"
 
 #include <gmock/gmock.h>
 
 #include "drawing_tools.h"
-#include "export/cut_shapes.h"
-#include "export/dxf_writer.h"
-#include "export/nesting.h"
-#include "export/polygon_cgal.h"
+#include "export/drawings/cut_shapes.h"
+#include "export/drawings/dxf_writer.h"
+#include "export/drawings/nesting.h"
+#include "export/drawings/polygon_cgal.h"
 #include "support/shapes.h"
 
 namespace fusee {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "drawing_tools.h"
-#include "export/cut_shapes.h"
+#include "export/drawings/cut_shapes.h"
 #include "support/shapes.h"
 
 namespace fusee {

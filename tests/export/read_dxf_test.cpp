@@ -5,7 +5,7 @@
 #include <random>
 
 #include "drawing_tools.h"
-#include "export/dxf_writer.h"
+#include "export/drawings/dxf_writer.h"
 
 namespace fusee {
 namespace {

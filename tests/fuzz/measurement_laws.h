@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "fusee/calibration/measurement.h"
+#include "fusee/measurement/measurement.h"
 
 namespace fusee::testing {
 

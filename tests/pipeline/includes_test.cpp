@@ -12,9 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> k_flow = {{"base", 0},     {"mechanism", 1}, {"transmission", 2}, {"profile", 3},  {"analysis", 4},
-                                           {"optimize", 5}, {"paper", 6},     {"calibration", 7},  {"solid", 8},    {"export", 9},
-                                           {"pipeline", 10}, {"cli", 11}};
+const std::map<std::string, int> k_flow = {
+    {"base", 0},     {"mechanism", 1}, {"transmission", 2}, {"profile", 3},    {"measurement", 4},
+    {"joint", 5},    {"analysis", 6},  {"optimize", 7},     {"paper", 8},      {"calibration", 9},
+    {"correction", 10}, {"solid", 11}, {"export", 12},      {"pipeline", 13},  {"cli", 14}};
 
 struct Include {
   fs::path file;  ///< relative to the source tree

@@ -10,10 +10,11 @@
 #include <functional>
 #include <sstream>
 
-#include "fusee/calibration/measurement.h"
+#include "fusee/transmission/load.h"
+#include "fusee/measurement/measurement.h"
 #include "fusee/mechanism/file.h"
 #include "fusee/profile/rewind.h"
-#include "fusee/transmission/joint_model.h"
+#include "fusee/joint/joint_model.h"
 #include "fusee/transmission/transmission.h"
 #include "rig/bench.h"
 #include "rig/random.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fusee/profile/synthesis.h"
-#include "fusee/transmission/equilibrium.h"
+#include "fusee/joint/equilibrium.h"
 #include "fusee/transmission/tension.h"
 
 namespace fusee {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusee/calibration/measurement.h"
+#include "fusee/measurement/measurement.h"
 #include "fusee/mechanism/imperfections.h"
 #include "fusee/mechanism/mechanism.h"
 
@@ -81,10 +81,5 @@ struct Calibration {
 /// Nothing is fitted before the noise floor is known; nothing is accepted that does not hold on data it did not see.
 Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
                       const CalibrationOptions& options = {});
-
-/// θ as the joint's sensor would have logged it, rad, run by run, sample by sample. NaN where the joint has no
-/// equilibrium.
-std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections,
-                                         const Measurement& measurement);
 
 }  // namespace fusee

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fusee/base/files.h"
-#include "fusee/calibration/correction.h"
+#include "fusee/correction/correction.h"
 #include "fusee/mechanism/file.h"
 
 namespace fusee {

@@ -1,0 +1,406 @@
+/// \file
+/// What a shop's machine will stumble over, found before it does: one Check each, with the layer, the line in the file
+/// and the place.
+///
+/// Contours are what is cut. In a drawing with fusee's layers these are CUT_*, P*_PITCH, P*_FLOOR, BORE, CHECK_10MM and
+/// SHEET; in any other drawing they are all layers but ENGRAVE, NOTES and MARK_*, whose lines may end and cross as they
+/// like.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "export/drawings/cut_shapes.h"
+#include "export/drawings/dxf_writer.h"
+#include "export/drawings/end_points.h"
+#include "export/drawings/polygon_cgal.h"
+#include "fusee/base/text.h"
+#include "fusee/export/export.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_least_feature = 1.0;  // mm: what a laser cuts cleanly in common sheet
+constexpr double k_drawn = 1e-6;         // mm: to which a drawing's coordinates are taken
+
+constexpr auto k_contour_layers =
+    std::to_array<std::string_view>({"CUT_OUTER", "CUT_INNER", "P1_PITCH", "P2_PITCH", "P1_FLOOR", "P2_FLOOR", "BORE"});
+constexpr auto k_frame_layers = std::to_array<std::string_view>({"CHECK_10MM", "SHEET"});
+
+template <std::size_t n>
+bool among(const std::array<std::string_view, n>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_mark_layer(std::string_view layer) {
+  return layer == "ENGRAVE" || layer == "NOTES" || layer.starts_with("MARK_");
+}
+
+std::string place(const DrawingPath& path, const Vec2& point) {
+  return fmt::format("layer {}, {} at line {}, at ({}, {}) mm", path.layer, path.entity, path.line,
+                     rounded(point.x(), 6), rounded(point.y(), 6));
+}
+
+using Paths = std::vector<const DrawingPath*>;
+
+Paths contours_of(const Drawing& drawing) {
+  const bool ours = std::any_of(drawing.paths.begin(), drawing.paths.end(),
+                                [](const DrawingPath& p) { return among(k_contour_layers, p.layer); });
+  Paths contours;
+  for (const DrawingPath& path : drawing.paths) {
+    if (path.points.empty()) continue;
+    const bool named = among(k_contour_layers, path.layer) || among(k_frame_layers, path.layer);
+    if (ours ? named : !is_mark_layer(path.layer)) contours.push_back(&path);
+  }
+  return contours;
+}
+
+// Closed
+// ---------------------------------------------------------------------------------------------------------------
+
+Check check_contours_closed(const Paths& contours) {
+  std::size_t open = 0;
+  std::string where;
+  for (const DrawingPath* path : contours) {
+    if (path->closed) continue;
+    if (open++ == 0) where = "open: " + place(*path, path->points.front());
+  }
+  return exactly("contours_closed", static_cast<double>(open), 0, "1", where);
+}
+
+Check check_ends_meet(const Paths& contours) {
+  double widest = 0;
+  std::string where;
+  for (const DrawingPath* path : contours) {
+    if (path->closed) continue;
+    const double gap = (path->points.front() - path->points.back()).norm();
+    if (gap <= widest) continue;
+    widest = gap;
+    where = "gap between " + place(*path, path->points.back()) +
+            fmt::format(" and ({}, {}) mm", rounded(path->points.front().x(), 6), rounded(path->points.front().y(), 6));
+  }
+  return at_most("ends_meet", widest, k_joined, "mm", where);
+}
+
+// Lines and crossings
+// --------------------------------------------------------------------------------------------------
+
+/// One edge of a path, from the lower end in (x, y) order to the upper.
+struct Edge {
+  Vec2 left;
+  Vec2 right;
+  const DrawingPath* path = nullptr;
+  std::size_t index = 0;  ///< along the path
+  std::size_t last = 0;   ///< index of the path's last edge
+};
+
+bool before(const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
+
+void append_edges(std::vector<Edge>& edges, const DrawingPath& path) {
+  Polygon points;
+  for (const Vec2& p : path.points) {
+    if (points.empty() || p != points.back()) points.push_back(p);
+  }
+  while (path.closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
+  if (points.size() < 2) return;
+  const std::size_t count = path.closed ? points.size() : points.size() - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2& a = points[i];
+    const Vec2& b = points[(i + 1) % points.size()];
+    edges.push_back({before(a, b) ? a : b, before(a, b) ? b : a, &path, i, count - 1});
+  }
+}
+
+std::map<std::string, std::vector<Edge>> edges_by_layer(const Paths& paths) {
+  std::map<std::string, std::vector<Edge>> layers;
+  for (const DrawingPath* path : paths) append_edges(layers[path->layer], *path);
+  return layers;
+}
+
+/// Takes the repeated edges out of `edges` and returns them: the same two ends, in either order.
+std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
+  EndPoints ends;
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  std::vector<Edge> once;
+  std::vector<Edge> again;
+  for (const Edge& edge : edges) {
+    auto key = std::make_pair(ends.number(edge.left), ends.number(edge.right));
+    if (key.first > key.second) std::swap(key.first, key.second);
+    // An edge shorter than the tolerance has one end, not two: it repeats nothing.
+    const bool fresh = key.first == key.second || seen.insert(key).second;
+    (fresh ? once : again).push_back(edge);
+  }
+  edges = std::move(once);
+  return again;
+}
+
+Check check_duplicates(const Drawing& drawing) {
+  Paths all;
+  for (const DrawingPath& path : drawing.paths) all.push_back(&path);
+  std::size_t count = 0;
+  std::string where;
+  for (auto& [layer, edges] : edges_by_layer(all)) {
+    const std::vector<Edge> repeated = take_duplicates(edges);
+    if (count == 0 && !repeated.empty())
+      where = "drawn twice: " + place(*repeated.front().path, 0.5 * (repeated.front().left + repeated.front().right));
+    count += repeated.size();
+  }
+  return exactly("no_duplicate_lines", static_cast<double>(count), 0, "1", where);
+}
+
+bool within_box(const Edge& edge, const Vec2& p) {
+  return p.x() >= edge.left.x() && p.x() <= edge.right.x() && p.y() >= std::min(edge.left.y(), edge.right.y()) &&
+         p.y() <= std::max(edge.left.y(), edge.right.y());
+}
+
+/// Have the two edges any point in common?
+bool touch(const Edge& a, const Edge& b) {
+  const int a1 = orientation(b.left, b.right, a.left);
+  const int a2 = orientation(b.left, b.right, a.right);
+  const int b1 = orientation(a.left, a.right, b.left);
+  const int b2 = orientation(a.left, a.right, b.right);
+  if (a1 * a2 < 0 && b1 * b2 < 0) return true;
+  return (a1 == 0 && within_box(b, a.left)) || (a2 == 0 && within_box(b, a.right)) ||
+         (b1 == 0 && within_box(a, b.left)) || (b2 == 0 && within_box(a, b.right));
+}
+
+/// Neighbours along a path meet in one point; it is a fault only if the second runs back over the first.
+bool folds_back(const Edge& a, const Edge& b) {
+  if (orientation(a.left, a.right, b.left) != 0 || orientation(a.left, a.right, b.right) != 0) return false;
+  return before(b.left, a.right) && before(a.left, b.right);
+}
+
+bool consecutive(const Edge& a, const Edge& b) {
+  if (a.path != b.path) return false;
+  const std::size_t apart = a.index > b.index ? a.index - b.index : b.index - a.index;
+  return apart == 1 || (a.path->closed && apart == a.last);
+}
+
+Vec2 crossing_point(const Edge& a, const Edge& b) {
+  const Vec2 u = a.right - a.left;
+  const Vec2 v = b.right - b.left;
+  const double turn = cross(u, v);
+  if (turn == 0) return before(a.left, b.left) ? b.left : a.left;
+  return a.left + u * std::clamp(cross(b.left - a.left, v) / turn, 0.0, 1.0);
+}
+
+/// Two edges that should not touch, or nothing. Shamos and Hoey's sweep: a line goes over the edges in (x, y) order and
+/// looks only at neighbours, so that n edges take n log n steps; with exact orientations the order along the line is
+/// right up to the first fault, where it stops.
+class Sweep {
+ public:
+  Sweep(const std::vector<Edge>& edges, bool within_paths) : edges_(edges), within_paths_(within_paths) {}
+
+  std::optional<std::pair<Edge, Edge>> first_fault() {
+    struct Event {
+      Vec2 point;
+      bool ends;
+      std::size_t edge;
+    };
+    std::vector<Event> events;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      events.push_back({edges_[i].left, false, i});
+      events.push_back({edges_[i].right, true, i});
+    }
+    // At one point edges begin before others end, so that two that only touch there are on the line together.
+    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+      if (a.point != b.point) return before(a.point, b.point);
+      return std::make_pair(a.ends, a.edge) < std::make_pair(b.ends, b.edge);
+    });
+    std::vector<Line::iterator> place_of(edges_.size());
+    for (const Event& event : events) {
+      if (!event.ends) {
+        place_of[event.edge] = line_.insert(event.edge).first;
+        const auto at = place_of[event.edge];
+        if (at != line_.begin() && fault(*std::prev(at), *at)) return pair_;
+        if (std::next(at) != line_.end() && fault(*at, *std::next(at))) return pair_;
+      } else {
+        const auto next = line_.erase(place_of[event.edge]);
+        if (next != line_.begin() && next != line_.end() && fault(*std::prev(next), *next)) return pair_;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Is edge i below edge j where both are on the line?
+  struct Below {
+    const std::vector<Edge>* edges;
+    bool operator()(std::size_t i, std::size_t j) const {
+      const Edge& a = (*edges)[i];
+      const Edge& b = (*edges)[j];
+      if (i == j) return false;
+      const bool a_first = !before(b.left, a.left);
+      const Edge& first = a_first ? a : b;
+      const Edge& second = a_first ? b : a;
+      int side = orientation(first.left, first.right, second.left);
+      if (side == 0) side = orientation(first.left, first.right, second.right);
+      if (side == 0) return i < j;
+      return (side > 0) == a_first;
+    }
+  };
+  using Line = std::set<std::size_t, Below>;
+
+  bool fault(std::size_t i, std::size_t j) {
+    const Edge& a = edges_[i];
+    const Edge& b = edges_[j];
+    if (a.path == b.path && !within_paths_) return false;
+    if (!(consecutive(a, b) ? folds_back(a, b) : touch(a, b))) return false;
+    pair_ = {a, b};
+    return true;
+  }
+
+  const std::vector<Edge>& edges_;
+  bool within_paths_;
+  Line line_{Below{&edges_}};
+  std::pair<Edge, Edge> pair_;
+};
+
+struct CrossingChecks {
+  Check self;
+  Check mutual;
+};
+
+/// First each contour alone; those that are whole then together, layer by layer.
+CrossingChecks check_crossings(const Paths& contours) {
+  std::size_t crossed = 0;
+  std::string self_where;
+  Paths whole;
+  for (const DrawingPath* path : contours) {
+    std::vector<Edge> edges;
+    append_edges(edges, *path);
+    const auto fault = Sweep(edges, true).first_fault();
+    if (!fault) whole.push_back(path);
+    if (fault && crossed++ == 0)
+      self_where = "crosses or touches itself: " + place(*path, crossing_point(fault->first, fault->second));
+  }
+  std::size_t layers = 0;
+  std::string mutual_where;
+  for (auto& [layer, edges] : edges_by_layer(whole)) {
+    take_duplicates(edges);  // they have a check of their own
+    const auto fault = Sweep(edges, false).first_fault();
+    if (!fault || layers++ > 0) continue;
+    mutual_where = place(*fault->first.path, crossing_point(fault->first, fault->second)) +
+                   fmt::format(" meets the {} at line {}", fault->second.path->entity, fault->second.path->line);
+  }
+  return {exactly("no_self_crossing", static_cast<double>(crossed), 0, "1", self_where),
+          exactly("no_crossing_contours", static_cast<double>(layers), 0, "1", mutual_where)};
+}
+
+// Sizes
+// ----------------------------------------------------------------------------------------------------------------
+
+/// Least distance of two parallel lines that hold the polygon between them (rotating calipers on its hull).
+double least_width(const Polygon& polygon) {
+  const Polygon hull = convex_hull(polygon);
+  if (hull.size() < 3) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t far = 1;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    const auto distance = [&](std::size_t k) { return cross(edge, hull[k % hull.size()] - hull[i]); };
+    for (std::size_t steps = 0; steps < hull.size() && distance(far + 1) > distance(far); ++steps) ++far;
+    least = std::min(least, distance(far));
+  }
+  return least;
+}
+
+Check check_smallest_feature(const Paths& contours) {
+  double least = std::numeric_limits<double>::infinity();
+  const DrawingPath* narrow = nullptr;
+  for (const DrawingPath* path : contours) {
+    if (!path->closed) continue;
+    const double width = least_width(path->points);
+    if (width >= least) continue;
+    least = width;
+    narrow = path;
+  }
+  if (narrow == nullptr)
+    return at_least("smallest_feature", 0, k_least_feature - k_drawn, "mm", "there is no closed contour");
+  return at_least("smallest_feature", least, k_least_feature - k_drawn, "mm",
+                  "narrow: " + place(*narrow, narrow->points.front()));
+}
+
+// Inside
+// ---------------------------------------------------------------------------------------------------------------
+
+struct Framed {
+  const DrawingPath* path;
+  Box box;
+};
+
+std::vector<Framed> framed(const Drawing& drawing, std::string_view layer) {
+  std::vector<Framed> result;
+  for (const DrawingPath& path : drawing.paths) {
+    if (path.layer == layer && !path.points.empty()) result.push_back({&path, bounding_box(path.points)});
+  }
+  return result;
+}
+
+bool box_within(const Box& inner, const Box& outer) {
+  return (inner.low - outer.low).minCoeff() >= -k_drawn && (outer.high - inner.high).minCoeff() >= -k_drawn;
+}
+
+/// The contours of layer `inner` must each lie within one of layer `outer`, where the drawing has such a layer.
+struct Inside {
+  std::string_view inner;
+  std::string_view outer;
+};
+constexpr auto k_inside = std::to_array<Inside>({{"CUT_INNER", "CUT_OUTER"},
+                                                 {"ENGRAVE", "CUT_OUTER"},
+                                                 {"CUT_OUTER", "SHEET"},
+                                                 {"BORE", "P1_FLOOR"},
+                                                 {"BORE", "P2_FLOOR"},
+                                                 {"P1_FLOOR", "P1_PITCH"},
+                                                 {"P2_FLOOR", "P2_PITCH"}});
+
+Check check_inside(const Drawing& drawing) {
+  // Point against edge comparisons: far more than any drawing that can be cut takes, and the end of the work on any
+  // other.
+  std::size_t budget = 300'000'000;
+  std::size_t outside = 0;
+  std::string where;
+  for (const Inside& pair : k_inside) {
+    const std::vector<Framed> outers = framed(drawing, pair.outer);
+    if (outers.empty()) continue;
+    for (const Framed& inner : framed(drawing, pair.inner)) {
+      const bool held = std::any_of(outers.begin(), outers.end(), [&](const Framed& outer) {
+        budget -= std::min(budget, std::size_t{1});
+        if (budget == 0 || !box_within(inner.box, outer.box)) return false;
+        if (pair.outer == "SHEET") return true;  // a rectangle: its box says all
+        budget -= std::min(budget, inner.path->points.size() * outer.path->points.size());
+        return budget > 0 && std::all_of(inner.path->points.begin(), inner.path->points.end(),
+                                         [&](const Vec2& p) { return contains(outer.path->points, p); });
+      });
+      if (budget == 0)
+        return exactly("nothing_outside", static_cast<double>(outside + 1), 0, "1",
+                       "the drawing has too many contours to tell");
+      if (held || outside++ > 0) continue;
+      where = fmt::format("not inside {}: {}", pair.outer, place(*inner.path, inner.path->points.front()));
+    }
+  }
+  return exactly("nothing_outside", static_cast<double>(outside), 0, "1", where);
+}
+
+}  // namespace
+
+std::vector<Check> check_drawing(const Drawing& drawing) {
+  const Paths contours = contours_of(drawing);
+  CrossingChecks crossings = check_crossings(contours);
+  return {at_least("contours", static_cast<double>(contours.size()), 1, "1", "the drawing has no lines to cut"),
+          check_contours_closed(contours),
+          check_ends_meet(contours),
+          check_duplicates(drawing),
+          std::move(crossings.self),
+          std::move(crossings.mutual),
+          check_smallest_feature(contours),
+          check_inside(drawing)};
+}
+
+}  // namespace fusee

@@ -1,0 +1,381 @@
+#include "export/drawings/plates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "export/drawings/cut_shapes.h"
+#include "export/drawings/dxf_writer.h"
+#include "export/drawings/nesting.h"
+#include "export/drawings/polygon_cgal.h"
+#include "export/drawings/stroke_font.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "solid/body.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_least_wall = 1.0;     // what a cut leaves standing, mm
+constexpr double k_least_feature = 1.0;  // what a laser cuts cleanly, mm
+constexpr double k_groove_room = 1.1;    // of the tendon between its flanges, per diameter
+constexpr double k_engraving_margin = 0.5;
+
+/// What the plates are cut from, gathered once.
+struct Stock {
+  const Product& product;
+  const Mechanism& mechanism;
+  BodyLayout layout;
+  FlangeRims rims;
+  Polygon floor1;
+  Polygon floor2;
+  double wall;
+
+  explicit Stock(const Product& made)
+      : product(made),
+        mechanism(made.file.mechanism),
+        layout(layout_to_cut(made)),
+        rims(flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth,
+                         mechanism.body.flange)),
+        floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
+        floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
+        wall(std::max(layout.min_wall, k_least_wall)) {}
+
+  Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
+};
+
+// Dowels
+// ---------------------------------------------------------------------------------------------------------------
+
+/// What every plate keeps: within both floors, clear of all that is cut out of any of them.
+Material2d common_material(const Stock& stock) {
+  Material2d material;
+  material.add_outline(stock.floor1);
+  material.add_outline(stock.floor2);
+  material.add_hole(stock.layout.bore.outline);
+  for (const Polygon& hole : stock.layout.bore.screw_holes) material.add_hole(hole);
+  for (const Anchor& anchor : stock.product.pulley.anchors) {
+    if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
+    if (stock.layout.pocket_radius > 0) material.add_hole(stock.pocket(anchor));
+  }
+  return material;
+}
+
+/// Two places as far apart as can be, at radii that differ by half a dowel at least and not in line with the axis: no
+/// turning or flipping that leaves the bore in place maps them onto themselves.
+std::optional<std::pair<Vec2, Vec2>> dowel_places(const Stock& stock, const Material2d& material, double diameter) {
+  constexpr int k_directions = 48;
+  constexpr int k_radii = 24;
+  double reach = 0;
+  for (const Vec2& p : stock.floor1) reach = std::max(reach, p.norm());
+  std::vector<Vec2> free;
+  for (int r = 1; r < k_radii; ++r) {
+    for (int a = 0; a < k_directions; ++a) {
+      const Vec2 p = reach * r / k_radii * unit(k_two_pi * a / k_directions);
+      if (material.holds(p, 0.5 * diameter + stock.wall)) free.push_back(p);
+    }
+  }
+  std::optional<std::pair<Vec2, Vec2>> best;
+  double widest = diameter + stock.wall;
+  for (const Vec2& a : free) {
+    for (const Vec2& b : free) {
+      const double apart = (a - b).norm();
+      const bool in_line = std::abs(cross(a, b)) < std::sin(radians(20)) * a.norm() * b.norm();
+      if (apart <= widest || in_line || a.norm() < b.norm() + 0.5 * diameter) continue;
+      widest = apart;
+      best = {a, b};
+    }
+  }
+  return best;
+}
+
+void place_dowels(Plates& plates, const Stock& stock) {
+  const double wanted = stock.mechanism.cut.dowel;
+  if (!(wanted > 0)) {
+    plates.notes.push_back("no dowels: cut.dowel_mm = 0");
+    return;
+  }
+  const Material2d material = common_material(stock);
+  for (const double share : {1.0, 0.85, 0.7, 0.5, 0.35}) {
+    const double diameter = share * wanted;
+    if (diameter - stock.mechanism.cut.kerf < k_least_feature && share < 1)
+      break;  // the cutter's path would be narrower than it can cut
+    const auto places = dowel_places(stock, material, diameter);
+    if (!places) continue;
+    plates.dowels = {places->first, places->second};
+    plates.dowel_diameter = diameter;
+    if (share < 1)
+      plates.notes.push_back(
+          fmt::format("dowels of {} mm: there is no room for {} mm", rounded(diameter), rounded(wanted)));
+    return;
+  }
+  plates.notes.push_back(
+      fmt::format("no dowels: there is no room for two of {} mm; align the plates on the shaft", rounded(wanted)));
+}
+
+// Shapes
+// ---------------------------------------------------------------------------------------------------------------
+
+void note_once(Plates& plates, const std::string& note) {
+  if (std::find(plates.notes.begin(), plates.notes.end(), note) == plates.notes.end()) plates.notes.push_back(note);
+}
+
+class LayerMaker {
+ public:
+  LayerMaker(Plates& plates, const Stock& stock) : plates_(plates), stock_(stock), kerf_(stock.mechanism.cut.kerf) {}
+
+  /// `channels`: anchors whose channel and pocket are cut into this plate's edge; `pockets`: those whose pocket is a
+  /// hole in it.
+  void add(const std::string& name, int count, const Polygon& outline, const std::vector<const Anchor*>& channels,
+           const std::vector<const Anchor*>& pockets) {
+    PlateLayer layer;
+    layer.name = name;
+    layer.count = count;
+    layer.outer = {outline};
+    layer.cut_outer = {offset_edges(outline, 0.5 * kerf_)};
+    for (const Anchor* anchor : channels) cut_channel(layer, *anchor);
+    add_hole(layer, stock_.layout.bore.outline, "bore");
+    for (const Polygon& hole : stock_.layout.bore.screw_holes) add_hole(layer, hole, "screw hole");
+    for (const Vec2& dowel : plates_.dowels)
+      add_hole(layer, circle_polygon(dowel, 0.5 * plates_.dowel_diameter), "dowel hole");
+    for (const Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
+    plates_.layers.push_back(std::move(layer));
+  }
+
+ private:
+  void add_hole(PlateLayer& layer, const Polygon& hole, const char* what) {
+    const auto path = cut_hole(hole, kerf_);
+    if (!path) {
+      note_once(plates_, fmt::format("the {} is left out: a kerf of {} mm is wider", what, rounded(kerf_)));
+      return;
+    }
+    layer.holes.push_back(hole);
+    layer.cut_holes.push_back(*path);
+  }
+
+  /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and
+  /// their corners are the mitres.
+  void cut_channel(PlateLayer& layer, const Anchor& anchor) {
+    std::vector<Polygon> finished;
+    std::vector<Polygon> path;
+    for (const Polygon& part : {anchor.channel, stock_.pocket(anchor)}) {
+      const auto inner = part.size() > 2 && is_simple(part) ? cut_hole(part, kerf_) : std::nullopt;
+      if (!inner) {
+        note_once(plates_, fmt::format("a tendon channel is left out: a kerf of {} mm is wider", rounded(kerf_)));
+        return;
+      }
+      finished.push_back(part);
+      path.push_back(*inner);
+    }
+    const std::vector<Polygon> outer = difference(layer.outer.front(), finished);
+    const std::vector<Polygon> cut_outer = difference(layer.cut_outer.front(), path);
+    if (!is_one_plate(outer) || !is_one_plate(cut_outer)) {
+      note_once(plates_, fmt::format("{}: a tendon channel is left out, it would cut the plate in two", layer.name));
+      return;
+    }
+    layer.outer = {outer.front()};
+    layer.cut_outer = {cut_outer.front()};
+  }
+
+  /// The rest must hang together and be open where the tendon comes in; slivers that fall out are no plate.
+  static bool is_one_plate(const std::vector<Polygon>& loops) {
+    constexpr double k_sliver = 1.0;  // mm²
+    return !loops.empty() && is_simple(loops.front()) &&
+           (loops.size() == 1 || std::abs(signed_area(loops[1])) < k_sliver);
+  }
+
+  Plates& plates_;
+  const Stock& stock_;
+  double kerf_;
+};
+
+/// The hub's disc, wide enough to hold the dowels.
+double hub_radius(const Stock& stock, const Plates& plates) {
+  double radius = stock.layout.hub_radius;
+  for (const Vec2& dowel : plates.dowels)
+    radius = std::max(radius, dowel.norm() + 0.5 * plates.dowel_diameter + stock.wall);
+  return radius;
+}
+
+void add_layers(Plates& plates, const Stock& stock) {
+  const double t = stock.mechanism.cut.plate;
+  const int flange = plates_for(stock.layout.flange_thickness, t);
+  const int core = plates_for(k_groove_room * stock.mechanism.tendon.diameter, t);
+  std::vector<const Anchor*> left, right;
+  for (const Anchor& anchor : stock.product.pulley.anchors)
+    (anchor.side == Side::left ? left : right).push_back(&anchor);
+  const bool pockets = stock.layout.pocket_radius > 0;
+  if (!pockets) left.clear(), right.clear();
+  LayerMaker maker(plates, stock);
+  maker.add("FLANGE 1", flange, stock.rims.lower, {}, left);
+  maker.add("P1 CORE", core, stock.floor1, left, {});
+  maker.add("MIDDLE", flange, stock.rims.middle, {}, {});
+  maker.add("P2 CORE", core, stock.floor2, right, {});
+  maker.add("FLANGE 2", flange, stock.rims.upper, {}, right);
+  if (stock.layout.hub_radius > 0) {
+    maker.add("HUB", plates_for(stock.layout.z_hub - stock.layout.z_top, t),
+              circle_polygon({0, 0}, hub_radius(stock, plates)), {}, {});
+  }
+}
+
+// Engraving
+// ------------------------------------------------------------------------------------------------------------
+
+Material2d material_of(const PlateLayer& layer) {
+  Material2d material;
+  material.add_outline(layer.outer.front());
+  for (const Polygon& hole : layer.holes) material.add_hole(hole);
+  return material;
+}
+
+/// A short line at the edge in the home direction, +y, as far from the axis as the plate allows.
+void engrave_home(PlateLayer& layer, const Material2d& material) {
+  constexpr double k_length = 2.5;
+  const double top = bounding_box(layer.outer.front()).high.y();
+  for (double y = top - k_engraving_margin; y > 0; y -= 0.25) {
+    const Vec2 low(0, y - k_length);
+    if (!material.holds_box(low, {0, k_length}, k_engraving_margin)) continue;
+    layer.engraving.push_back({low, {0, y}});
+    return;
+  }
+}
+
+/// The first free place for a label of this size, from below the axis upward.
+std::optional<Vec2> label_place(const PlateLayer& layer, const Material2d& material, const Vec2& size) {
+  const Box box = bounding_box(layer.outer.front());
+  for (double y = box.low.y(); y + size.y() < box.high.y(); y += 1.0) {
+    for (int side = 0; side < 40; ++side) {
+      // From the middle outward, left and right in turn.
+      const double x = (side % 2 ? 1 : -1) * 0.5 * (side + 1) / 2.0 * (box.size().x() / 20) - 0.5 * size.x();
+      if (x < box.low.x() || x + size.x() > box.high.x()) continue;
+      const bool on_mark =
+          !layer.engraving.empty() && x < 0.5 && x + size.x() > -0.5 && y + size.y() > layer.engraving[0][0].y() - 0.5;
+      if (!on_mark && material.holds_box({x, y}, size, k_engraving_margin)) return Vec2(x, y);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string label_text(const PlateLayer& layer, LabelKind kind, int number, int total) {
+  if (kind == LabelKind::number) return std::to_string(number);
+  return fmt::format("{}/{}{}", number, total, kind == LabelKind::name ? " " + layer.name : "");
+}
+
+void engrave(Plates& plates, std::size_t index, int total) {
+  PlateLayer& layer = plates.layers[index];
+  const Material2d material = material_of(layer);
+  engrave_home(layer, material);
+  for (const LabelKind kind : {LabelKind::name, LabelKind::count, LabelKind::number}) {
+    const std::string widest = label_text(layer, kind, total, total);
+    for (const double height : {3.0, 2.2, 1.6}) {
+      const auto place = label_place(layer, material, {stroke_text_width(widest, height), height});
+      if (!place) continue;
+      layer.label = *place;
+      layer.label_height = height;
+      layer.label_kind = kind;
+      return;
+    }
+  }
+  plates.notes.push_back(layer.name + ": there is no room for the plate's number");
+}
+
+// Notes
+// ----------------------------------------------------------------------------------------------------------------
+
+void describe_stack(Plates& plates, const Stock& stock) {
+  const double t = stock.mechanism.cut.plate;
+  std::vector<std::string> lines;
+  int first = 1;
+  for (const PlateLayer& layer : plates.layers) {
+    const int last = first + layer.count - 1;
+    const std::string which =
+        layer.count == 1 ? fmt::format("plate {}", first) : fmt::format("plates {} to {}", first, last);
+    lines.push_back(
+        fmt::format("{}: {} - z {} to {} mm", layer.name, which, rounded((first - 1) * t), rounded(last * t)));
+    first = last + 1;
+  }
+  const double room = t * plates.layers[1].count;
+  const double d = stock.mechanism.tendon.diameter;
+  lines.push_back(
+      fmt::format("stack from plate 1 upward, numbers facing up, home marks in line; plates of {} mm", rounded(t)));
+  lines.push_back(fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(room), rounded(d)));
+  if (stock.layout.set_screw.present)
+    lines.push_back("the set screw is no part of the plates: drill it across the hub");
+  if (stock.layout.bore.horn_recess > 0)
+    lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep",
+                                rounded(stock.layout.bore.horn_recess)));
+  plates.notes.insert(plates.notes.begin(), lines.begin(), lines.end());
+}
+
+/// Narrow places of what is cut out.
+void note_small_features(Plates& plates, const Stock& stock) {
+  const double narrow = stock.layout.channel_width;
+  if (!stock.product.pulley.anchors.empty() && narrow < k_least_feature) {
+    plates.notes.push_back(fmt::format("the tendon channels are {} mm wide, below {} mm: see body.anchor_hole_mm",
+                                       rounded(narrow), rounded(k_least_feature)));
+  }
+  for (const PlateLayer& layer : plates.layers) {
+    for (const Polygon& hole : layer.holes) {
+      const double width = bounding_box(hole).size().minCoeff();
+      if (width < k_least_feature)
+        plates.notes.push_back(
+            fmt::format("{}: a hole is {} mm wide, below {} mm", layer.name, rounded(width), rounded(k_least_feature)));
+    }
+  }
+}
+
+// Sheets
+// ---------------------------------------------------------------------------------------------------------------
+
+void lay_on_sheets(Plates& plates, const Cut& cut) {
+  std::vector<Vec2> sizes;
+  std::vector<Vec2> axes;  // from the box's lower left corner
+  for (std::size_t l = 0; l < plates.layers.size(); ++l) {
+    const Box box = bounding_box(plates.layers[l].cut_outer.front());
+    for (int k = 0; k < plates.layers[l].count; ++k) {
+      plates.placed.push_back({l, static_cast<int>(plates.placed.size()) + 1, Vec2::Zero()});
+      sizes.push_back(box.size());
+      axes.push_back(-box.low);
+    }
+  }
+  const Vec2 sheet(cut.sheet_width, cut.sheet_height);
+  const std::vector<NestedPlace> places = nest(sizes, sheet, std::max(2.0, 2 * cut.kerf));
+  bool fits = true;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    plates.placed[i].shift = places[i].corner + axes[i] + Vec2(places[i].sheet * (sheet.x() + k_sheet_gap), 0);
+    plates.sheets = std::max(plates.sheets, places[i].sheet + 1);
+    fits = fits && places[i].fits;
+  }
+  if (!fits)
+    plates.notes.push_back(
+        fmt::format("a plate is larger than a sheet of {} x {} mm: see cut.sheet_width_mm, cut.sheet_height_mm",
+                    rounded(sheet.x()), rounded(sheet.y())));
+}
+
+}  // namespace
+
+int plates_for(double height, double plate) { return std::max(1, static_cast<int>(std::ceil(height / plate - 1e-6))); }
+
+std::string plate_label(const Plates& plates, const PlacedPlate& plate) {
+  const PlateLayer& layer = plates.layers[plate.layer];
+  return label_text(layer, layer.label_kind, plate.number, static_cast<int>(plates.placed.size()));
+}
+
+Plates make_plates(const Product& product) {
+  const Stock stock(product);
+  Plates plates;
+  place_dowels(plates, stock);
+  add_layers(plates, stock);
+  const int total = std::accumulate(plates.layers.begin(), plates.layers.end(), 0,
+                                    [](int sum, const PlateLayer& layer) { return sum + layer.count; });
+  for (std::size_t i = 0; i < plates.layers.size(); ++i) engrave(plates, i, total);
+  note_small_features(plates, stock);
+  describe_stack(plates, stock);
+  lay_on_sheets(plates, stock.mechanism.cut);
+  return plates;
+}
+
+}  // namespace fusee

@@ -1,0 +1,79 @@
+/// \file
+/// plates.dxf: all plates flat on their sheets, ready to cut. First what is engraved, then every hole, then every
+/// outline: what is cut free may move.
+#include <algorithm>
+
+#include "export/drawings/dxf_writer.h"
+#include "export/drawings/plates.h"
+#include "export/drawings/stroke_font.h"
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_text_height = 3;
+constexpr double k_line_pitch = 5;
+
+Polygon shifted(Polygon points, const Vec2& shift) {
+  for (Vec2& p : points) p += shift;
+  return points;
+}
+
+void add_sheets(DxfDocument& drawing, const Plates& plates, const Cut& cut) {
+  for (int i = 0; i < plates.sheets; ++i) {
+    const Vec2 corner(i * (cut.sheet_width + k_sheet_gap), 0);
+    drawing.closed("SHEET", rectangle(corner, corner + Vec2(cut.sheet_width, cut.sheet_height)));
+  }
+}
+
+void add_engraving(DxfDocument& drawing, const Plates& plates) {
+  for (const PlacedPlate& plate : plates.placed) {
+    const PlateLayer& layer = plates.layers[plate.layer];
+    for (const Polygon& stroke : layer.engraving) drawing.open("ENGRAVE", shifted(stroke, plate.shift));
+    if (layer.label_height > 0)
+      drawing.text("ENGRAVE", plate_label(plates, plate), layer.label + plate.shift, layer.label_height);
+  }
+}
+
+void add_cuts(DxfDocument& drawing, const Plates& plates) {
+  for (const PlacedPlate& plate : plates.placed) {
+    for (const Polygon& hole : plates.layers[plate.layer].cut_holes)
+      drawing.closed("CUT_INNER", shifted(hole, plate.shift));
+  }
+  for (const PlacedPlate& plate : plates.placed) {
+    for (const Polygon& outline : plates.layers[plate.layer].cut_outer)
+      drawing.closed("CUT_OUTER", shifted(outline, plate.shift));
+  }
+}
+
+/// Below the sheets, where nothing is cut.
+void add_notes(DxfDocument& drawing, const std::vector<std::string>& notes) {
+  drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
+  double y = -5 - k_text_height;
+  for (const std::string& note : notes) {
+    drawing.text("NOTES", note, {15, y}, k_text_height);
+    y -= k_line_pitch;
+  }
+}
+
+}  // namespace
+
+std::string plates_dxf(const Product& product, DxfVersion version) {
+  const Mechanism& mechanism = product.file.mechanism;
+  const Plates plates = make_plates(product);
+  DxfDocument drawing;
+  drawing.layers = {{"ENGRAVE", 3},      {"CUT_INNER", 5},    {"CUT_OUTER", 1},
+                    {"SHEET", 8, false}, {"NOTES", 8, false}, {"CHECK_10MM", 9, false}};
+  drawing.remarks = plates.notes;
+  drawing.remarks.insert(drawing.remarks.begin(),
+                         {mechanism.name + ": plates to cut, true size in mm, not scaled for a print's shrinkage",
+                          "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
+                              " mm) outside, holes half a kerf inside; the square is 10 mm wide"});
+  add_engraving(drawing, plates);
+  add_cuts(drawing, plates);
+  add_sheets(drawing, plates, mechanism.cut);
+  add_notes(drawing, drawing.remarks);
+  return dxf_text(drawing, version);
+}
+
+}  // namespace fusee

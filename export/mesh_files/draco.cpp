@@ -1,0 +1,233 @@
+// Draco: vertices quantised on a grid over the bounding cube, connectivity by edgebreaker.
+
+#include <draco/compression/encode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "export/mesh_files/mesh_formats.h"
+#include "fusee/export/export.h"
+
+namespace fusee {
+namespace {
+
+// Writing ------------------------------------------------------------------------------------------------------------
+
+/// A float holds 24 bits: a finer grid would show nothing more, and Draco's tables grow with the grid.
+constexpr int k_most_bits = 24;
+
+/// Draco's grid: 2^bits − 1 steps along the longest side of the bounding box.
+struct Grid {
+  Vec3 origin = Vec3::Zero();
+  double range = 0;
+  int bits = 1;
+
+  double step() const { return range / (std::ldexp(1.0, bits) - 1.0); }
+  /// Half the diagonal of a cell: no vertex moves by more.
+  double reach() const { return 0.5 * std::numbers::sqrt3 * step(); }
+  Vec3 snapped(const Vec3& v) const {
+    return origin + step() * ((v - origin) / step() + Vec3::Constant(0.5)).array().floor().matrix();
+  }
+};
+
+/// Does every face still look to its side? Thin ones collapse or turn over on a grid that is fine enough for the
+/// tolerance.
+bool keeps_faces(const TriangleMesh& mesh, const Grid& grid) {
+  constexpr double k_least_share = 0.1;  // of its area
+  std::vector<Vec3> snapped;
+  snapped.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) snapped.push_back(grid.snapped(vertex));
+  const auto area_vector = [](const std::vector<Vec3>& v, const std::array<std::uint32_t, 3>& t) {
+    return Vec3((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]));
+  };
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
+    const Vec3 before = area_vector(mesh.vertices, triangle);
+    const double size = before.squaredNorm();
+    return size == 0 || before.dot(area_vector(snapped, triangle)) > k_least_share * size;
+  });
+}
+
+/// The coarsest grid that is within the tolerance and leaves every face its side.
+Grid grid_for(const TriangleMesh& mesh, double tolerance) {
+  const Bounds box = bounds(mesh);
+  Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
+  while (grid.bits < k_most_bits && grid.reach() > tolerance) ++grid.bits;
+  while (grid.bits < k_most_bits && !keeps_faces(mesh, grid)) ++grid.bits;
+  return grid;
+}
+
+void fill(draco::Mesh& to, const TriangleMesh& mesh) {
+  to.SetNumFaces(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    to.SetFace(draco::FaceIndex(static_cast<std::uint32_t>(i)),
+               {draco::PointIndex(t[0]), draco::PointIndex(t[1]), draco::PointIndex(t[2])});
+  }
+  const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
+  to.set_num_points(count);
+  draco::GeometryAttribute position;
+  position.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
+  draco::PointAttribute* values = to.attribute(to.AddAttribute(position, true, count));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::array<float, 3> v = {float(mesh.vertices[i].x()), float(mesh.vertices[i].y()),
+                                    float(mesh.vertices[i].z())};
+    values->SetAttributeValue(draco::AttributeValueIndex(i), v.data());
+  }
+}
+
+// Reading ------------------------------------------------------------------------------------------------------------
+
+/// Entropy coding lets a few bytes announce any number of faces, and Draco allocates what is announced. A real mesh
+/// takes more than a byte a face; this much leaves room for the most regular.
+constexpr std::uint64_t k_most_faces_per_byte = 64;
+/// Of decoded attributes; a real mesh takes below 20.
+constexpr std::uint64_t k_most_unpacking = 256;
+
+std::uint64_t announced_by_sequential(draco::DecoderBuffer buffer) {
+  std::uint32_t faces = 0;
+  std::uint32_t points = 0;
+  if (!draco::DecodeVarint(&faces, &buffer) || !draco::DecodeVarint(&points, &buffer)) return 0;
+  return std::max(faces, points);
+}
+
+std::uint64_t announced_by_edgebreaker(draco::DecoderBuffer buffer) {
+  std::uint32_t vertices = 0;
+  std::uint32_t faces = 0;
+  std::uint8_t seams = 0;  // attributes with a connectivity of their own
+  if (!draco::DecodeVarint(&vertices, &buffer) || !draco::DecodeVarint(&faces, &buffer) || !buffer.Decode(&seams))
+    return 0;
+  return std::uint64_t{std::max(vertices, faces)} * (1 + seams);
+}
+
+/// One of Draco's decoders that looks at what is announced before it is allocated.
+template <class Decoder, std::uint64_t (*announced)(draco::DecoderBuffer)>
+class Bounded : public Decoder {
+ public:
+  explicit Bounded(std::uint64_t size) : size_(size) {}
+
+ protected:
+  bool DecodeConnectivity() override {
+    return announced(*this->buffer()) <= k_most_faces_per_byte * size_ && Decoder::DecodeConnectivity();
+  }
+  bool DecodeAllAttributes() override {
+    std::uint64_t bytes_a_point = 0;
+    for (int i = 0; i < this->point_cloud()->num_attributes(); ++i) {
+      const auto stride =
+          static_cast<std::uint64_t>(std::max<std::int64_t>(0, this->point_cloud()->attribute(i)->byte_stride()));
+      bytes_a_point += stride + sizeof(std::uint32_t);
+    }
+    return bytes_a_point * this->point_cloud()->num_points() <= k_most_unpacking * size_ &&
+           Decoder::DecodeAllAttributes();
+  }
+
+ private:
+  std::uint64_t size_;
+};
+using SequentialDecoder = Bounded<draco::MeshSequentialDecoder, announced_by_sequential>;
+using EdgebreakerDecoder = Bounded<draco::MeshEdgebreakerDecoder, announced_by_edgebreaker>;
+
+draco::DecoderBuffer buffer_of(const Source& source) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(source.bytes.data(), source.bytes.size());
+  return buffer;
+}
+
+draco::DracoHeader read_header(const Source& source) {
+  draco::DecoderBuffer buffer = buffer_of(source);
+  draco::DracoHeader header;
+  const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
+  if (!status.ok()) fail_at_byte(source, 0, fmt::format("expected a Draco header: {}", status.error_msg()));
+  constexpr std::size_t k_version = 5;
+  constexpr std::size_t k_geometry = 7;
+  if (header.encoder_type != draco::TRIANGULAR_MESH)
+    fail_at_byte(source, k_geometry, "expected a mesh, found a cloud of points");
+  // Earlier streams announce their numbers in other ways, which the bounds above do not know.
+  if (header.version_major != 2 || header.version_minor != 2) {
+    fail_at_byte(
+        source, k_version,
+        fmt::format("expected Draco's bitstream 2.2, found {}.{}", header.version_major, header.version_minor));
+  }
+  return header;
+}
+
+template <class Decoder>
+void decode(const Source& source, draco::Mesh& mesh) {
+  draco::DecoderBuffer buffer = buffer_of(source);
+  const draco::DecoderOptions options;
+  std::string reason;
+  try {
+    const draco::Status status = Decoder(source.bytes.size()).Decode(options, &buffer, &mesh);
+    if (status.ok()) return;
+    reason = status.error_msg_string();
+  } catch (const std::exception& error) {  // of a container that was asked for too much
+    reason = error.what();
+  }
+  fail_at_byte(source, static_cast<std::size_t>(std::max<std::int64_t>(0, buffer.decoded_size())),
+               fmt::format("Draco cannot decode this: {}", reason));
+}
+
+TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
+  const draco::PointAttribute* position = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  if (position == nullptr || position->num_components() != 3)
+    fail_at_byte(source, 0, "expected positions of three coordinates");
+  TriangleMesh soup;
+  soup.vertices.reserve(mesh.num_points());
+  for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
+    std::array<float, 3> v{};
+    const draco::AttributeValueIndex value = position->mapped_index(draco::PointIndex(i));
+    if (value.value() >= position->size() || !position->ConvertValue<float, 3>(value, v.data())) {
+      fail_at_byte(source, 0, fmt::format("point {} has no position", i));
+    }
+    soup.vertices.emplace_back(v[0], v[1], v[2]);
+  }
+  soup.triangles.reserve(mesh.num_faces());
+  for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
+    const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
+    for (const draco::PointIndex& corner : face) {
+      if (corner.value() >= mesh.num_points())
+        fail_at_byte(source, 0, fmt::format("face {} refers to point {} of {}", i, corner.value(), mesh.num_points()));
+    }
+    soup.triangles.push_back({face[0].value(), face[1].value(), face[2].value()});
+  }
+  return soup;
+}
+
+}  // namespace
+
+std::string draco_bytes(const TriangleMesh& mesh, double tolerance) {
+  const int bits = grid_for(mesh, tolerance).bits;
+  draco::Mesh to;
+  fill(to, mesh);
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
+  draco::EncoderBuffer buffer;
+  const draco::Status status = encoder.EncodeMeshToBuffer(to, &buffer);
+  demand(status.ok(), fmt::format("Draco, {} bits: {}", bits, status.error_msg()));
+  return {buffer.data(), buffer.size()};
+}
+
+/// Where attributes have seams Draco holds a point for each side; they are one again by their position.
+TriangleMesh read_drc(const Source& source) {
+  const draco::DracoHeader header = read_header(source);
+  draco::Mesh mesh;
+  if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+    decode<EdgebreakerDecoder>(source, mesh);
+  } else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
+    decode<SequentialDecoder>(source, mesh);
+  } else {
+    constexpr std::size_t k_method = 8;
+    fail_at_byte(source, k_method, fmt::format("expected Draco's method 0 or 1, found {}", header.encoder_method));
+  }
+  return weld(from_draco(source, mesh));
+}
+
+}  // namespace fusee

@@ -1,0 +1,86 @@
+// Which format is it? Content first, since names lie; the name's ending where content does not tell.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "export/mesh_files/mesh_formats.h"
+#include "export/mesh_files/text_scanner.h"
+#include "fusee/export/export.h"
+
+namespace fusee {
+namespace {
+
+using Reader = TriangleMesh (*)(const Source&);
+
+struct Ending {
+  std::string_view ending;
+  Reader reader;
+};
+constexpr std::array<Ending, 6> k_endings = {{{".stl", read_stl},
+                                              {".obj", read_obj},
+                                              {".3mf", read_threemf},
+                                              {".off", read_off},
+                                              {".ply", read_ply},
+                                              {".drc", read_drc}}};
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Null where the content does not tell.
+Reader reader_by_content(const Source& source) {
+  if (is_binary_stl(source.bytes)) return read_stl;
+  if (source.bytes.starts_with("PK\x03\x04") || source.bytes.starts_with("PK\x05\x06")) return read_threemf;
+  if (source.bytes.starts_with("DRACO")) return read_drc;
+  const std::string_view word = TextScanner(source, '#').flowing_word();
+  if (word == "ply") return read_ply;
+  if (word == "OFF" || word == "COFF" || word == "NOFF" || word == "CNOFF" || word == "STOFF") return read_off;
+  if (lower_case(std::string(word.substr(0, 6))) == "solid") return read_stl;
+  if (word == "v" || word == "o" || word == "mtllib") return read_obj;
+  return nullptr;
+}
+
+Reader reader_by_name(const std::string& file_name) {
+  const std::string name = lower_case(file_name);
+  const auto found =
+      std::find_if(k_endings.begin(), k_endings.end(), [&](const Ending& e) { return name.ends_with(e.ending); });
+  return found == k_endings.end() ? nullptr : found->reader;
+}
+
+}  // namespace
+
+void fail_at_byte(const Source& source, std::size_t offset, const std::string& message) {
+  throw InputError(source.name, fmt::format("at byte {}: {}", offset, message));
+}
+
+void demand_room(const Source& source, std::size_t offset, std::uint64_t count, std::size_t least_bytes,
+                 const std::string& things) {
+  const std::size_t left = source.bytes.size() - std::min(offset, source.bytes.size());
+  if (least_bytes == 0 || count <= left / least_bytes) return;
+  fail_at_byte(source, offset,
+               fmt::format("expected {} {} of at least {} bytes each, but only {} bytes follow", count, things,
+                           least_bytes, left));
+}
+
+void add_fan(TriangleMesh& mesh, std::span<const std::uint32_t> corners) {
+  for (std::size_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+}
+
+TriangleMesh read_mesh(std::string_view bytes, const std::string& file_name) {
+  if (bytes.empty()) throw InputError(file_name, "the file is empty, expected a mesh");
+  const Source source{bytes, file_name};
+  Reader reader = reader_by_content(source);
+  if (reader == nullptr) reader = reader_by_name(file_name);
+  if (reader == nullptr) {
+    throw InputError(file_name, "expected a mesh, and neither its first bytes nor its name say of which format",
+                     "fusee reads .stl, .obj, .3mf, .off, .ply and .drc");
+  }
+  return reader(source);
+}
+
+}  // namespace fusee

@@ -1,0 +1,116 @@
+#include "export/mesh_files/text_scanner.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace fusee {
+namespace {
+
+constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || c == '\n'; }
+
+template <class Number>
+bool parse(std::string_view word, Number& value) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && end == word.data() + word.size();
+}
+
+}  // namespace
+
+bool parse_number(std::string_view word, double& value) { return parse(word, value); }
+bool parse_integer(std::string_view word, std::int64_t& value) { return parse(word, value); }
+
+TextScanner::TextScanner(const Source& source, char comment) : source_(source), comment_(comment) {
+  if (source.bytes.starts_with(k_byte_order_mark)) next_ = k_byte_order_mark.size();
+}
+
+bool TextScanner::next_line() {
+  const std::string_view text = source_.bytes;
+  while (next_ < text.size()) {
+    const std::size_t newline = std::min(text.find('\n', next_), text.size());
+    line_start_ = cursor_ = next_;
+    line_end_ = newline;
+    next_ = std::min(newline + 1, text.size());
+    ++line_;
+    if (comment_ != '\0')
+      line_end_ =
+          line_start_ + std::min(text.substr(line_start_, newline - line_start_).find(comment_), newline - line_start_);
+    while (cursor_ < line_end_ && is_blank(text[cursor_])) ++cursor_;
+    word_start_ = word_end_ = cursor_;
+    if (cursor_ < line_end_) return true;
+  }
+  line_start_ = line_end_ = cursor_ = word_start_ = word_end_ = text.size();
+  return false;
+}
+
+std::string_view TextScanner::word() {
+  const std::string_view text = source_.bytes;
+  while (cursor_ < line_end_ && is_blank(text[cursor_])) ++cursor_;
+  word_start_ = cursor_;
+  while (cursor_ < line_end_ && !is_blank(text[cursor_])) ++cursor_;
+  word_end_ = cursor_;
+  return text.substr(word_start_, word_end_ - word_start_);
+}
+
+std::string_view TextScanner::flowing_word() {
+  std::string_view found = word();
+  while (found.empty() && next_line()) found = word();
+  return found;
+}
+
+std::string_view TextScanner::rest_of_line() {
+  const std::string_view text = source_.bytes;
+  while (cursor_ < line_end_ && is_blank(text[cursor_])) ++cursor_;
+  word_start_ = cursor_;
+  word_end_ = line_end_;
+  while (word_end_ > word_start_ && is_blank(text[word_end_ - 1])) --word_end_;
+  cursor_ = line_end_;
+  return text.substr(word_start_, word_end_ - word_start_);
+}
+
+double TextScanner::number(std::string_view word, std::string_view expected) const {
+  double value = 0;
+  if (!parse_number(word, value)) fail(expected);
+  return value;
+}
+
+std::int64_t TextScanner::integer(std::string_view word, std::string_view expected) const {
+  std::int64_t value = 0;
+  if (!parse_integer(word, value)) fail(expected);
+  return value;
+}
+
+Vec3 TextScanner::point(std::string_view expected) {
+  const double x = number(word(), expected);
+  const double y = number(word(), expected);
+  const double z = number(word(), expected);
+  return {x, y, z};
+}
+
+Place TextScanner::place() const {
+  return {source_.name, line_, static_cast<int>(std::min<std::size_t>(word_start_ - line_start_ + 1, 1'000'000'000))};
+}
+
+void TextScanner::fail(std::string_view expected) const {
+  const std::string_view found = source_.bytes.substr(word_start_, word_end_ - word_start_);
+  const bool at_end = found.empty() && next_ >= source_.bytes.size();
+  const std::string what = !found.empty() ? fmt::format("found '{}'", printable(found))
+                           : at_end       ? std::string("the file ends here")
+                                          : std::string("the line ends here");
+  throw InputError({Severity::error, place(), fmt::format("expected {}, {}", expected, what), {}});
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t k_longest = 40;
+  std::string shown;
+  for (const char c : text.substr(0, k_longest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    shown += byte >= 0x20 && byte < 0x7f ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+  }
+  return text.size() > k_longest ? shown + "…" : shown;
+}
+
+}  // namespace fusee

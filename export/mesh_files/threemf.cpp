@@ -1,0 +1,398 @@
+// 3MF: a zip of XML parts. Its core specification 1.3 and, when reading, the paths of the production extension (objects
+// in other parts).
+
+#include <fmt/format.h>
+#include <zip.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <pugixml.hpp>
+#include <vector>
+
+#include "export/mesh_files/mesh_formats.h"
+#include "export/mesh_files/text_scanner.h"
+#include "export/tool.h"
+#include "fusee/base/text.h"
+#include "fusee/export/export.h"
+
+namespace fusee {
+namespace {
+
+using Archive = std::unique_ptr<zip_t, decltype(&zip_discard)>;
+
+// Writing ------------------------------------------------------------------------------------------------------------
+
+constexpr std::string_view k_content_types = R"(<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+ <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+ <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+</Types>
+)";
+
+constexpr std::string_view k_relationships = R"(<?xml version="1.0" encoding="UTF-8"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+ <Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+)";
+
+std::string model_xml(const TriangleMesh& mesh, const std::string& name) {
+  fmt::memory_buffer xml;
+  xml.reserve(1024 + 60 * mesh.vertices.size() + 48 * mesh.triangles.size());
+  const auto put = [&xml](fmt::string_view format, const auto&... values) {
+    fmt::vformat_to(std::back_inserter(xml), format, fmt::make_format_args(values...));
+  };
+  const std::string title = escape_html(printable(name));
+  put(R"(<?xml version="1.0" encoding="UTF-8"?>
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+ <metadata name="Title">{0}</metadata>
+ <metadata name="Application">{1}</metadata>
+ <metadata name="Description">Compound pulley {0}: P1 below P2, z along the axis, x and y as the joint stands at home.</metadata>
+ <resources>
+  <object id="1" type="model" name="{0}">
+   <mesh>
+    <vertices>
+)",
+      title, k_tool);
+  for (const Vec3& v : mesh.vertices) {
+    // Adding zero takes the sign off a negative one. The shortest text that reads back as the same float has at most 9
+    // digits.
+    put("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", float(v.x()) + 0.0F, float(v.y()) + 0.0F, float(v.z()) + 0.0F);
+  }
+  put("    </vertices>\n    <triangles>\n");
+  for (const auto& t : mesh.triangles) put("<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", t[0], t[1], t[2]);
+  put("    </triangles>\n   </mesh>\n  </object>\n </resources>\n <build>\n  <item objectid=\"1\"/>\n "
+      "</build>\n</model>\n");
+  return fmt::to_string(xml);
+}
+
+void demand_zip(bool done, zip_t* archive, const char* step) {
+  demand(done, fmt::format("{}: {}", step, archive == nullptr ? "no memory" : zip_strerror(archive)));
+}
+
+/// `text` must outlive the archive's closing.
+void add_part(zip_t* archive, const char* path, std::string_view text) {
+  constexpr zip_uint16_t k_midnight = 0;
+  constexpr zip_uint16_t k_first_of_1980 = (1 << 5) | 1;  // the zero of DOS dates
+  zip_source_t* part = zip_source_buffer(archive, text.data(), text.size(), 0);
+  demand_zip(part != nullptr, archive, path);
+  const zip_int64_t index = zip_file_add(archive, path, part, ZIP_FL_ENC_UTF_8);
+  if (index < 0) zip_source_free(part);
+  demand_zip(index >= 0, archive, path);
+  const auto entry = static_cast<zip_uint64_t>(index);
+  // A date of its own, in DOS fields: zip_file_set_mtime() would go through the local time zone.
+  demand_zip(zip_file_set_dostime(archive, entry, k_midnight, k_first_of_1980, 0) == 0, archive, path);
+  constexpr zip_uint32_t k_quick = 3;  // twice as fast as the usual 6, and a fifth larger
+  demand_zip(zip_set_file_compression(archive, entry, ZIP_CM_DEFLATE, k_quick) == 0, archive, path);
+}
+
+std::string source_bytes(zip_source_t* source) {
+  zip_stat_t stat;
+  demand(zip_source_stat(source, &stat) == 0 && zip_source_open(source) == 0, "reading back a zip in memory");
+  std::string bytes(stat.size, '\0');
+  const zip_int64_t count = zip_source_read(source, bytes.data(), bytes.size());
+  zip_source_close(source);
+  demand(count == static_cast<zip_int64_t>(bytes.size()), "reading back a zip in memory");
+  return bytes;
+}
+
+// Reading ------------------------------------------------------------------------------------------------------------
+
+/// A model of 128 MiB has about two million triangles.
+constexpr std::uint64_t k_largest_part = std::uint64_t{128} << 20;
+/// Text of coordinates packs 5 to 20 times; a part that unpacks to more than this many times the whole file is a bomb.
+constexpr std::uint64_t k_most_unpacking = 100;
+constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;
+/// Components within components …
+constexpr int k_deepest = 32;
+
+[[noreturn]] void fail_in_part(const Source& source, const std::string& part, std::ptrdiff_t offset,
+                               const std::string& message) {
+  const std::string at = offset < 0 ? std::string() : fmt::format(" at byte {}", offset);
+  throw InputError(source.name, fmt::format("{}{}: {}", printable(part), at, message));
+}
+
+std::string_view local_name(std::string_view name) { return name.substr(name.find(':') + 1); }
+
+pugi::xml_node child(const pugi::xml_node& node, std::string_view name) {
+  return node.find_child([&](const pugi::xml_node& candidate) { return local_name(candidate.name()) == name; });
+}
+
+/// Only children of this name, whatever its prefix.
+template <class Visit>
+void for_children(const pugi::xml_node& node, std::string_view name, const Visit& visit) {
+  for (const pugi::xml_node& candidate : node.children()) {
+    if (local_name(candidate.name()) == name) visit(candidate);
+  }
+}
+
+/// A place, a turn and a scale: p → linear · p + shift.
+struct Placement {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Vec3 shift = Vec3::Zero();
+
+  Placement after(const Placement& first) const { return {linear * first.linear, linear * first.shift + shift}; }
+  bool mirrors() const { return linear.determinant() < 0; }
+};
+
+/// One part of the archive. Its attributes read with their place in it.
+struct ModelPart {
+  std::string path;
+  std::string text;  ///< pugixml points into it
+  pugi::xml_document xml;
+  double unit = 1;  ///< mm
+  std::map<std::int64_t, pugi::xml_node> objects;
+};
+
+class ThreemfReader {
+ public:
+  explicit ThreemfReader(const Source& source);
+  TriangleMesh read();
+
+ private:
+  std::string unpacked(const std::string& path);
+  void parse(const std::string& path, std::string& text, pugi::xml_document& xml) const;
+  std::string model_path();
+  ModelPart& part(const std::string& path);
+  double unit_of(const ModelPart& part, const pugi::xml_node& model) const;
+
+  [[noreturn]] void fail(const ModelPart& part, const pugi::xml_node& node, const std::string& message) const {
+    fail_in_part(source_, part.path, node.offset_debug(), message);
+  }
+  double number(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const;
+  std::int64_t integer(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const;
+  Placement placement(const ModelPart& part, const pugi::xml_node& node) const;
+
+  /// The object that an item of the build or a component names, placed.
+  void add_reference(ModelPart& part, const pugi::xml_node& reference, const Placement& outer, int depth);
+  void add_object(ModelPart& part, const pugi::xml_node& object, const Placement& place, int depth);
+  void add_vertices(ModelPart& part, const pugi::xml_node& mesh, const Placement& place);
+  void add_triangles(ModelPart& part, const pugi::xml_node& mesh, const Placement& place, std::size_t first);
+  void spend(ModelPart& part, const pugi::xml_node& node);
+
+  const Source& source_;
+  Archive archive_{nullptr, &zip_discard};
+  std::map<std::string, std::unique_ptr<ModelPart>> parts_;
+  std::uint64_t unpacked_left_;
+  std::uint64_t elements_left_ = 0;
+  TriangleMesh mesh_;
+};
+
+ThreemfReader::ThreemfReader(const Source& source)
+    : source_(source),
+      unpacked_left_(
+          std::min<std::uint64_t>(k_largest_part, k_always_unpacked + k_most_unpacking * source.bytes.size())) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* bytes = zip_source_buffer_create(source.bytes.data(), source.bytes.size(), 0, &error);
+  if (bytes != nullptr) archive_.reset(zip_open_from_source(bytes, ZIP_RDONLY, &error));
+  const std::string reason = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  if (archive_ == nullptr) {
+    zip_source_free(bytes);
+    throw InputError(source.name, fmt::format("expected a zip archive with a 3MF model: {}", reason));
+  }
+}
+
+std::string ThreemfReader::unpacked(const std::string& path) {
+  const zip_int64_t index = zip_name_locate(archive_.get(), path.c_str(), ZIP_FL_NOCASE);
+  if (index < 0) fail_in_part(source_, path, -1, "expected this part in the archive");
+  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(
+      zip_fopen_index(archive_.get(), static_cast<zip_uint64_t>(index), 0), &zip_fclose);
+  if (file == nullptr) fail_in_part(source_, path, -1, zip_strerror(archive_.get()));
+  // Grown as it comes: the size that the archive declares proves nothing.
+  std::string text;
+  std::array<char, 65536> chunk;
+  zip_int64_t count = 0;
+  while ((count = zip_fread(file.get(), chunk.data(), chunk.size())) > 0) {
+    const auto size = static_cast<std::uint64_t>(count);
+    if (size > unpacked_left_) {
+      fail_in_part(source_, path, -1,
+                   fmt::format("unpacks to too much; parts may have {} MiB and {} times the file's bytes",
+                               k_largest_part >> 20, k_most_unpacking));
+    }
+    unpacked_left_ -= size;
+    text.append(chunk.data(), size);
+  }
+  if (count < 0) fail_in_part(source_, path, static_cast<std::ptrdiff_t>(text.size()), zip_file_strerror(file.get()));
+  return text;
+}
+
+void ThreemfReader::parse(const std::string& path, std::string& text, pugi::xml_document& xml) const {
+  const pugi::xml_parse_result result = xml.load_buffer_inplace(text.data(), text.size());
+  if (!result) fail_in_part(source_, path, result.offset, std::string("expected XML: ") + result.description());
+}
+
+/// The part that the package's relationships name as its 3-D model.
+std::string ThreemfReader::model_path() {
+  const std::string path = "_rels/.rels";
+  std::string text = unpacked(path);
+  pugi::xml_document xml;
+  parse(path, text, xml);
+  std::string target;
+  for_children(child(xml, "Relationships"), "Relationship", [&](const pugi::xml_node& relationship) {
+    if (std::string_view(relationship.attribute("Type").value()).ends_with("/3dmodel")) {
+      target = relationship.attribute("Target").value();
+    }
+  });
+  if (target.empty()) fail_in_part(source_, path, -1, "expected a relationship of type …/3dmodel");
+  return target;
+}
+
+ModelPart& ThreemfReader::part(const std::string& path) {
+  const std::string name = path.starts_with('/') ? path.substr(1) : path;
+  std::unique_ptr<ModelPart>& slot = parts_[name];
+  if (slot != nullptr) return *slot;
+  slot = std::make_unique<ModelPart>();
+  slot->path = name;
+  slot->text = unpacked(name);
+  elements_left_ += slot->text.size();
+  parse(name, slot->text, slot->xml);
+  const pugi::xml_node model = child(slot->xml, "model");
+  if (!model) fail_in_part(source_, name, 0, "expected the element 'model'");
+  slot->unit = unit_of(*slot, model);
+  for_children(child(model, "resources"), "object",
+               [&](const pugi::xml_node& object) { slot->objects[integer(*slot, object, "id")] = object; });
+  return *slot;
+}
+
+double ThreemfReader::unit_of(const ModelPart& part, const pugi::xml_node& model) const {
+  const std::string_view unit = model.attribute("unit").value();
+  if (unit.empty() || unit == "millimeter") return 1;
+  if (unit == "micron") return 0.001;
+  if (unit == "centimeter") return 10;
+  if (unit == "inch") return 25.4;
+  if (unit == "foot") return 304.8;
+  if (unit == "meter") return 1000;
+  fail(part, model,
+       fmt::format("expected the unit micron, millimeter, centimeter, inch, foot or meter, found '{}'",
+                   printable(unit)));
+}
+
+double ThreemfReader::number(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const {
+  const std::string_view text = node.attribute(attribute).value();
+  double value = 0;
+  if (!parse_number(text, value))
+    fail(part, node, fmt::format("expected a number {}, found '{}'", attribute, printable(text)));
+  return value;
+}
+
+std::int64_t ThreemfReader::integer(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const {
+  const std::string_view text = node.attribute(attribute).value();
+  std::int64_t value = 0;
+  if (!parse_integer(text, value)) {
+    fail(part, node, fmt::format("expected a whole number {}, found '{}'", attribute, printable(text)));
+  }
+  return value;
+}
+
+/// "m00 m01 m02 m10 … m32": the rows are the images of x, y, z and of the origin.
+Placement ThreemfReader::placement(const ModelPart& part, const pugi::xml_node& node) const {
+  Placement place;
+  const pugi::xml_attribute attribute = node.attribute("transform");
+  if (!attribute) return place;
+  const Source text{attribute.value(), source_.name};
+  TextScanner words(text);
+  for (int row = 0; row < 4; ++row) {
+    Vec3 image;
+    for (double& coordinate : image) {
+      if (!parse_number(words.flowing_word(), coordinate)) fail(part, node, "expected 12 numbers of a transform");
+    }
+    if (row < 3) {
+      place.linear.col(row) = image;
+    } else {
+      place.shift = image;
+    }
+  }
+  return place;
+}
+
+/// Objects may be placed many times, in components of components: what comes of it stays in proportion to the file.
+void ThreemfReader::spend(ModelPart& part, const pugi::xml_node& node) {
+  if (elements_left_ == 0) fail(part, node, "places its objects too often: the mesh would be far larger than the file");
+  --elements_left_;
+}
+
+void ThreemfReader::add_reference(ModelPart& part, const pugi::xml_node& reference, const Placement& outer, int depth) {
+  std::string_view path;
+  for (const pugi::xml_attribute& attribute : reference.attributes()) {
+    if (local_name(attribute.name()) == "path") path = attribute.value();
+  }
+  ModelPart& home = path.empty() ? part : this->part(std::string(path));
+  const auto object = home.objects.find(integer(part, reference, "objectid"));
+  if (object == home.objects.end()) {
+    fail(part, reference, fmt::format("expected an object of the id {}", reference.attribute("objectid").value()));
+  }
+  add_object(home, object->second, outer.after(placement(part, reference)), depth);
+}
+
+void ThreemfReader::add_object(ModelPart& part, const pugi::xml_node& object, const Placement& place, int depth) {
+  if (depth > k_deepest) fail(part, object, fmt::format("components within components, deeper than {}", k_deepest));
+  spend(part, object);
+  if (const pugi::xml_node mesh = child(object, "mesh")) {
+    const std::size_t first = mesh_.vertices.size();
+    add_vertices(part, mesh, place);
+    add_triangles(part, mesh, place, first);
+  }
+  for_children(child(object, "components"), "component",
+               [&](const pugi::xml_node& component) { add_reference(part, component, place, depth + 1); });
+}
+
+void ThreemfReader::add_vertices(ModelPart& part, const pugi::xml_node& mesh, const Placement& place) {
+  for_children(child(mesh, "vertices"), "vertex", [&](const pugi::xml_node& vertex) {
+    spend(part, vertex);
+    const Vec3 position(number(part, vertex, "x"), number(part, vertex, "y"), number(part, vertex, "z"));
+    mesh_.vertices.push_back(part.unit * (place.linear * position + place.shift));
+  });
+}
+
+void ThreemfReader::add_triangles(ModelPart& part, const pugi::xml_node& mesh, const Placement& place,
+                                  std::size_t first) {
+  const auto count = static_cast<std::int64_t>(mesh_.vertices.size() - first);
+  for_children(child(mesh, "triangles"), "triangle", [&](const pugi::xml_node& triangle) {
+    spend(part, triangle);
+    std::array<std::uint32_t, 3> corners{};
+    constexpr std::array<const char*, 3> k_names = {"v1", "v2", "v3"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t index = integer(part, triangle, k_names[k]);
+      if (index < 0 || index >= count)
+        fail(part, triangle, fmt::format("expected {} from 0 to {}, found {}", k_names[k], count - 1, index));
+      corners[k] = static_cast<std::uint32_t>(first + static_cast<std::size_t>(index));
+    }
+    // A mirror image would look inward.
+    if (place.mirrors()) std::swap(corners[1], corners[2]);
+    mesh_.triangles.push_back(corners);
+  });
+}
+
+TriangleMesh ThreemfReader::read() {
+  elements_left_ = k_always_unpacked;
+  ModelPart& root = part(model_path());
+  for_children(child(child(root.xml, "model"), "build"), "item",
+               [&](const pugi::xml_node& item) { add_reference(root, item, {}, 0); });
+  return std::move(mesh_);
+}
+
+}  // namespace
+
+std::string threemf_bytes(const TriangleMesh& mesh, const std::string& name) {
+  const std::string model = model_xml(mesh, name);
+  zip_source_t* bytes = zip_source_buffer_create(nullptr, 0, 0, nullptr);
+  demand(bytes != nullptr, "3MF: no memory");
+  zip_source_keep(bytes);
+  const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> keeper(bytes, &zip_source_free);
+  Archive archive(zip_open_from_source(bytes, ZIP_TRUNCATE, nullptr), &zip_discard);
+  demand_zip(archive != nullptr, nullptr, "3MF");
+  add_part(archive.get(), "[Content_Types].xml", k_content_types);
+  add_part(archive.get(), "_rels/.rels", k_relationships);
+  add_part(archive.get(), "3D/3dmodel.model", model);
+  demand_zip(zip_close(archive.get()) == 0, archive.get(), "3MF");
+  static_cast<void>(archive.release());  // closed
+  return source_bytes(bytes);
+}
+
+TriangleMesh read_threemf(const Source& source) { return ThreemfReader(source).read(); }
+
+}  // namespace fusee

@@ -1,0 +1,488 @@
+#include "export/report/calibration_plots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "export/report/plot.h"
+#include "fusee/base/text.h"
+#include "fusee/transmission/transmission.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int k_places = 48;                // of α
+constexpr std::size_t k_most_points = 240;  // of a direction in a plot
+constexpr std::size_t k_most_runs = 40;     // with plots of their own
+constexpr std::size_t k_few_runs = 6;       // with wide plots
+
+using Residuals = std::vector<std::vector<double>>;
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool any() const { return high > low; }
+};
+
+// ---- runs in one direction ------------------------------------------------------------------------------------------
+
+/// Calls visit(sample index) for the whole strokes of a run in one direction, and then between() after each stroke.
+void for_each_sample(
+    const Run& run, int direction, const std::function<void(std::size_t)>& visit,
+    const std::function<void()>& between = [] {}) {
+  for (const Stroke& stroke : run.strokes) {
+    if (stroke.direction != direction || stroke.partial) continue;
+    for (std::size_t i = stroke.first; i <= stroke.last && i < run.samples.size(); ++i) visit(i);
+    between();
+  }
+}
+
+/// How many runs have residuals of every sample.
+std::size_t judged_runs(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  std::size_t count = 0;
+  while (count < product.measurement.runs.size() && count < calibration.residuals_before.size() &&
+         count < calibration.residuals_after.size() &&
+         calibration.residuals_before[count].size() == product.measurement.runs[count].samples.size() &&
+         calibration.residuals_after[count].size() == product.measurement.runs[count].samples.size()) {
+    ++count;
+  }
+  return count;
+}
+
+Extent alpha_extent(const Measurement& measurement) {
+  Extent extent;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) extent.include(degrees(sample.alpha));
+  }
+  return extent;
+}
+
+/// Mean over the samples at each place of α, deg; NaN beyond the first and the last that has any.
+using Profile = std::array<double, k_places>;
+
+class ProfileSum {
+ public:
+  explicit ProfileSum(const Extent& alpha) : alpha_(alpha) {}
+
+  void add(const Run& run, const std::vector<double>& residuals, int direction) {
+    for_each_sample(run, direction, [&](std::size_t i) {
+      if (!std::isfinite(residuals[i])) return;
+      const double place = (degrees(run.samples[i].alpha) - alpha_.low) / (alpha_.high - alpha_.low) * k_places;
+      const auto k = static_cast<std::size_t>(std::clamp(place, 0.0, k_places - 1.0));
+      sums_[k] += degrees(residuals[i]);
+      counts_[k] += 1;
+    });
+  }
+
+  /// Fast runs have fewer rows than there are places: what lies between two that have some is on the line between
+  /// these.
+  Profile mean() const {
+    Profile profile;
+    profile.fill(k_nan);
+    std::size_t last = k_places;
+    for (std::size_t k = 0; k < k_places; ++k) {
+      if (counts_[k] == 0) continue;
+      profile[k] = sums_[k] / counts_[k];
+      for (std::size_t between = last + 1; last < k_places && between < k; ++between) {
+        profile[between] = profile[last] + (profile[k] - profile[last]) * static_cast<double>(between - last) /
+                                               static_cast<double>(k - last);
+      }
+      last = k;
+    }
+    return profile;
+  }
+
+ private:
+  Extent alpha_;
+  Profile sums_{}, counts_{};
+};
+
+Profile profile_of(const Run& run, const std::vector<double>& residuals, int direction, const Extent& alpha) {
+  ProfileSum sum(alpha);
+  sum.add(run, residuals, direction);
+  return sum.mean();
+}
+
+double middle_of_place(const Extent& alpha, std::size_t k) {
+  return alpha.low + (alpha.high - alpha.low) * (static_cast<double>(k) + 0.5) / k_places;
+}
+
+PlotSeries profile_series(const Profile& profile, int direction, const Extent& alpha) {
+  PlotSeries series{direction > 0 ? "α growing" : "α falling", direction > 0 ? Ink::p1 : Ink::p2, {}};
+  for (std::size_t k = 0; k < k_places; ++k) {
+    if (std::isfinite(profile[k])) series.points.emplace_back(middle_of_place(alpha, k), profile[k]);
+  }
+  return series;
+}
+
+/// Every stroke of a run in one direction, thinned.
+PlotSeries stroke_series(const Run& run, int direction, const std::function<double(std::size_t)>& value) {
+  PlotSeries series{"", direction > 0 ? Ink::p1 : Ink::p2, {}, true};
+  const std::size_t step = run.samples.size() / (2 * k_most_points) + 1;
+  for_each_sample(
+      run, direction,
+      [&](std::size_t i) {
+        if (i % step == 0) series.points.emplace_back(degrees(run.samples[i].alpha), value(i));
+      },
+      [&] { series.points.emplace_back(k_nan, k_nan); });
+  return series;
+}
+
+std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
+
+std::string single(const Plot& plot) { return "<div class=\"single\">" + inline_svg(plot_figure(plot)) + "</div>\n"; }
+
+/// Of all residuals, zero included: the same axis for every plot of the page.
+Extent residual_extent(const CalibrationProduct& product) {
+  Extent extent{0, 0};
+  for (std::size_t r = 0; r < judged_runs(product); ++r) {
+    for (const Residuals* residuals : {&product.calibration.residuals_before, &product.calibration.residuals_after}) {
+      for (const int direction : {1, -1}) {
+        for_each_sample(product.measurement.runs[r], direction,
+                        [&](std::size_t i) { extent.include(degrees((*residuals)[r][i])); });
+      }
+    }
+  }
+  return extent;
+}
+
+// ---- the map --------------------------------------------------------------------------------------------------------
+
+constexpr int k_shades = 8;
+constexpr double k_row_height = 11;
+constexpr double k_run_gap = 3;
+
+/// The mean residuals of all runs at one time, two rows a run.
+struct Map {
+  std::vector<std::array<Profile, 2>> rows;  ///< [run][0: α grows, 1: falls]
+};
+
+Map map_of(const CalibrationProduct& product, const Residuals& residuals, const Extent& alpha) {
+  Map map;
+  for (std::size_t r = 0; r < judged_runs(product); ++r) {
+    const Run& run = product.measurement.runs[r];
+    map.rows.push_back({profile_of(run, residuals[r], 1, alpha), profile_of(run, residuals[r], -1, alpha)});
+  }
+  return map;
+}
+
+double largest(const Map& map) {
+  double most = 0;
+  for (const auto& run : map.rows) {
+    for (const Profile& profile : run) {
+      for (const double value : profile) {
+        if (std::isfinite(value)) most = std::max(most, std::abs(value));
+      }
+    }
+  }
+  return most;
+}
+
+std::string rectangle(double x, double y, double width, double height) {
+  return "M" + svg_number(x) + " " + svg_number(y) + "h" + svg_number(width) + "v" + svg_number(height) + "h" +
+         svg_number(-width) + "z";
+}
+
+std::string shade_path(int shade, const std::string& data) {
+  if (data.empty()) return "";
+  return "<path class=\"" + std::string(shade > 0 ? "warm" : "cold") + "\" fill-opacity=\"" +
+         svg_number(std::abs(shade) / static_cast<double>(k_shades)) + "\" d=\"" + data + "\"/>";
+}
+
+/// −k_shades … k_shades; 0: too small to be shown.
+int shade_of(double value, double most) {
+  return std::isfinite(value) && most > 0 ? static_cast<int>(std::lround(value / most * k_shades)) : 0;
+}
+
+/// A run's name may be as long as it likes; its end tells it apart.
+std::string short_name(const std::string& name, std::size_t most) {
+  return name.size() <= most || most < 4 ? name : "…" + name.substr(name.size() - most + 1);
+}
+
+std::string map_label(const Run& run, const std::string& load_unit) {
+  if (!run.has_load) return short_name(run.name, 28);
+  return short_name(run.name, 16) + ", " + readable_rounded(run.mean_load, 2) +
+         (load_unit.empty() ? "" : " " + load_unit);
+}
+
+/// Three numbers under the shades from cold to warm.
+std::string map_scale(double left, double top, double width, double most) {
+  std::string svg;
+  const double cell = width / (2 * k_shades + 1);
+  for (int shade = -k_shades; shade <= k_shades; ++shade) {
+    svg += shade_path(shade, shade == 0 ? "" : rectangle(left + cell * (shade + k_shades), top, cell, 8));
+  }
+  svg += svg_words("soft tiny", {left, top + 22}, readable_rounded(-most, 2) + "°") +
+         svg_words("soft tiny middle", {left + 0.5 * width, top + 22}, "0");
+  return svg + svg_words("soft tiny end", {left + width, top + 22}, "+" + readable_rounded(most, 2) + "°");
+}
+
+Figure map_figure(const CalibrationProduct& product, const Map& map, const std::string& title, double most,
+                  const Extent& alpha) {
+  constexpr double left = 182, top = 30, width = 460;
+  const double cell = (width - left - 16) / k_places;
+  std::array<std::string, 2 * k_shades + 1> data;
+  Figure figure{width, 0, title, svg_words("heading", {2, 17}, title), {}};
+  double y = top;
+  for (std::size_t r = 0; r < map.rows.size(); ++r, y += 2 * k_row_height + k_run_gap) {
+    figure.body += svg_words("tiny end", {left - 22, y + k_row_height + 4},
+                             map_label(product.measurement.runs[r], product.measurement.load_unit));
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double row = y + static_cast<double>(d) * k_row_height;
+      figure.body += svg_words("soft tiny end", {left - 6, row + 9}, d == 0 ? "↑" : "↓");
+      for (std::size_t k = 0; k < k_places; ++k) {
+        const int shade = shade_of(map.rows[r][d][k], most);
+        // A hair wider than the cell, so that no line shows between two.
+        if (shade != 0)
+          data[static_cast<std::size_t>(shade + k_shades)] +=
+              rectangle(left + cell * static_cast<double>(k), row, cell + 0.15, k_row_height + 0.1);
+      }
+    }
+  }
+  for (int shade = -k_shades; shade <= k_shades; ++shade)
+    figure.body += shade_path(shade, data[static_cast<std::size_t>(shade + k_shades)]);
+  figure.body +=
+      svg_path("frame", {{left, top}, {width - 16, top}, {width - 16, y - k_run_gap}, {left, y - k_run_gap}}, true);
+  const double middle = left + 0.5 * (width - 16 - left);
+  figure.body += svg_words("soft tiny", {left, y + 12}, readable(alpha.low, 0) + "°") +
+                 svg_words("tiny middle", {middle, y + 12}, "motor angle α");
+  figure.body += svg_words("soft tiny end", {width - 16, y + 12}, readable(alpha.high, 0) + "°");
+  figure.body += map_scale(left, y + 24, width - 16 - left, most);
+  figure.height = y + 52;
+  return figure;
+}
+
+// ---- load and speed -------------------------------------------------------------------------------------------------
+
+/// One dot a run and direction.
+struct Level {
+  double at = 0;
+  double residual = 0;  ///< deg
+  int direction = 1;
+};
+
+std::optional<Level> level_of(const Run& run, const std::vector<double>& residuals, int direction, bool by_load) {
+  double at = 0, sum = 0, count = 0;
+  for_each_sample(run, direction, [&](std::size_t i) {
+    if (!std::isfinite(residuals[i])) return;
+    at += by_load ? run.samples[i].load : degrees(run.speed);
+    sum += degrees(residuals[i]);
+    count += 1;
+  });
+  if (count == 0 || !std::isfinite(at)) return std::nullopt;
+  return Level{at / count, sum / count, direction};
+}
+
+std::vector<Level> levels_of(const CalibrationProduct& product, const Residuals& residuals, bool by_load) {
+  std::vector<Level> levels;
+  for (std::size_t r = 0; r < judged_runs(product); ++r) {
+    const Run& run = product.measurement.runs[r];
+    if (by_load ? !run.has_load : !run.has_time) continue;
+    for (const int direction : {1, -1}) {
+      if (const auto level = level_of(run, residuals[r], direction, by_load)) levels.push_back(*level);
+    }
+  }
+  return levels;
+}
+
+Plot level_plot(const std::vector<Level>& levels, const std::string& title, const PlotAxis& x, const Extent& residual) {
+  Plot plot{title, x, {"mean residual", "°", residual.low, residual.high, 1e-3}, {}, {}, {}};
+  plot.series = {{"α growing", Ink::p1, {}}, {"α falling", Ink::p2, {}}};
+  for (const Level& level : levels)
+    plot.marks.push_back({{level.at, level.residual}, "", level.direction > 0 ? Ink::p1 : Ink::p2});
+  plot.height = 240;
+  return plot;
+}
+
+std::string level_pair(const CalibrationProduct& product, bool by_load) {
+  const std::vector<Level> before = levels_of(product, product.calibration.residuals_before, by_load);
+  const std::vector<Level> after = levels_of(product, product.calibration.residuals_after, by_load);
+  Extent at, residual{0, 0};
+  for (const auto* levels : {&before, &after}) {
+    for (const Level& level : *levels) {
+      at.include(level.at);
+      residual.include(level.residual);
+    }
+  }
+  const double size = std::max(std::abs(at.low), std::abs(at.high));
+  if (!at.any() || at.high - at.low < 0.05 * size) return "";
+  const double margin = 0.04 * (at.high - at.low);
+  const std::string& unit = product.measurement.load_unit;
+  const PlotAxis axis{by_load ? "load, mean in that direction" : "motor speed", by_load ? unit : "°/s", at.low - margin,
+                      at.high + margin};
+  const std::string title = by_load ? "Over load" : "Over speed";
+  return in_div(plot_figure(level_plot(before, title + ": before", axis, residual))) +
+         in_div(plot_figure(level_plot(after, title + ": after", axis, residual)));
+}
+
+// ---- run by run -----------------------------------------------------------------------------------------------------
+
+double rms_of(const Run& run, const std::vector<double>& residuals) {
+  double squares = 0, count = 0;
+  for (const int direction : {1, -1}) {
+    for_each_sample(run, direction, [&](std::size_t i) {
+      if (!std::isfinite(residuals[i])) return;
+      squares += residuals[i] * residuals[i];
+      count += 1;
+    });
+  }
+  return count > 0 ? degrees(std::sqrt(squares / count)) : k_nan;
+}
+
+Figure run_figure(const Run& run, const std::vector<double>& residuals, const std::string& title, const Extent& extent,
+                  const Extent& alpha, bool wide) {
+  Plot plot{title,
+            {"motor angle α", "°", alpha.low, alpha.high, 1e-6},
+            {wide ? "measured less model" : "residual", "°", extent.low, extent.high, 1e-3},
+            {},
+            {},
+            {}};
+  const auto value = [&](std::size_t i) { return degrees(residuals[i]); };
+  for (const int direction : {1, -1}) plot.series.push_back(stroke_series(run, direction, value));
+  for (const int direction : {1, -1})
+    plot.series.push_back(profile_series(profile_of(run, residuals, direction, alpha), direction, alpha));
+  if (!wide) plot.width = 270;
+  plot.height = wide ? 240 : 200;
+  return plot_figure(plot);
+}
+
+}  // namespace
+
+std::string run_words(const Run& run, const std::string& load_unit) {
+  std::string words = run.name;
+  if (run.has_load)
+    words += ", load " + readable_rounded(run.mean_load, 3) + (load_unit.empty() ? "" : " " + load_unit);
+  if (run.has_time) words += ", " + readable_rounded(degrees(run.speed), 3) + " °/s";
+  return words;
+}
+
+std::string residual_map_html(const CalibrationProduct& product) {
+  const Extent alpha = alpha_extent(product.measurement);
+  if (!alpha.any() || judged_runs(product) == 0) return "";
+  const Map before = map_of(product, product.calibration.residuals_before, alpha);
+  const Map after = map_of(product, product.calibration.residuals_after, alpha);
+  const double most = std::max({largest(before), largest(after), 1e-3});
+  return "<p class=\"lead\">Every run at a glance: mean of measured less model at each place of α, with α growing (↑) "
+         "and falling (↓). Rows that differ by "
+         "load speak of stretch or friction, ↑ against ↓ of lost motion, columns of geometry.</p><div "
+         "class=\"plots\">" +
+         in_div(map_figure(product, before, "Before", most, alpha)) +
+         in_div(map_figure(product, after, "After, same colours", most, alpha)) + "</div>";
+}
+
+std::string residual_levels_html(const CalibrationProduct& product) {
+  const std::string html = level_pair(product, true) + level_pair(product, false);
+  return html.empty() ? ""
+                      : "<h3>Over load and speed</h3><p class=\"lead\">Each dot is a run in one direction.</p><div "
+                        "class=\"plots\">" +
+                            html + "</div>";
+}
+
+std::string residual_runs_html(const CalibrationProduct& product) {
+  const Extent extent = residual_extent(product), alpha = alpha_extent(product.measurement);
+  const std::size_t judged = judged_runs(product), shown = std::min(judged, k_most_runs);
+  if (shown == 0 || !alpha.any()) return "";
+  const bool wide = shown <= k_few_runs;
+  std::string html;
+  for (std::size_t r = 0; r < shown; ++r) {
+    const Run& run = product.measurement.runs[r];
+    const auto& before = product.calibration.residuals_before[r];
+    const auto& after = product.calibration.residuals_after[r];
+    html += "<div><h3>" + safe_text(run_words(run, product.measurement.load_unit)) + " <small>rms " +
+            readable(rms_of(run, before), 3) + "° → " + readable(rms_of(run, after), 3) +
+            "°</small></h3><div class=\"pair\">" + in_div(run_figure(run, before, "Before", extent, alpha, wide)) +
+            in_div(run_figure(run, after, "After", extent, alpha, wide)) + "</div></div>";
+  }
+  std::string lead =
+      "<h3>Run by run</h3><p class=\"lead\">Thick: the mean at each place; thin: every stroke. All on the same axis.";
+  if (judged > shown)
+    lead += " The first " + std::to_string(shown) + " of " + std::to_string(judged) + " runs; the table below has all.";
+  return lead + "</p><div class=\"runs" + (wide ? "" : " many") + "\">" + html + "</div>";
+}
+
+std::string rest_html(const CalibrationProduct& product) {
+  const Extent alpha = alpha_extent(product.measurement);
+  const std::size_t judged = judged_runs(product);
+  if (judged == 0 || !alpha.any()) return "";
+  const double floor = degrees(product.calibration.noise.rms);
+  Plot plot{"What is left, all runs together",
+            {"motor angle α", "°", alpha.low, alpha.high, 1e-6},
+            {"mean residual after", "°", {}, {}, 1e-3},
+            {},
+            {},
+            {}};
+  for (const int direction : {1, -1}) {
+    ProfileSum sum(alpha);
+    for (std::size_t r = 0; r < judged; ++r)
+      sum.add(product.measurement.runs[r], product.calibration.residuals_after[r], direction);
+    plot.series.push_back(profile_series(sum.mean(), direction, alpha));
+  }
+  if (floor > 0) plot.limits = {{floor, ""}, {-floor, ""}};
+  plot.width = 560;
+  plot.height = 260;
+  return single(plot);
+}
+
+std::string compensation_html(const CalibrationProduct& product) {
+  const std::vector<CompensationRow>& table = product.correction.table;
+  const Mechanism& mechanism = product.file.mechanism;
+  if (table.size() < 2) return "";
+  const std::optional<Transmission> law =
+      mechanism.transmission ? std::nullopt : std::optional<Transmission>(mechanism);
+  if (law && law->dead_centre()) return "";
+  PlotSeries up{"from below", Ink::p1, {}}, down{"from above", Ink::p2, {}};
+  double constant = 0;
+  for (const CompensationRow& row : table) {
+    const double declared = law ? law->alpha(row.theta) : row.theta * mechanism.transmission->ratio;
+    up.points.emplace_back(degrees(row.theta), degrees(row.alpha_up - declared));
+    down.points.emplace_back(degrees(row.theta), degrees(row.alpha_down - declared));
+    constant += (up.points.back().y() + down.points.back().y()) / (2.0 * static_cast<double>(table.size()));
+  }
+  // Where the joint's zero is free the declared law leaves a constant open, which would dwarf everything else.
+  for (PlotSeries* series : {&up, &down}) {
+    for (Vec2& point : series->points) point.y() -= law ? 0 : constant;
+  }
+  Plot plot{"compensation.csv against the declared law",
+            {"joint angle θ", "°", {}, {}, 1e-3},
+            {law ? "added to α" : "added to α, less a constant", "°", {}, {}, 1e-2},
+            {up, down},
+            {},
+            {}};
+  plot.width = 560;
+  plot.height = 260;
+  return single(plot);
+}
+
+std::string logged_html(const Measurement& measurement) {
+  std::string html;
+  const std::size_t shown = std::min<std::size_t>(measurement.runs.size(), k_few_runs);
+  for (std::size_t r = 0; r < shown; ++r) {
+    const Run& run = measurement.runs[r];
+    if (run.samples.empty()) continue;
+    Plot plot{run_words(run, measurement.load_unit),
+              {"motor angle α", "°", {}, {}, 1},
+              {"joint angle θ", "°", {}, {}, 1},
+              {{"", Ink::main, {}}},
+              {},
+              {}};
+    const std::size_t step = run.samples.size() / k_most_points + 1;
+    for (std::size_t i = 0; i < run.samples.size(); i += step)
+      plot.series[0].points.emplace_back(degrees(run.samples[i].alpha), degrees(run.samples[i].theta));
+    plot.height = 240;
+    html += in_div(plot_figure(plot));
+  }
+  return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>";
+}
+
+}  // namespace fusee

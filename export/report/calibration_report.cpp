@@ -1,0 +1,397 @@
+// report.html of a calibration: the verdict, what to do, residuals before and after on the same axes, and the evidence.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "mechanism/effects/effect.h"
+#include "export/report/calibration_plots.h"
+#include "export/report/calibration_words.h"
+#include "export/report/report_parts.h"
+#include "export/report/svg.h"
+#include "export/report/tables.h"
+#include "export/tool.h"
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+std::string degree_words(double value) { return with_unit(degrees(value), "deg", 3); }
+
+// ---- HTML -----------------------------------------------------------------------------------------------------------
+
+std::string cell(const std::string& words) { return "<td>" + safe_text(words) + "</td>"; }
+std::string number_cell(const std::string& words) { return "<td class=\"number\">" + safe_text(words) + "</td>"; }
+
+/// A title that begins with '#' stands over numbers.
+std::string html_table(const std::vector<std::string>& titles, const std::string& rows) {
+  std::string html = "<div class=\"scroll\"><table><thead><tr>";
+  for (const std::string& title : titles) {
+    const bool numbers = !title.empty() && title[0] == '#';
+    html += (numbers ? "<th class=\"number\">" : "<th>") + safe_text(numbers ? title.substr(1) : title) + "</th>";
+  }
+  return html + "</tr></thead><tbody>" + rows + "</tbody></table></div>";
+}
+
+std::string html_list(const std::vector<std::string>& items, const std::string& tag = "ul") {
+  std::string html;
+  for (const std::string& item : items) html += "<li>" + safe_text(item) + "</li>";
+  return html.empty() ? "" : "<" + tag + (tag == "ol" ? " class=\"next\">" : ">") + html + "</" + tag + ">";
+}
+
+std::string section(const std::string& id, const std::string& title, const std::string& body) {
+  return body.empty() ? "" : "<section id=\"" + id + "\"><h2>" + safe_text(title) + "</h2>" + body + "</section>\n";
+}
+
+// ---- verdict and figures --------------------------------------------------------------------------------------------
+
+struct Sign {
+  std::string style;
+  std::string sign;
+};
+
+Sign sign_of(const std::string& verdict) {
+  if (verdict == "explained" || verdict == "no_effect") return {"good", "✓"};
+  if (verdict == "confounded" || verdict == "unexplained") return {"noted", "?"};
+  return {"bad", "✗"};
+}
+
+std::string verdict_section(const Calibration& calibration) {
+  const Sign sign = sign_of(calibration.verdict);
+  return "<section class=\"verdict " + sign.style + "\"><span class=\"sign\">" + sign.sign + "</span><p><b>" +
+         safe_text(first_upper(open_words(calibration.verdict))) + ".</b> " + safe_text(calibration.summary) +
+         "</p></section>\n";
+}
+
+std::string key_number(const std::string& name, const std::string& value, const std::string& beside = "") {
+  return "<div><dt>" + safe_text(name) + "</dt><dd>" + safe_text(value) +
+         (beside.empty() ? "" : " <small>" + safe_text(beside) + "</small>") + "</dd></div>";
+}
+
+std::string key_numbers(const CalibrationProduct& product) {
+  const Calibration& c = product.calibration;
+  std::string html = key_number("Error on data not fitted, RMS",
+                                degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
+  html += key_number("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
+  html += key_number("Noise floor", degree_words(c.noise.rms),
+                     c.noise.from_repeats ? "from repeats" : "at least: no repeats");
+  if (c.noise.rms > 0) html += key_number("What is left, per noise floor", readable(c.after.rms / c.noise.rms, 2));
+  html += key_number("Unexplained, RMS", degree_words(c.unexplained_rms));
+  html +=
+      key_number("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
+  if (product.correction.has_pulley)
+    html += key_number("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
+  html += key_number("Taken out by the table, RMS", degree_words(product.correction.by_table));
+  return section("numbers", "Key numbers", "<dl class=\"numbers\">" + html + "</dl>");
+}
+
+std::string figures_row(const std::string& name, double before, double after) {
+  return "<tr>" + cell(name) + number_cell(degree_words(before)) + number_cell(degree_words(after)) + "</tr>";
+}
+
+std::string held_out_words(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  const std::size_t runs = product.measurement.runs.size();
+  const bool named = calibration.held_out_runs.size() < runs;
+  std::string words = "The error on data that were not fitted ";
+  words += named       ? "is that of " + joined(calibration.held_out_runs, ", ")
+           : runs == 1 ? "leaves out strokes in turn"
+                       : "leaves out whole runs in turn";
+  if (!calibration.held_out_factors.empty())
+    words +=
+        "; what decides between effects leaves out whole levels of " + joined(calibration.held_out_factors, " and of ");
+  return words + ".";
+}
+
+std::string figures_section(const CalibrationProduct& product) {
+  const Calibration& c = product.calibration;
+  const std::string rows =
+      figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
+      figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
+      figures_row("ISO 230-2 A, accuracy", c.iso_before.A, c.iso_after.A) +
+      figures_row("ISO 230-2 R, repeatability both ways", c.iso_before.R, c.iso_after.R) +
+      figures_row("ISO 230-2 B, reversal", c.iso_before.B, c.iso_after.B) +
+      figures_row("ISO 230-2 E, systematic", c.iso_before.E, c.iso_after.E) +
+      figures_row("ISO 230-2 M, mean of both ways", c.iso_before.M, c.iso_after.M);
+  return section("figures", "Before and after",
+                 "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: "
+                 "with the effects below. " +
+                     safe_text(held_out_words(product)) + "</p>" +
+                     html_table({"at the joint", "#before", "#after"}, rows));
+}
+
+// ---- what to do -----------------------------------------------------------------------------------------------------
+
+std::vector<std::string> correction_items(const Correction& correction) {
+  std::vector<std::string> items;
+  if (correction.has_pulley) {
+    items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
+                    " rms, by simulation.");
+    if (correction.round.r1 > 0) items.push_back(round_words(correction) + ".");
+  } else {
+    items.push_back("Nothing was identified that another pulley would take out.");
+  }
+  if (!correction.table.empty()) {
+    items.push_back("compensation.csv, loaded into the motor’s controller" +
+                    std::string(correction.has_pulley ? " with the corrected pulley," : ",") + " takes away " +
+                    degree_words(correction.by_table) + (correction.has_pulley ? " rms more." : " rms."));
+  }
+  return items;
+}
+
+std::string compensation_table(const Correction& correction) {
+  std::string rows;
+  for (const CompensationRow& row : correction.table) {
+    rows += "<tr>" + number_cell(readable(degrees(row.theta), 3)) + number_cell(readable(degrees(row.alpha_up), 3)) +
+            number_cell(readable(degrees(row.alpha_down), 3)) +
+            number_cell(readable(degrees(row.alpha_up - row.alpha_down), 3)) + "</tr>";
+  }
+  if (rows.empty()) return "";
+  return "<details><summary>The table: where the motor must stand</summary>" +
+         html_table({"#θ (°)", "#α from below (°)", "#α from above (°)", "#lost motion (°)"}, rows) + "</details>";
+}
+
+std::string action_section(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  std::string html;
+  if (!calibration.next_runs.empty())
+    html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol");
+  html += "<h3>Correction</h3>" + html_list(correction_items(product.correction)) + compensation_html(product) +
+          compensation_table(product.correction);
+  return section("actions", "What to do", html);
+}
+
+// ---- effects --------------------------------------------------------------------------------------------------------
+
+using Signatures = std::map<std::string, const Effect*>;
+
+std::string effect_card(const FoundEffect& effect, const Signatures& known, const std::string& load_unit) {
+  std::string html = "<div class=\"effect\"><h3>" +
+                     safe_text(first_upper(open_words(effect.name)) + ", at the " + effect.place) +
+                     "</h3><p class=\"found\">";
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+    html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
+  html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) +
+          " rms off the error on data that were not fitted. " +
+          (effect.correctable_by == "pulley"  ? "A corrected pulley can take it out."
+           : effect.correctable_by == "table" ? "The table can take it out."
+                                              : "Neither a pulley nor a table can take it out.") +
+          "</p>";
+  if (const auto found = known.find(effect.name); found != known.end())
+    html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
+  const std::vector<std::string> rivals = rivals_of(effect);
+  if (rivals.empty()) return html + "<p>Nothing else in the catalogue explains these data as well.</p></div>";
+  html += "<p><b>It may as well be:</b></p><ul>";
+  for (const std::string& rival : rivals) {
+    const auto found = known.find(rival);
+    html += "<li><b>" + safe_text(open_words(rival)) + "</b>" +
+            (found == known.end() ? "" : " – " + safe_text(found->second->signature)) + "</li>";
+  }
+  return html + "</ul></div>";
+}
+
+std::string effects_section(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  const std::vector<Effect> effects = catalogue(product.file.mechanism, product.measurement);
+  Signatures known;
+  for (const Effect& effect : effects) known[effect.name] = &effect;
+  std::string html;
+  for (const FoundEffect& effect : calibration.effects)
+    html += effect_card(effect, known, product.measurement.load_unit);
+  if (html.empty()) html = "<p>None was accepted.</p>";
+  if (!calibration.null_combinations.empty()) {
+    html +=
+        "<h3>What these data cannot tell apart</h3><p class=\"lead\">In these runs the one looks like the other, with "
+        "these numbers and but for this difference at the joint.</p>" +
+        html_list(calibration.null_combinations);
+  }
+  return section("effects", "Effects found", html);
+}
+
+// ---- residuals ------------------------------------------------------------------------------------------------------
+
+/// Mean and rms of a run's residuals in one direction.
+std::string direction_cells(const Run& run, const std::vector<double>& residuals, int direction) {
+  double sum = 0, squares = 0, count = 0;
+  for (const Stroke& stroke : run.strokes) {
+    if (stroke.direction != direction || stroke.partial) continue;
+    for (std::size_t i = stroke.first; i <= stroke.last && i < residuals.size(); ++i) {
+      if (!std::isfinite(residuals[i])) continue;
+      sum += residuals[i];
+      squares += residuals[i] * residuals[i];
+      count += 1;
+    }
+  }
+  if (count == 0) return number_cell("–") + number_cell("–");
+  return number_cell(readable(degrees(sum / count), 3)) + number_cell(readable(degrees(std::sqrt(squares / count)), 3));
+}
+
+std::string run_table(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  std::string rows;
+  for (std::size_t r = 0; r < product.measurement.runs.size(); ++r) {
+    if (r >= calibration.residuals_before.size() || r >= calibration.residuals_after.size()) break;
+    const Run& run = product.measurement.runs[r];
+    rows += "<tr>" + cell(run_words(run, product.measurement.load_unit));
+    for (const auto* residuals : {&calibration.residuals_before[r], &calibration.residuals_after[r]}) {
+      rows += direction_cells(run, *residuals, 1) + direction_cells(run, *residuals, -1);
+    }
+    rows += "</tr>";
+  }
+  if (rows.empty()) return "";
+  const std::string table = html_table(
+      {"run", "#before ↑ mean", "#rms", "#before ↓ mean", "#rms", "#after ↑ mean", "#rms", "#after ↓ mean", "#rms"},
+      rows);
+  const std::string title = "<h3>By run, direction and load, in degrees</h3>";
+  // Long tables hide what comes after them.
+  return product.measurement.runs.size() <= 12
+             ? title + table
+             : "<details><summary>By run, direction and load, in degrees</summary>" + table + "</details>";
+}
+
+std::string residuals_section(const CalibrationProduct& product) {
+  const std::string map = residual_map_html(product);
+  if (map.empty()) return "";
+  return section("residuals", "Residuals",
+                 map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
+}
+
+std::string rest_section(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  const std::string plot = rest_html(product);
+  if (plot.empty()) return "";
+  const std::string words = calibration.unexplained_where.empty()
+                                ? "What is left is at the noise floor."
+                                : "Unexplained: " + degree_words(calibration.unexplained_rms) + " rms, " +
+                                      calibration.unexplained_where + ".";
+  const std::string colour = " Neighbouring rows of it are correlated by " +
+                             readable(calibration.rest_autocorrelation, 2) +
+                             "; noise would be near 0. Dashed: the noise floor of a single row.";
+  return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot);
+}
+
+// ---- evidence -------------------------------------------------------------------------------------------------------
+
+/// Whether `name` stands in the group of an effect that `taken` names; two that came together are named "a + b".
+bool is_as_good(const Calibration& calibration, const std::string& name, const std::string& taken) {
+  const std::string padded = " + " + taken + " + ";
+  for (const FoundEffect& effect : calibration.effects) {
+    if (name == effect.name || padded.find(" + " + effect.name + " + ") == std::string::npos) continue;
+    if (std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end()) return true;
+  }
+  return false;
+}
+
+std::string evidence_row(const Candidate& candidate, double most, bool as_good) {
+  const double width = most > 0 ? std::clamp(100 * candidate.held_out_rms / most, 0.0, 100.0) : 100;
+  std::string why = candidate.why.empty() ? "more was needed" : candidate.why;
+  if (as_good) why += "; as good in the end";
+  return std::string("<tr") +
+         (candidate.accepted ? " class=\"taken\""
+          : as_good          ? " class=\"alike\""
+                             : "") +
+         ">" +
+         cell((candidate.accepted ? "✓ "
+               : as_good          ? "≈ "
+                                  : "") +
+              open_words(candidate.name)) +
+         "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
+         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.margin, 1)) +
+         number_cell(readable(candidate.delta_bic, 1)) + cell(why) + "</tr>";
+}
+
+/// Candidates that were tried together, the one that was taken first.
+std::string evidence_step(const Calibration& calibration, std::vector<Candidate> step, std::size_t number) {
+  std::stable_sort(step.begin(), step.end(), [](const Candidate& a, const Candidate& b) {
+    return a.accepted != b.accepted ? a.accepted : a.held_out_rms < b.held_out_rms;
+  });
+  double most = 0;
+  for (const Candidate& candidate : step)
+    most = std::isfinite(candidate.held_out_rms) ? std::max(most, candidate.held_out_rms) : most;
+  const Candidate& first = step.front();
+  std::string rows;
+  for (const Candidate& candidate : step)
+    rows += evidence_row(candidate, most,
+                         first.accepted && !candidate.accepted && is_as_good(calibration, candidate.name, first.name));
+  return "<h3>" + std::to_string(number) + ". " +
+         (first.accepted ? "Taken: " + safe_text(open_words(first.name)) : std::string("Nothing more was taken")) +
+         "</h3>" + html_table({"candidate", "", "#held-out RMS", "#margin", "#BIC drop", "why"}, rows);
+}
+
+std::string evidence_section(const Calibration& calibration) {
+  std::string html;
+  std::vector<Candidate> step;
+  std::size_t number = 1;
+  for (const Candidate& candidate : calibration.tried) {
+    step.push_back(candidate);
+    if (!candidate.accepted) continue;
+    html += evidence_step(calibration, step, number++);
+    step.clear();
+  }
+  if (!step.empty()) html += evidence_step(calibration, step, number);
+  if (html.empty()) return "";
+  return section("evidence", "Evidence, step by step",
+                 "<p class=\"lead\">Each candidate added to what was taken before it, and the error on data that it "
+                 "was not fitted to: a short bar is good. Margin: the fall of "
+                 "that error in standard errors over strokes. BIC drop: above 6 it is worth its numbers.</p>" +
+                     html);
+}
+
+std::string detectable_section(const Calibration& calibration) {
+  std::string rows;
+  for (const auto& [size, names] : detectable_groups(calibration))
+    rows += "<tr>" + number_cell(degree_words(size)) + cell(open_words(joined(names, ", "))) + "</tr>";
+  if (rows.empty()) return "";
+  return section("detectable", "What would have been seen",
+                 "<p class=\"lead\">The smallest error at the joint, rms, with which these data would have shown an "
+                 "effect that was not found.</p>" +
+                     html_table({"#at the joint", "effects"}, rows));
+}
+
+std::string data_section(const Measurement& measurement) {
+  std::vector<std::string> notes = shortened_notes(measurement.notes);
+  std::string html;
+  if (!measurement.not_testable.empty())
+    html += "<h3>Why nothing can be concluded</h3>" + html_list(measurement.not_testable) + "<h3>What was logged</h3>" +
+            logged_html(measurement);
+  if (!notes.empty()) html += (html.empty() ? "" : "<h3>Notes</h3>") + html_list(notes);
+  return section("data", "About the data", html);
+}
+
+std::string page_head(const CalibrationProduct& product, const std::string& name) {
+  const std::size_t runs = product.measurement.runs.size();
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
+         "content=\"width=device-width, initial-scale=1\"/>\n"
+         "<meta name=\"color-scheme\" content=\"light dark\"/>\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+         "script-src 'unsafe-inline'\"/>\n"
+         "<meta name=\"generator\" content=\"" +
+         std::string(k_tool) + "\"/>\n<title>" + name + " – calibration</title>\n<style>" +
+         std::string(embedded::figure_css) + std::string(embedded::page_css) + std::string(embedded::calibration_css) +
+         "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">Calibration report</p>\n<h1>" + name +
+         "</h1>\n<p class=\"source\">" + std::to_string(runs) + (runs == 1 ? " run" : " runs") + " against <code>" +
+         safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code></p>\n</header>\n<main>\n";
+}
+
+}  // namespace
+
+std::string calibration_report_html(const CalibrationProduct& product) {
+  const Calibration& calibration = product.calibration;
+  const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
+  std::string html = page_head(product, name) + verdict_section(calibration);
+  if (calibration.verdict != "not_testable") {
+    html += key_numbers(product) + action_section(product) + effects_section(product) + residuals_section(product) +
+            rest_section(product) + figures_section(product) + evidence_section(calibration) +
+            detectable_section(calibration);
+  } else if (!calibration.next_runs.empty()) {
+    html += section("actions", "Measure next", html_list(calibration.next_runs, "ol"));
+  }
+  html += data_section(product.measurement);
+  return html + "</main>\n<footer><p>Made by " + std::string(k_tool) +
+         ". Angles in degrees at the joint, lengths in mm, forces in N.</p></footer>\n<script>//<![CDATA[\n" +
+         std::string(embedded::readout_js) + "//]]></script>\n</body>\n</html>\n";
+}
+
+}  // namespace fusee

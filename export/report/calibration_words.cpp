@@ -1,0 +1,125 @@
+#include "export/report/calibration_words.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "export/report/svg.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/export/calibration.h"
+
+namespace fusee {
+namespace {
+
+struct NamedUnit {
+  std::string_view ending;
+  std::string_view shown;
+};
+// The longer ending first.
+constexpr std::array<NamedUnit, 10> k_units{{{"_percent_per_decade", " % per decade"},
+                                             {"_deg_per_load", "° per "},
+                                             {"_percent", " %"},
+                                             {"_ppm_per_K", " ppm per K"},
+                                             {"_deg", "°"},
+                                             {"_Nmm", " N·mm"},
+                                             {"_mm", " mm"},
+                                             {"_ms", " ms"},
+                                             {"_N", " N"},
+                                             {"_s", " s"}}};
+
+bool ends_with(std::string_view text, std::string_view ending) {
+  return text.size() > ending.size() && text.substr(text.size() - ending.size()) == ending;
+}
+
+/// What is the same in notes about different files: no name before the first ": ", no digits.
+std::string gist(const std::string& note) {
+  const std::size_t colon = note.find(": ");
+  std::string text = colon == std::string::npos ? note : note.substr(colon);
+  std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
+  return text;
+}
+
+}  // namespace
+
+std::string open_words(const std::string& name) {
+  std::string words = name;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string first_upper(std::string words) {
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  return words;
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) text += (i > 0 ? between : "") + words[i];
+  return text;
+}
+
+std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
+  std::string name = parameter.name, unit;
+  for (const NamedUnit& known : k_units) {
+    if (!ends_with(name, known.ending)) continue;
+    name.resize(name.size() - known.ending.size());
+    unit = known.shown;
+    if (unit == "° per ") unit += load_unit.empty() ? "unit of load" : load_unit;
+    break;
+  }
+  return open_words(name) + " = " + readable_rounded(parameter.value) + unit +
+         " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")";
+}
+
+std::vector<std::string> rivals_of(const FoundEffect& effect) {
+  std::vector<std::string> rivals;
+  for (const std::string& member : effect.group) {
+    if (member != effect.name) rivals.push_back(member);
+  }
+  return rivals;
+}
+
+std::string round_words(const Correction& correction) {
+  const double error = degrees(correction.round.max_error);
+  const std::string radius = "at its best radius of " + rounded(correction.round.r1, 5) + " mm it ";
+  const std::string miss = error < 0.001 ? "by less than 0.001°" : "by up to " + rounded(error, 3) + "°";
+  if (correction.round.suffices)
+    return "P1 stays round: " + radius + "misses the law " + miss + "; shaped, it would miss nothing";
+  return "P1 is shaped and misses nothing; round, " + radius + "would miss the law " + miss;
+}
+
+std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration) {
+  std::vector<Detectable> sorted = calibration.detectable;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Detectable& a, const Detectable& b) { return a.smallest < b.smallest; });
+  std::vector<std::pair<double, std::vector<std::string>>> groups;
+  std::string size;
+  for (const Detectable& detectable : sorted) {
+    if (const std::string this_size = rounded(degrees(detectable.smallest), 2); groups.empty() || this_size != size) {
+      groups.push_back({detectable.smallest, {}});
+      size = this_size;
+    }
+    groups.back().second.push_back(detectable.name);
+  }
+  return groups;
+}
+
+std::vector<std::string> shortened_notes(const std::vector<std::string>& notes) {
+  constexpr std::size_t k_shown_alike = 2;
+  std::map<std::string, std::size_t> count;
+  for (const std::string& note : notes) ++count[gist(note)];
+  std::map<std::string, std::size_t> said;
+  std::vector<std::string> shown;
+  for (const std::string& note : notes) {
+    const std::size_t all = count[gist(note)], nth = ++said[gist(note)];
+    if (nth <= k_shown_alike || all == k_shown_alike + 1) {
+      shown.push_back(note);
+    } else if (nth == k_shown_alike + 1) {
+      shown.push_back("and " + std::to_string(all - k_shown_alike) + " more like this; calibration.json has all");
+    }
+  }
+  return shown;
+}
+
+}  // namespace fusee

@@ -1,0 +1,150 @@
+// manifest.json: what was made from what, what was measured on it, and the SHA-256 of every file beside it.
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "export/report/tendon_lengths.h"
+#include "export/tool.h"
+#include "fusee/base/units.h"
+#include "fusee/export/export.h"
+#include "fusee/mechanism/fields.h"
+
+namespace fusee {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no NaN and no infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Degrees and per cents come of a multiplication: without its last digits 30° is 30, as it was written.
+Json as_written(double value) {
+  constexpr int k_digits = 12;
+  double rounded_value = value;
+  if (value != 0 && std::isfinite(value)) {
+    const double scale = std::pow(10.0, k_digits - 1 - std::floor(std::log10(std::abs(value))));
+    rounded_value = std::round(value * scale) / scale;
+  }
+  return number(rounded_value);
+}
+
+/// For a ruler.
+Json to_micrometre(double millimetres) { return number(std::round(1000.0 * millimetres) / 1000.0); }
+
+Json field_value(const Field& field, const Mechanism& mechanism) {
+  switch (field.kind) {
+    case FieldKind::number:
+      return number(field.get(mechanism, 0));
+    case FieldKind::range:
+      return {as_written(field.get(mechanism, 0)), as_written(field.get(mechanism, 1))};
+    case FieldKind::choice:
+    case FieldKind::text:
+      return field.get_text(mechanism);
+    case FieldKind::boolean:
+      return field.get_text(mechanism) == "true";
+    case FieldKind::numbers:
+    case FieldKind::texts: {
+      Mechanism copy = mechanism;  // lists are reached through a reference that may write
+      return field.kind == FieldKind::numbers ? Json(field.numbers(copy)) : Json(field.texts(copy));
+    }
+  }
+  return nullptr;
+}
+
+/// Every number that went in, in the file's units, defaults and --set included: the input file alone does not tell.
+Json mechanism_json(const Mechanism& mechanism) {
+  Json tables = Json::object();
+  for (const Field& field : fields()) {
+    if (!is_used(field, mechanism) || field.table == "transmission") continue;
+    Json& table = field.table.empty() ? tables : tables[std::string(field.table)];
+    table[std::string(field.key)] = field_value(field, mechanism);
+  }
+  return tables;
+}
+
+Json checks_json(const std::vector<Check>& checks) {
+  Json list = Json::array();
+  for (const Check& check : checks) {
+    Json entry = {{"name", check.name},
+                  {"value", number(check.value)},
+                  {"limit", number(check.limit)},
+                  {"unit", check.unit},
+                  {"ok", check.ok}};
+    if (!check.where.empty()) entry["where"] = check.where;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json as_built_json(const RewindResult& as_built) {
+  return {{"max_theta_error_deg", number(degrees(as_built.max_theta_error))},
+          {"max_theta_error_at_alpha_deg", number(degrees(as_built.max_theta_error_at))},
+          {"max_slack_mm", number(as_built.max_slack)},
+          {"max_slack_at_alpha_deg", number(degrees(as_built.max_slack_at))}};
+}
+
+/// The grooves' planes in the mesh as written, shrinkage compensation included.
+Json grooves_json(const BodyLayout& layout) {
+  return {{{"pulley", "P1"}, {"z_mm", number(layout.z_p1 * layout.scale)}},
+          {{"pulley", "P2"}, {"z_mm", number(layout.z_p2 * layout.scale)}}};
+}
+
+Json tendons_json(const Product& product) {
+  /// To tie a knot with at each end.
+  constexpr double k_tail = 50.0;
+  Json list = Json::array();
+  for (const TendonLength& tendon : tendon_lengths(product)) {
+    const bool left = tendon.side == Side::left;
+    list.push_back({{"tendon", left ? 1 : 2},
+                    {"pulley", left ? "P1" : "P2"},
+                    {"between_knots_mm", to_micrometre(tendon.between_knots)},
+                    {"cut_length_mm", number(std::ceil(tendon.between_knots + 2 * k_tail))},
+                    {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
+                    {"pulley_knot_mm",
+                     {to_micrometre(tendon.pulley_knot.x()), to_micrometre(tendon.pulley_knot.y()),
+                      to_micrometre(tendon.pulley_knot.z())}},
+                    {"spare_wrap_turns", number(tendon.spare_lap / k_two_pi)}});
+  }
+  return list;
+}
+
+Json outputs_json(const std::vector<OutputFile>& outputs) {
+  Json list = Json::array();
+  for (const OutputFile& output : outputs) {
+    list.push_back({{"file", output.name}, {"bytes", output.bytes.size()}, {"sha256", sha256(output.bytes)}});
+  }
+  return list;
+}
+
+Json notes_json(const Product& product) {
+  Json notes = Json::array();
+  for (const Diagnostic& warning : product.file.warnings) notes.push_back(warning.message);
+  for (const std::string& warning : product.synthesis.warnings) notes.push_back(warning);
+  for (const std::string& note : product.pulley.layout.notes) notes.push_back(note);
+  return notes;
+}
+
+}  // namespace
+
+std::string manifest_json(const Product& product, const std::vector<OutputFile>& outputs) {
+  Json manifest;
+  manifest["schema"] = 1;
+  manifest["tool"] = k_tool;
+  manifest["status"] = all_ok(product.checks) ? "done" : "check_failed";
+  // The name alone: the same input gives the same bytes wherever it lies.
+  manifest["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
+                       {"sha256", product.file.sha256}};
+  manifest["grooves"] = grooves_json(product.pulley.layout);
+  manifest["tendon"] = {{"diameter_mm", number(product.file.mechanism.tendon.diameter)}};
+  manifest["as_built"] = as_built_json(product.as_built);
+  manifest["tendons_at_home"] = tendons_json(product);
+  manifest["mechanism"] = mechanism_json(product.file.mechanism);
+  manifest["notes"] = notes_json(product);
+  manifest["checks"] = checks_json(product.checks);
+  manifest["outputs"] = outputs_json(outputs);
+  // A name that is no UTF-8 is written all the same, with U+FFFD in its place.
+  return manifest.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace fusee

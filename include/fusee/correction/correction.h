@@ -1,0 +1,45 @@
+/// \file
+/// What was identified, turned into a pulley that takes it out and into a table for what no pulley can.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/calibration/calibration.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/mechanism/mechanism.h"
+
+namespace fusee {
+
+/// Where the motor must stand for the joint to be at `theta`, on its way up (α grows) and on its way down. rad.
+struct CompensationRow {
+  double theta = 0;
+  double alpha_up = 0;
+  double alpha_down = 0;
+};
+
+struct Correction {
+  Imperfections identified;  ///< of the file and of this calibration together
+  bool has_pulley = false;   ///< something identified that another pulley takes out, and it can be made
+  std::string infeasible;    ///< why it cannot; empty when it can or none is needed
+  RoundChoice round;
+  double tied_at = 0;  ///< of the corrected pulley, rad
+  // By how much the joint as found misses the declared law over the measured strokes, rms, rad, by simulation …
+  double error_now = 0;
+  double error_with_pulley = 0;  ///< … with the corrected pulley, tendons tied at α = 0
+  double error_with_table = 0;   ///< … and the motor where the table says
+  double by_pulley = 0;          ///< what the pulley takes away: error_now² − error_with_pulley² is its square
+  double by_table = 0;           ///< what the table takes away beyond that
+  std::vector<CompensationRow> table;  ///< for the corrected pulley where there is one, within the range seen
+};
+
+/// `declared` as the file says, with the [identified] of earlier calibrations still apart.
+Correction correct(const Mechanism& declared, const Measurement& measurement, const Calibration& calibration);
+
+/// The declared file with the [identified] table, its comments kept; what was found stands above it in words.
+std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration,
+                           const Correction& correction);
+std::string compensation_csv(const Correction& correction);
+
+}  // namespace fusee

@@ -1,0 +1,84 @@
+/// \file
+/// A joint as its statics see it: both tendon paths as mounted, their stiffness, the pins' friction, the load.
+///
+/// The path of a tendon splits at a point of the pin's rim that stands still: what lies above it depends on θ alone,
+/// what lies below it on α alone. So a pulley made for one mechanism and mounted in another needs no further case.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "fusee/mechanism/mechanism.h"
+#include "fusee/transmission/transmission.h"
+
+namespace fusee {
+
+/// A tendon below its pin, in its right-hand image (α counts as winding in). mm, rad.
+struct LowerPath {
+  double p = 0;       ///< moment arm about the pulley's axis
+  double normal = 0;  ///< direction of the line's outward normal
+  double reach = 0;   ///< from the pin's tangent point to where the pulley is touched
+  double wound = 0;   ///< arc length that lies on the pulley, but for a constant
+};
+
+/// Both pulleys as made for a mechanism, looked at from pins that may stand elsewhere. Cheap to copy; immutable.
+class MadePulleys {
+ public:
+  explicit MadePulleys(const Mechanism& made_for) : declared_(made_for) {}
+
+  /// The same with both pitch curves `by` further out all round (print offset, tendon thickness), mm.
+  MadePulleys offset_by(double by) const;
+
+  /// Both tendons (left, right) at the pulley angle `alpha`. NaN where a tendon touches a part of the curve that the
+  /// law does not define.
+  std::array<LowerPath, 2> paths(const std::array<PinPlace, 2>& mounted, double alpha) const;
+  const Transmission& declared() const { return declared_; }
+
+ private:
+  LowerPath path(Side side, const PinPlace& mounted, double alpha, const TransmissionPoint& first) const;
+
+  Transmission declared_;
+  double offset_ = 0;
+};
+
+/// What a pulley holds of the tendon that lies on it.
+enum class WoundTendon {
+  keeps_strain,  ///< the strain it was wound at, until it is paid out: friction on the pulley holds it
+  at_home,       ///< home's strain, whatever the tension while winding: the tendon's marks stay at their places of the
+                 ///< groove
+};
+
+struct UpperSpans;  // both upper spans over the joint's angles, looked up
+
+/// Plain values: a joint with other pins, another stiffness, runout … is this one with a member changed, or with
+/// another `lower`.
+struct JointModel {
+  std::array<PinPlace, 2> pins;  ///< left, right, as mounted
+  std::function<std::array<LowerPath, 2>(double alpha)> lower;
+  std::function<double(double alpha)> expected;  ///< about where θ will be: a root finder's start
+  double EA = 0;                                 ///< stiffness of a tendon's section: tension per strain, N
+  double mu = 0;                                 ///< of the pins
+  double pretension = 0;                         ///< of tendon 1 at home, unloaded, N
+  double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
+  WoundTendon wound = WoundTendon::keeps_strain;
+  double weight = 0;         ///< mass · g · lever, N·mm
+  double tilt = 0;           ///< θ at which the link points straight up, rad
+  double last_step = 1e-13;  ///< of the search for the equilibrium: how exactly θ is found, rad
+  double theta_least = 0;    ///< between here and theta_most both tendons have a moment arm about O, rad
+  double theta_most = 0;
+  std::shared_ptr<const UpperSpans> upper;  ///< of these pins between these angles
+
+  /// What the weight turns the joint with, against +θ, N·mm; and its derivative.
+  double weight_torque(double theta) const { return weight * std::sin(tilt - theta); }
+  double weight_slope(double theta) const { return -weight * std::cos(tilt - theta); }
+};
+
+/// The joint as declared. Its law must exist over the range (Transmission::dead_centre() is null).
+JointModel joint_model(const Mechanism& mechanism);
+/// The pulleys `made`, turned in the mechanism `mounted`, whose own [pulley] law is not looked at.
+JointModel joint_model(const MadePulleys& made, const Mechanism& mounted);
+/// EA, friction, pretension and weight of `mounted` in a model of the same geometry.
+void set_statics(JointModel& model, const Mechanism& mounted);
+
+}  // namespace fusee

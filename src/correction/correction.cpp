@@ -1,0 +1,321 @@
+#include "fusee/correction/correction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fusee/joint/simulate.h"
+#include "fusee/transmission/transmission.h"
+
+// Everything here is re-simulated with predict(): the joint as it was found with the pulley it has, and the same joint
+// with the pulley that corrected.toml makes. What either misses of the declared θ(α) is its error; what the second
+// still misses goes into the table.
+
+namespace fusee {
+namespace {
+
+using Angles = std::vector<std::vector<double>>;
+
+// ---- what is known now ----------------------------------------------------------------------------------------------
+
+/// Mean of the logged tip force; the declared one where none was logged.
+double mean_load(const Measurement& measurement, const Mechanism& declared) {
+  double sum = 0, count = 0;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) {
+      sum += run.has_load ? sample.load : declared.load.tip_force;
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : declared.load.tip_force;
+}
+
+/// One wave a turn is kept: of two the larger one.
+void add_profile(const Imperfections& before, Imperfections& total) {
+  const auto size = [](const Imperfections& at) { return std::hypot(at.profile_sin, at.profile_cos); };
+  if (size(total) == 0 || (before.profile_harmonic != total.profile_harmonic && size(before) > size(total))) {
+    total.profile_sin = before.profile_sin;
+    total.profile_cos = before.profile_cos;
+    total.profile_harmonic = before.profile_harmonic;
+  } else if (before.profile_harmonic == total.profile_harmonic) {
+    total.profile_sin += before.profile_sin;
+    total.profile_cos += before.profile_cos;
+  }
+}
+
+/// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the
+/// rest was found anew.
+Imperfections composed(const Imperfections& before, const Imperfections& found) {
+  Imperfections total = found;
+  for (double Imperfections::*member :
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::pretension,
+        &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward,
+        &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
+        &Imperfections::gravity_sin}) {
+    total.*member += before.*member;
+  }
+  total.stretch = (1 + before.stretch) * (1 + found.stretch) - 1;
+  total.pulley_scale = (1 + before.pulley_scale) * (1 + found.pulley_scale) - 1;
+  total.mean_load = before.mean_load;
+  add_profile(before, total);
+  return total;
+}
+
+/// Of what was found, all that the expected joint of a corrected file has or undoes itself.
+Imperfections without_the_mechanism(Imperfections found) {
+  for (double Imperfections::*member :
+       {&Imperfections::radius_offset, &Imperfections::pulley_scale, &Imperfections::runout_x, &Imperfections::runout_y,
+        &Imperfections::profile_sin, &Imperfections::profile_cos, &Imperfections::stretch, &Imperfections::pretension,
+        &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward,
+        &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
+        &Imperfections::gravity_sin}) {
+    found.*member = 0;
+  }
+  return found;
+}
+
+/// Friction moves the joint, not the curves.
+bool same_drawing(const Mechanism& a, const Mechanism& b) {
+  Mechanism one = as_it_is(a), other = as_it_is(b);
+  one.guides.mu = other.guides.mu = 0;
+  for (double Imperfections::*drawn_out :
+       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin,
+        &Imperfections::profile_cos}) {
+    if (a.identified.*drawn_out != b.identified.*drawn_out) return false;
+  }
+  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley &&
+         one.material == other.material;
+}
+
+std::string why_infeasible(const Mechanism& corrected) {
+  SynthesisOptions options;
+  options.advice = false;
+  const SynthesisResult made = synthesise(as_it_is(corrected), options);
+  return made.made() ? "" : made.brief();
+}
+
+// ---- errors ---------------------------------------------------------------------------------------------------------
+
+/// θ(α) as the file declares it.
+class DeclaredLaw {
+ public:
+  explicit DeclaredLaw(const Mechanism& declared) {
+    if (declared.transmission) {
+      ratio_ = declared.transmission->ratio;
+    } else {
+      Mechanism without_findings = declared;
+      without_findings.identified = {};
+      law_.emplace(without_findings);
+    }
+  }
+  bool exists() const { return !law_ || !law_->dead_centre(); }
+  double theta(double alpha) const { return law_ ? law_->theta(alpha) : alpha / ratio_; }
+
+ private:
+  double ratio_ = 1;
+  std::optional<Transmission> law_;
+};
+
+struct Seen {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  bool any() const { return high > low; }
+};
+
+Seen range_seen(const Measurement& measurement) {
+  Seen seen;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) {
+      seen.low = std::min(seen.low, sample.alpha);
+      seen.high = std::max(seen.high, sample.alpha);
+    }
+  }
+  return seen;
+}
+
+/// By how much simulated angles miss the declared law.
+Angles errors(const Measurement& measurement, const DeclaredLaw& law, Angles theta) {
+  for (std::size_t r = 0; r < theta.size(); ++r) {
+    for (std::size_t i = 0; i < theta[r].size(); ++i) theta[r][i] -= law.theta(measurement.runs[r].samples[i].alpha);
+  }
+  return theta;
+}
+
+/// Calls visit(run index, sample index, stroke) for every sample whose play is known.
+template <typename Visit>
+void for_each_known(const Measurement& measurement, Visit visit) {
+  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
+    for (const Stroke& stroke : measurement.runs[r].strokes) {
+      if (stroke.partial) continue;
+      for (std::size_t i = stroke.first; i <= stroke.last; ++i) visit(r, i, stroke);
+    }
+  }
+}
+
+double rms(const Measurement& measurement, const Angles& error) {
+  double squares = 0, count = 0;
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke&) {
+    if (!std::isfinite(error[r][i])) return;
+    squares += error[r][i] * error[r][i];
+    count += 1;
+  });
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+/// The part of `all` that goes when `rest` stays: both rms.
+double gone(double all, double rest) { return std::sqrt(std::max(0.0, all * all - rest * rest)); }
+
+// ---- the table ------------------------------------------------------------------------------------------------------
+
+/// A function of α by straight pieces between evenly spaced places; flat beyond them.
+struct Curve {
+  double low = 0, high = 0;
+  std::vector<double> values;
+
+  double at(double alpha) const {
+    const double last = static_cast<double>(values.size() - 1);
+    const double place = std::clamp((alpha - low) / (high - low) * last, 0.0, last);
+    const std::size_t i = std::min(static_cast<std::size_t>(place), values.size() - 2);
+    const double share = place - static_cast<double>(i);
+    return values[i] + share * (values[i + 1] - values[i]);
+  }
+};
+
+/// Mean over places of α, empty places filled from their neighbours.
+class BinnedMean {
+ public:
+  explicit BinnedMean(const Seen& seen) : seen_(seen), sums_(k_places + 1, 0), weights_(k_places + 1, 0) {}
+
+  /// Shared between the two places around `alpha`.
+  void add(double alpha, double value) {
+    const double place =
+        std::clamp((alpha - seen_.low) / (seen_.high - seen_.low) * k_places, 0.0, static_cast<double>(k_places));
+    const std::size_t i = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(k_places - 1));
+    const double share = place - static_cast<double>(i);
+    sums_[i] += (1 - share) * value;
+    weights_[i] += 1 - share;
+    sums_[i + 1] += share * value;
+    weights_[i + 1] += share;
+  }
+
+  Curve curve() const {
+    Curve curve{seen_.low, seen_.high, std::vector<double>(k_places + 1, 0)};
+    for (int i = 0; i <= k_places; ++i) {
+      int nearest = -1;
+      for (int step = 0; step <= k_places && nearest < 0; ++step) {
+        for (const int j : {i - step, i + step}) {
+          if (j >= 0 && j <= k_places && weights_[static_cast<std::size_t>(j)] > 0.2) nearest = j;
+        }
+      }
+      const auto from = static_cast<std::size_t>(nearest);
+      if (nearest >= 0) curve.values[static_cast<std::size_t>(i)] = sums_[from] / weights_[from];
+    }
+    return curve;
+  }
+
+ private:
+  static constexpr int k_places = 40;
+  Seen seen_;
+  std::vector<double> sums_, weights_;
+};
+
+/// What the joint is off on its way up and on its way down, play taken up: just after a reversal it still stands where
+/// it stood.
+struct BothWays {
+  Curve up, down;
+};
+
+BothWays both_ways(const Measurement& measurement, const Angles& error, double play) {
+  const Seen seen = range_seen(measurement);
+  BinnedMean up(seen), down(seen);
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
+    const std::vector<Sample>& samples = measurement.runs[r].samples;
+    const bool taken_up = std::abs(samples[i].alpha - samples[stroke.first].alpha) > play;
+    if (std::isfinite(error[r][i]) && taken_up) (stroke.direction > 0 ? up : down).add(samples[i].alpha, error[r][i]);
+  });
+  return {up.curve(), down.curve()};
+}
+
+/// What stays when the motor goes where the table says.
+Angles tabled(const Measurement& measurement, Angles error, const BothWays& table) {
+  for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
+    error[r][i] -= (stroke.direction > 0 ? table.up : table.down).at(measurement.runs[r].samples[i].alpha);
+  });
+  return error;
+}
+
+/// α at which a curve of (θ, α), sorted by θ, has `theta`.
+double alpha_at(const std::vector<LawRow>& rows, double theta) {
+  const auto above = std::lower_bound(rows.begin() + 1, rows.end() - 1, theta,
+                                      [](const LawRow& row, double value) { return row.theta < value; });
+  const LawRow& low = *(above - 1);
+  const double span = above->theta - low.theta;
+  return span > 0 ? low.alpha + (above->alpha - low.alpha) * (theta - low.theta) / span : low.alpha;
+}
+
+/// Where the joint is, moving one way, by growing θ.
+std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Curve& beyond) {
+  constexpr int places = 800;
+  std::vector<LawRow> rows;
+  for (int i = 0; i <= places; ++i) {
+    const double alpha = beyond.low + (beyond.high - beyond.low) * i / places;
+    rows.push_back({alpha, law.theta(alpha) + beyond.at(alpha)});
+  }
+  if (rows.back().theta < rows.front().theta) std::reverse(rows.begin(), rows.end());
+  std::vector<LawRow> growing{rows.front()};
+  for (const LawRow& row : rows) {
+    if (row.theta > growing.back().theta) growing.push_back(row);
+  }
+  return growing;
+}
+
+std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const BothWays& off) {
+  const std::vector<LawRow> rising = motion_rows(law, off.up), falling = motion_rows(law, off.down);
+  if (rising.size() < 2 || falling.size() < 2) return {};
+  const double low = std::max(rising.front().theta, falling.front().theta),
+               high = std::min(rising.back().theta, falling.back().theta);
+  std::vector<CompensationRow> table;
+  constexpr int rows = 60;
+  for (int i = 0; i <= rows && high > low; ++i) {
+    const double theta = low + (high - low) * i / rows;
+    table.push_back({theta, alpha_at(rising, theta), alpha_at(falling, theta)});
+  }
+  return table;
+}
+
+}  // namespace
+
+Correction correct(const Mechanism& declared, const Measurement& measurement, const Calibration& calibration) {
+  const Imperfections& found = calibration.identified;
+  Correction correction;
+  correction.identified = composed(declared.identified, found);
+  const bool gives_way = found.stretch != 0 || found.gravity_cos != 0 || found.gravity_sin != 0;
+  if (gives_way && !declared.transmission)
+    correction.identified.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
+  const DeclaredLaw law(declared);
+  if (!range_seen(measurement).any() || !law.exists()) return correction;
+
+  Mechanism corrected = declared;
+  corrected.identified = correction.identified;
+  correction.has_pulley = !declared.transmission && !same_drawing(declared, corrected);
+  if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
+  if (!correction.infeasible.empty()) correction.has_pulley = false;
+  if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
+  if (correction.has_pulley) correction.tied_at = tied_at(corrected);
+
+  const Angles now = errors(measurement, law, predict(expected_joint(declared), found, measurement));
+  Angles then = now;
+  if (correction.has_pulley)
+    then = errors(measurement, law, predict(expected_joint(corrected), without_the_mechanism(found), measurement));
+  const BothWays table = both_ways(measurement, then, 2 * found.backlash);
+  correction.error_now = rms(measurement, now);
+  correction.error_with_pulley = rms(measurement, then);
+  correction.error_with_table = rms(measurement, tabled(measurement, then, table));
+  correction.by_pulley = gone(correction.error_now, correction.error_with_pulley);
+  correction.by_table = gone(correction.error_with_pulley, correction.error_with_table);
+  correction.table = compensation_rows(law, table);
+  return correction;
+}
+
+}  // namespace fusee

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/correction/correction.h"
+#include "fusee/mechanism/edit.h"
+#include "fusee/mechanism/fields.h"
+
+namespace fusee {
+namespace {
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+std::string found_text(const FoundEffect& effect) {
+  std::string text = "# " + effect.name + " (" + effect.place + ")";
+  for (const FittedParameter& parameter : effect.parameters) {
+    text += ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) +
+            " to " + rounded(parameter.high);
+  }
+  if (effect.group.size() < 2) return text;
+  text += "; or";
+  for (const std::string& rival : effect.group) {
+    if (rival != effect.name) text += " " + rival;
+  }
+  return text + ": these data cannot tell";
+}
+
+/// Six digits are more than any bench gives, and shorter than all of a double.
+double tidy(double value) {
+  if (value == 0 || !std::isfinite(value)) return 0;
+  const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+  return std::isfinite(scale) ? std::round(value * scale) / scale : 0;
+}
+
+constexpr const char* k_title =
+    "# ---- found by fusee calibrate: without this table this is the declared joint again ----\n";
+
+/// Without the words of an earlier calibration.
+std::string without_earlier_words(std::string text) {
+  const std::size_t title = text.find(k_title);
+  if (title == std::string::npos) return text;
+  std::size_t end = title;
+  while (end < text.size() && text[end] == '#') end = std::min(text.find('\n', end), text.size() - 1) + 1;
+  return text.erase(title, end - title);
+}
+
+std::string words_of(const Calibration& calibration, const Correction& correction) {
+  std::string words = std::string(k_title) + "# verdict: " + one_line(calibration.verdict) + "\n";
+  for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
+  if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
+  if (correction.tied_at != 0) {
+    words += "# tendons tied with the unloaded joint at home and the motor at " +
+             rounded(degrees(correction.tied_at), 4) +
+             " deg: under its mean load the joint follows the law.\n# Tied at 0 deg, compensation.csv says where the "
+             "motor must stand.\n";
+  }
+  return words;
+}
+
+std::vector<ValueEdit> identified_edits(const Mechanism& declared, const Imperfections& identified) {
+  Mechanism corrected = declared;
+  corrected.identified = identified;
+  const Mechanism plain;
+  std::vector<ValueEdit> edits;
+  for (const Field& field : fields()) {
+    if (field.table != "identified") continue;
+    const double value = tidy(field.get(corrected, 0)), usual = field.get(plain, 0);
+    if (value != usual || field.get(declared, 0) != usual)
+      edits.push_back({field.name(), std::min(std::max(value, field.least), field.most)});
+  }
+  return edits;
+}
+
+/// Where the line below the header [identified] begins; npos without that header.
+std::size_t below_header(const std::string& text) {
+  for (std::size_t line = 0; line < text.size();) {
+    const std::size_t end = std::min(text.find('\n', line), text.size());
+    std::string header = text.substr(line, end - line);
+    header.erase(std::min(header.find('#'), header.size()));
+    std::erase_if(header, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+    if (header == "[identified]") return std::min(end + 1, text.size());
+    line = end + 1;
+  }
+  return std::string::npos;
+}
+
+}  // namespace
+
+// What is added stands in the table, words and numbers, so that deleting the table gives the declared file back byte
+// for byte.
+std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration,
+                           const Correction& correction) {
+  std::string text = without_earlier_words(std::string(declared_text));
+  const std::vector<ValueEdit> edits = identified_edits(declared, correction.identified);
+  if (edits.empty() && below_header(text) == std::string::npos)
+    text += (!text.empty() && text.back() != '\n' ? "\n\n" : "\n") + std::string("[identified]\n");
+  text = edit_values(text, edits);
+  const std::string words = words_of(calibration, correction);
+  const std::size_t place = below_header(text);
+  if (place == std::string::npos) return text + words;  // written as an inline table
+  return text.insert(place, words);
+}
+
+std::string compensation_csv(const Correction& correction) {
+  std::string text = "theta_deg,alpha_up_deg,alpha_down_deg\n";
+  for (const CompensationRow& row : correction.table) {
+    text += fixed(degrees(row.theta), 4) + "," + fixed(degrees(row.alpha_up), 4) + "," +
+            fixed(degrees(row.alpha_down), 4) + "\n";
+  }
+  return text;
+}
+
+}  // namespace fusee

@@ -1,0 +1,376 @@
+#include "fusee/joint/equilibrium.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fusee/transmission/load.h"
+#include "joint/tendon_balance.h"
+#include "joint/upper_span_table.h"
+#include "joint/wound_profile.h"
+
+// What is known of a tendon is how much material lies above its reference point on the pin's rim, below it, and on the
+// pulley. Material crosses the reference point only by slipping. The reference stands still, so the tendon's pull on
+// the joint is exactly T_up m(θ) and on the pulley exactly T_low p(α), and energy balances: with U = T²/(2 EA) per
+// material, motor work − load work = stored + (T_up + U_up − T_low − U_low) · crossed + what is shed where tendon
+// leaves the pulley at another strain.
+//
+// Winding an arc ds takes ds/(1 + T_low/EA) of material: by the trapezoid over a step, with the step's own T_low, so
+// that B − crossed = (L_low + ½Δs)/(1 + T_low/EA) stays a span of its own. Paying out gives back what was wound, last
+// first. The simpler law, to pay out at the tension of the moment, was tried and is wrong with friction: as tension is
+// higher while winding than while paying out, each cycle carries material past the pulley, and θ creeps by 0.005° a
+// cycle (EA 31 kN, 5 N on both, μ 0.15; 0.18° at EA 850 N) for ever, where the profile settles within three cycles.
+// Without friction the two differ by what lay on the pulley before the load came on: 0.0036° and 0.13°.
+//
+// WoundTendon::at_home keeps no profile: every arc holds home's material, whatever the tension it was wound at. ds/(1 +
+// ε) leaves the span under the pull of ε and is stored at home's ε_0, which gives ½ EA (ε − ε_0)² back while winding
+// and takes it while paying out: `shed` may fall.
+
+namespace fusee {
+namespace {
+
+/// Both tendons slack by more than this together: the joint has play. mm
+constexpr double k_least_play = 1e-6;
+
+double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
+
+/// Elastic energy of what lies on a piece of arc; the strain from the density.
+double energy(const WoundPiece& piece, double EA) {
+  const auto per_arc = [EA](double density) { return 0.5 * EA * (1.0 - density) * (1.0 - density) / density; };
+  return 0.5 * (per_arc(piece.density_from) + per_arc(piece.density_to)) * piece.length();
+}
+
+/// One tendon in its right-hand image, with its history.
+struct TendonHistory {
+  Side side = Side::left;
+  double rim_reference = 0;  ///< normal of the point of the rim between upper and lower part, rad
+  double upper_material = 0;
+  double lower_material = 0;
+  double density = 1;  ///< material per length of the lower span
+  WoundProfile wound;
+  double upper = 0;  ///< tensions at the last step
+  double lower = 0;
+};
+
+/// A tendon at the pulley angle of a step, before θ is known.
+struct AtAlpha {
+  LowerPath path;
+  double lower_length = 0;  ///< of the span, from the rim's reference
+  double swelling = 1;      ///< 1 + expansion: of material since home
+  Spans spans;              ///< all but the upper length and the capstan factor
+};
+
+AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA,
+                 const TendonChange& change) {
+  const double expansion = change.expansion[tendon.side == Side::left ? 0 : 1];
+  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + expansion, {}};
+  at.spans.EA = EA / change.compliance;
+  at.spans.upper_material = at.swelling * tendon.upper_material;
+  at.spans.lower_length = at.lower_length;
+  at.spans.lower_material = at.swelling * tendon.lower_material;
+  const double winding = path.wound - tendon.wound.arc();
+  if (winding > 0 && tendon.wound.keeps_strain()) {
+    at.spans.lower_length += 0.5 * winding;
+    at.spans.lower_material -= 0.5 * winding * tendon.density;
+  } else {
+    at.spans.lower_material += at.swelling * tendon.wound.material_above(path.wound);
+  }
+  return at;
+}
+
+/// A tendon at a trial θ.
+struct Trial {
+  UpperSpanTable::Look span;
+  Spans spans;
+  TendonBalance balance;
+  double wrap = 0;
+  double pull = 0;   ///< on the joint, towards the tendon's own side: T_up m
+  double slope = 0;  ///< of pull with respect to the image's θ
+};
+
+Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, double rho, double mu,
+            double theta) {
+  Trial trial;
+  trial.span = upper.at(mirror_sign(tendon.side) * theta);
+  trial.spans = at.spans;
+  trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
+  trial.wrap = trial.span.normal - at.path.normal;
+  trial.spans.capstan = std::exp(mu * std::max(0.0, trial.wrap));
+  trial.balance = balance(trial.spans);
+  const double m = trial.span.m;
+  trial.pull = trial.balance.upper * m;
+  double rate = -m * trial.balance.per_length;  // dL/dθ = −m
+  if (trial.wrap > 0) rate += trial.balance.per_capstan * mu * trial.span.dnormal;
+  trial.slope = rate * m + trial.balance.upper * trial.span.dm;
+  return trial;
+}
+
+struct Residual {
+  double value = 0;
+  double slope = 0;
+};
+
+/// A root of a function that falls from `least` to `most`: Newton's steps, kept within what is known to enclose it.
+/// Where it is not known yet, steps grow towards the end; the last one is shorter than `last_step`. Null when the
+/// function does not change its sign.
+template <typename Function>
+std::optional<double> fallen_to_zero(double start, double least, double most, double last_step, Function function) {
+  double low = least;
+  double high = most;
+  bool low_seen = false;
+  bool high_seen = false;
+  double stride = 0.01;
+  double x = std::clamp(start, least, most);
+  for (int i = 0; i < 200; ++i) {
+    const Residual at = function(x);
+    if (at.value == 0) return x;
+    const bool falls = at.value > 0;
+    (falls ? low : high) = x;
+    (falls ? low_seen : high_seen) = true;
+    if ((falls && x >= most) || (!falls && x <= least)) return std::nullopt;
+    double next = at.slope < 0 ? x - at.value / at.slope : x + (falls ? stride : -stride);
+    if (low_seen && high_seen) {
+      // Kinks can make Newton's steps run in circles: now and then a step halves what is left.
+      if (!(next > low && next < high) || i % 12 > 9) next = 0.5 * (low + high);
+    } else {
+      next = std::clamp(next, x - stride, x + stride);
+      next = falls ? std::min(std::max(next, x), most) : std::max(std::min(next, x), least);
+      stride *= 2.0;
+    }
+    // Newton's steps square the miss, but for a kink in between.
+    if (std::abs(next - x) <= last_step || !(high - low > last_step)) return next;
+    x = next;
+  }
+  return x;
+}
+
+TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path, double tension) {
+  const PinPlace& place = model.pins[side == Side::left ? 0 : 1];
+  const UpperSpan span = upper_span(place, 0.0);
+  TendonHistory tendon;
+  tendon.side = side;
+  tendon.rim_reference = 0.5 * (span.normal + path.normal);
+  tendon.density = 1.0 / (1.0 + tension / model.EA);
+  tendon.upper_material =
+      tendon.density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
+  tendon.lower_material =
+      tendon.density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
+  tendon.wound = WoundProfile(path.wound, tendon.density, model.wound == WoundTendon::keeps_strain);
+  tendon.upper = tendon.lower = tension;
+  return tendon;
+}
+
+/// What a tendon's step did with energy.
+struct Spent {
+  double wound = 0;  ///< energy that went onto the pulley (negative: came off)
+  double friction = 0;
+  double shed = 0;
+};
+
+/// Off the pulley at strain ε_s into the span at ε: ½ EA (ε − ε_s)² per material is gone.
+double shed_by(const WoundPiece& piece, double EA, double density_from, double density_to) {
+  const auto per_arc = [EA](double stored, double now) {
+    const double difference = 1.0 / stored - 1.0 / now;
+    return stored * 0.5 * EA * difference * difference;
+  };
+  return 0.5 * piece.length() * (per_arc(piece.density_from, density_from) + per_arc(piece.density_to, density_to));
+}
+
+Spent wind_or_pay_out(TendonHistory& tendon, double arc, double density, double EA) {
+  Spent spent;
+  const double from = tendon.wound.arc();
+  if (arc >= from && tendon.wound.keeps_strain()) {
+    if (arc > from) tendon.wound.wind(arc, tendon.density, density);
+    spent.wound = energy({from, arc, tendon.density, density}, EA);
+    return spent;
+  }
+  if (arc >= from) {
+    const WoundPiece piece = tendon.wound.wind_as_at_first(arc);
+    spent.wound = energy(piece, EA);
+    spent.shed = -shed_by(piece, EA, tendon.density, density);
+    return spent;
+  }
+  const auto density_at = [&](double place) {
+    return tendon.density + (density - tendon.density) * (from - place) / (from - arc);
+  };
+  for (const WoundPiece& piece : tendon.wound.pay_out(arc)) {
+    spent.wound -= energy(piece, EA);
+    spent.shed += shed_by(piece, EA, density_at(piece.from), density_at(piece.to));
+  }
+  return spent;
+}
+
+/// Takes a trial as what happened.
+Spent settle(TendonHistory& tendon, const AtAlpha& at, const Trial& trial) {
+  const double EA = at.spans.EA;
+  const TendonBalance& now = trial.balance;
+  const double density = 1.0 / (1.0 + now.lower / EA);
+  const double winding = at.path.wound - tendon.wound.arc();
+  // What is wound beside the span, whether that is taut or slack.
+  const double on_pulley = winding > 0 && tendon.wound.keeps_strain() ? 0.5 * winding * density : 0.0;
+  const auto head = [EA](double upper, double lower) {
+    return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
+  };
+  const double friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
+  Spent spent = wind_or_pay_out(tendon, at.path.wound, density, EA);
+  spent.friction = friction;
+  tendon.upper_material += now.crossed / at.swelling;
+  tendon.lower_material = (at.spans.lower_material - now.crossed - on_pulley) / at.swelling;
+  tendon.density = density;
+  tendon.upper = now.upper;
+  tendon.lower = now.lower;
+  return spent;
+}
+
+TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial) {
+  TendonState state;
+  state.upper = trial.balance.upper;
+  state.lower = trial.balance.lower;
+  state.wrap = trial.wrap;
+  state.contact = trial.balance.contact;
+  for (const double stretch : {trial.spans.upper_length - at.swelling * tendon.upper_material,
+                               at.lower_length - at.swelling * tendon.lower_material}) {
+    (stretch > 0 ? state.stretch : state.slack) += std::abs(stretch);
+  }
+  return state;
+}
+
+double energy_of_spans(const TendonHistory& tendon, double EA) {
+  return tendon.upper_material * energy_per_material(tendon.upper, EA) +
+         tendon.lower_material * energy_per_material(tendon.lower, EA);
+}
+
+}  // namespace
+
+struct JointMotion::State {
+  JointModel model;
+  std::array<TendonHistory, 2> tendons;
+  std::array<double, 2> released{};  ///< so far, mm
+  double theta = 0;
+  double expected = 0;      ///< model.expected at the last step
+  double wound_energy = 0;  ///< since home
+  double home_energy = 0;
+  double friction = 0;
+  double shed = 0;
+
+  explicit State(JointModel joint);
+  /// Pull of the tendons beyond the load, towards +θ.
+  Residual residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
+  std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
+  std::optional<double> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const;
+  EquilibriumPoint accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found);
+  EquilibriumPoint refuse(const JointStep& step) const;
+};
+
+JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
+  const std::array<LowerPath, 2> paths = model.lower(0.0);
+  const double arm1 = upper_span(model.pins[0], 0.0).m;
+  const double arm2 = upper_span(model.pins[1], 0.0).m;
+  tendons[0] = at_home(Side::left, model, paths[0], model.pretension);
+  tendons[1] = at_home(Side::right, model, paths[1], model.pretension * arm1 / arm2);
+  expected = model.expected(0.0);
+  for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model.EA);
+}
+
+std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
+  return {tried(tendons[0], at[0], model.upper->left, model.pins[0].rho, model.mu, at_theta),
+          tried(tendons[1], at[1], model.upper->right, model.pins[1].rho, model.mu, at_theta)};
+}
+
+Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
+  const auto [left, right] = trials(at, at_theta);
+  return {right.pull - left.pull - step.tip_force * model.pins[1].R - step.torque - model.weight_torque(at_theta),
+          right.slope + left.slope - model.weight_slope(at_theta)};
+}
+
+std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step,
+                                                   double expected_now) const {
+  const auto pull = [&](double at_theta) { return residual(at, step, at_theta); };
+  // A joint that nothing pulls stays where it is; any other keeps its deviation from where it is expected.
+  if (theta > model.theta_least && theta < model.theta_most && pull(theta).value == 0) return theta;
+  return fallen_to_zero(theta + expected_now - expected, model.theta_least, model.theta_most, model.last_step, pull);
+}
+
+EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found) {
+  const std::array<Trial, 2> now = trials(at, found);
+  EquilibriumPoint point;
+  point.alpha = step.alpha;
+  point.theta = theta = found;
+  point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(found);
+  point.stiffness = point.stiffness_stuck = model.weight_slope(found);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Spent spent = settle(tendons[i], at[i], now[i]);
+    wound_energy += spent.wound;
+    friction += spent.friction;
+    shed += spent.shed;
+    point.stored += energy_of_spans(tendons[i], model.EA);
+    (i == 0 ? point.t1 : point.t2) = state_of(tendons[i], at[i], now[i]);
+    const double m = now[i].span.m;
+    const double geometric = now[i].balance.upper * now[i].span.dm;
+    point.stiffness_stuck += stuck_rate(now[i].spans, now[i].balance) * m * m - geometric;
+    point.stiffness += sliding_rate(now[i].spans, now[i].balance) * m * m - geometric;
+  }
+  point.motor_torque = point.t2.lower * at[1].path.p - point.t1.lower * at[0].path.p;
+  point.stored += wound_energy - home_energy;
+  point.friction = friction;
+  point.shed = shed;
+  const bool free = point.t1.upper == 0 && point.t2.upper == 0 && point.t1.slack + point.t2.slack > k_least_play;
+  if (free) {
+    point.status = EquilibriumStatus::loose;
+    point.loose_below = point.t2.slack / now[1].span.m;
+    point.loose_above = point.t1.slack / now[0].span.m;
+  }
+  return point;
+}
+
+EquilibriumPoint JointMotion::State::refuse(const JointStep& step) const {
+  EquilibriumPoint point;
+  point.status = EquilibriumStatus::no_equilibrium;
+  point.alpha = step.alpha;
+  point.theta = theta;
+  point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(theta);
+  point.friction = friction;
+  point.shed = shed;
+  return point;
+}
+
+JointMotion::JointMotion(JointModel model) : state_(std::make_unique<State>(std::move(model))) {}
+JointMotion::JointMotion(const JointMotion& other) : state_(std::make_unique<State>(*other.state_)) {}
+JointMotion& JointMotion::operator=(const JointMotion& other) {
+  if (this != &other) state_ = std::make_unique<State>(*other.state_);
+  return *this;
+}
+JointMotion::JointMotion(JointMotion&&) noexcept = default;
+JointMotion& JointMotion::operator=(JointMotion&&) noexcept = default;
+JointMotion::~JointMotion() = default;
+
+EquilibriumPoint JointMotion::to(const JointStep& step) {
+  State& state = *state_;
+  const JointModel& model = state.model;
+  const std::array<LowerPath, 2> paths = model.lower(step.alpha);
+  std::array<AtAlpha, 2> at;
+  for (std::size_t i = 0; i < 2; ++i) {
+    at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA, step.tendon);
+    at[i].spans.lower_material += at[i].swelling * (step.tendon.released[i] - state.released[i]);
+    const bool has_path = std::isfinite(paths[i].wound) && at[i].lower_length > 0 && at[i].spans.lower_material > 0;
+    if (!has_path) return state.refuse(step);
+  }
+  const double expected = model.expected(step.alpha);
+  const auto found = state.balanced(at, step, expected);
+  if (!found) return state.refuse(step);
+  state.expected = expected;
+  state.released = step.tendon.released;
+  return state.accept(at, step, *found);
+}
+
+std::vector<EquilibriumPoint> follow(const JointModel& model, const std::vector<JointStep>& steps) {
+  JointMotion motion(model);
+  std::vector<EquilibriumPoint> points;
+  points.reserve(steps.size());
+  for (const JointStep& step : steps) points.push_back(motion.to(step));
+  return points;
+}
+
+}  // namespace fusee

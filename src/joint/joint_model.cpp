@@ -1,0 +1,125 @@
+#include "fusee/joint/joint_model.h"
+
+#include <cmath>
+#include <limits>
+
+#include "fusee/transmission/load.h"
+#include "joint/upper_span_table.h"
+
+namespace fusee {
+namespace {
+
+/// How far beyond the declared range the joint may be pushed while it still has its moment arms.
+constexpr double k_reach = radians(60.0);
+
+/// The first θ from `start` towards `end` at which a moment arm vanishes; `end` when none does.
+double last_with_arms(const std::array<PinPlace, 2>& pins, double start, double end) {
+  const auto has_arms = [&](double theta) {
+    return upper_span(pins[0], -theta).m > 0 && upper_span(pins[1], theta).m > 0;
+  };
+  constexpr int steps = 60;
+  double good = start;
+  for (int i = 1; i <= steps; ++i) {
+    double bad = start + (end - start) * i / steps;
+    if (has_arms(bad)) {
+      good = bad;
+      continue;
+    }
+    for (int halving = 0; halving < 50; ++halving) {
+      const double middle = 0.5 * (good + bad);
+      (has_arms(middle) ? good : bad) = middle;
+    }
+    return good;
+  }
+  return end;
+}
+
+/// What the pitch curve has at the element that touches the tendon when the declared joint stands at `at`, seen in the
+/// image.
+struct CurveElement {
+  double normal = 0;  ///< in the pulley's frame
+  double support = 0;
+  double arc = 0;    ///< but for a constant
+  double reach = 0;  ///< of the declared line
+  double slope = 0;  ///< d support / d declared α
+};
+
+// Inextensible tendon: what is above the pin, what lies between it and the pulley, and what is wound add up to a
+// constant along the declared law, which gives the arc in closed form: s = −L_up(θ) − w + ρψ.
+CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& at, double offset) {
+  const double sign = mirror_sign(side);
+  const TendonPoint& tendon = side == Side::right ? at.t2 : at.t1;
+  const double lower_normal = side == Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal;
+  CurveElement curve;
+  curve.normal = lower_normal + sign * at.alpha;
+  curve.support = tendon.p + offset;
+  curve.reach = tendon.lower_reach;
+  curve.slope = sign * tendon.dp;
+  curve.arc = -tendon.free_upper - place.rho * tendon.wrap - tendon.lower_reach + offset * curve.normal;
+  return curve;
+}
+
+}  // namespace
+
+MadePulleys MadePulleys::offset_by(double by) const {
+  MadePulleys larger = *this;
+  larger.offset_ += by;
+  return larger;
+}
+
+// A line of the pulley's frame with normal ψ_b stands at ψ = ψ_b − α; it touches the mounted pin's circle on the outer
+// side when
+//   F = c cos(φ − ψ) + ρ − h(ψ_b) = 0.
+// The curve is known by the declared α0 at which each of its elements is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h'
+// with w the mounted reach c sin(φ − ψ). Mounted as declared, the first look (α0 = α) is the answer.
+LowerPath MadePulleys::path(Side side, const PinPlace& mounted, double alpha, const TransmissionPoint& first) const {
+  const PinPlace& place = declared_.place(side);
+  const double sign = mirror_sign(side);
+  const double c = mounted.c();
+  const double phi = mounted.phi();
+  TransmissionPoint at = first;
+  for (int i = 0; i < 20; ++i) {
+    const CurveElement curve = element(place, side, at, offset_);
+    const double normal = curve.normal - sign * alpha;
+    const double reach = c * std::sin(phi - normal);
+    const double miss = c * std::cos(phi - normal) + mounted.rho - curve.support;
+    if (std::abs(miss) <= 1e-12 * c) return {curve.support, normal, reach, curve.arc};
+    const double step = sign * miss / (reach * (1.0 + curve.slope / curve.reach) - curve.slope);
+    // By the declared joint angle, in which the usual laws are closed formulas.
+    const double theta = at.theta - step * at.g;
+    if (!(std::abs(theta) < k_pi)) break;
+    at = declared_.at_theta(theta);
+  }
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {nan, nan, nan, nan};
+}
+
+std::array<LowerPath, 2> MadePulleys::paths(const std::array<PinPlace, 2>& mounted, double alpha) const {
+  const TransmissionPoint first = declared_.at_alpha(alpha);
+  return {path(Side::left, mounted[0], alpha, first), path(Side::right, mounted[1], alpha, first)};
+}
+
+JointModel joint_model(const Mechanism& mechanism) { return joint_model(MadePulleys(mechanism), mechanism); }
+
+JointModel joint_model(const MadePulleys& made, const Mechanism& mounted) {
+  const double rho = mounted.pulley.method == Method::paper ? 0.0 : mounted.guide_pitch_radius();
+  JointModel model;
+  model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
+  model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };
+  model.expected = [made](double alpha) { return made.declared().theta(alpha); };
+  set_statics(model, mounted);
+  model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
+  model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
+  model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most);
+  return model;
+}
+
+void set_statics(JointModel& model, const Mechanism& mounted) {
+  model.EA = section_stiffness(mounted.tendon);
+  model.mu = mounted.guides.mu;
+  model.pretension = mounted.tendon.pretension;
+  model.weight = weight_moment(mounted.load);
+  model.tilt = mounted.load.tilt;
+}
+
+}  // namespace fusee

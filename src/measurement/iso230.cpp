@@ -1,0 +1,107 @@
+// ISO 230-2: positions i, directions ↑ and ↓, x̄ the mean deviation of a position and direction, s its standard
+// deviation.
+//   B = max |x̄i↑ − x̄i↓|            E = max x̄ − min x̄, all positions, both directions
+//   R = max over i of max[2si↑ + 2si↓ + |Bi|; 4si↑; 4si↓]
+//   M = range of (x̄i↑ + x̄i↓)/2     A = max(x̄ + 2s) − min(x̄ − 2s), both directions
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/measurement/measurement.h"
+
+namespace fusee {
+namespace {
+
+struct Spread {
+  double mean = 0;
+  double deviation = 0;  ///< 0 for a single repeat
+};
+
+Spread spread_of(const std::vector<double>& values) {
+  Spread spread;
+  const double n = static_cast<double>(values.size());
+  for (const double value : values) spread.mean += value / n;
+  if (values.size() < 2) return spread;
+  for (const double value : values) spread.deviation += (value - spread.mean) * (value - spread.mean) / (n - 1);
+  spread.deviation = std::sqrt(spread.deviation);
+  return spread;
+}
+
+struct Extent {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  double range() const { return most >= least ? most - least : 0; }
+};
+
+/// The residual where the stroke passes `alpha`; NaN where it does not.
+double residual_at(const Run& run, const Stroke& stroke, const std::vector<double>& residuals, double alpha) {
+  for (std::size_t i = stroke.first; i < stroke.last; ++i) {
+    const double before = run.samples[i].alpha, after = run.samples[i + 1].alpha;
+    if ((before - alpha) * (after - alpha) > 0 || before == after) continue;
+    return residuals[i] + (residuals[i + 1] - residuals[i]) * (alpha - before) / (after - before);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations) {
+  Iso230 figures;
+  Extent systematic, mean, accuracy;
+  for (const auto& position : deviations) {
+    if (position[0].empty() || position[1].empty()) continue;
+    const Spread up = spread_of(position[0]), down = spread_of(position[1]);
+    const double reversal = std::abs(up.mean - down.mean);
+    figures.B = std::max(figures.B, reversal);
+    figures.R =
+        std::max({figures.R, 2 * up.deviation + 2 * down.deviation + reversal, 4 * up.deviation, 4 * down.deviation});
+    for (const Spread& spread : {up, down}) {
+      systematic.add(spread.mean);
+      accuracy.add(spread.mean + 2 * spread.deviation);
+      accuracy.add(spread.mean - 2 * spread.deviation);
+    }
+    mean.add(0.5 * (up.mean + down.mean));
+  }
+  figures.E = systematic.range();
+  figures.M = mean.range();
+  figures.A = accuracy.range();
+  return figures;
+}
+
+Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<double>>& residuals) {
+  // The range that every whole stroke passes would be empty for one short stroke: positions spread over all that was
+  // seen.
+  Extent seen;
+  for (const Run& run : measurement.runs) {
+    for (const Stroke& stroke : run.strokes) {
+      if (stroke.partial) continue;
+      seen.add(run.samples[stroke.first].alpha);
+      seen.add(run.samples[stroke.last].alpha);
+    }
+  }
+  if (!(seen.range() > 0)) return {};
+  constexpr int positions = 21;
+  std::vector<std::array<std::vector<double>, 2>> deviations(positions);
+  for (std::size_t r = 0; r < measurement.runs.size() && r < residuals.size(); ++r) {
+    const Run& run = measurement.runs[r];
+    if (residuals[r].size() != run.samples.size()) continue;
+    for (const Stroke& stroke : run.strokes) {
+      if (stroke.partial) continue;
+      for (int i = 0; i < positions; ++i) {
+        const double alpha = seen.least + seen.range() * (0.05 + 0.9 * i / (positions - 1));
+        const double value = residual_at(run, stroke, residuals[r], alpha);
+        if (std::isfinite(value))
+          deviations[static_cast<std::size_t>(i)][stroke.direction > 0 ? 0 : 1].push_back(value);
+      }
+    }
+  }
+  return iso230(deviations);
+}
+
+}  // namespace fusee

@@ -1,0 +1,151 @@
+#include "fusee/measurement/measurement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measurement/repair.h"
+#include "measurement/row_reader.h"
+#include "measurement/run_checks.h"
+#include "measurement/strokes.h"
+#include "fusee/base/text.h"
+
+// From bytes to runs in three steps:
+//   1. Rows (row_reader): the file is read in bounded memory; a run too long to keep is thinned as it comes.
+//   2. Repair (repair): order in time, wrap-around, outliers; each said in a note.
+//   3. Strokes (strokes), and whether anything can be concluded from them at all (run_checks).
+
+namespace fusee {
+namespace {
+
+void say_what_was_read(const LoggedRows& rows, const std::string& name, const Say& say, Measurement& into) {
+  for (const std::string& words : rows.notes) say(words);
+  if (rows.stride > 1) {
+    say("of " + std::to_string(rows.rows) + " rows one in " + std::to_string(rows.stride) + " is used: no more than " +
+        std::to_string(k_most_samples) + " rows of all files are kept");
+  }
+  if (rows.without_angle == 0) return;
+  say(rows_text(rows.without_angle) + " without alpha or theta, the first in line " +
+      std::to_string(rows.first_without_angle) + ": left out");
+  if (2 * rows.without_angle > rows.rows)
+    into.not_testable.push_back(name + ": more than half of the rows hold no angle");
+}
+
+/// "Nm" of "tau_out_Nm".
+std::string unit_of(const std::string& column) {
+  const std::size_t mark = column.rfind('_');
+  return mark == std::string::npos ? "" : column.substr(mark + 1);
+}
+
+void repair(Run& run, Measurement& into, const Say& say) {
+  if (run.has_time) order_time(run, say);
+  unwrap(run.samples, &Sample::alpha, "alpha", say);
+  unwrap(run.samples, &Sample::theta, "theta", say);
+  drop_outliers(run, say);
+  run.has_load = run.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
+  run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
+  into.theta_quantum = std::max(into.theta_quantum, quantum_of(run.samples, &Sample::theta));
+}
+
+void describe(Run& run) {
+  if (run.has_time) {
+    std::vector<double> speeds;
+    for (std::size_t i = 1; i < run.samples.size(); ++i) {
+      const double step = run.samples[i].time - run.samples[i - 1].time;
+      if (step > 0) speeds.push_back(std::abs(run.samples[i].alpha - run.samples[i - 1].alpha) / step);
+    }
+    run.speed = median_of(std::move(speeds));
+  }
+  if (!run.has_load) return;
+  for (const Sample& sample : run.samples) run.mean_load += sample.load / static_cast<double>(run.samples.size());
+}
+
+Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
+  const Say say = [&](const std::string& words) { into.notes.push_back(name + ": " + words); };
+  say_what_was_read(rows, name, say, into);
+  Run run;
+  run.name = name;
+  run.samples = std::move(rows.samples);
+  run.has_time = rows.has_time;
+  run.has_load = rows.has_load;
+  run.has_temperature = rows.has_temperature;
+  if (!run.samples.empty()) {
+    const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);
+    into.alpha_quantum = std::max(into.alpha_quantum, alpha_quantum);
+    repair(run, into, say);
+    run.strokes = split_strokes(run.samples, alpha_quantum, run.has_time);
+    describe(run);
+  }
+  look_at_run(run, into, say);
+  if (run.has_load) into.load_unit = unit_of(rows.load_column);
+  return run;
+}
+
+/// Files of one name in two folders are told apart by their paths.
+std::vector<std::string> run_names(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> names;
+  for (const auto& file : files) {
+    const std::string name = file.filename().string();
+    const auto same = std::count_if(files.begin(), files.end(),
+                                    [&](const auto& other) { return other.filename() == file.filename(); });
+    names.push_back(same > 1 ? file.string() : name);
+  }
+  return names;
+}
+
+bool same_rows(const std::vector<Sample>& a, const std::vector<Sample>& b) {
+  const auto alike = [](const Sample& one, const Sample& other) {
+    return one.alpha == other.alpha && one.theta == other.theta;
+  };
+  return a.size() > 1 && std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);
+}
+
+/// A run that counts twice vouches for itself.
+void refuse_copies(const std::vector<std::filesystem::path>& files, const std::vector<Run>& runs) {
+  std::vector<Diagnostic> problems;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!same_rows(runs[i].samples, runs[j].samples)) continue;
+      const InputError problem(files[i].string(), "holds the same rows as " + files[j].string(),
+                               "a run counts once: leave one of the two away");
+      problems.push_back(problem.diagnostics().front());
+      break;
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& column_roles() {
+  static const std::vector<std::pair<std::string, std::string>> roles = {
+      {"alpha", "alpha_deg"},           {"theta", "theta_deg"},     {"time", "time_s"},         {"load", "load_N"},
+      {"temperature", "temperature_C"}, {"tension1", "tension1_N"}, {"tension2", "tension2_N"}, {"cycle", "cycle"}};
+  return roles;
+}
+
+Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into) {
+  check_roles(options);
+  return make_run(name, read_rows(text, name, options), into);
+}
+
+Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options) {
+  check_roles(options);
+  Measurement measurement;
+  std::vector<Diagnostic> problems;
+  const std::vector<std::string> names = run_names(files);
+  const std::size_t share = std::max<std::size_t>(2, k_most_samples / std::max<std::size_t>(1, files.size()));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    try {
+      measurement.runs.push_back(
+          make_run(names[i], read_rows(files[i], files[i].string(), options, share), measurement));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  refuse_copies(files, measurement.runs);
+  look_at_all(measurement);
+  return measurement;
+}
+
+}  // namespace fusee

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "measurement/strokes.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/measurement/measurement.h"
+#include "fusee/transmission/transmission.h"
+
+namespace fusee {
+namespace {
+
+/// What θ should be at α, as far as it is declared.
+class DeclaredLaw {
+ public:
+  explicit DeclaredLaw(const Mechanism& declared) {
+    if (declared.transmission) {
+      slope_ = 1.0 / declared.transmission->ratio;
+      return;
+    }
+    const Transmission transmission(declared);
+    if (transmission.dead_centre()) return;
+    law_ = transmission;
+    slope_ =
+        (declared.joint.theta_max - declared.joint.theta_min) / (transmission.alpha_max() - transmission.alpha_min());
+  }
+
+  bool known() const { return std::isfinite(slope_) && slope_ != 0; }
+  /// Of a ratio the zero is free.
+  bool has_zero() const { return law_.has_value(); }
+  /// dθ/dα from end to end.
+  double slope() const { return slope_; }
+  /// rad; 0 for a ratio, which has no range.
+  double alpha_range() const { return law_ ? law_->alpha_max() - law_->alpha_min() : 0; }
+  /// Whether most of a run may lie there.
+  bool reaches(double alpha) const {
+    return !law_ ||
+           (alpha > law_->alpha_min() - 0.1 * alpha_range() && alpha < law_->alpha_max() + 0.1 * alpha_range());
+  }
+  /// Beyond the range the mean slope goes on.
+  double theta(double alpha) const {
+    if (!law_) return slope_ * alpha;
+    const double within = std::clamp(alpha, law_->alpha_min(), law_->alpha_max());
+    return law_->theta(within) + slope_ * (alpha - within);
+  }
+
+ private:
+  std::optional<Transmission> law_;
+  double slope_ = 0;
+};
+
+/// Enough of a long run to see where it lies.
+std::vector<Sample> some_of(const Run& run) {
+  constexpr std::size_t enough = 500;
+  std::vector<Sample> samples;
+  const std::size_t every = run.samples.size() / enough + 1;
+  for (std::size_t i = 0; i < run.samples.size(); i += every) samples.push_back(run.samples[i]);
+  return samples;
+}
+
+// ---- whole turns ----------------------------------------------------------------------------------------------------
+
+/// Median of what is measured beyond what is declared, with α moved by `turn`; rad.
+double beyond(const std::vector<Sample>& samples, const DeclaredLaw& law, double turn) {
+  std::vector<double> values;
+  for (const Sample& sample : samples) values.push_back(sample.theta - law.theta(sample.alpha + turn));
+  return median_of(std::move(values));
+}
+
+struct Turns {
+  double alpha = 0;
+  double theta = 0;
+  double left = 0;  ///< what is still beyond `expected`
+};
+
+/// The fewest whole turns that bring a run to where it belongs.
+Turns best_turns(const std::vector<Sample>& samples, const DeclaredLaw& law, double expected) {
+  constexpr int most = 3;
+  Turns best{0, 0, beyond(samples, law, 0) - expected};
+  const double before = std::abs(best.left);
+  std::vector<double> alphas;
+  for (const Sample& sample : samples) alphas.push_back(sample.alpha);
+  const double middle = median_of(std::move(alphas));
+  int fewest = 0;
+  for (int a = -most; a <= most; ++a) {
+    if (!law.reaches(middle + a * k_two_pi)) continue;
+    const double beside = beyond(samples, law, a * k_two_pi) - expected;
+    const int t = std::clamp(static_cast<int>(-std::round(beside / k_two_pi)), -most, most);
+    const double left = std::abs(beside + t * k_two_pi);
+    const int turns = std::abs(a) + std::abs(t);
+    // A zero that is set wrongly is no reason to turn an encoder: only what nearly vanishes by it.
+    if (left > 0.25 * before || before < radians(45.0)) continue;
+    if (fewest > 0 && (turns > fewest || (turns == fewest && left >= std::abs(best.left)))) continue;
+    fewest = turns;
+    best = {a * k_two_pi, t * k_two_pi, beside + t * k_two_pi};
+  }
+  return best;
+}
+
+/// A single-turn encoder that was wrapped around when the log began starts whole turns away.
+void take_back_turns(const DeclaredLaw& law, Measurement& measurement) {
+  double expected = 0;
+  for (std::size_t i = 0; i < measurement.runs.size(); ++i) {
+    Run& run = measurement.runs[i];
+    const std::vector<Sample> samples = some_of(run);
+    if (i == 0 && !law.has_zero()) {
+      expected = beyond(samples, law, 0);
+      continue;
+    }
+    const Turns turns = best_turns(samples, law, expected);
+    if (turns.alpha == 0 && turns.theta == 0) continue;
+    for (Sample& sample : run.samples) {
+      sample.alpha += turns.alpha;
+      sample.theta += turns.theta;
+    }
+    const auto words = [](const char* name, double turn) {
+      return std::string(name) + " " + rounded(degrees(turn)) + " deg";
+    };
+    std::string moved = turns.alpha != 0 ? words("alpha", turns.alpha) : "";
+    if (turns.theta != 0) moved += (moved.empty() ? "" : ", ") + words("theta", turns.theta);
+    measurement.notes.push_back(run.name + ": the log begins whole turns away from " +
+                                (law.has_zero() ? "what is declared" : "the first run") + ": added to " + moved);
+  }
+}
+
+/// A constant that no sensor's zero is off by, and no effect can take.
+std::string wrong_zero(const DeclaredLaw& law, const Measurement& measurement) {
+  if (!law.has_zero()) return {};
+  for (const Run& run : measurement.runs) {
+    const double off = beyond(some_of(run), law, 0);
+    if (std::abs(off) < radians(30.0)) continue;
+    return run.name + ": theta stands " + rounded(degrees(off), 3) +
+           " deg beside what is declared at the same alpha: set both zeros at home (alpha = theta = 0), or subtract "
+           "them in the log";
+  }
+  return {};
+}
+
+// ---- slopes ---------------------------------------------------------------------------------------------------------
+
+/// Straight lines through all samples, over the same α.
+struct Slopes {
+  double measured = 0;  ///< dθ/dα
+  double declared = 0;
+  double alpha_span = 0;  ///< rad, of the samples
+  double scatter = 0;     ///< rms of θ about its line, rad
+};
+
+Slopes slopes_of(const DeclaredLaw& law, const Measurement& measurement) {
+  double products = 0, declared_products = 0, squares = 0, theta_squares = 0, count = 0;
+  Slopes slopes;
+  for (const Run& run : measurement.runs) {
+    const std::vector<Sample> samples = some_of(run);
+    const double n = static_cast<double>(samples.size());
+    double alpha = 0, theta = 0, least = samples.front().alpha, most = least;
+    for (const Sample& sample : samples) {
+      alpha += sample.alpha / n;
+      theta += sample.theta / n;
+      least = std::min(least, sample.alpha);
+      most = std::max(most, sample.alpha);
+    }
+    for (const Sample& sample : samples) {
+      products += (sample.alpha - alpha) * (sample.theta - theta);
+      declared_products += (sample.alpha - alpha) * law.theta(sample.alpha);
+      squares += (sample.alpha - alpha) * (sample.alpha - alpha);
+      theta_squares += (sample.theta - theta) * (sample.theta - theta);
+    }
+    count += n;
+    slopes.alpha_span = std::max(slopes.alpha_span, most - least);
+  }
+  if (!(squares > 0)) return slopes;
+  slopes.measured = products / squares;
+  slopes.declared = declared_products / squares;
+  slopes.scatter = std::sqrt(std::max(0.0, theta_squares - products * slopes.measured) / count);
+  return slopes;
+}
+
+/// Within a third of `expected`: a mistake of a kind is far larger than any error of a joint.
+bool is_about(double value, double expected) { return value / expected > 0.67 && value / expected < 1.5; }
+
+std::string slope_text(const Slopes& slopes) {
+  return "theta changes by " + rounded(slopes.measured, 3) + " deg a degree of alpha, and " +
+         rounded(slopes.declared, 3) + " is declared: ";
+}
+
+const char* const k_in_degrees = "; give it in degrees (times 57.29578), or let the column's name end in _rad";
+
+std::string fault(const DeclaredLaw& law, const Slopes& slopes) {
+  const double ratio = slopes.measured / slopes.declared;
+  const double exchanged = 1.0 / (law.slope() * law.slope());
+  const double turn = degrees(1.0), range = law.alpha_range();
+  if (range > 0 && is_about(ratio, 1.0) && slopes.alpha_span < 0.06 * range &&
+      slopes.alpha_span * turn > 0.25 * range) {
+    return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg of the declared " +
+           rounded(degrees(range), 4) + ": both angles look like radians" + k_in_degrees;
+  }
+  if (ratio > 0.4 && ratio < 2.5) return {};
+  const double expected = std::abs(slopes.declared) * slopes.alpha_span;
+  if (expected < 3 * slopes.scatter && std::abs(slopes.measured) * slopes.alpha_span < 3 * slopes.scatter) {
+    return "alpha moves over " + rounded(degrees(slopes.alpha_span), 3) + " deg, which should turn the joint by " +
+           rounded(degrees(expected), 3) + " deg; theta scatters by " + rounded(degrees(slopes.scatter), 3) +
+           " deg rms and does not show it: move further";
+  }
+  if (is_about(ratio, turn)) return slope_text(slopes) + "alpha looks like radians" + k_in_degrees;
+  if (is_about(ratio, 1.0 / turn)) return slope_text(slopes) + "theta looks like radians" + k_in_degrees;
+  if (is_about(std::abs(ratio), exchanged) && !is_about(exchanged, 1.0)) {
+    return slope_text(slopes) + "alpha and theta look exchanged" + (ratio < 0 ? ", with one sign turned" : "") +
+           "; --column alpha=theta_deg --column theta=alpha_deg exchanges them";
+  }
+  if (ratio < -0.4 && ratio > -2.5) {
+    return slope_text(slopes) +
+           "one of the two has the opposite sign; alpha > 0 turns the pulley clockwise and lets theta grow: turn the "
+           "sign of one column";
+  }
+  return slope_text(slopes) + "this is not the declared joint, or a column has another unit";
+}
+
+/// A joint declared by its ratio has no range to compare with.
+void suspect_radians(const DeclaredLaw& law, const Slopes& slopes, Measurement& measurement) {
+  if (law.has_zero() || slopes.alpha_span > radians(k_two_pi)) return;
+  measurement.notes.push_back("alpha moves over only " + rounded(degrees(slopes.alpha_span), 3) +
+                              " deg in any run: if these are radians, let the columns' names end in _rad");
+}
+
+}  // namespace
+
+void compare_with_declared(const Mechanism& declared, Measurement& measurement) {
+  if (!measurement.not_testable.empty() || measurement.runs.empty()) return;
+  const DeclaredLaw law(declared);
+  if (!law.known()) return;
+  take_back_turns(law, measurement);
+  const Slopes slopes = slopes_of(law, measurement);
+  suspect_radians(law, slopes, measurement);
+  std::string found = fault(law, slopes);
+  if (found.empty()) found = wrong_zero(law, measurement);
+  if (!found.empty()) measurement.not_testable.push_back(found);
+}
+
+}  // namespace fusee

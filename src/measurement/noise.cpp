@@ -1,0 +1,296 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "measurement/strokes.h"
+#include "fusee/measurement/measurement.h"
+
+// Strokes of one direction, load and speed repeat one another. A row's distance from what its neighbours in that
+// sequence show at the same α is scatter: (2θ − θbefore − θafter)/√6, which a steady drift leaves alone. What else
+// there is:
+//
+// - Single wild rows: the mean square is taken without what lies far outside the bulk, unless that is a part of it.
+//
+// - Colour: neighbouring rows say the same thing. Degrees of freedom count what is left, n (1 − r²)/(1 + r²).
+//
+// - A coarse sensor: repeats that fall on the same step hide the step's own error, quantum/√12 of either sensor: a
+// lower bound.
+
+namespace fusee {
+namespace {
+
+/// Differences scaled to the spread of a single row, in sequences of neighbours.
+class Scatter {
+ public:
+  /// `worth`: independent differences in each, for those of overlapping strokes.
+  void add(const std::vector<double>& differences, double worth) {
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+      values_.push_back(differences[i]);
+      follows_.push_back(i > 0);
+      worth_ += worth;
+    }
+  }
+
+  std::size_t count() const { return values_.size(); }
+
+  struct Result {
+    double variance = 0;
+    double degrees_of_freedom = 0;
+  };
+
+  /// `least_limit`: what is never an outlier, rad.
+  Result result(double least_limit) const {
+    const double limit = limit_of(least_limit);
+    double squares = 0, products = 0, count = 0, pairs = 0;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      if (std::abs(values_[i]) > limit) continue;
+      squares += values_[i] * values_[i];
+      count += 1;
+      if (!follows_[i] || std::abs(values_[i - 1]) > limit) continue;
+      products += values_[i] * values_[i - 1];
+      pairs += 1;
+    }
+    if (count == 0) return {};
+    const double variance = squares / count;
+    const double r = squares > 0 && pairs > 0 ? std::clamp(products / pairs / variance, 0.0, 0.99) : 0.0;
+    return {variance, worth_ * count / static_cast<double>(values_.size()) * (1 - r * r) / (1 + r * r)};
+  }
+
+ private:
+  double limit_of(double least_limit) const {
+    std::vector<double> sizes;
+    for (const double value : values_) sizes.push_back(std::abs(value));
+    const double limit = std::max(5.0 * median_of(sizes) / 0.6745, least_limit);
+    const auto beyond = std::count_if(sizes.begin(), sizes.end(), [limit](double size) { return size > limit; });
+    return 10 * static_cast<std::size_t>(beyond) > sizes.size() ? std::numeric_limits<double>::infinity() : limit;
+  }
+
+  std::vector<double> values_;
+  std::vector<bool> follows_;
+  double worth_ = 0;
+};
+
+/// θ at α on a stroke, and the sum of squares of the weights of the rows it comes from; nothing outside.
+struct Looked {
+  bool inside = false;
+  double theta = 0;
+  double load = 0;
+  double weight = 1;
+};
+
+/// The cubic through four rows. Rows that stand nearly on one another (a dwell, a quantum) make none.
+Looked on_cubic(const Run& run, std::size_t first, double alpha, double least_gap) {
+  const auto at = [&](std::size_t i) -> const Sample& { return run.samples[i]; };
+  Looked looked{true, 0, 0, 0};
+  for (std::size_t j = first; j < first + 4; ++j) {
+    double weight = 1;
+    for (std::size_t k = first; k < first + 4; ++k) {
+      const double gap = at(j).alpha - at(k).alpha;
+      if (k == j) continue;
+      if (std::abs(gap) < least_gap || gap == 0) return {};
+      weight *= (alpha - at(k).alpha) / gap;
+    }
+    looked.theta += weight * at(j).theta;
+    looked.weight += weight * weight;
+  }
+  return looked.weight < 3 ? looked : Looked{};
+}
+
+/// The straight line through a small part of a stroke: for logs so dense that α stands still or jitters from row to
+/// row.
+Looked on_line(const Run& run, const Stroke& stroke, std::size_t place, double alpha) {
+  const double longest = std::abs(run.samples[stroke.last].alpha - run.samples[stroke.first].alpha) / 25;
+  for (std::size_t half = 4; half <= (stroke.last - stroke.first) / 8; half *= 2) {
+    const std::size_t first = place > stroke.first + half ? place - half : stroke.first,
+                      last = std::min(stroke.last, place + half);
+    const double n = static_cast<double>(last - first + 1);
+    double mean_alpha = 0, mean_theta = 0, squares = 0, products = 0;
+    for (std::size_t i = first; i <= last; ++i) {
+      mean_alpha += run.samples[i].alpha / n;
+      mean_theta += run.samples[i].theta / n;
+    }
+    for (std::size_t i = first; i <= last; ++i) {
+      const double off = run.samples[i].alpha - mean_alpha;
+      squares += off * off;
+      products += off * (run.samples[i].theta - mean_theta);
+    }
+    if (std::abs(run.samples[last].alpha - run.samples[first].alpha) > longest) return {};
+    const double off = alpha - mean_alpha;
+    if (!(squares > 0) || off * off > squares) continue;
+    return {true, mean_theta + products / squares * off, 0, 1 / n + off * off / squares};
+  }
+  return {};
+}
+
+Looked look_up(const Run& run, const Stroke& stroke, double alpha) {
+  const auto at = [&](std::size_t i) -> const Sample& { return run.samples[i]; };
+  const double sign = stroke.direction;
+  std::size_t low = stroke.first, high = stroke.last;
+  if (high - low < 4 || sign * alpha < sign * at(low).alpha || sign * alpha > sign * at(high).alpha) return {};
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (sign * at(middle).alpha <= sign * alpha ? low : high) = middle;
+  }
+  const std::size_t first = std::clamp(low, stroke.first + 1, stroke.last - 2) - 1;
+  Looked looked = on_cubic(run, first, alpha, 0.05 * std::abs(at(high).alpha - at(low).alpha));
+  if (!looked.inside) looked = on_line(run, stroke, low, alpha);
+  looked.load = at(low).load;
+  return looked;
+}
+
+/// Away from reversals, where play and friction are still on their way.
+bool is_inner(const Run& run, const Stroke& stroke, double alpha) {
+  const double from = run.samples[stroke.first].alpha, to = run.samples[stroke.last].alpha;
+  const double share = (alpha - from) / (to - from);
+  return share > 0.03 && share < 0.97;
+}
+
+struct Pass {
+  const Run* run = nullptr;
+  const Stroke* stroke = nullptr;
+  double load = 0;  ///< in its middle
+};
+
+/// How far two loads may be apart that count as one: a part of all there are, or the load cell's own noise.
+double load_tolerance(const Measurement& measurement) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  std::vector<double> bends;
+  for (const Run& run : measurement.runs) {
+    for (std::size_t i = 0; run.has_load && i < run.samples.size(); ++i) {
+      least = std::min(least, run.samples[i].load);
+      most = std::max(most, run.samples[i].load);
+      if (i > 1) bends.push_back(std::abs(run.samples[i].load - 2 * run.samples[i - 1].load + run.samples[i - 2].load));
+    }
+  }
+  return most > least ? std::max(0.1 * (most - least), 4.0 * white_noise_of(std::move(bends))) + 1e-9 : 0;
+}
+
+bool same_speed(const Run& a, const Run& b) { return std::abs(a.speed - b.speed) <= 0.15 * std::max(a.speed, b.speed); }
+
+double middle_load(const Run& run, const Stroke& stroke) {
+  return run.has_load ? run.samples[stroke.first + (stroke.last - stroke.first) / 2].load : 0;
+}
+
+/// Whole strokes that repeat one another, in the order in which they were made.
+std::vector<std::vector<Pass>> repeats(const Measurement& measurement, double tolerance, bool across_runs) {
+  std::vector<std::vector<Pass>> groups;
+  for (const Run& run : measurement.runs) {
+    for (const Stroke& stroke : run.strokes) {
+      // Of several strokes the first is not judged by (evidence.cpp): play, and what must bed in, are still on their
+      // way.
+      const bool still_settling = run.strokes.size() > 2 && &stroke == &run.strokes.front();
+      if (stroke.partial || still_settling) continue;
+      const Pass pass{&run, &stroke, middle_load(run, stroke)};
+      const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Pass>& g) {
+        const Pass& other = g.front();
+        const bool same_run =
+            other.run == &run || (across_runs && other.run->has_load == run.has_load && same_speed(*other.run, run));
+        return same_run && other.stroke->direction == stroke.direction && std::abs(other.load - pass.load) <= tolerance;
+      });
+      if (group != groups.end()) {
+        group->push_back(pass);
+      } else {
+        groups.push_back({pass});
+      }
+    }
+  }
+  return groups;
+}
+
+/// Of second differences over `triples` neighbouring triples, which share strokes: what one of them is worth on its
+/// own.
+double worth_of(std::size_t triples) {
+  const double n = static_cast<double>(triples);
+  return n / (n + 2 * (n - 1) * (4.0 / 9.0) + 2 * std::max(0.0, n - 2) / 36.0);
+}
+
+/// Second differences over three strokes leave out a steady drift; first differences of two do with what there is.
+void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scatter) {
+  if (group.size() < 2) return;
+  const bool triples = group.size() > 2;
+  const std::size_t count = triples ? group.size() - 2 : 1;
+  for (std::size_t k = 1; k <= count; ++k) {
+    std::vector<double> differences;
+    const Run& run = *group[k].run;
+    const auto look = [&](const Pass& pass, const Sample& sample) {
+      const Looked looked = look_up(*pass.run, *pass.stroke, sample.alpha);
+      return !run.has_load || std::abs(looked.load - sample.load) <= tolerance ? looked : Looked{};
+    };
+    for (std::size_t i = group[k].stroke->first; i <= group[k].stroke->last; ++i) {
+      const Sample& sample = run.samples[i];
+      if (!is_inner(run, *group[k].stroke, sample.alpha)) continue;
+      const Looked before = look(group[k - 1], sample);
+      if (!before.inside) continue;
+      if (!triples) {
+        differences.push_back((sample.theta - before.theta) / std::sqrt(1 + before.weight));
+        continue;
+      }
+      const Looked after = look(group[k + 1], sample);
+      if (!after.inside) continue;
+      differences.push_back((2 * sample.theta - before.theta - after.theta) /
+                            std::sqrt(4 + before.weight + after.weight));
+    }
+    scatter.add(differences, worth_of(count));
+  }
+}
+
+/// Third differences of neighbouring rows: what is left where there are no repeats. Noise with colour hides from them.
+/// One of white noise is correlated with the next three by −3/4, 3/10, −1/20.
+void add_neighbours(const Run& run, Scatter& scatter) {
+  const double worth = 1 / (1 + 2 * (0.75 * 0.75 + 0.3 * 0.3 + 0.05 * 0.05));
+  for (const Stroke& stroke : run.strokes) {
+    std::vector<double> differences;
+    for (std::size_t i = stroke.first + 3; i <= stroke.last; ++i) {
+      const auto& s = run.samples;
+      differences.push_back((s[i].theta - 3 * s[i - 1].theta + 3 * s[i - 2].theta - s[i - 3].theta) / std::sqrt(20.0));
+    }
+    scatter.add(differences, worth);
+  }
+}
+
+Scatter scatter_of_repeats(const Measurement& measurement, bool across_runs) {
+  const double tolerance = load_tolerance(measurement);
+  Scatter scatter;
+  for (const std::vector<Pass>& group : repeats(measurement, tolerance, across_runs))
+    add_repeats(group, tolerance, scatter);
+  return scatter;
+}
+
+/// Error of both sensors' own steps, as θ shows it.
+double step_error(const Measurement& measurement) {
+  double slope = 0;
+  for (const Run& run : measurement.runs) {
+    if (run.samples.empty()) continue;
+    const auto span = [&](double Sample::*angle) {
+      const auto [least, most] =
+          std::minmax_element(run.samples.begin(), run.samples.end(),
+                              [&](const Sample& a, const Sample& b) { return a.*angle < b.*angle; });
+      return (*most).*angle - (*least).*angle;
+    };
+    const double alpha = span(&Sample::alpha);
+    if (alpha > 0) slope = std::max(slope, span(&Sample::theta) / alpha);
+  }
+  return std::hypot(measurement.theta_quantum, slope * measurement.alpha_quantum) / std::sqrt(12.0);
+}
+
+}  // namespace
+
+NoiseFloor noise_floor(const Measurement& measurement) {
+  constexpr std::size_t enough = 20;
+  // Within a run nothing was touched in between; runs that repeat one another do where each is a single cycle.
+  Scatter scatter = scatter_of_repeats(measurement, false);
+  if (scatter.count() < enough) scatter = scatter_of_repeats(measurement, true);
+  NoiseFloor floor;
+  floor.from_repeats = scatter.count() >= enough;
+  if (!floor.from_repeats) {
+    scatter = {};
+    for (const Run& run : measurement.runs) add_neighbours(run, scatter);
+  }
+  const Scatter::Result result = scatter.result(3 * measurement.theta_quantum);
+  floor.rms = std::max(std::sqrt(result.variance), step_error(measurement));
+  floor.degrees_of_freedom = result.degrees_of_freedom;
+  return floor;
+}
+
+}  // namespace fusee

@@ -1,0 +1,155 @@
+#include "measurement/run_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measurement/row_reader.h"
+#include "measurement/strokes.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_fewest_samples = 20;
+/// A motion smaller than this is none: the last decimal of a log.
+constexpr double k_no_motion = radians(1e-6);
+
+double span_of(const std::vector<Sample>& samples, double Sample::*value) {
+  double least = samples.front().*value, most = least;
+  for (const Sample& sample : samples) {
+    least = std::min(least, sample.*value);
+    most = std::max(most, sample.*value);
+  }
+  return most - least;
+}
+
+/// A stretch of rows where one value stays exactly the same.
+struct Standstill {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+std::vector<Standstill> standstills(const std::vector<Sample>& samples, double Sample::*value, std::size_t first,
+                                    std::size_t last) {
+  constexpr std::size_t fewest_rows = 6;
+  std::vector<Standstill> found;
+  for (std::size_t i = first; i <= last;) {
+    std::size_t end = i;
+    while (end < last && samples[end + 1].*value == samples[i].*value) ++end;
+    if (end - i + 1 >= fewest_rows) found.push_back({i, end});
+    i = end + 1;
+  }
+  return found;
+}
+
+std::string place_of(const Run& run, const Standstill& still) {
+  if (run.has_time) return "at " + rounded(run.samples[still.first].time) + " s";
+  return "at alpha " + rounded(degrees(run.samples[still.first].alpha)) + " deg";
+}
+
+/// How far α goes while θ stands, where play is no reason: play holds θ at a stroke's beginning and then lets go.
+struct Frozen {
+  double way = 0;
+  Standstill where;
+};
+
+Frozen frozen_theta(const Run& run) {
+  Frozen worst;
+  for (const Stroke& stroke : run.strokes) {
+    for (const Standstill& still : standstills(run.samples, &Sample::theta, stroke.first, stroke.last)) {
+      const bool may_be_play = still.first <= stroke.first + 2;
+      const double way =
+          std::abs(run.samples[still.last].alpha - run.samples[still.first].alpha) * (may_be_play ? 0.25 : 1.0);
+      if (way > worst.way) worst = {way, still};
+    }
+  }
+  return worst;
+}
+
+void look_for_frozen_theta(const Run& run, Measurement& into) {
+  const double alpha_span = span_of(run.samples, &Sample::alpha), theta_span = span_of(run.samples, &Sample::theta);
+  // A coarse sensor stands for the way of one step.
+  const double one_step = alpha_span * into.theta_quantum / theta_span;
+  const Frozen frozen = frozen_theta(run);
+  if (frozen.way <= std::max(0.1 * alpha_span, 3.0 * one_step)) return;
+  const double way = std::abs(run.samples[frozen.where.last].alpha - run.samples[frozen.where.first].alpha);
+  into.not_testable.push_back(run.name + ": theta stands still at " +
+                              rounded(degrees(run.samples[frozen.where.first].theta)) + " deg while alpha moves over " +
+                              rounded(degrees(way), 3) + " deg (" + place_of(run, frozen.where) +
+                              "): a frozen or saturated sensor, or the joint at a stop; log again without it");
+}
+
+/// θ may move at a constant α when the load does; by a part of its span, not by much of it.
+void look_for_frozen_alpha(const Run& run, Measurement& into) {
+  const double theta_span = span_of(run.samples, &Sample::theta);
+  const double load_span = run.has_load ? span_of(run.samples, &Sample::load) : 0;
+  for (const Standstill& still : standstills(run.samples, &Sample::alpha, 0, run.samples.size() - 1)) {
+    const std::vector<Sample> rows(run.samples.begin() + static_cast<std::ptrdiff_t>(still.first),
+                                   run.samples.begin() + static_cast<std::ptrdiff_t>(still.last) + 1);
+    if (run.has_load && span_of(rows, &Sample::load) > 0.1 * load_span) continue;
+    const double way = span_of(rows, &Sample::theta);
+    if (way <= 0.25 * theta_span) continue;
+    into.not_testable.push_back(
+        run.name + ": alpha stands still while theta moves over " + rounded(degrees(way), 3) + " deg (" +
+        place_of(run, still) +
+        "): the motor's sensor is frozen, or the pulley slips on its shaft; log again without it");
+    return;
+  }
+}
+
+void say_gaps(const Run& run, const Say& say) {
+  for (const std::size_t gap : gaps_in(run.samples, run.has_time)) {
+    const double way = std::abs(run.samples[gap].alpha - run.samples[gap - 1].alpha);
+    const std::string time =
+        run.has_time ? "of " + rounded(run.samples[gap].time - run.samples[gap - 1].time) + " s " : "";
+    say("a gap " + time + "(" + place_of(run, {gap, gap}) + ") over which alpha moves " + rounded(degrees(way), 3) +
+        " deg: the play after it is not known, the stroke is left out");
+  }
+}
+
+}  // namespace
+
+void look_at_run(const Run& run, Measurement& into, const Say& say) {
+  const auto refuse = [&](const std::string& reason) { into.not_testable.push_back(run.name + ": " + reason); };
+  if (run.samples.size() < k_fewest_samples) {
+    return refuse(rows_text(run.samples.size()) + " that can be used; at least " + std::to_string(k_fewest_samples) +
+                  " are needed");
+  }
+  const double alpha_span = span_of(run.samples, &Sample::alpha), theta_span = span_of(run.samples, &Sample::theta);
+  if (alpha_span < k_no_motion) return refuse("alpha does not change: the motor did not move, or its sensor is dead");
+  if (theta_span < k_no_motion) {
+    return refuse("theta does not change while alpha moves over " + rounded(degrees(alpha_span)) +
+                  " deg: the joint's sensor is dead, or the joint is stuck");
+  }
+  if (run.strokes.empty())
+    return refuse("alpha only jitters (by " + rounded(degrees(alpha_span), 2) + " deg): no motion in it");
+  look_for_frozen_theta(run, into);
+  look_for_frozen_alpha(run, into);
+  say_gaps(run, say);
+  const auto goes = [&](int direction) {
+    return std::any_of(run.strokes.begin(), run.strokes.end(),
+                       [&](const Stroke& s) { return s.direction == direction; });
+  };
+  if (!goes(1) || !goes(-1)) say("alpha moves in one direction only");
+  const Stroke& first = run.strokes.front();
+  if (first.partial) {
+    say("the first stroke (" + rows_text(first.last - first.first + 1) +
+        ") does not begin at a reversal: its play is not known, it is left out");
+  }
+}
+
+void look_at_all(Measurement& measurement) {
+  if (measurement.runs.empty()) measurement.not_testable.push_back("no run was given");
+  if (!measurement.not_testable.empty()) return;
+  int up = 0, down = 0;
+  for (const Run& run : measurement.runs) {
+    for (const Stroke& stroke : run.strokes) ++(stroke.direction > 0 ? up : down);
+  }
+  if (up > 0 && down > 0) return;
+  measurement.not_testable.push_back(
+      std::string("alpha only ") + (up > 0 ? "grows" : "falls") +
+      ": without the way back backlash, friction and delay cannot be told from a wrong shape; log both directions");
+}
+
+}  // namespace fusee

@@ -1,0 +1,172 @@
+#include "measurement/strokes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+/// How far α must come back before it counts as a reversal.
+double reversal_threshold(const std::vector<Sample>& samples, double quantum) {
+  double least = samples.front().alpha, most = least;
+  std::vector<double> bends;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    least = std::min(least, samples[i].alpha);
+    most = std::max(most, samples[i].alpha);
+    if (i > 1) bends.push_back(std::abs(samples[i].alpha - 2 * samples[i - 1].alpha + samples[i - 2].alpha));
+  }
+  const double noise = white_noise_of(std::move(bends));
+  return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
+}
+
+/// Scatter about one place: values that know nothing of the ones before (von Neumann's ratio, 2 for pure noise).
+bool only_jitters(const std::vector<Sample>& samples) {
+  const double n = static_cast<double>(samples.size());
+  double mean = 0, spread = 0, steps = 0;
+  for (const Sample& sample : samples) mean += sample.alpha / n;
+  for (const Sample& sample : samples) spread += (sample.alpha - mean) * (sample.alpha - mean) / n;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    steps += std::pow(samples[i].alpha - samples[i - 1].alpha, 2) / (n - 1);
+  return steps >= spread;
+}
+
+std::vector<bool> marked(const std::vector<std::size_t>& places, std::size_t count) {
+  std::vector<bool> marks(count, false);
+  for (const std::size_t place : places) marks[place] = true;
+  return marks;
+}
+
+class Splitter {
+ public:
+  Splitter(const std::vector<Sample>& samples, double threshold, std::vector<bool> broken)
+      : samples_(samples), threshold_(threshold), broken_(std::move(broken)) {}
+
+  std::vector<Stroke> split() {
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (broken_[i]) {
+        close(i - 1);
+        begin(i);
+      }
+      look_at(i);
+    }
+    close(samples_.size() - 1);
+    return std::move(strokes_);
+  }
+
+ private:
+  void begin(std::size_t at) {
+    first_ = high_ = low_ = at;
+    direction_ = 0;
+  }
+
+  void look_at(std::size_t i) {
+    const double alpha = samples_[i].alpha;
+    // The last sample of a dwell at the extreme still belongs to the stroke that led there.
+    if (alpha >= samples_[high_].alpha) high_ = i;
+    if (alpha <= samples_[low_].alpha) low_ = i;
+    if (direction_ >= 0 && samples_[high_].alpha - alpha > threshold_) {
+      turn(high_, i, -1);
+    } else if (direction_ <= 0 && alpha - samples_[low_].alpha > threshold_) {
+      turn(low_, i, 1);
+    }
+  }
+
+  void turn(std::size_t extreme, std::size_t now, int direction) {
+    if (direction_ != 0) {
+      close(extreme);
+      first_ = extreme + 1;
+    } else if (extreme > first_ && std::abs(samples_[extreme].alpha - samples_[first_].alpha) > threshold_) {
+      direction_ = -direction;
+      close(extreme);
+      first_ = extreme + 1;
+    }
+    direction_ = direction;
+    high_ = low_ = now;
+  }
+
+  void close(std::size_t last) {
+    if (direction_ == 0 || last < first_) return;
+    Stroke stroke;
+    stroke.first = first_;
+    stroke.last = last;
+    stroke.direction = direction_;
+    stroke.partial = first_ > 0 && broken_[first_];
+    strokes_.push_back(stroke);
+  }
+
+  const std::vector<Sample>& samples_;
+  double threshold_;
+  std::vector<bool> broken_;
+  std::vector<Stroke> strokes_;
+  std::size_t first_ = 0, high_ = 0, low_ = 0;
+  int direction_ = 0;
+};
+
+/// The first stroke is whole when it begins where the later ones of its direction begin.
+bool begins_at_reversal(const std::vector<Sample>& samples, const std::vector<Stroke>& strokes, double threshold) {
+  const double start = samples[strokes.front().first].alpha;
+  for (std::size_t i = 1; i < strokes.size(); ++i) {
+    if (strokes[i].direction != strokes.front().direction || strokes[i].partial) continue;
+    // The row at the reversal still belongs to the stroke before.
+    return std::abs(samples[strokes[i].first - 1].alpha - start) <= 3 * threshold;
+  }
+  // A single stroke each way: whole when the way back ends where it began.
+  return strokes.size() == 2 && std::abs(samples[strokes.back().last].alpha - start) <= 3 * threshold;
+}
+
+}  // namespace
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Second differences of white noise have √6 of its spread; a median of their size is .674 of that.
+double white_noise_of(std::vector<double> second_differences) {
+  return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0));
+}
+
+std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time) {
+  if (samples.size() < 3) return {};
+  std::vector<double> times, ways;
+  double least = samples.front().alpha, most = least;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (has_time) times.push_back(samples[i].time - samples[i - 1].time);
+    ways.push_back(std::abs(samples[i].alpha - samples[i - 1].alpha));
+    least = std::min(least, samples[i].alpha);
+    most = std::max(most, samples[i].alpha);
+  }
+  const double pause = 20 * median_of(times);
+  std::vector<double> sorted = ways;
+  const auto usual = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 19 / 20);
+  std::nth_element(sorted.begin(), usual, sorted.end());
+  const double moved = 0.02 * (most - least), jump = 5 * *usual;
+  std::vector<std::size_t> gaps;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const bool paused = has_time && times[i - 1] > pause;
+    if (ways[i - 1] > moved && (paused || ways[i - 1] > jump)) gaps.push_back(i);
+  }
+  return gaps;
+}
+
+std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, double alpha_quantum, bool has_time) {
+  if (samples.size() < 3 || only_jitters(samples)) return {};
+  const double threshold = reversal_threshold(samples, alpha_quantum);
+  if (!(threshold > 0)) return {};
+  std::vector<Stroke> strokes =
+      Splitter(samples, threshold, marked(gaps_in(samples, has_time), samples.size())).split();
+  if (strokes.empty()) return strokes;
+  strokes.front().partial = strokes.front().partial || !begins_at_reversal(samples, strokes, threshold);
+  // A cycle begins with each stroke of the direction of the first whole one.
+  const std::size_t first = strokes.front().partial && strokes.size() > 1 ? 1 : 0;
+  int cycle = -1;
+  for (std::size_t i = first; i < strokes.size(); ++i) {
+    if (strokes[i].direction == strokes[first].direction) ++cycle;
+    strokes[i].cycle = cycle;
+  }
+  return strokes;
+}
+
+}  // namespace fusee

@@ -1,0 +1,262 @@
+#include "fusee/correction/correction.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/mechanism/file.h"
+#include "fusee/profile/rewind.h"
+#include "fusee/profile/synthesis.h"
+#include "fusee/transmission/transmission.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* k_declared = R"(# my joint
+schema = 1
+name = "forearm"  # mine
+[joint]
+length_mm = 100
+range_deg = [-30, 30]
+[guides]
+EB_mm = 50
+ED_mm = 50
+OE_mm = -40
+radius_mm = 2  # by caliper
+[pulley]
+EF_mm = 80
+r1_mm = 16
+[tendon]
+diameter_mm = 1
+)";
+
+Mechanism declared() { return parse_mechanism(k_declared, "forearm.toml"); }
+Mechanism frictionless() {
+  Mechanism mechanism = declared();
+  mechanism.guides.mu = 0;
+  return mechanism;
+}
+
+/// How far a joint with the true geometry `truth` and a pulley made for `drawn` misses the law of `wanted`: tendons
+/// wound on the outline, scaled by `scale` and `offset` further out, its centre moved by `runout`. rad
+double miss(const Mechanism& wanted, const Mechanism& truth, const Mechanism& drawn, double scale = 1,
+            double offset = 0, const Vec2& runout = {0, 0}) {
+  SynthesisOptions options;
+  options.tolerance = 0.001;
+  SynthesisResult made = synthesise(drawn, options);
+  if (!made.made()) return std::numeric_limits<double>::quiet_NaN();
+  draw_for_making(made, drawn);
+  const double printed = scale / (1 - drawn.material.shrinkage);
+  const auto floor = [&](const Outline& outline) {
+    Polygon polygon = parallel(outline, -0.5 * drawn.tendon.diameter);
+    for (Vec2& point : polygon) point = printed * point + runout;
+    return polygon;
+  };
+  // An offset all round is a thicker tendon over thinner pins.
+  Mechanism joint = truth;
+  joint.tendon.diameter += 2 * offset;
+  joint.guides.radius -= offset;
+  joint.pulley = wanted.pulley;
+  joint.joint.theta_min = wanted.joint.theta_min;
+  const Transmission law(wanted);
+  double worst = 0;
+  for (const RewindPoint& point : rewind(joint, floor(made.p1), floor(made.p2)).points) {
+    if (point.alpha < law.alpha_min() || point.alpha > law.alpha_max()) continue;
+    worst = std::max(worst, std::abs(point.theta - law.theta(point.alpha)));
+  }
+  return worst;
+}
+
+TEST(AsItIs, NothingIdentifiedChangesNothing) {
+  EXPECT_EQ(as_it_is(declared()), declared());
+  Mechanism backlash = declared();
+  backlash.identified.backlash = 0.1;
+  backlash.identified.lag = 0.1;
+  EXPECT_EQ(as_it_is(backlash).pulley, declared().pulley);
+}
+
+TEST(AsItIs, IsItself) {
+  Mechanism mechanism = declared();
+  mechanism.identified.guide_radius = 1.5;
+  mechanism.identified.runout_x = 0.1;
+  const Mechanism once = as_it_is(mechanism);
+  EXPECT_EQ(as_it_is(once), once);
+  EXPECT_EQ(expected_joint(mechanism).identified, Imperfections{});
+}
+
+TEST(AsItIs, AnotherGuideRadiusIsTakenOut) {
+  Mechanism mechanism = declared();
+  mechanism.identified.guide_radius = 2.0;
+  Mechanism truth = declared();
+  truth.guides.radius += 2.0;
+  const double before = miss(declared(), truth, declared());
+  EXPECT_GT(degrees(before), 0.2);
+  EXPECT_LT(degrees(miss(declared(), truth, as_it_is(mechanism))), 0.03);
+}
+
+TEST(AsItIs, AnotherLengthIsTakenOut) {
+  Mechanism mechanism = declared();
+  mechanism.identified.joint_length = 2.0;
+  Mechanism truth = declared();
+  truth.joint.R += 2.0;
+  const double before = miss(declared(), truth, declared());
+  EXPECT_LT(miss(declared(), truth, as_it_is(mechanism)), 0.1 * before);
+}
+
+TEST(AsItIs, AnOffsetOfThePulleyIsTakenOut) {
+  for (const double offset : {0.2, -0.3}) {
+    Mechanism mechanism = declared();
+    mechanism.identified.radius_offset = offset;
+    const double before = miss(declared(), declared(), declared(), 1, offset);
+    EXPECT_GT(degrees(before), 0.2);
+    EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, offset), 0.05 * before);
+    // Grooves, anchors and holes stay those of the tendon that there is.
+    EXPECT_EQ(as_it_is(mechanism).tendon, declared().tendon);
+  }
+}
+
+TEST(AsItIs, AScaleOfThePulleyIsTakenOut) {
+  Mechanism mechanism = declared();
+  mechanism.identified.pulley_scale = -0.02;
+  const double before = miss(declared(), declared(), declared(), 0.98);
+  EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 0.98), 0.05 * before);
+}
+
+TEST(AsItIs, ARunoutIsTakenOut) {
+  Mechanism mechanism = declared();
+  mechanism.identified.runout_x = 0.3;
+  mechanism.identified.runout_y = -0.2;
+  const double before = miss(declared(), declared(), declared(), 1, 0, {0.3, -0.2});
+  EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
+}
+
+TEST(RoundChoice, StaysRoundWhereThatSuffices) {
+  Mechanism mechanism = declared();
+  EXPECT_TRUE(round_choice(mechanism).suffices);
+  EXPECT_NEAR(round_choice(mechanism).r1, 16, 1e-3);
+  mechanism.identified.guide_outward = 5;
+  EXPECT_FALSE(round_choice(mechanism).suffices);
+  EXPECT_GT(degrees(round_choice(mechanism).max_error), 0.005);
+}
+
+Calibration found_guide_radius() {
+  Calibration calibration;
+  calibration.verdict = "explained";
+  FoundEffect effect;
+  effect.name = "guide_radius";
+  effect.place = "pins";
+  effect.group = {"guide_radius"};
+  effect.parameters = {{"radius_mm", 3.5, 3.4, 3.6}};
+  calibration.effects = {effect};
+  calibration.identified.guide_radius = 1.5;
+  return calibration;
+}
+
+TEST(CorrectedToml, KeepsTheFileAndAddsWhatWasFound) {
+  Correction correction;
+  correction.identified = found_guide_radius().identified;
+  const std::string text = corrected_toml(k_declared, declared(), found_guide_radius(), correction);
+  EXPECT_THAT(text, HasSubstr("# my joint\n"));
+  EXPECT_THAT(text, HasSubstr("radius_mm = 2  # by caliper\n"));
+  EXPECT_THAT(text, HasSubstr("\nguide_radius_mm = 1.5\n"));
+  EXPECT_EQ(text.substr(0, text.find("\n[identified]")), k_declared);
+  EXPECT_THAT(text, HasSubstr("# guide_radius (pins): radius_mm = 3.5"));
+  Mechanism read = parse_mechanism(text, "corrected.toml");
+  EXPECT_EQ(read.identified.guide_radius, 1.5);
+  read.identified = {};
+  EXPECT_EQ(read, declared());
+}
+
+TEST(CorrectedToml, ASecondCalibrationReplacesTheFirst) {
+  Correction correction;
+  correction.identified = found_guide_radius().identified;
+  const std::string once = corrected_toml(k_declared, declared(), found_guide_radius(), correction);
+  EXPECT_EQ(corrected_toml(once, parse_mechanism(once, "a.toml"), found_guide_radius(), correction), once);
+  correction.identified.guide_radius = 1.6;
+  const std::string twice = corrected_toml(once, parse_mechanism(once, "a.toml"), found_guide_radius(), correction);
+  EXPECT_EQ(parse_mechanism(twice, "b.toml").identified.guide_radius, 1.6);
+  EXPECT_EQ(twice.find("\n[identified]"), twice.rfind("\n[identified]"));
+}
+
+/// One run up and down, modelled with a loop: θ late by half of `loop` each way.
+struct Loop {
+  Measurement measurement;
+  Calibration calibration;
+};
+
+Loop loop_of(const Mechanism& mechanism, double loop) {
+  const Transmission law(mechanism);
+  Loop data;
+  Run run;
+  std::vector<double> before;
+  for (int i = 0; i < 400; ++i) {
+    const bool up = i < 200;
+    const double share = up ? i / 199.0 : (399 - i) / 199.0;
+    Sample sample;
+    sample.alpha = law.alpha_min() + (law.alpha_max() - law.alpha_min()) * share;
+    sample.theta = law.theta(sample.alpha) + (up ? -0.5 : 0.5) * loop;
+    run.samples.push_back(sample);
+    before.push_back((up ? -0.5 : 0.5) * loop);
+  }
+  run.strokes = {{0, 199, 1, 0, false}, {200, 399, -1, 0, false}};
+  data.measurement.runs.push_back(run);
+  data.calibration.residuals_before = {before};
+  data.calibration.residuals_after = {std::vector<double>(400, 0.0)};
+  data.calibration.identified.backlash = loop / law.at_alpha(0).g;
+  return data;
+}
+
+TEST(Correct, ALoopGoesIntoTheTable) {
+  const double loop = radians(0.6);
+  const Loop data = loop_of(frictionless(), loop);
+  const Correction correction = correct(frictionless(), data.measurement, data.calibration);
+  EXPECT_FALSE(correction.has_pulley);
+  EXPECT_EQ(correction.by_pulley, 0);
+  EXPECT_EQ(correction.error_with_pulley, correction.error_now);
+  // All but the few rows in which the play is taken up.
+  EXPECT_GT(correction.by_table, 0.98 * correction.error_now);
+  ASSERT_GT(correction.table.size(), 20u);
+  const Transmission law(frictionless());
+  for (const CompensationRow& row : correction.table) {
+    const double play = data.calibration.identified.backlash;
+    EXPECT_NEAR(row.alpha_up, law.alpha(row.theta) + 0.5 * play, 1e-3);
+    EXPECT_NEAR(row.alpha_down, law.alpha(row.theta) - 0.5 * play, 1e-3);
+  }
+  EXPECT_THAT(compensation_csv(correction), HasSubstr("theta_deg,alpha_up_deg,alpha_down_deg\n"));
+  EXPECT_THAT(compensation_csv(correction), Not(HasSubstr("nan")));
+}
+
+TEST(Correct, AGuideRadiusGoesIntoThePulley) {
+  Loop data = loop_of(frictionless(), 0);
+  data.calibration.identified = {};
+  data.calibration.identified.guide_radius = 1.5;
+  const Correction correction = correct(frictionless(), data.measurement, data.calibration);
+  EXPECT_TRUE(correction.has_pulley);
+  EXPECT_FALSE(correction.round.suffices);
+  EXPECT_GT(degrees(correction.error_now), 0.2);
+  EXPECT_LT(degrees(correction.error_with_pulley), 1e-3);
+  EXPECT_NEAR(correction.by_pulley, correction.error_now, 1e-6);
+}
+
+TEST(Correct, ARatioHasATableOnly) {
+  const Mechanism jaw =
+      parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.1\n", "jaw.toml");
+  Loop data = loop_of(declared(), radians(1.0));
+  data.calibration.identified.backlash = 2 * 1.1 * radians(0.5);
+  const Correction correction = correct(jaw, data.measurement, data.calibration);
+  EXPECT_FALSE(correction.has_pulley);
+  ASSERT_FALSE(correction.table.empty());
+  for (const CompensationRow& row : correction.table) {
+    EXPECT_NEAR(row.alpha_up, -1.1 * (row.theta - radians(0.5)), 1e-3);
+    EXPECT_NEAR(row.alpha_down, -1.1 * (row.theta + radians(0.5)), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,384 @@
+#include "fusee/transmission/load.h"
+#include "fusee/joint/equilibrium.h"
+
+#include <gtest/gtest.h>
+
+#include "fusee/transmission/tension.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using testing::forearm;
+using testing::linear_wrist;
+using testing::reference;
+using testing::unsymmetric;
+
+struct Sweep {
+  double tip_force = 0;
+  int steps = 90;  ///< from home to an end
+  int cycles = 1;
+};
+
+/// Home, the load coming on, then up to the highest α, down to the lowest, and home again.
+std::vector<JointStep> cycles(const Mechanism& mechanism, const Sweep& sweep) {
+  const Transmission transmission(mechanism);
+  std::vector<JointStep> steps;
+  for (int i = 0; i <= sweep.steps; ++i) steps.push_back({0.0, sweep.tip_force * i / sweep.steps, 0.0});
+  const auto run = [&](double from, double to, int count) {
+    for (int i = 1; i <= count; ++i) steps.push_back({from + (to - from) * i / count, sweep.tip_force, 0.0});
+  };
+  for (int cycle = 0; cycle < sweep.cycles; ++cycle) {
+    run(0.0, transmission.alpha_max(), sweep.steps);
+    run(transmission.alpha_max(), 0.0, sweep.steps);
+    run(0.0, transmission.alpha_min(), sweep.steps);
+    run(transmission.alpha_min(), 0.0, sweep.steps);
+  }
+  return steps;
+}
+
+Mechanism with(Mechanism mechanism, double pretension, double friction, double modulus = 40000.0) {
+  mechanism.tendon.pretension = pretension;
+  mechanism.guides.mu = friction;
+  mechanism.tendon.modulus = modulus;
+  return mechanism;
+}
+
+/// EA of a tendon 1 mm thick in N → its modulus.
+double modulus_of(double EA) { return EA / (k_pi / 4); }
+
+double miss(const Mechanism& mechanism, const EquilibriumPoint& point) {
+  return point.theta - Transmission(mechanism).theta(point.alpha);
+}
+
+double largest_miss(const Mechanism& mechanism, const Sweep& sweep) {
+  double largest = 0;
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, sweep))) {
+    largest = std::max(largest, std::abs(miss(mechanism, point)));
+  }
+  return largest;
+}
+
+// ---- limits ---------------------------------------------------------------------------------------------------------
+
+TEST(Equilibrium, WithoutTensionIsTheKinematics) {
+  for (const Mechanism& start : {reference(), forearm(), linear_wrist(), unsymmetric()}) {
+    EXPECT_LT(largest_miss(with(start, 0.0, 0.0), {}), 1e-12);
+  }
+}
+
+TEST(Equilibrium, WithOneSlackTendonAndNoFrictionIsThePapersTension) {
+  const Mechanism mechanism = with(forearm(), 0.0, 0.0);
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), cycles(mechanism, {10.0}))) {
+    if (point.load_torque < 1000.0) continue;  // still coming on
+    const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
+    EXPECT_EQ(point.t1.upper, 0.0);
+    EXPECT_GT(point.t1.slack, 0.0);
+    EXPECT_NEAR(point.t2.upper, 10.0 * 100.0 / m2, 1e-9 * point.t2.upper);  // [6]
+    EXPECT_NEAR(point.t2.lower, point.t2.upper, 1e-9);
+  }
+}
+
+TEST(Equilibrium, MovingOneWayIsThePapersCapstan) {
+  const Mechanism mechanism = with(forearm(), 0.0, 0.2);
+  const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {10.0}));
+  int lifting = 0;
+  int lowering = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const TendonState& t2 = points[i].t2;
+    if (t2.contact == PinContact::slip_down) {
+      ++lifting;
+      EXPECT_NEAR(t2.lower, t2.upper * std::exp(0.2 * t2.wrap), 1e-9);  // [7]
+    } else if (t2.contact == PinContact::slip_up && points[i].load_torque == 1000.0) {
+      ++lowering;
+      EXPECT_NEAR(t2.lower, t2.upper * std::exp(-0.2 * t2.wrap), 1e-9);
+    }
+  }
+  EXPECT_GT(lifting, 170);
+  EXPECT_GT(lowering, 170);
+}
+
+TEST(Equilibrium, OfStiffTendonsIsThePapersErrorToFirstOrder) {
+  // Unloaded and loaded at one α: the difference is [9]-[11], the better the stiffer.
+  double previous = 0;
+  for (const double modulus : {1e5, 1e6, 1e7}) {
+    Mechanism mechanism = with(reference(), 0.0, 0.0, modulus);
+    double worst = 0;
+    const Transmission transmission(mechanism);
+    for (const double alpha : {-1.2, -0.4, 0.3, 1.1}) {
+      JointMotion motion(joint_model(mechanism));
+      const double unloaded = motion.to({alpha, 0.0, 0.0}).theta;
+      const double loaded = motion.to({alpha, 10.0, 0.0}).theta;
+      mechanism.load.tip_force = 10.0;
+      const double paper = paper_forces(mechanism, transmission.at_alpha(alpha)).theta_error;
+      mechanism.load.tip_force = 0.0;
+      worst = std::max(worst, std::abs((unloaded - loaded) / paper - 1.0));
+    }
+    EXPECT_LT(worst, 100.0 / modulus);
+    if (previous > 0) {
+      EXPECT_NEAR(previous / worst, 10.0, 0.5);
+    }
+    previous = worst;
+  }
+}
+
+TEST(Equilibrium, PretensionAloneMovesASoftJoint) {
+  // As r2/r1 changes the tensions must: T1 m1 = T2 m2. In proportion to 1/EA.
+  const double soft = degrees(largest_miss(with(reference(), 5.0, 0.0, modulus_of(850.0)), {}));
+  const double stiff = degrees(largest_miss(with(reference(), 5.0, 0.0, modulus_of(31000.0)), {}));
+  EXPECT_NEAR(soft, 0.0593, 0.0005);
+  EXPECT_NEAR(stiff, 0.00165, 0.00005);
+}
+
+// ---- laws -----------------------------------------------------------------------------------------------------------
+
+TEST(Equilibrium, BalancesTheJointEverywhere) {
+  Mechanism mechanism = with(unsymmetric(), 8.0, 0.15, 3000.0);
+  mechanism.load.mass = 0.4;
+  mechanism.load.lever = 60.0;
+  mechanism.load.tilt = radians(90.0);
+  const std::vector<JointStep> steps = cycles(mechanism, {6.0});
+  const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), steps);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const EquilibriumPoint& point = points[i];
+    ASSERT_EQ(point.status, EquilibriumStatus::held);
+    // Level at home: the weight's lever is that of a cosine.
+    EXPECT_NEAR(point.load_torque, 100.0 * steps[i].tip_force + 0.4 * 9.80665 * 60.0 * std::cos(point.theta), 1e-9);
+    const double m1 = upper_span(pin_place(mechanism, Side::left, 2.5), -point.theta).m;
+    const double m2 = upper_span(pin_place(mechanism, Side::right, 2.5), point.theta).m;
+    EXPECT_NEAR(point.t2.upper * m2 - point.t1.upper * m1, point.load_torque, 1e-8);
+    for (const TendonState& tendon : {point.t1, point.t2}) {
+      const double most = std::exp(0.15 * tendon.wrap) * (1 + 1e-12);
+      EXPECT_LE(tendon.upper, tendon.lower * most);
+      EXPECT_LE(tendon.lower, tendon.upper * most);
+      EXPECT_GE(tendon.upper, 0.0);
+    }
+  }
+}
+
+TEST(Equilibrium, MotorTorqueIsVirtualWorkOfTheTip) {
+  // Stiff, without friction and pretension: motor power is the load's power.
+  Mechanism mechanism = with(forearm(), 0.0, 0.0, 1e9);
+  const Transmission transmission(mechanism);
+  for (const double alpha : {-1.8, 0.2, 1.7}) {
+    JointMotion motion(joint_model(mechanism));
+    const EquilibriumPoint point = motion.to({alpha, 10.0, 0.0});
+    EXPECT_NEAR(point.motor_torque, 1000.0 * transmission.at_alpha(alpha).g, 1e-3);
+  }
+}
+
+double work_missing(const Mechanism& mechanism, const Sweep& sweep, double* scale) {
+  const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, sweep));
+  double motor = 0;
+  double load = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    motor += 0.5 * (points[i].motor_torque + points[i - 1].motor_torque) * (points[i].alpha - points[i - 1].alpha);
+    load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
+  }
+  const EquilibriumPoint& end = points.back();
+  *scale = end.friction + end.shed + std::abs(end.stored);
+  return motor - load - end.stored - end.friction - end.shed;
+}
+
+TEST(Equilibrium, LosesNoEnergy) {
+  for (const Mechanism& mechanism : {with(forearm(), 30.0, 0.2, 2000.0), with(unsymmetric(), 12.0, 0.1, 3000.0), with(reference(), 30.0, 0.3, 1000.0)}) {
+    double scale = 0;
+    const double fine = work_missing(mechanism, {8.0, 4000, 2}, &scale);
+    EXPECT_GT(scale, 100.0);
+    EXPECT_LT(std::abs(fine), 1e-6 * scale);
+  }
+}
+
+TEST(Equilibrium, MissingEnergyFallsWithTheSquareOfTheStep) {
+  const Mechanism mechanism = with(forearm(), 30.0, 0.2, 2000.0);
+  double scale = 0;
+  const double coarse = work_missing(mechanism, {8.0, 250, 1}, &scale);
+  const double fine = work_missing(mechanism, {8.0, 1000, 1}, &scale);
+  EXPECT_NEAR(coarse / fine, 16.0, 8.0);
+}
+
+TEST(Equilibrium, BedsInWithinAFewCycles) {
+  // What was wound before the first cycle lies at another strain; each cycle replaces it.
+  const Mechanism mechanism = with(forearm(), 20.0, 0.15, 1500.0);
+  constexpr int steps = 90;
+  const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {5.0, steps, 6}));
+  const std::size_t length = 4 * steps;
+  const auto drift = [&](std::size_t cycle) {
+    double largest = 0;
+    for (std::size_t i = 1; i <= length; ++i) {
+      const std::size_t at = steps + cycle * length + i;
+      largest = std::max(largest, std::abs(points[at].theta - points[at - length].theta));
+    }
+    return largest;
+  };
+  EXPECT_LT(drift(2), 0.2 * drift(1));
+  EXPECT_LT(drift(5), 1e-7);
+}
+
+TEST(Equilibrium, StiffnessIsThatOfDifferences) {
+  // A torque a little larger at the same α: what sticks stays stuck; without friction everything passes.
+  const double step = 1e-3;
+  for (const double friction : {0.0, 0.25}) {
+    Mechanism mechanism = with(unsymmetric(), 20.0, friction, 3000.0);
+    mechanism.load = {0.0, 0.0, 2.0, 150.0, radians(20.0)};  // a weight that tips the joint over
+    for (const double theta : {-0.3, 0.0, 0.4}) {
+      JointMotion motion(joint_model(mechanism));
+      const double alpha = Transmission(mechanism).alpha(theta);
+      for (int i = 0; i <= 60; ++i) motion.to({alpha * i / 60, 0.0, 0.0});
+      // Off the ends of the stick range, into its middle.
+      motion.to({alpha, 0.0, 60.0});
+      motion.to({alpha, 0.0, 0.0});
+      const EquilibriumPoint at = motion.to({alpha, 0.0, 20.0});
+      if (friction > 0) {
+        ASSERT_EQ(at.t1.contact, PinContact::stick);
+        ASSERT_EQ(at.t2.contact, PinContact::stick);
+      }
+      const double more = JointMotion(motion).to({alpha, 0.0, 20.0 + step}).theta;
+      const double less = JointMotion(motion).to({alpha, 0.0, 20.0 - step}).theta;
+      const double measured = 2 * step / (less - more);
+      EXPECT_NEAR(measured / (friction > 0 ? at.stiffness_stuck : at.stiffness), 1.0, 2e-6) << "theta " << theta;
+      EXPECT_LT(at.stiffness, at.stiffness_stuck);
+    }
+  }
+}
+
+TEST(Equilibrium, LoopGrowsWithFriction) {
+  const auto width = [](double friction) {
+    const Mechanism mechanism = with(forearm(), 5.0, friction, 3000.0);
+    constexpr int steps = 90;
+    const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {10.0, steps, 2}));
+    // Home on the way up against home on the way down, second cycle.
+    return points.back().theta - points[points.size() - 1 - 2 * steps].theta;
+  };
+  EXPECT_NEAR(width(0.0), 0.0, 1e-9);
+  const double little = width(0.05);
+  EXPECT_LT(little, -1e-5);  // lifting, the tendon below the pin is the more stretched
+  EXPECT_NEAR(width(0.1) / little, 2.0, 0.1);
+}
+
+TEST(Equilibrium, LawsScaleWithForces) {
+  // All forces and the modulus twice: the same angles, twice the tensions.
+  Mechanism once = with(forearm(), 5.0, 0.12, 2000.0);
+  Mechanism twice = with(forearm(), 10.0, 0.12, 4000.0);
+  const auto points = follow(joint_model(once), cycles(once, {6.0}));
+  const auto doubled = follow(joint_model(twice), cycles(twice, {12.0}));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(points[i].theta, doubled[i].theta, 1e-11);
+    EXPECT_NEAR(2 * points[i].t2.lower, doubled[i].t2.lower, 1e-7);
+  }
+}
+
+TEST(Equilibrium, OfTheMirroredJointIsMirrored) {
+  Mechanism mechanism = with(unsymmetric(), 5.0, 0.12, 2000.0);
+  mechanism.pulley.law = Law::linear;
+  mechanism.pulley.ratio = 3.0;
+  Mechanism image = testing::mirrored(mechanism);
+  // Tendon 1's pretension is tendon 2's in the image.
+  const double arm1 = upper_span(pin_place(mechanism, Side::left, 2.5), 0.0).m;
+  const double arm2 = upper_span(pin_place(mechanism, Side::right, 2.5), 0.0).m;
+  image.tendon.pretension = 5.0 * arm1 / arm2;
+  JointMotion motion(joint_model(mechanism));
+  JointMotion mirrored(joint_model(image));
+  for (const double alpha : {0.2, 0.5, 0.3, -0.1, -0.5, 0.1}) {
+    const EquilibriumPoint at = motion.to({alpha, 3.0, 40.0});
+    const EquilibriumPoint other = mirrored.to({-alpha, -3.0, -40.0});
+    EXPECT_NEAR(at.theta, -other.theta, 1e-12);
+    EXPECT_NEAR(at.t1.lower, other.t2.lower, 1e-8);
+    EXPECT_NEAR(at.motor_torque, -other.motor_torque, 1e-7);
+    EXPECT_NEAR(at.stiffness, other.stiffness, 1e-5);
+  }
+}
+
+// ---- where it ends --------------------------------------------------------------------------------------------------
+
+TEST(Equilibrium, SaysWhereALoadIsTooMuch) {
+  // Soft tendons let a large load pull the joint past the dead centre.
+  const Mechanism mechanism = with(forearm(), 5.0, 0.1, 20.0);
+  JointMotion motion(joint_model(mechanism));
+  EXPECT_EQ(motion.to({0.0, 0.01, 0.0}).status, EquilibriumStatus::held);
+  const EquilibriumPoint refused = motion.to({0.1, 1e5, 0.0});
+  EXPECT_EQ(refused.status, EquilibriumStatus::no_equilibrium);
+  EXPECT_EQ(refused.alpha, 0.1);
+  EXPECT_TRUE(std::isfinite(refused.theta));
+  EXPECT_EQ(refused.t2.upper, 0.0);
+  // The joint goes on from where it was.
+  EXPECT_EQ(motion.to({0.0, 0.01, 0.0}).status, EquilibriumStatus::held);
+}
+
+TEST(Equilibrium, SaysWhenNothingHoldsTheJoint) {
+  // Pulled slack on both sides: more tendon than path, no load.
+  Mechanism mechanism = with(forearm(), 0.0, 0.0);
+  JointModel model = joint_model(mechanism);
+  const auto lower = model.lower;
+  model.lower = [lower](double alpha) {
+    auto paths = lower(alpha);
+    if (alpha != 0) paths[0].wound -= 0.5;  // half a millimetre slipped off P1
+    return paths;
+  };
+  JointMotion motion(model);
+  const EquilibriumPoint loose = motion.to({0.01, 0.0, 0.0});
+  EXPECT_EQ(loose.status, EquilibriumStatus::loose);
+  EXPECT_NEAR(loose.t1.slack + loose.t2.slack, 0.5, 1e-3);
+  EXPECT_EQ(motion.to({0.01, 1.0, 0.0}).status, EquilibriumStatus::held);
+}
+
+TEST(Equilibrium, IsNeverNaN) {
+  for (const double friction : {0.0, 0.3, 2.0}) {
+    for (const double modulus : {1.0, 30.0, 4e4, 1e6}) {
+      for (const double pretension : {0.0, 5.0, 1000.0}) {
+        const Mechanism mechanism = with(unsymmetric(), pretension, friction, modulus);
+        JointMotion motion(joint_model(mechanism));
+        unsigned seed = 12345;
+        for (int i = 0; i < 200; ++i) {
+          seed = seed * 1664525u + 1013904223u;
+          const double u = static_cast<double>(seed >> 8) / (1 << 24) - 0.5;
+          const EquilibriumPoint at = motion.to({4.0 * u, 200.0 * std::sin(7.0 * i), 0.0});
+          for (const double value : {at.theta, at.t1.upper, at.t1.lower, at.t2.upper, at.t2.lower, at.t1.slack, at.t2.slack, at.t1.wrap,
+                                     at.motor_torque, at.stiffness, at.stiffness_stuck, at.stored, at.friction, at.shed}) {
+            ASSERT_TRUE(std::isfinite(value)) << "modulus " << modulus << " pretension " << pretension << " step " << i;
+          }
+        }
+      }
+    }
+  }
+}
+
+// ---- pulleys made for another mechanism -----------------------------------------------------------------------------
+
+TEST(MadePulleys, MountedAsDeclaredFollowTheirLaw) {
+  const Mechanism mechanism = with(linear_wrist(), 0.0, 0.0);
+  const MadePulleys made(mechanism);
+  const Transmission transmission(mechanism);
+  for (const double theta : {-0.4, 0.0, 0.3}) {
+    const TransmissionPoint at = transmission.at_theta(theta);
+    const auto paths = made.paths({transmission.place(Side::left), transmission.place(Side::right)}, at.alpha);
+    EXPECT_NEAR(paths[0].p, at.t1.p, 1e-12);
+    EXPECT_NEAR(paths[1].p, at.t2.p, 1e-12);
+    EXPECT_NEAR(paths[1].reach, at.t2.lower_reach, 1e-12);
+    EXPECT_NEAR(paths[0].normal, k_pi - at.t1.lower_normal, 1e-12);
+  }
+}
+
+TEST(MadePulleys, WindWhatTheirMomentArmSays) {
+  // Virtual work on pins that the pulleys were not made for: what comes over the pin is p dα.
+  Mechanism mounted = linear_wrist();
+  mounted.guides.EB += 1.0;
+  mounted.guides.OE -= 0.7;
+  mounted.guides.radius += 0.8;
+  const JointModel model = joint_model(MadePulleys(linear_wrist()).offset_by(0.3), mounted);
+  constexpr double step = 1e-5;
+  for (const double alpha : {-1.1, -0.2, 0.6, 1.2}) {
+    const auto at = model.lower(alpha);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto held = [&](double a) {
+        const LowerPath path = model.lower(a)[i];
+        return path.reach - model.pins[i].rho * path.normal + path.wound;
+      };
+      const double sign = i == 0 ? -1.0 : 1.0;
+      EXPECT_NEAR((held(alpha + step) - held(alpha - step)) / (2 * step), sign * at[i].p, 1e-7);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fusee

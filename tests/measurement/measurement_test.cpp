@@ -1,0 +1,667 @@
+#include "fusee/measurement/measurement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "fusee/base/text.h"
+#include "fusee/transmission/transmission.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+/// α of a triangle wave between ±`size` deg, `per_stroke` rows a stroke.
+std::vector<double> triangle(double size, int per_stroke, int strokes) {
+  std::vector<double> alphas;
+  for (int i = 0; i <= per_stroke * strokes; ++i) {
+    const int stroke = i / per_stroke, step = i % per_stroke;
+    const double way = -size + 2 * size * step / per_stroke;
+    alphas.push_back(stroke % 2 == 0 ? way : -way);
+  }
+  return alphas;
+}
+
+std::string csv(const std::vector<double>& alphas, const std::function<double(double)>& theta) {
+  std::string text = "time_s,alpha_deg,theta_deg\n";
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    text +=
+        shortest(0.1 * static_cast<double>(i)) + "," + shortest(alphas[i]) + "," + shortest(theta(alphas[i])) + "\n";
+  }
+  return text;
+}
+
+double quarter(double alpha) { return 0.25 * alpha; }
+
+struct Parsed {
+  Measurement measurement;
+  fusee::Run run;
+};
+
+Parsed parsed(const std::string& text, const MeasurementOptions& options = {}) {
+  Parsed result;
+  result.run = parse_run(text, "run.csv", options, result.measurement);
+  return result;
+}
+
+std::string error_of(const std::string& text, const MeasurementOptions& options = {}) {
+  try {
+    parsed(text, options);
+  } catch (const InputError& error) {
+    std::string all;
+    for (const Diagnostic& diagnostic : error.diagnostics()) all += to_text(diagnostic) + "\n";
+    return all;
+  }
+  return "none";
+}
+
+std::string notes_of(const Measurement& measurement) {
+  std::string all;
+  for (const std::string& note : measurement.notes) all += note + "\n";
+  return all;
+}
+
+std::string reasons_of(const Measurement& measurement) {
+  std::string all;
+  for (const std::string& reason : measurement.not_testable) all += reason + "\n";
+  return all;
+}
+
+/// A scratch file that goes with the test.
+class Scratch {
+ public:
+  explicit Scratch(const std::string& text, const std::string& name = "run")
+      : path_(std::filesystem::temp_directory_path() /
+              ("fusee-measurement-" + name + "-" + std::to_string(::getpid()) + ".csv")) {
+    std::ofstream(path_, std::ios::binary) << text;
+  }
+  ~Scratch() { std::filesystem::remove(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST(Measurement, ReadsWhatABenchLogs) {
+  const Parsed p = parsed(csv(triangle(40, 50, 4), quarter));
+  EXPECT_THAT(p.measurement.not_testable, IsEmpty());
+  EXPECT_THAT(p.measurement.notes, IsEmpty());
+  ASSERT_THAT(p.run.samples, SizeIs(201));
+  EXPECT_DOUBLE_EQ(p.run.samples[0].alpha, radians(-40.0));
+  EXPECT_DOUBLE_EQ(p.run.samples[0].theta, radians(-10.0));
+  EXPECT_TRUE(p.run.has_time);
+  EXPECT_FALSE(p.run.has_load);
+  EXPECT_NEAR(degrees(p.run.speed), 16.0, 1e-9);
+}
+
+TEST(Measurement, FindsStrokesAtTheReversals) {
+  const Parsed p = parsed(csv(triangle(40, 50, 4), quarter));
+  ASSERT_THAT(p.run.strokes, SizeIs(4));
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(p.run.strokes[i].direction, i % 2 == 0 ? 1 : -1);
+    EXPECT_EQ(p.run.strokes[i].cycle, static_cast<int>(i / 2));
+    EXPECT_FALSE(p.run.strokes[i].partial);
+    EXPECT_NEAR(static_cast<double>(p.run.strokes[i].last), 50.0 * static_cast<double>(i + 1), 1.0);
+  }
+}
+
+TEST(Measurement, NoiseAndQuantumMakeNoStrokes) {
+  std::vector<double> alphas = triangle(40, 400, 4);
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+    alphas[i] = 0.25 * std::round(4 * (alphas[i] + 0.2 * std::sin(12.9898 * static_cast<double>(i))));
+  EXPECT_THAT(parsed(csv(alphas, quarter)).run.strokes, SizeIs(4));
+  EXPECT_NEAR(degrees(parsed(csv(alphas, quarter)).measurement.alpha_quantum), 0.25, 1e-9);
+}
+
+TEST(Measurement, AFirstStrokeFromTheMiddleIsPartial) {
+  std::vector<double> alphas = triangle(40, 50, 4);
+  alphas.erase(alphas.begin(), alphas.begin() + 25);
+  const Parsed p = parsed(csv(alphas, quarter));
+  ASSERT_THAT(p.run.strokes, SizeIs(4));
+  EXPECT_TRUE(p.run.strokes[0].partial);
+  EXPECT_FALSE(p.run.strokes[1].partial);
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("does not begin at a reversal"));
+}
+
+TEST(Measurement, TakesCommentsByteOrderMarksAndAnyLineEnd) {
+  std::string text = csv(triangle(40, 50, 4), quarter);
+  std::string windows = "\xEF\xBB\xBF# a log\r\n";
+  for (const char c : text) windows += c == '\n' ? std::string("  # said\r\n") : std::string(1, c);
+  const Parsed plain = parsed(text), strange = parsed(windows);
+  ASSERT_EQ(plain.run.samples.size(), strange.run.samples.size());
+  for (std::size_t i = 0; i < plain.run.samples.size(); ++i)
+    EXPECT_EQ(plain.run.samples[i].theta, strange.run.samples[i].theta);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+TEST(Measurement, ReadsEverySeparatorAndLineEndAlike) {
+  const std::string text = csv(triangle(40, 50, 4), quarter);
+  const Parsed plain = parsed(text);
+  const std::string padded = replaced(replaced(text, ",", " , "), "\n", "\t\n");
+  const std::string quoted =
+      "\"" + replaced(replaced(text.substr(0, text.size() - 1), ",", "\",\""), "\n", "\"\n\"") + "\"";
+  for (const std::string& other :
+       {replaced(text, ",", ";"), replaced(text, ",", "\t"), replaced(text, ",", "  "), replaced(text, "\n", "\r"),
+        replaced(text, "\n", "\r\n"), replaced(text, "\n", ",\n"), text.substr(0, text.size() - 1), padded, quoted}) {
+    const Parsed p = parsed(replaced(other, "theta_deg,\n", "theta_deg\n"));
+    ASSERT_EQ(p.run.samples.size(), plain.run.samples.size()) << other.substr(0, 80);
+    for (std::size_t i = 0; i < p.run.samples.size(); ++i)
+      EXPECT_EQ(p.run.samples[i].theta, plain.run.samples[i].theta);
+    EXPECT_THAT(p.measurement.notes, IsEmpty());
+  }
+}
+
+TEST(Measurement, TheUnitStandsInTheColumnsName) {
+  const std::string text = "clock_ms,motor_rad,joint_rad\n500,0.5,0.1\n";
+  const Parsed p = parsed(text, {{{"time", "clock_ms"}, {"alpha", "motor_rad"}, {"theta", "joint_rad"}}});
+  EXPECT_DOUBLE_EQ(p.run.samples.at(0).time, 0.5);
+  EXPECT_DOUBLE_EQ(p.run.samples.at(0).alpha, 0.5);
+  EXPECT_DOUBLE_EQ(p.run.samples.at(0).theta, 0.1);
+}
+
+TEST(Measurement, OneColumnIsNotTwoThings) {
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,2\n", {{{"load", "theta_deg"}}}),
+              HasSubstr("\"theta_deg\" is taken as theta and as load"));
+}
+
+TEST(Measurement, ADecimalCommaIsSaidOnce) {
+  const std::string semicolons = error_of("alpha_deg;theta_deg\n1,5;2,5\n2,5;3,5\n");
+  EXPECT_THAT(semicolons, HasSubstr("run.csv:2:1: error: alpha_deg: \"1,5\" is not a number: it has a decimal comma"));
+  EXPECT_THAT(semicolons, Not(HasSubstr("run.csv:3")));
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1,5,2,5\n2,5,3,5\n"), HasSubstr("if commas are the decimal points"));
+}
+
+TEST(Measurement, WhatIsNoTableIsSaid) {
+  EXPECT_THAT(error_of(std::string("\xFF\xFE"
+                                   "a\0",
+                                   4)),
+              HasSubstr("save it as UTF-8"));
+  EXPECT_THAT(error_of("\x1F\x8B\x08\x01"), HasSubstr("unpack it with gunzip"));
+  EXPECT_THAT(error_of("PK\x03\x04"), HasSubstr("export a CSV text"));
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n" + std::string(70'000, '1')),
+              HasSubstr("run.csv:2:1: error: a line of more than 65536 bytes"));
+  EXPECT_THAT(error_of("1,2\n3,4\n"), HasSubstr("there is no header"));
+  EXPECT_THAT(error_of("# alpha_deg,theta_deg\n1,2\n3,4\n"), HasSubstr("take the # away"));
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\ndeg,deg\n1,2\n"),
+              HasSubstr("a second line of the header? Begin it with #"));
+  EXPECT_THAT(error_of("ALPHA_DEG,theta_deg\n1,2\n"), HasSubstr("the nearest is \"ALPHA_DEG\""));
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1e300,2\n"),
+              HasSubstr("run.csv:2:1: error: alpha_deg = 1e+300 is no angle"));
+}
+
+TEST(Measurement, ReadingStopsAtAsManyErrorsAsCanBeRead) {
+  std::string text = "alpha_deg,theta_deg\n";
+  for (int i = 0; i < 1000; ++i) text += "1,x\n";
+  const std::string errors = error_of(text);
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), 'x'), 20);
+  EXPECT_THAT(errors, HasSubstr("there may be more"));
+}
+
+TEST(Measurement, ALastRowCutOffIsLeftOut) {
+  const Parsed p = parsed(csv(triangle(40, 50, 4), quarter) + "20.1,-39");
+  EXPECT_THAT(p.run.samples, SizeIs(201));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("the last row (line 203) is cut off"));
+}
+
+TEST(Measurement, ColumnsCanBeGivenARole) {
+  const std::string text = "alpha_deg,theta_deg,tau_out_Nm\n1,2,3\n";
+  const Parsed p = parsed(text, {{{"load", "tau_out_Nm"}}});
+  EXPECT_TRUE(p.run.has_load);
+  EXPECT_EQ(p.run.samples.at(0).load, 3);
+  EXPECT_EQ(p.measurement.load_unit, "Nm");
+  EXPECT_THAT(error_of(text, {{{"load", "tau_oat_Nm"}}}), HasSubstr("the nearest is \"tau_out_Nm\""));
+  EXPECT_THAT(error_of(text, {{{"loud", "tau_out_Nm"}}}), HasSubstr("did you mean load?"));
+}
+
+TEST(Measurement, AMissingColumnIsNamedWithTheNearest) {
+  EXPECT_THAT(error_of("alpha_deg,thta_deg\n1,2\n"), HasSubstr("run.csv:1:1: error: there is no column theta_deg"));
+  EXPECT_THAT(error_of("alpha_deg,thta_deg\n1,2\n"), HasSubstr("the nearest is \"thta_deg\""));
+  EXPECT_THAT(error_of(""), HasSubstr("holds no header"));
+  EXPECT_THAT(error_of("alpha_deg,theta_deg,alpha_deg\n1,2,3\n"), HasSubstr("two columns are called \"alpha_deg\""));
+}
+
+TEST(Measurement, TextInANumberIsSaidWithItsLine) {
+  const std::string errors = error_of("alpha_deg,theta_deg\n1,2\n# ok\n1,two\n3,4\nx,5\n");
+  EXPECT_THAT(errors, HasSubstr("run.csv:4:3: error: theta_deg: \"two\" is not a number"));
+  EXPECT_THAT(errors, HasSubstr("run.csv:6:1: error: alpha_deg: \"x\" is not a number"));
+  EXPECT_THAT(error_of("alpha_deg,theta_deg\n1\n1,2\n"),
+              HasSubstr("run.csv:2:1: error: the row has 1 values, the header 2"));
+  EXPECT_THAT(error_of(std::string("alpha_deg,theta_deg\n\0\n", 22)), HasSubstr("binary"));
+}
+
+TEST(Measurement, RowsWithoutAnAngleAreLeftOutAndCounted) {
+  std::string text = csv(triangle(40, 50, 4), quarter);
+  text.replace(text.find("\n0,") + 1, 2, "0.0,nan,inf\n0,");
+  const Parsed p = parsed(text);
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("1 row without alpha or theta, the first in line 2"));
+  EXPECT_THAT(p.run.samples, SizeIs(201));
+}
+
+TEST(Measurement, WrapAroundIsTakenBack) {
+  const auto wrapped = [](double alpha) { return std::remainder(alpha, 360.0); };
+  std::vector<double> alphas = triangle(300, 100, 4);
+  std::string text = "alpha_deg,theta_deg\n";
+  for (const double alpha : alphas) text += shortest(wrapped(alpha)) + "," + shortest(quarter(alpha)) + "\n";
+  const Parsed p = parsed(text);
+  // The first value decides on which turn the log begins.
+  const double shift = degrees(p.run.samples[0].alpha) - alphas[0];
+  for (std::size_t i = 0; i < alphas.size(); ++i) EXPECT_NEAR(degrees(p.run.samples[i].alpha), alphas[i] + shift, 1e-9);
+  EXPECT_NEAR(std::remainder(shift, 360.0), 0, 1e-9);
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("unwrapped"));
+}
+
+TEST(Measurement, TimeIsPutInOrder) {
+  std::string text = csv(triangle(40, 50, 4), quarter);
+  const std::size_t a = text.find("\n3,") + 1, b = text.find('\n', a) + 1, c = text.find('\n', b) + 1;
+  text = text.substr(0, a) + text.substr(b, c - b) + text.substr(a, b - a) + text.substr(a, b - a) + text.substr(c);
+  const Parsed p = parsed(text);
+  ASSERT_THAT(p.run.samples, SizeIs(201));
+  for (std::size_t i = 1; i < 201; ++i) EXPECT_GT(p.run.samples[i].time, p.run.samples[i - 1].time);
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("rows were put in order"));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("taken together"));
+}
+
+// ---- time -----------------------------------------------------------------------------------------------------------
+
+/// The rows of a triangle wave, each with a time of one's own making.
+std::string timed(const std::function<std::string(int)>& time) {
+  std::string text = "time_s,alpha_deg,theta_deg\n";
+  const std::vector<double> alphas = triangle(40, 50, 4);
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+    text += time(static_cast<int>(i)) + "," + shortest(alphas[i]) + "," + shortest(quarter(alphas[i])) + "\n";
+  return text;
+}
+
+TEST(Measurement, AFewMissingTimesAreFilledInAndManyAreNot) {
+  const Parsed few = parsed(timed([](int i) { return i == 7 || i == 8 ? "" : shortest(0.1 * i); }));
+  EXPECT_NEAR(few.run.samples[7].time, 0.7, 1e-12);
+  EXPECT_NEAR(few.run.samples[8].time, 0.8, 1e-12);
+  EXPECT_THAT(notes_of(few.measurement), HasSubstr("2 rows without a time"));
+  const Parsed many = parsed(timed([](int i) { return i % 2 == 0 ? "nan" : shortest(0.1 * i); }));
+  EXPECT_FALSE(many.run.has_time);
+  EXPECT_THAT(many.run.samples, SizeIs(201));
+  EXPECT_THAT(notes_of(many.measurement), HasSubstr("time is not used"));
+}
+
+TEST(Measurement, AClockCoarserThanTheLogIsSpread) {
+  const Parsed p = parsed(timed([](int i) { return std::to_string(i / 10); }));
+  ASSERT_THAT(p.run.samples, SizeIs(201));
+  for (std::size_t i = 0; i < 200; ++i) EXPECT_NEAR(p.run.samples[i].time, 0.1 * static_cast<double>(i), 1e-12);
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("coarser than the log"));
+}
+
+TEST(Measurement, AClockThatStandsStillIsNotUsed) {
+  const Parsed p = parsed(timed([](int) { return "1.0"; }));
+  EXPECT_FALSE(p.run.has_time);
+  EXPECT_THAT(p.run.samples, SizeIs(201));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock stands still"));
+}
+
+TEST(Measurement, AClockThatStartsAgainGoesOn) {
+  const Parsed p = parsed(timed([](int i) { return shortest(0.1 * (i % 100)); }));
+  ASSERT_THAT(p.run.samples, SizeIs(201));
+  for (std::size_t i = 0; i < 201; ++i) EXPECT_NEAR(p.run.samples[i].time, 0.1 * static_cast<double>(i), 1e-9);
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("the clock starts again 2 times"));
+}
+
+// The later half first: no clock that starts again.
+TEST(Measurement, HalvesInTheWrongOrderArePutInOrder) {
+  const std::string text = timed([](int i) { return shortest(0.1 * i); });
+  const std::size_t body = text.find('\n') + 1, middle = text.find("\n10,") + 1;
+  const Parsed p = parsed(text.substr(0, body) + text.substr(middle) + text.substr(body, middle - body)),
+               plain = parsed(text);
+  ASSERT_EQ(p.run.samples.size(), plain.run.samples.size());
+  for (std::size_t i = 0; i < 201; ++i) EXPECT_EQ(p.run.samples[i].alpha, plain.run.samples[i].alpha);
+}
+
+// ---- strokes --------------------------------------------------------------------------------------------------------
+
+std::vector<double> sine(double size, int rows, double cycles) {
+  std::vector<double> alphas;
+  for (int i = 0; i <= rows; ++i) alphas.push_back(size * std::sin(k_two_pi * cycles * i / rows));
+  return alphas;
+}
+
+/// A little of what every sensor does, the same each time.
+std::vector<double> jittered(std::vector<double> values, double size) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += size * std::sin(12.9898 * static_cast<double>(i * i));
+  return values;
+}
+
+/// Stands `rows` rows wherever `at` says.
+std::vector<double> dwelling(const std::vector<double>& values, std::size_t every, int rows) {
+  std::vector<double> found;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    found.insert(found.end(), i % every == 0 ? static_cast<std::size_t>(rows) : 1, values[i]);
+  return found;
+}
+
+std::string directions_of(const fusee::Run& run) {
+  std::string signs;
+  for (const Stroke& stroke : run.strokes)
+    signs += std::string(stroke.partial ? "(" : "") + (stroke.direction > 0 ? "+" : "-") + (stroke.partial ? ")" : "");
+  return signs;
+}
+
+TEST(Strokes, OfSinesBeginWithAPartialOne) {
+  for (const double noise : {0.0, 0.05, 0.5}) {
+    const Parsed p = parsed(csv(jittered(sine(40, 2000, 3), noise), quarter));
+    EXPECT_EQ(directions_of(p.run), "(+)-+-+-+") << noise;
+    // A quarter sine is partial; cycles are counted from the first whole stroke.
+    for (std::size_t i = 1; i < p.run.strokes.size(); ++i)
+      EXPECT_EQ(p.run.strokes[i].cycle, static_cast<int>((i - 1) / 2));
+  }
+}
+
+TEST(Strokes, OfFewRowsBeginAtTheReversalToo) {
+  EXPECT_EQ(directions_of(parsed(csv(triangle(40, 8, 6), quarter)).run), "+-+-+-");
+}
+
+TEST(Strokes, DwellsDoNotCutThem) {
+  const std::vector<double> alphas = triangle(40, 50, 6);
+  for (const std::size_t every :
+       {std::size_t{50}, std::size_t{25}, std::size_t{10}}) {  // at the reversals, in the middle too, staircases
+    for (const double noise : {0.0, 0.02}) {
+      const Parsed p = parsed(csv(jittered(dwelling(alphas, every, 40), noise),
+                                  [](double alpha) { return 0.25 * alpha + 1e-4 * std::sin(1e5 * alpha); }));
+      EXPECT_EQ(directions_of(p.run), "+-+-+-") << every << " " << noise;
+    }
+  }
+}
+
+TEST(Strokes, ADitherOnASweepIsNoStroke) {
+  std::vector<double> alphas = triangle(40, 200, 4);
+  for (std::size_t i = 0; i < alphas.size(); ++i) alphas[i] += 0.3 * std::sin(1.7 * static_cast<double>(i));
+  EXPECT_EQ(directions_of(parsed(csv(alphas, quarter)).run), "+-+-");
+}
+
+TEST(Strokes, ATinyMotionIsOne) { EXPECT_EQ(directions_of(parsed(csv(triangle(0.1, 50, 4), quarter)).run), "+-+-"); }
+
+TEST(Strokes, JitterIsNone) {
+  const Parsed p = parsed(csv(jittered(std::vector<double>(300, 3.0), 0.01), quarter));
+  EXPECT_EQ(directions_of(p.run), "");
+  EXPECT_THAT(reasons_of(p.measurement), HasSubstr("alpha only jitters (by 0.02 deg)"));
+}
+
+TEST(Strokes, ManyCyclesAreAllFound) {
+  const Parsed p = parsed(csv(jittered(triangle(40, 20, 400), 0.02), quarter));
+  ASSERT_THAT(p.run.strokes, SizeIs(400));
+  EXPECT_EQ(p.run.strokes.back().cycle, 199);
+}
+
+TEST(Strokes, AGapCutsWithAndWithoutTime) {
+  std::string text = csv(triangle(40, 50, 6), quarter);
+  text.erase(text.find("\n7,") + 1, text.find("\n14,") - text.find("\n7,"));
+  for (const char* const name : {"time_s", "frame"}) {
+    const Parsed p = parsed(replaced(text, "time_s", name));
+    EXPECT_EQ(directions_of(p.run), "+-(+)-+-") << name;
+    EXPECT_THAT(notes_of(p.measurement), HasSubstr("over which alpha moves 14.4 deg"));
+  }
+}
+
+TEST(Strokes, StaircasesOfLoadLeaveThemAlone) {
+  const std::vector<double> alphas = triangle(40, 50, 8);
+  std::string text = "alpha_deg,theta_deg,load_N\n";
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    const double load = 5.0 * static_cast<double>(i / 100);
+    text += shortest(alphas[i]) + "," + shortest(quarter(alphas[i]) - 0.1 * load) + "," + shortest(load) + "\n";
+  }
+  const Parsed p = parsed(text);
+  EXPECT_EQ(directions_of(p.run), "+-+-+-+-");
+  EXPECT_THAT(p.measurement.not_testable, IsEmpty());
+  EXPECT_THAT(p.measurement.notes, IsEmpty());
+}
+
+// ---- what cannot be used --------------------------------------------------------------------------------------------
+
+TEST(Measurement, OutliersAreDroppedAndMotionIsNot) {
+  std::string text = csv(triangle(40, 50, 4), quarter);
+  const std::size_t at = text.find("\n7,");
+  const std::size_t end = text.find('\n', at + 1);
+  text.replace(at, end - at, "\n7,16,77");
+  const Parsed p = parsed(text);
+  EXPECT_THAT(p.run.samples, SizeIs(200));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("dropped as outliers"));
+  // A step that stays is no outlier.
+  const Parsed step = parsed(csv(triangle(40, 50, 4), [](double alpha) { return 0.25 * alpha + (alpha > 3 ? 2 : 0); }));
+  EXPECT_THAT(step.run.samples, SizeIs(201));
+}
+
+TEST(Measurement, WhatCannotBeTestedIsSaid) {
+  EXPECT_THAT(reasons_of(parsed("alpha_deg,theta_deg\n1,2\n").measurement), HasSubstr("1 row that can be used"));
+  EXPECT_THAT(reasons_of(parsed(csv(std::vector<double>(50, 1.0), quarter)).measurement),
+              HasSubstr("alpha does not change"));
+  EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), [](double) { return 3.0; })).measurement),
+              HasSubstr("sensor is dead"));
+  const auto frozen = [](double alpha) { return 0.25 * std::min(alpha, -20.0); };
+  EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), frozen)).measurement), HasSubstr("stands still"));
+  const Scratch one_way(csv(triangle(40, 50, 1), quarter));
+  EXPECT_THAT(reasons_of(read_measurement({one_way.path()})), HasSubstr("alpha only grows"));
+  EXPECT_THROW(read_measurement({"no/such/file.csv"}), InputError);
+}
+
+TEST(Measurement, SmallOutliersAreFoundBesideALargeMotion) {
+  const std::vector<double> alphas = triangle(40, 50, 4);
+  std::string text = "alpha_deg,theta_deg\n";
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    const double noise = 0.02 * std::sin(12.9898 * static_cast<double>(i * i));
+    text += shortest(alphas[i]) + "," +
+            shortest(10 * std::sin(radians(alphas[i])) + noise + (i % 90 == 17 ? 0.8 : 0.0)) + "\n";
+  }
+  const Parsed p = parsed(text);
+  EXPECT_THAT(p.run.samples, SizeIs(198));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("3 rows with theta more than"));
+}
+
+TEST(Measurement, ManyOutliersAreKeptAndSaid) {
+  std::vector<double> alphas = triangle(40, 50, 4);
+  std::string text = "alpha_deg,theta_deg\n";
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+    text += shortest(alphas[i]) + "," + shortest(quarter(alphas[i]) + (i % 30 == 7 ? 60 : 0)) + "\n";
+  const Parsed p = parsed(text);
+  EXPECT_THAT(p.run.samples, SizeIs(201));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("too many to be outliers, kept"));
+}
+
+TEST(Measurement, PlayAndACoarseSensorAreNoFrozenOne) {
+  // Play of 8 deg: θ stands for a tenth of the sweep after each reversal. No noise, so it stands exactly.
+  double pulley = -40;
+  std::string text = "alpha_deg,theta_deg\n";
+  for (const double alpha : triangle(40, 100, 6)) {
+    pulley = std::clamp(pulley, alpha - 4, alpha + 4);
+    text += shortest(alpha) + "," + shortest(0.25 * pulley) + "\n";
+  }
+  EXPECT_EQ(reasons_of(parsed(text).measurement), "");
+  // Strokes that turn back within the play, beside large ones.
+  pulley = -40;
+  text = "alpha_deg,theta_deg\n";
+  std::vector<double> alphas = triangle(40, 100, 4);
+  for (const double alpha : triangle(5, 100, 4)) alphas.push_back(alpha - 35);
+  for (const double alpha : alphas) {
+    pulley = std::clamp(pulley, alpha - 6, alpha + 6);
+    text += shortest(alpha) + "," + shortest(0.25 * pulley) + "\n";
+  }
+  EXPECT_EQ(reasons_of(parsed(text).measurement), "");
+  const auto coarse = [](double alpha) { return 2.0 * std::round(0.125 * alpha); };
+  EXPECT_EQ(reasons_of(parsed(csv(triangle(40, 100, 4), coarse)).measurement), "");
+}
+
+TEST(Measurement, SaturatedAndFrozenSensorsAreSaid) {
+  const auto saturated = [](double alpha) { return 0.25 * std::clamp(alpha, -30.0, 30.0); };
+  EXPECT_THAT(reasons_of(parsed(csv(triangle(40, 50, 4), saturated)).measurement),
+              HasSubstr("theta stands still at 7.5 deg while alpha moves over 9.6 deg (at 4.4 s)"));
+  std::string text = "alpha_deg,theta_deg,load_N\n", loaded = text;
+  const std::vector<double> alphas = triangle(40, 50, 4);
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    const bool still = i > 60 && i < 90;
+    const std::string rows = shortest(still ? alphas[60] : alphas[i]) + "," + shortest(quarter(alphas[i])) + ",";
+    text += rows + "0\n";
+    loaded += rows + (i > 75 ? "5\n" : "0\n");
+  }
+  EXPECT_THAT(reasons_of(parsed(text).measurement), HasSubstr("alpha stands still while theta moves over"));
+  EXPECT_EQ(reasons_of(parsed(loaded).measurement), "");  // a step of the load moves the joint
+}
+
+TEST(Measurement, ARunGivenTwiceIsRefused) {
+  const Scratch one(csv(triangle(40, 50, 4), quarter), "one"), copy(csv(triangle(40, 50, 4), quarter), "copy");
+  try {
+    read_measurement({one.path(), copy.path()});
+    ADD_FAILURE() << "a copy was taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(to_text(error.diagnostics().at(0)), HasSubstr("holds the same rows as"));
+  }
+}
+
+TEST(Measurement, AllFilesErrorsAreShownAtOnce) {
+  const Scratch one("alpha_deg,theta_deg\n1,x\n", "one"), other("alpha_deg\n1\n", "other");
+  try {
+    read_measurement({one.path(), "no/such/file.csv", other.path(), std::filesystem::temp_directory_path()});
+    ADD_FAILURE() << "nothing was wrong";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.diagnostics(), SizeIs(4));
+  }
+}
+
+TEST(Measurement, ManyLongFilesShareTheRowsThatAreKept) {
+  std::string text = "alpha_deg,theta_deg\n";
+  for (int i = 0; i < 600'000; ++i)
+    text += std::to_string(i % 200'000 < 100'000 ? i % 100'000 : 100'000 - i % 100'000) + "e-3," +
+            std::to_string(i % 7) + "\n";
+  const Scratch one(text, "one"), other(replaced(text, ",6\n", ",5\n"), "other");
+  const Measurement measurement = read_measurement({one.path(), other.path()});
+  std::size_t kept = 0;
+  for (const fusee::Run& run : measurement.runs) kept += run.samples.size();
+  EXPECT_LE(kept, std::size_t{1} << 20);
+  EXPECT_GT(kept, std::size_t{1} << 19);
+}
+
+TEST(Measurement, AFileAndItsTextAreTheSame) {
+  const std::string text = csv(triangle(40, 5000, 4), quarter);
+  const Scratch file(text);
+  const Measurement measurement = read_measurement({file.path()});
+  ASSERT_THAT(measurement.runs, SizeIs(1));
+  const fusee::Run run = parsed(text).run;
+  ASSERT_EQ(measurement.runs[0].samples.size(), run.samples.size());
+  for (std::size_t i = 0; i < run.samples.size(); ++i)
+    ASSERT_EQ(measurement.runs[0].samples[i].theta, run.samples[i].theta);
+}
+
+TEST(Measurement, ALogTooLongToKeepIsThinned) {
+  std::string text = "alpha_deg,theta_deg\n";
+  constexpr int rows = 1'200'000;
+  for (int i = 0; i < rows; ++i) {
+    const int step = i % 200'000;
+    const int alpha = step < 100'000 ? step : 200'000 - step;
+    text += std::to_string(alpha) + "e-3," + std::to_string(alpha) + "e-4\n";
+  }
+  const Parsed p = parsed(text);
+  EXPECT_LT(p.run.samples.size(), std::size_t{1} << 20);
+  EXPECT_GT(p.run.samples.size(), 500'000u);
+  EXPECT_THAT(p.run.strokes, SizeIs(12));
+  EXPECT_THAT(notes_of(p.measurement), HasSubstr("of 1200000 rows one in 2 is used"));
+}
+
+// ---- against what was declared --------------------------------------------------------------------------------------
+
+Measurement of_joint(double alpha_factor, double theta_factor, bool exchanged = false) {
+  const Transmission law(testing::forearm());
+  Measurement measurement;
+  const double most = degrees(law.alpha_max());
+  std::string text = exchanged ? "theta_deg,alpha_deg\n" : "alpha_deg,theta_deg\n";
+  for (const double alpha : triangle(0.95 * most, 60, 4)) {
+    text += shortest(alpha_factor * alpha) + "," + shortest(theta_factor * degrees(law.theta(radians(alpha)))) + "\n";
+  }
+  measurement.runs.push_back(parse_run(text, "run.csv", {}, measurement));
+  compare_with_declared(testing::forearm(), measurement);
+  return measurement;
+}
+
+TEST(MeasurementAgainstDeclared, ExchangedTurnedAndInRadiansAreSaid) {
+  EXPECT_EQ(reasons_of(of_joint(1, 1)), "");
+  EXPECT_EQ(reasons_of(of_joint(1, 1.2)), "");
+  EXPECT_THAT(reasons_of(of_joint(1, -1)), HasSubstr("opposite sign"));
+  EXPECT_THAT(reasons_of(of_joint(1, 1, true)), HasSubstr("exchanged"));
+  EXPECT_THAT(reasons_of(of_joint(radians(1.0), radians(1.0))), HasSubstr("both angles look like radians"));
+  EXPECT_THAT(reasons_of(of_joint(radians(1.0), 1)), HasSubstr("alpha looks like radians"));
+  EXPECT_THAT(reasons_of(of_joint(1, radians(1.0))), HasSubstr("theta looks like radians"));
+  EXPECT_THAT(reasons_of(of_joint(1, 7)), HasSubstr("not the declared joint"));
+}
+
+TEST(MeasurementAgainstDeclared, WholeTurnsAreTakenBack) {
+  // An encoder from 0 to 360 deg: below home it shows a turn too much.
+  const Transmission law(testing::forearm());
+  const double most = degrees(law.alpha_max());
+  const auto wrapped = [](double value) { return value < 0 ? value + 360 : value; };
+  std::string text = "alpha_deg,theta_deg\n";
+  const std::vector<double> alphas = triangle(0.95 * most, 60, 4);
+  for (const double alpha : alphas)
+    text += shortest(wrapped(alpha)) + "," + shortest(wrapped(degrees(law.theta(radians(alpha))))) + "\n";
+  Measurement measurement;
+  measurement.runs.push_back(parse_run(text, "run.csv", {}, measurement));
+  compare_with_declared(testing::forearm(), measurement);
+  EXPECT_EQ(reasons_of(measurement), "");
+  EXPECT_THAT(notes_of(measurement), HasSubstr("added to alpha -360 deg, theta -360 deg"));
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    EXPECT_NEAR(degrees(measurement.runs[0].samples[i].alpha), alphas[i], 1e-9);
+    EXPECT_NEAR(measurement.runs[0].samples[i].theta, law.theta(radians(alphas[i])), 1e-9);
+  }
+}
+
+TEST(MeasurementAgainstDeclared, RunsOfARatioBeginOnTheFirstOnesTurn) {
+  Mechanism ratio;
+  ratio.transmission = RatioTransmission{4.0};
+  Measurement measurement;
+  const std::string text = csv(triangle(40, 50, 4), [](double alpha) { return 70 + quarter(alpha); });
+  measurement.runs.push_back(parse_run(text, "a.csv", {}, measurement));
+  measurement.runs.push_back(parse_run(csv(triangle(40, 60, 4), [](double alpha) { return -290 + quarter(alpha); }),
+                                       "b.csv", {}, measurement));
+  compare_with_declared(ratio, measurement);
+  EXPECT_EQ(reasons_of(measurement), "");
+  EXPECT_NEAR(degrees(measurement.runs[0].samples[0].theta), 60, 1e-9);
+  EXPECT_NEAR(degrees(measurement.runs[1].samples[0].theta), 60, 1e-9);
+}
+
+TEST(MeasurementAgainstDeclared, AZeroThatWasNotSetIsSaid) {
+  const Transmission law(testing::forearm());
+  const double most = degrees(law.alpha_max());
+  const auto beside = [&](double offset) {
+    Measurement measurement;
+    measurement.runs.push_back(parse_run(
+        csv(triangle(0.9 * most, 60, 4), [&](double alpha) { return offset + degrees(law.theta(radians(alpha))); }),
+        "run.csv", {}, measurement));
+    compare_with_declared(testing::forearm(), measurement);
+    return reasons_of(measurement);
+  };
+  EXPECT_EQ(beside(10), "");  // within what zero_offset finds
+  EXPECT_THAT(beside(100), HasSubstr("theta stands 100 deg beside what is declared"));
+}
+
+TEST(MeasurementAgainstDeclared, AMotionLostInNoiseAccusesNoColumn) {
+  Measurement measurement;
+  std::string text = "alpha_deg,theta_deg\n";
+  const std::vector<double> alphas = triangle(0.05, 50, 4);
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+    text += shortest(alphas[i]) + "," + shortest(0.1 * std::sin(12.9898 * static_cast<double>(i * i))) + "\n";
+  measurement.runs.push_back(parse_run(text, "run.csv", {}, measurement));
+  compare_with_declared(testing::forearm(), measurement);
+  EXPECT_THAT(reasons_of(measurement), HasSubstr("move further"));
+}
+
+}  // namespace
+}  // namespace fusee

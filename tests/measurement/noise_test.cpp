@@ -1,0 +1,187 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "fusee/base/units.h"
+#include "fusee/measurement/measurement.h"
+
+namespace fusee {
+namespace {
+
+/// A bench in a few numbers.
+struct Bench {
+  double noise = 0;  ///< rad
+  int cycles = 6;
+  int rows = 200;      ///< a stroke
+  double shift = 0;    ///< of θ from cycle to cycle
+  double quantum = 0;  ///< of θ
+  double alpha_quantum = 0;
+  double colour = 0;  ///< correlation of the noise from row to row
+  double load_noise = 0;
+  std::vector<double> loads = {};  ///< one a cycle; each bends the joint by .01 rad/N
+  bool same_places = false;
+  unsigned seed = 7;
+};
+
+/// Cycles of a triangle wave with noise on θ.
+Run logged(const Bench& bench) {
+  std::mt19937 random(bench.seed);
+  std::normal_distribution<double> normal;
+  Run run;
+  run.has_load = !bench.loads.empty() || bench.load_noise > 0;
+  double carried = normal(random);
+  const auto stepped = [](double value, double quantum) {
+    return quantum > 0 ? quantum * std::round(value / quantum) : value;
+  };
+  for (int stroke = 0; stroke < 2 * bench.cycles; ++stroke) {
+    const int cycle = stroke / 2;
+    const double load = bench.loads.empty() ? 0 : bench.loads[static_cast<std::size_t>(cycle)];
+    for (int i = 0; i < bench.rows; ++i) {
+      // Places differ from cycle to cycle, as on a bench.
+      const double share = (i + (bench.same_places ? 0.0 : 0.3 * (cycle % 3))) / bench.rows;
+      carried = bench.colour * carried + std::sqrt(1 - bench.colour * bench.colour) * normal(random);
+      Sample sample;
+      sample.alpha = stroke % 2 == 0 ? share : 1 - share;
+      sample.theta = stepped(
+          0.3 * std::sin(2 * sample.alpha) + bench.noise * carried + bench.shift * cycle - 0.01 * load, bench.quantum);
+      sample.alpha = stepped(sample.alpha, bench.alpha_quantum);
+      sample.load = load + bench.load_noise * normal(random);
+      run.samples.push_back(sample);
+    }
+    run.strokes.push_back({static_cast<std::size_t>(stroke * bench.rows),
+                           static_cast<std::size_t>((stroke + 1) * bench.rows - 1), stroke % 2 == 0 ? 1 : -1, cycle,
+                           false});
+  }
+  return run;
+}
+
+Measurement measured(const Bench& bench) {
+  Measurement measurement;
+  measurement.runs.push_back(logged(bench));
+  measurement.theta_quantum = bench.quantum;
+  measurement.alpha_quantum = bench.alpha_quantum;
+  return measurement;
+}
+
+NoiseFloor floor_of(const Bench& bench) { return noise_floor(measured(bench)); }
+
+TEST(NoiseFloor, IsTheNoise) {
+  for (const double noise : {1e-4, 1e-2}) {
+    const NoiseFloor floor = floor_of({.noise = noise});
+    EXPECT_TRUE(floor.from_repeats);
+    EXPECT_NEAR(floor.rms, noise, 0.05 * noise);
+    EXPECT_GT(floor.degrees_of_freedom, 400);
+  }
+}
+
+TEST(NoiseFloor, SteadyDriftIsNoNoise) { EXPECT_NEAR(floor_of({.noise = 1e-4, .shift = 0.01}).rms, 1e-4, 1e-5); }
+
+TEST(NoiseFloor, AnExactJointHasNone) { EXPECT_LT(floor_of({.cycles = 4}).rms, 1e-8); }
+
+// Scatter holds the sensor's step once the noise spreads readings over more than one: σ² + q²/12, and not the step a
+// second time.
+TEST(NoiseFloor, ACoarseSensorAddsItsStepOnce) {
+  const double quantum = radians(0.1);
+  for (const double noise : {0.5, 1.0}) {
+    const double expected = quantum * std::sqrt(noise * noise + 1.0 / 12.0);
+    EXPECT_NEAR(floor_of({.noise = noise * quantum, .quantum = quantum}).rms, expected, 0.06 * expected);
+  }
+}
+
+TEST(NoiseFloor, RepeatsOnTheSameStepHideIt) {
+  const double quantum = radians(0.1);
+  EXPECT_DOUBLE_EQ(floor_of({.quantum = quantum, .same_places = true}).rms, quantum / std::sqrt(12.0));
+}
+
+TEST(NoiseFloor, AStepOfTheMotorsSensorIsSeenThroughTheSlope) {
+  const double step = 0.1;
+  // θ spans .3 over an α that spans 1, rounded.
+  EXPECT_NEAR(floor_of({.alpha_quantum = step, .same_places = true}).rms, 0.3 * step / std::sqrt(12.0), 1e-4);
+}
+
+TEST(NoiseFloor, ALogDenserThanItsSensorsStepsHasRepeats) {
+  const double quantum = 2e-3;
+  const NoiseFloor floor = floor_of({.noise = 3e-3, .rows = 3000, .quantum = quantum, .alpha_quantum = 5e-3});
+  EXPECT_TRUE(floor.from_repeats);
+  // α's own step is seen through the slope, .6 cos 2α: .43 of it, rms.
+  const double expected = std::sqrt(9e-6 + (quantum * quantum + 0.43 * 0.43 * 25e-6) / 12.0);
+  EXPECT_NEAR(floor.rms, expected, 0.05 * expected);
+}
+
+TEST(NoiseFloor, WildRowsAreNoNoise) {
+  Measurement measurement = measured({.noise = 1e-3});
+  for (std::size_t i = 40; i < measurement.runs[0].samples.size(); i += 371)
+    measurement.runs[0].samples[i].theta += 0.2;
+  EXPECT_NEAR(noise_floor(measurement).rms, 1e-3, 1e-4);
+}
+
+// A joint that now and then lands elsewhere does so in more rows than any sensor spikes.
+TEST(NoiseFloor, ABulkApartIsNoOutlier) {
+  Measurement measurement = measured({.noise = 1e-3});
+  for (std::size_t i = 0; i < measurement.runs[0].samples.size(); ++i) {
+    if (i / 400 == 2) measurement.runs[0].samples[i].theta += 0.02;
+  }
+  EXPECT_GT(noise_floor(measurement).rms, 5e-3);
+}
+
+TEST(NoiseFloor, ColourLeavesTheSizeAndCostsDegreesOfFreedom) {
+  const NoiseFloor white = floor_of({.noise = 1e-3, .cycles = 20}),
+                   coloured = floor_of({.noise = 1e-3, .cycles = 20, .colour = 0.9});
+  EXPECT_NEAR(coloured.rms, 1e-3, 1e-4);
+  EXPECT_LT(coloured.degrees_of_freedom, 0.25 * white.degrees_of_freedom);
+}
+
+// The law of a variance from n degrees of freedom: its own variance is 2/n of its square.
+TEST(NoiseFloor, DegreesOfFreedomSayHowFarItScatters) {
+  for (const double colour : {0.0, 0.8}) {
+    double sum = 0, squares = 0, degrees_of_freedom = 0;
+    constexpr int trials = 300;
+    for (int i = 0; i < trials; ++i) {
+      const NoiseFloor floor = floor_of({.noise = 1,
+                                         .cycles = 5,
+                                         .rows = 60,
+                                         .colour = colour,
+                                         .same_places = true,
+                                         .seed = 100u + static_cast<unsigned>(i)});
+      const double variance = floor.rms * floor.rms;
+      sum += variance / trials;
+      squares += variance * variance / trials;
+      degrees_of_freedom += floor.degrees_of_freedom / trials;
+    }
+    const double seen = 2 * sum * sum / (squares - sum * sum);
+    EXPECT_NEAR(degrees_of_freedom / seen, 1.0, 0.35)
+        << "colour " << colour << ": " << degrees_of_freedom << " said, " << seen << " seen";
+  }
+}
+
+TEST(NoiseFloor, OnlyTheSameLoadRepeats) {
+  const NoiseFloor stairs = floor_of({.noise = 1e-4, .cycles = 8, .loads = {0, 10, 20, 30, 0, 10, 20, 30}});
+  EXPECT_TRUE(stairs.from_repeats);
+  EXPECT_NEAR(stairs.rms, 1e-4, 1e-5);
+  // What a load cell's own noise parts is one load all the same.
+  const NoiseFloor constant = floor_of({.noise = 1e-4, .load_noise = 0.1});
+  EXPECT_TRUE(constant.from_repeats);
+  EXPECT_GT(constant.degrees_of_freedom, 400);
+}
+
+TEST(NoiseFloor, SingleCyclesRepeatFromRunToRun) {
+  Measurement measurement;
+  for (unsigned i = 0; i < 5; ++i) measurement.runs.push_back(logged({.noise = 1e-3, .cycles = 1, .seed = i}));
+  const NoiseFloor floor = noise_floor(measurement);
+  EXPECT_TRUE(floor.from_repeats);
+  EXPECT_NEAR(floor.rms, 1e-3, 1e-4);
+  for (std::size_t i = 0; i < 5; ++i) measurement.runs[i].speed = 1.0 + static_cast<double>(i);
+  EXPECT_FALSE(noise_floor(measurement).from_repeats);
+}
+
+TEST(NoiseFloor, WithoutRepeatsItIsOnlyABound) {
+  const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 1});
+  EXPECT_FALSE(floor.from_repeats);
+  EXPECT_NEAR(floor.rms, 1e-3, 1e-4);
+  EXPECT_LT(floor_of({.noise = 1e-3, .cycles = 1, .colour = 0.95}).rms, 0.5e-3);
+}
+
+}  // namespace
+}  // namespace fusee
