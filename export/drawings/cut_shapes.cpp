@@ -47,7 +47,7 @@ bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin)
 }  // namespace
 
 BodyLayout layout_to_cut(const Product& product) {
-  Mechanism mechanism = product.file.mechanism;
+  Mechanism mechanism = product.joint.mechanism;
   mechanism.material.shrinkage = 0;
   mechanism.material.hole_compensation = 0;
   mechanism.material.elephant_foot = 0;

@@ -36,7 +36,7 @@ struct Stock {
 
   explicit Stock(const Product& made)
       : product(made),
-        mechanism(made.file.mechanism),
+        mechanism(made.joint.mechanism),
         layout(layout_to_cut(made)),
         rims(flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth,
                          mechanism.body.flange)),

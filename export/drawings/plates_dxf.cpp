@@ -59,7 +59,7 @@ void add_notes(DxfDocument& drawing, const std::vector<std::string>& notes) {
 }  // namespace
 
 std::string plates_dxf(const Product& product, DxfVersion version) {
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   const Plates plates = make_plates(product);
   DxfDocument drawing;
   drawing.layers = {{"ENGRAVE", 3},      {"CUT_INNER", 5},    {"CUT_OUTER", 1},

@@ -118,7 +118,7 @@ void add_legend(DxfDocument& drawing, const std::vector<std::string>& lines) {
 }  // namespace
 
 std::string profile_dxf(const Product& product, DxfVersion version) {
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   const SynthesisResult& synthesis = product.synthesis;
   const BodyLayout layout = layout_to_cut(product);
   const double d = mechanism.tendon.diameter;

@@ -138,7 +138,7 @@ double shaft_diameter(const BoreLayout& bore, double compensation) {
 }
 
 std::string parameters(const Product& product) {
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   const Body& body = mechanism.body;
   const BodyLayout& layout = product.pulley.layout;
   std::string text = fmt::format(
@@ -189,7 +189,7 @@ facets = 24; // [12:4:96]
 }
 
 std::string hidden_numbers(const Product& product) {
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   const BodyLayout& layout = product.pulley.layout;
   const SynthesisResult& synthesis = product.synthesis;
   const double d = mechanism.tendon.diameter;
@@ -243,9 +243,9 @@ print_scale = {};     // a print shrinks by as much
 
 std::string arrays(const Product& product) {
   const SynthesisResult& synthesis = product.synthesis;
-  const double d = product.file.mechanism.tendon.diameter;
+  const double d = product.joint.mechanism.tendon.diameter;
   const FlangeRims rims = flange_rims(synthesis.p1, synthesis.p2, d, product.pulley.layout.groove_depth,
-                                      product.file.mechanism.body.flange);
+                                      product.joint.mechanism.body.flange);
   const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims.middle);
   std::string text =
       "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks "

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 #include "export/report/calibration_plots.h"
 #include "export/report/calibration_words.h"
 #include "export/report/report_parts.h"
@@ -194,9 +194,8 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
 
 std::string effects_section(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
-  const std::vector<Effect> effects = catalogue(product.file.mechanism, product.measurement);
   Signatures known;
-  for (const Effect& effect : effects) known[effect.name] = &effect;
+  for (const Effect& effect : effects(kind_of(product.file.mechanism))) known[effect.name] = &effect;
   std::string html;
   for (const FoundEffect& effect : calibration.effects)
     html += effect_card(effect, known, product.measurement.load_unit);

@@ -73,7 +73,7 @@ std::string transmission_csv(const Product& product) {
       "alpha_deg,theta_deg,r1_mm,r2_mm,m1_mm,m2_mm,gamma2_deg,T2_N,phi_deg,Tb_N,elongation_mm,theta_error_deg,"
       "theta_as_built_deg,slack_mm\n";
   for (const TransmissionPoint& point : product.synthesis.stroke) {
-    const PaperForces forces = paper_forces(product.file.mechanism, point);
+    const PaperForces forces = paper_forces(product.joint.mechanism, point);
     const AsBuilt as_built = as_built_at(product.as_built.points, point.alpha);
     const std::array<double, 14> row = {degrees(point.alpha),
                                         degrees(point.theta),

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "export/report/derived.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/units.h"
@@ -32,7 +33,7 @@ Json as_written(double value) {
 /// For a ruler.
 Json to_micrometre(double millimetres) { return number(std::round(1000.0 * millimetres) / 1000.0); }
 
-Json field_value(const Field& field, const Mechanism& mechanism) {
+Json field_value(const Field& field, const DeclaredMechanism& mechanism) {
   switch (field.kind) {
     case FieldKind::number:
       return number(field.get(mechanism, 0));
@@ -45,15 +46,15 @@ Json field_value(const Field& field, const Mechanism& mechanism) {
       return field.get_text(mechanism) == "true";
     case FieldKind::numbers:
     case FieldKind::texts: {
-      Mechanism copy = mechanism;  // lists are reached through a reference that may write
+      DeclaredMechanism copy = mechanism;  // lists are reached through a reference that may write
       return field.kind == FieldKind::numbers ? Json(field.numbers(copy)) : Json(field.texts(copy));
     }
   }
   return nullptr;
 }
 
-/// Every number that went in, in the file's units, defaults and --set included: the input file alone does not tell.
-Json mechanism_json(const Mechanism& mechanism) {
+/// Every number as declared, in the file's units, defaults and --set included: the input file alone does not tell.
+Json mechanism_json(const DeclaredMechanism& mechanism) {
   Json tables = Json::object();
   for (const Field& field : fields()) {
     if (!is_used(field, mechanism) || field.table == "transmission") continue;
@@ -61,6 +62,15 @@ Json mechanism_json(const Mechanism& mechanism) {
     table[std::string(field.key)] = field_value(field, mechanism);
   }
   return tables;
+}
+
+/// What of these numbers was made otherwise, the joint having been identified to be another.
+Json derived_json(const Product& product) {
+  Json derived = Json::object();
+  for (const DerivedNumber& number : derived_numbers(product.file.mechanism, product.joint))
+    derived[number.field->name()] = {{"declared", field_value(*number.field, product.file.mechanism)},
+                                     {"made", field_value(*number.field, number.made)}};
+  return derived;
 }
 
 Json checks_json(const std::vector<Check>& checks) {
@@ -136,10 +146,11 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
                        {"sha256", product.file.sha256}};
   manifest["grooves"] = grooves_json(product.pulley.layout);
-  manifest["tendon"] = {{"diameter_mm", number(product.file.mechanism.tendon.diameter)}};
+  manifest["tendon"] = {{"diameter_mm", number(product.joint.mechanism.tendon.diameter)}};
   manifest["as_built"] = as_built_json(product.as_built);
   manifest["tendons_at_home"] = tendons_json(product);
   manifest["mechanism"] = mechanism_json(product.file.mechanism);
+  if (const Json derived = derived_json(product); !derived.empty()) manifest["derived"] = derived;
   manifest["notes"] = notes_json(product);
   manifest["checks"] = checks_json(product.checks);
   manifest["outputs"] = outputs_json(outputs);

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "export/report/derived.h"
 #include "export/report/drawing.h"
 #include "export/report/mesh_code.h"
 #include "export/report/report_parts.h"
@@ -80,7 +81,7 @@ std::string verdict_words(const Product& product) {
   const std::string count = std::to_string(product.checks.size());
   if (product.checks.empty()) return "Nothing was checked on this part.";
   if (failed.empty()) {
-    const bool paper = product.file.mechanism.pulley.method == Method::paper;
+    const bool paper = product.joint.mechanism.pulley.method == Method::paper;
     return std::string(paper ? "Made by the paper’s drawing: " : "Checked: ") +
            "the pulley as built follows θ(α) within " + with_unit(degrees(product.as_built.max_theta_error), "deg") +
            limit_words(find_check(product, "theta_error")) + " and keeps the tendon’s length within " +
@@ -101,7 +102,7 @@ struct Verdict {
 Verdict verdict_of(const Product& product) {
   const std::string words = verdict_words(product);
   if (product.checks.empty() || !all_ok(product.checks)) return {"bad", "✕", words};
-  if (product.file.mechanism.pulley.method == Method::paper) return {"noted", "!", words};
+  if (product.joint.mechanism.pulley.method == Method::paper) return {"noted", "!", words};
   return {"good", "✓", words};
 }
 
@@ -162,7 +163,7 @@ std::string_view law_words(Law law) {
 }
 
 void add_law(KeyNumbers& numbers, const Product& product) {
-  const PulleyDrive& drive = product.file.mechanism.pulley;
+  const PulleyDrive& drive = product.joint.mechanism.pulley;
   numbers.add("Law", std::string(law_words(drive.law)),
               drive.method == Method::paper ? "the paper’s polar drawing" : "");
   if (drive.law == Law::linear) numbers.add("Ratio α / θ", readable_rounded(drive.ratio));
@@ -191,7 +192,7 @@ void add_part(KeyNumbers& numbers, const Pulley& pulley) {
 }
 
 std::string key_numbers(const Product& product) {
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   const Guides& guides = mechanism.guides;
   KeyNumbers numbers;
   numbers.add("R = OC", with_unit(mechanism.joint.R, "mm", 6));
@@ -259,8 +260,8 @@ Pose pose_near(const SynthesisResult& synthesis, double theta) {
 std::vector<Pose> poses(const Product& product) {
   const SynthesisResult& synthesis = product.synthesis;
   if (synthesis.stroke.empty()) return {};
-  const double low = product.file.mechanism.joint.theta_min;
-  const double high = product.file.mechanism.joint.theta_max;
+  const double low = product.joint.mechanism.joint.theta_min;
+  const double high = product.joint.mechanism.joint.theta_max;
   std::array<double, 4> thetas{low, 0, 0.5 * high, high};
   if (low >= 0 || high <= 0) thetas = {low, low + (high - low) / 3, high - (high - low) / 3, high};
   std::vector<Pose> result;
@@ -270,7 +271,7 @@ std::vector<Pose> poses(const Product& product) {
 
 std::string mechanism_panels(const Product& product) {
   std::string html;
-  for (const Figure& figure : mechanism_figures(product.file.mechanism, product.synthesis, poses(product)))
+  for (const Figure& figure : mechanism_figures(product.joint.mechanism, product.synthesis, poses(product)))
     html += in_div(figure);
   return html;
 }
@@ -285,7 +286,7 @@ std::string forces_section(const Product& product) {
   const std::vector<Plot> plots = force_plots(product);
   if (plots.empty()) return "";
   return "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" +
-         safe_text(with_unit(product.file.mechanism.load.tip_force, "N")) +
+         safe_text(with_unit(product.joint.mechanism.load.tip_force, "N")) +
          " at the tip, across OC, tendon 1 slack: the paper’s equations 6 to 11.</p><div class=\"plots\">" +
          all_in_divs(plots) + "</div></section>";
 }
@@ -322,7 +323,7 @@ std::vector<std::string> steps(const Product& product) {
       "walls that grooves and anchors are solid."};
   if (layout.scale != 1) {
     items.push_back("The files are already " + readable((layout.scale - 1) * 100, 2) +
-                    " % larger, for the shrinkage of " + product.file.mechanism.material.name +
+                    " % larger, for the shrinkage of " + product.joint.mechanism.material.name +
                     ": do not scale again.");
   }
   items.push_back("Measure the bore and the groove with callipers before going on.");
@@ -332,9 +333,25 @@ std::vector<std::string> steps(const Product& product) {
   items.push_back(
       "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
       "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
-  items.push_back("Tighten both until tendon 1 carries " + with_unit(product.file.mechanism.tendon.pretension, "N") +
+  items.push_back("Tighten both until tendon 1 carries " + with_unit(product.joint.mechanism.tendon.pretension, "N") +
                   " at home, then turn the pulley over the whole stroke: neither may go slack.");
   return items;
+}
+
+/// The joint was identified to be another than declared: what of the file is not what was made.
+std::string derived_table(const Product& product) {
+  std::string rows;
+  for (const DerivedNumber& number : derived_numbers(product.file.mechanism, product.joint)) {
+    rows += "<tr><td>" + safe_text(number.field->name()) + "</td><td class=\"number\">" +
+            safe_text(field_words(*number.field, product.file.mechanism)) + "</td><td class=\"number\">" +
+            safe_text(field_words(*number.field, number.made)) + "</td></tr>";
+  }
+  if (rows.empty()) return "";
+  return "<h3>Declared and made</h3><div class=\"scroll\"><table><thead><tr><th>Key</th><th "
+         "class=\"number\">Declared</th><th class=\"number\">As made</th></tr></thead><tbody>" +
+         rows +
+         "</tbody></table></div><p class=\"hint\">What the file’s [identified] says of the joint is put in: with these "
+         "numbers the joint as it is follows the declared law.</p>";
 }
 
 std::string files_table() {
@@ -355,7 +372,7 @@ std::string files_table() {
 }
 
 std::string making(const Product& product) {
-  std::string html = list("ol", steps(product)) + tendon_table(product);
+  std::string html = list("ol", steps(product)) + tendon_table(product) + derived_table(product);
   if (!product.pulley.layout.notes.empty())
     html += "<h3>Sizes chosen automatically</h3>" + list("ul", product.pulley.layout.notes);
   return html + files_table();
@@ -379,7 +396,7 @@ std::string conditions(const Product& product) {
 std::string profiles(const Product& product) {
   std::string html;
   for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
-    html += in_div(profile_figure(product.file.mechanism, *outline, product.pulley));
+    html += in_div(profile_figure(product.joint.mechanism, *outline, product.pulley));
   }
   return html;
 }
@@ -388,7 +405,7 @@ std::string profiles(const Product& product) {
 
 std::string report_html(const Product& product) {
   const Verdict verdict = verdict_of(product);
-  const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
+  const std::string name = product.joint.mechanism.name.empty() ? "unnamed" : safe_text(product.joint.mechanism.name);
   return filled(embedded::page_html,
                 {
                     {"tool", std::string(k_tool)},

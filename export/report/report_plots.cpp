@@ -95,7 +95,7 @@ Plot curvature_plot(const Product& product) {
     }
   }
   plot.y.high = highest_shown(active_radii);
-  const Tendon& tendon = product.file.mechanism.tendon;
+  const Tendon& tendon = product.joint.mechanism.tendon;
   if (tendon.bend_ratio > 0)
     plot.limits = {{0.5 * tendon.diameter * (tendon.bend_ratio + 1), "smallest bend advised for this tendon"}};
   return plot;
@@ -144,7 +144,7 @@ std::vector<Plot> as_built_plots(const Product& product) {
 }
 
 std::vector<Plot> force_plots(const Product& product) {
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   if (mechanism.load.tip_force == 0) return {};
   const auto force = [&](auto value) {
     return over_alpha(product.synthesis, [&](const auto& p) { return value(paper_forces(mechanism, p)); });

@@ -53,7 +53,7 @@ Arc wound_arc(const Outline& outline, std::size_t from, std::size_t to) {
 }
 
 TendonLength length_to(const Product& product, const Anchor& anchor) {
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   const bool left = anchor.side == Side::left;
   const Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
   const TransmissionPoint& home = home_of(product.synthesis.stroke);

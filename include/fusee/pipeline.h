@@ -66,7 +66,7 @@ std::vector<Check> check_part(const Part& part);
 
 /// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them, or on a drawing's P1_FLOOR and
 /// P2_FLOOR (without them on the P*_PITCH curves). InputError when there is no such groove.
-RewindResult rewind_part(const Mechanism& mechanism, const Part& part);
+RewindResult rewind_part(const JointAsItIs& joint, const Part& part);
 /// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as "theta_error_reported"
 /// and "slack_reported", held only against 180 deg and the joint's length.
 std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built, const AsBuiltLimits& limits);

@@ -77,7 +77,7 @@ void validate(const Mechanism& declared, const Measurement& kept, const Selectio
               Calibration& calibration) {
   if (kept.runs.empty()) return;
   const auto rms = [&](const Imperfections& at) {
-    return figures(kept, residuals(kept, predict(declared, at, kept)), 0).rms;
+    return figures(kept, residuals(kept, predict(declared, at, bench_log(kept))), 0).rms;
   };
   calibration.before.held_out_rms = rms(selection.none.at);
   calibration.after.held_out_rms = rms(selection.best.at);
@@ -87,7 +87,7 @@ void validate(const Mechanism& declared, const Measurement& kept, const Selectio
 
 }  // namespace
 
-Calibration calibrate(const Mechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
+Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
   if (!measurement.not_testable.empty()) return not_testable(measurement.not_testable);
   const NoiseFloor noise = noise_floor(measurement);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
@@ -108,8 +108,9 @@ Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = selection.best.at;
-  calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, measurement));
-  calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, measurement));
+  const BenchLog log = bench_log(measurement);
+  calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, log));
+  calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, log));
   calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(selection.none));
   calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(selection.best));
   calibration.iso_before = iso230(measurement, calibration.residuals_before);

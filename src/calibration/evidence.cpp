@@ -172,30 +172,14 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
 
 // ---- what was measured by hand --------------------------------------------------------------------------------------
 
-/// A reading [value, standard uncertainty] of something that is `declared`, as a reading of by how much the joint
-/// differs from its file.
-void add_reading(std::vector<HandReading>& readings, double Imperfections::*member, const std::vector<double>& reading,
-                 double declared) {
-  if (reading.size() == 2) readings.push_back({member, reading[0] - declared, reading[1]});
-}
-
-std::vector<HandReading> hand_readings(const Mechanism& declared) {
-  std::vector<HandReading> readings;
-  if (declared.transmission) return readings;
-  const Prior& prior = declared.prior;
-  add_reading(readings, &Imperfections::guide_outward, prior.EB, declared.guides.EB);
-  add_reading(readings, &Imperfections::guide_outward, prior.ED, declared.guides.ED);
-  add_reading(readings, &Imperfections::guide_down, prior.OE, declared.guides.OE);
-  add_reading(readings, &Imperfections::guide_radius, prior.guide_radius, declared.guides.radius);
-  add_reading(readings, &Imperfections::joint_length, prior.length, declared.joint.R);
-  add_reading(readings, &Imperfections::radius_offset, prior.radius_offset, 0);
-  add_reading(readings, &Imperfections::pulley_scale, prior.pulley_scale, 1);
-  // The pulley's axis stays where it is declared: pins further down are pins closer to it.
-  if (prior.EF.size() == 2)
-    readings.push_back({&Imperfections::guide_down, declared.pulley.EF - prior.EF[0], prior.EF[1]});
-  if (prior.modulus.size() == 2 && prior.modulus[0] > 0) {
-    const double ratio = declared.tendon.modulus / prior.modulus[0];
-    readings.push_back({&Imperfections::stretch, ratio - 1.0, ratio * prior.modulus[1] / prior.modulus[0]});
+std::vector<Reading> hand_readings(const DeclaredMechanism& declared) {
+  std::vector<Reading> readings;
+  for (const Effect& effect : effects(kind_of(declared))) {
+    for (const EffectParameter& parameter : effect.parameters) {
+      if (parameter.by_hand.readings == nullptr) continue;
+      for (const HandReading& reading : parameter.by_hand.readings(declared))
+        readings.push_back({&parameter, reading.value, reading.uncertainty});
+    }
   }
   return readings;
 }
@@ -219,7 +203,7 @@ std::size_t Evidence::rows_used() const {
   return rows;
 }
 
-Evidence gather(const Mechanism& declared, const Measurement& measurement, double floor) {
+Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor) {
   Evidence evidence;
   evidence.declared = &declared;
   evidence.floor = floor;
@@ -229,7 +213,8 @@ Evidence gather(const Mechanism& declared, const Measurement& measurement, doubl
   const std::size_t most = cheaper * std::min(k_rows_a_run, std::max<std::size_t>(60, k_most_rows / runs));
   std::vector<bool> counted;
   for (Run& run : evidence.measurement.runs) run = thinned(run, most, counted);
-  Forward forward(declared, evidence.measurement);
+  evidence.log = bench_log(evidence.measurement);
+  Forward forward(declared, evidence.log);
   Readings theta;
   for (const Run& run : evidence.measurement.runs) {
     theta.emplace_back();

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "fusee/measurement/measurement.h"
+#include "fusee/mechanism/effect.h"
 #include "joint/forward.h"
 
 namespace fusee {
@@ -21,28 +23,29 @@ struct Block {
 /// Blocks that are held out together.
 using Fold = std::vector<std::size_t>;
 
-/// What a caliper says of a member: [prior] of the file.
-struct HandReading {
-  double Imperfections::*member = nullptr;
+/// What a caliper says of a number of the joint: [prior] of the file.
+struct Reading {
+  const EffectParameter* parameter = nullptr;
   double value = 0;
   double uncertainty = 0;  ///< standard
 };
 
 struct Evidence {
-  const Mechanism* declared = nullptr;
+  const DeclaredMechanism* declared = nullptr;
   Measurement measurement;  ///< thinned
+  BenchLog log;             ///< what drove the joint in it
   Eigen::VectorXd theta;    ///< all runs, one after another
   std::vector<Block> blocks;
   std::vector<Fold> run_folds;       ///< whole runs; strokes of a lone run
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed where the data vary them, or as run_folds
   std::vector<std::string> factors;  ///< by which whole levels are held out
-  std::vector<HandReading> readings;
+  std::vector<Reading> readings;
   double floor = 0;  ///< rms noise, rad
 
   std::size_t rows_used() const;
 };
 
-Evidence gather(const Mechanism& declared, const Measurement& measurement, double floor);
+Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor);
 
 /// All runs, one after another.
 Eigen::VectorXd flat(const Readings& readings);

@@ -19,7 +19,7 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, fit.effects);
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
-    const double value = fit.at.*own.member;
+    const double value = value_of(fit.at, own);
     double low = value;
     double high = value;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
@@ -37,7 +37,7 @@ std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect&
   std::string numbers;
   for (const EffectParameter& own : effect.parameters) {
     numbers += (numbers.empty() ? "" : ", ") + own.name + " = " +
-               rounded(own.shown(fit.at.*own.member, *evidence.declared), 4);
+               rounded(own.shown(value_of(fit.at, own), *evidence.declared), 4);
   }
   return effect.name + " (" + numbers + ")";
 }
@@ -51,8 +51,8 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& worker
   for (const Effect* effect : best.effects) {
     FoundEffect found;
     found.name = effect->name;
-    found.place = effect->place;
-    found.correctable_by = effect->correctable_by;
+    found.place = word(effect->place);
+    found.correctable_by = word(effect->correctable_by);
     found.parameters = fitted_parameters(evidence, best, ranges, *effect);
     found.group = {effect->name};
     for (const Rival& rival : selection.rivals) {
@@ -61,7 +61,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& worker
     EffectSet others;
     Imperfections from = best.at;
     for (const EffectParameter& parameter : effect->parameters)
-      from.*parameter.member = Imperfections{}.*parameter.member;
+      reset(from, parameter);
     std::copy_if(best.effects.begin(), best.effects.end(), std::back_inserter(others),
                  [&](const Effect* other) { return other != effect; });
     const Fit without = fit_effects(evidence, workers.one(), others, from);
@@ -98,10 +98,10 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
 
 std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& workers, const Selection& selection) {
   std::vector<const Effect*> others;
-  for (const Effect& effect : selection.catalogue) {
-    if (std::find(selection.best.effects.begin(), selection.best.effects.end(), &effect) ==
+  for (const Effect* effect : selection.catalogue) {
+    if (std::find(selection.best.effects.begin(), selection.best.effects.end(), effect) ==
         selection.best.effects.end())
-      others.push_back(&effect);
+      others.push_back(effect);
   }
   std::vector<double> sizes(others.size(), -1);
   workers.each(others.size(), [&](Forward& forward, std::size_t i) {

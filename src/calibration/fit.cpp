@@ -31,7 +31,13 @@ constexpr double k_least_known = 0.03;
 
 /// θ = offset + α/ratio declares its offset free.
 const EffectParameter& free_offset() {
-  static const EffectParameter parameter{"offset_deg", &Imperfections::zero, -100.0, 100.0, 1e-2, shown::in_degrees};
+  static const EffectParameter parameter{.name = "offset_deg",
+                                         .number = [](Imperfections& at) -> double& { return at.sensor.zero; },
+                                         .least = -100.0,
+                                         .most = 100.0,
+                                         .step = 1e-2,
+                                         .shown = shown::in_degrees,
+                                         .key = {}};
   return parameter;
 }
 
@@ -57,7 +63,7 @@ double price_of_play(double loose, double floor) {
 }
 
 Imperfections placed(const std::vector<const EffectParameter*>& parameters, Imperfections at, const double* x) {
-  for (std::size_t i = 0; i < parameters.size(); ++i) at.*parameters[i]->member = x[i] * parameters[i]->step;
+  for (std::size_t i = 0; i < parameters.size(); ++i) set_value(at, *parameters[i], x[i] * parameters[i]->step);
   return at;
 }
 
@@ -93,9 +99,9 @@ class Misfit : public ceres::CostFunction {
     }
     const Imperfections here = placed(parameters_, from_, x[0]);
     for (std::size_t i = 0; i < evidence_.readings.size(); ++i) {
-      const HandReading& reading = evidence_.readings[i];
+      const Reading& reading = evidence_.readings[i];
       residuals[rows_.size() + i] =
-          (reading.value - here.*reading.member) / reading.uncertainty * evidence_.floor / scale_;
+          (reading.value - value_of(here, *reading.parameter)) / reading.uncertainty * evidence_.floor / scale_;
     }
     if (jacobians != nullptr && jacobians[0] != nullptr) differentiate(x[0], at, slopes, jacobians[0]);
     return true;
@@ -118,8 +124,8 @@ class Misfit : public ceres::CostFunction {
         jacobian[i * count + k] = std::isfinite(slope) ? slope : 0.0;
       }
       for (std::size_t i = 0; i < evidence_.readings.size(); ++i) {
-        const HandReading& reading = evidence_.readings[i];
-        const bool own = reading.member == parameter.member;
+        const Reading& reading = evidence_.readings[i];
+        const bool own = reading.parameter->number == parameter.number;
         jacobian[(rows_.size() + i) * count + k] =
             own ? -parameter.step / reading.uncertainty * evidence_.floor / scale_ : 0.0;
       }
@@ -186,14 +192,14 @@ double error_of(const BlockSums& sums, const Eigen::VectorXd& step) {
 void sum_up_readings(const Evidence& evidence, const std::vector<const EffectParameter*>& parameters, Fit& fit) {
   fit.readings = no_sums(fit.x.size());
   fit.against_readings = 0;
-  for (const HandReading& reading : evidence.readings) {
-    fit.against_readings += std::pow((reading.value - fit.at.*reading.member) / reading.uncertainty, 2);
+  for (const Reading& reading : evidence.readings) {
+    fit.against_readings += std::pow((reading.value - value_of(fit.at, *reading.parameter)) / reading.uncertainty, 2);
     for (std::size_t k = 0; k < parameters.size(); ++k) {
-      if (parameters[k]->member != reading.member) continue;
+      if (parameters[k]->number != reading.parameter->number) continue;
       const auto i = static_cast<Eigen::Index>(k);
       const double slope = parameters[k]->step / reading.uncertainty * evidence.floor;
       fit.readings.JJ(i, i) += slope * slope;
-      fit.readings.Jr[i] += slope * (reading.value - fit.at.*reading.member) / reading.uncertainty * evidence.floor;
+      fit.readings.Jr[i] += slope * (reading.value - value_of(fit.at, *reading.parameter)) / reading.uncertainty * evidence.floor;
     }
   }
 }
@@ -288,13 +294,13 @@ HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fol
 Eigen::VectorXd slope_at(const Evidence& evidence, Forward& forward, const Imperfections& at,
                          const EffectParameter& parameter, const Eigen::VectorXd& residual) {
   Imperfections moved = at;
-  const double step = at.*parameter.member + parameter.step <= parameter.most ? 1.0 : -1.0;
-  moved.*parameter.member += step * parameter.step;
+  const double step = value_of(at, parameter) + parameter.step <= parameter.most ? 1.0 : -1.0;
+  set_value(moved, parameter, value_of(moved, parameter) + step * parameter.step);
   return (residual - said(evidence, forward, moved).residual) / step;
 }
 
 bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
-  const double value = at.*parameter.member;
+  const double value = value_of(at, parameter);
   return value <= parameter.least + 1e-9 * parameter.step || value >= parameter.most - 1e-9 * parameter.step;
 }
 
@@ -369,7 +375,7 @@ Fit widened(const Evidence& evidence, Forward& forward, const Fit& base,
   wider.J.leftCols(base.x.size()) = base.J;
   for (Eigen::Index k = 0; k < wider.x.size(); ++k) {
     const EffectParameter& parameter = *parameters[static_cast<std::size_t>(k)];
-    wider.x[k] = at.*parameter.member / parameter.step;
+    wider.x[k] = value_of(at, parameter) / parameter.step;
     if (k >= base.x.size()) wider.J.col(k) = slope_at(evidence, forward, at, parameter, wider.residual);
   }
   sum_up_readings(evidence, parameters, wider);
@@ -382,9 +388,9 @@ Imperfections stepped(const std::vector<const EffectParameter*>& parameters, con
   Imperfections at = fit.at;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const EffectParameter& parameter = *parameters[k];
-    at.*parameter.member =
-        std::clamp((fit.x[static_cast<Eigen::Index>(k)] + step[static_cast<Eigen::Index>(k)]) * parameter.step,
-                   parameter.least, parameter.most);
+    set_value(at, parameter,
+              std::clamp((fit.x[static_cast<Eigen::Index>(k)] + step[static_cast<Eigen::Index>(k)]) * parameter.step,
+                         parameter.least, parameter.most));
   }
   return at;
 }
@@ -396,7 +402,7 @@ std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
     double time, residual;
   };
   std::vector<Row> rows;
-  const std::vector<double> clock = bench_clock(evidence.measurement);
+  const std::vector<double> clock = bench_clock(evidence.log);
   std::size_t offset = 0;
   for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
     const Run& run = evidence.measurement.runs[i];
@@ -553,10 +559,10 @@ Fit fit_effects(const Evidence& evidence, Forward& forward, const EffectSet& eff
   for (double& value : near) value = std::abs(value - middle);
   const double scale = std::max(evidence.floor, 1.5 * median_of(near));
   Imperfections start = from;
-  if (evidence.declared->transmission && from.zero == 0) start.zero = middle;
+  if (evidence.declared->transmission && from.sensor.zero == 0) start.sensor.zero = middle;
   const Misfit misfit(evidence, forward, parameters, start, scale);
   std::vector<double> x;
-  for (const EffectParameter* parameter : parameters) x.push_back(start.*parameter->member / parameter->step);
+  for (const EffectParameter* parameter : parameters) x.push_back(value_of(start, *parameter) / parameter->step);
   const double cost = parameters.empty() ? misfit.cost(x.data()) : solve(misfit, parameters, x);
   fit.usable = std::isfinite(cost);
   if (!fit.usable) return fit;
@@ -578,7 +584,7 @@ Fit with_effect(const Evidence& evidence, Forward& forward, const Fit& base, con
   double promised = std::numeric_limits<double>::infinity();
   for (const std::vector<double>& values : starts_of(evidence, base, effect)) {
     Imperfections start = base.at;
-    for (std::size_t k = 0; k < values.size(); ++k) start.*effect.parameters[k].member = values[k];
+    for (std::size_t k = 0; k < values.size(); ++k) set_value(start, effect.parameters[k], values[k]);
     Fit wider = widened(evidence, forward, base, parameters, start);
     const Normal normal = normal_equations(evidence, wider);
     if (!normal.finite) continue;
@@ -619,7 +625,7 @@ Fit with_direction(const Evidence& evidence, Forward& forward, const Fit& fit, c
   const std::vector<std::vector<double>> starts = starts_of(evidence, fit, effect);
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
     const EffectParameter& parameter = effect.parameters[k];
-    if (parameter.searched && !starts.empty()) wider.at.*parameter.member = starts.front()[k];
+    if (parameter.searched && !starts.empty()) set_value(wider.at, parameter, starts.front()[k]);
   }
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, wider.effects);
   wider.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));

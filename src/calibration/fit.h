@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mechanism/effects/effect.h"
+#include "calibration/catalogue.h"
 #include "calibration/evidence.h"
 
 namespace fusee {

@@ -11,10 +11,6 @@ namespace {
 /// Apart by this many times the noise: told apart.
 constexpr double k_told = 3.0;
 constexpr std::size_t k_most_proposals = 4;
-constexpr double k_caliper = 0.05;       // mm
-constexpr double k_diameters = 0.003;    // of a print's size, by a caliper
-constexpr double k_square = 0.005;       // of a sensor's gain, by a square
-constexpr double k_mark = radians(0.2);  // of a sensor's zero, by a mark
 constexpr double k_lever_load = 0.3;     // of the pretension, as a tip force
 
 /// A run that could be made: what it would log, and what is changed on the bench for it.
@@ -29,20 +25,20 @@ struct Proposal {
 /// A quarter turn against what it measures or drives: once-a-turn errors change their phase.
 Imperfections pulley_turned(const Imperfections& at) {
   Imperfections turned = at;
-  turned.runout_x = -at.runout_y;
-  turned.runout_y = at.runout_x;
+  turned.pulley.outline.runout_x = -at.pulley.outline.runout_y;
+  turned.pulley.outline.runout_y = at.pulley.outline.runout_x;
   return turned;
 }
 Imperfections motor_sensor_turned(const Imperfections& at) {
   Imperfections turned = at;
-  turned.motor_eccentricity_sin = -at.motor_eccentricity_cos;
-  turned.motor_eccentricity_cos = at.motor_eccentricity_sin;
+  turned.motor.eccentricity_sin = -at.motor.eccentricity_cos;
+  turned.motor.eccentricity_cos = at.motor.eccentricity_sin;
   return turned;
 }
 Imperfections joint_sensor_turned(const Imperfections& at) {
   Imperfections turned = at;
-  turned.joint_eccentricity_sin = -at.joint_eccentricity_cos;
-  turned.joint_eccentricity_cos = at.joint_eccentricity_sin;
+  turned.sensor.eccentricity_sin = -at.sensor.eccentricity_cos;
+  turned.sensor.eccentricity_cos = at.sensor.eccentricity_sin;
   return turned;
 }
 
@@ -80,7 +76,7 @@ std::string load_words(const Evidence& evidence, double load) {
 
 std::vector<Proposal> proposals(const Evidence& evidence) {
   const Measurement& seen = evidence.measurement;
-  const Mechanism& declared = *evidence.declared;
+  const DeclaredMechanism& declared = *evidence.declared;
   const double load = largest_load(evidence);
   const auto as_before = repeated(seen, 0, 1);
   std::vector<Proposal> all;
@@ -108,33 +104,22 @@ std::vector<Proposal> proposals(const Evidence& evidence) {
   all.push_back(
       {"lay the joint on its side and repeat the slow strokes", as_before, declared, [](const Imperfections& at) {
          Imperfections level = at;
-         level.gravity_cos = level.gravity_sin = 0;
+         level.joint.weight = {};
          return level;
        }});
   return all;
 }
 
-/// A reading by hand tells those apart that give a member different values.
-struct Caliper {
-  std::string words;
-  double Imperfections::*member;
-  double uncertainty = k_caliper;
-};
-
-std::vector<Caliper> calipers(const Evidence& evidence) {
-  if (evidence.declared->transmission) return {};
-  return {
-      {"measure the guide pins with a caliper and write [prior] guide_radius_mm", &Imperfections::guide_radius},
-      {"measure the pins' distance from the middle and write [prior] EB_mm and ED_mm", &Imperfections::guide_outward},
-      {"measure how far the pins lie below the joint and write [prior] OE_mm", &Imperfections::guide_down},
-      {"measure from the joint's axis to the tendons' attachment and write [prior] length_mm",
-       &Imperfections::joint_length},
-      {"measure the pulley's groove floor and the tendon with a caliper and write [prior] radius_offset_mm",
-       &Imperfections::radius_offset},
-      {"measure two diameters of the print with a caliper and write [prior] pulley_scale", &Imperfections::pulley_scale,
-       k_diameters},
-      {"read the joint's sensor against a square at two angles", &Imperfections::gain, k_square},
-      {"drive the joint to a mark at home and read its sensor there", &Imperfections::zero, k_mark}};
+/// A reading by hand tells those apart that give a number different values.
+std::vector<const EffectParameter*> calipers(const Evidence& evidence) {
+  std::vector<const EffectParameter*> readable;
+  if (evidence.declared->transmission) return readable;
+  for (const Effect& effect : effects(kind_of(*evidence.declared))) {
+    for (const EffectParameter& parameter : effect.parameters) {
+      if (!parameter.by_hand.words.empty()) readable.push_back(&parameter);
+    }
+  }
+  return readable;
 }
 
 double rms_apart(const Readings& one, const Readings& other) {
@@ -182,18 +167,19 @@ std::vector<std::string> next_runs(const Evidence& evidence, const Selection& se
   if (pairs.empty()) return {};
   std::vector<Ranked> ranked;
   for (const Proposal& proposal : proposals(evidence)) {
-    Forward forward(proposal.mechanism, proposal.measurement);
+    const BenchLog log = bench_log(proposal.measurement);
+    Forward forward(proposal.mechanism, log);
     const Readings found = forward(proposal.turned(selection.best.at));
     Ranked entry{proposal.words, {}};
     for (const Rival* pair : pairs)
       entry.apart.push_back(rms_apart(found, forward(proposal.turned(pair->fit.at))) / evidence.floor);
     ranked.push_back(std::move(entry));
   }
-  for (const Caliper& caliper : calipers(evidence)) {
-    Ranked entry{caliper.words, {}};
+  for (const EffectParameter* number : calipers(evidence)) {
+    Ranked entry{std::string(number->by_hand.words), {}};
     for (const Rival* pair : pairs)
-      entry.apart.push_back(std::abs(selection.best.at.*caliper.member - pair->fit.at.*caliper.member) /
-                            caliper.uncertainty);
+      entry.apart.push_back(std::abs(value_of(selection.best.at, *number) - value_of(pair->fit.at, *number)) /
+                            number->by_hand.uncertainty);
     ranked.push_back(std::move(entry));
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {

@@ -189,8 +189,8 @@ const Trial* Selector::best_of(std::vector<Trial>& trials) {
 
 std::vector<Trial> Selector::singles() {
   std::vector<Addition> added;
-  for (const Effect& effect : selection_.catalogue) {
-    if (!has(effect)) added.push_back({&selection_.best, &effect});
+  for (const Effect* effect : selection_.catalogue) {
+    if (!has(*effect)) added.push_back({&selection_.best, effect});
   }
   return trials("trying effects one by one", added);
 }
@@ -300,7 +300,7 @@ Fit Selector::without(const Effect* effect) {
     if (other != effect) effects.push_back(other);
   }
   for (const EffectParameter& parameter : effect->parameters)
-    from.*parameter.member = Imperfections{}.*parameter.member;
+    reset(from, parameter);
   return fit_effects(evidence_, workers_.one(), effects, from);
 }
 
@@ -311,10 +311,10 @@ void Selector::find_rivals() {
   for (const Effect* effect : selection_.best.effects) bases.push_back(without(effect));
   std::vector<Addition> added;
   for (std::size_t i = 0; i < bases.size(); ++i) {
-    for (const Effect& rival : selection_.catalogue) {
-      if (has(rival) || !bases[i].usable) continue;
-      selection_.rivals.push_back({selection_.best.effects[i], &rival, {}});
-      added.push_back({&bases[i], &rival});
+    for (const Effect* rival : selection_.catalogue) {
+      if (has(*rival) || !bases[i].usable) continue;
+      selection_.rivals.push_back({selection_.best.effects[i], rival, {}});
+      added.push_back({&bases[i], rival});
     }
   }
   const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));

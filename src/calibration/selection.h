@@ -20,7 +20,7 @@ struct Rival {
 };
 
 struct Selection {
-  std::vector<Effect> catalogue;
+  std::vector<const Effect*> catalogue;
   Fit none;                   ///< the declared model
   Fit best;                   ///< with all accepted effects
   std::vector<Rival> rivals;  ///< of every accepted effect, usable ones

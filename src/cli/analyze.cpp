@@ -195,7 +195,7 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
     throw InputError(file.path, "a joint with [transmission] has no tendons to analyze", "[transmission] is for 'fusee calibrate'");
   }
   console.progress("moving the joint through its range");
-  const AnalysisResult result = analyse(as_it_is(file.mechanism), options);
+  const AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options);
   if (!result.exists) {
     reply.exit = Exit::infeasible;
     add_obstacles(file.path, result.obstacles, reply);

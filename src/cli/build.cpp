@@ -70,7 +70,7 @@ std::string checks_line(const std::vector<Check>& checks) {
 std::string summary(const BuildResult& built, const BuildOptions& options, bool verbose) {
   const Product& product = built.product;
   const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
-  std::string text = product.file.mechanism.name + "\n";
+  std::string text = product.joint.mechanism.name + "\n";
   text += line("alpha", range_text(ranges.alpha, 2, "deg at the pulley"));
   text += line("theta", range_text(ranges.theta, 2, "deg at the joint"));
   text += line("r1", range_text(ranges.r1, 3, "mm"));
@@ -87,7 +87,7 @@ Json product_json(const BuildResult& built, const BuildOptions& options) {
   const Product& product = built.product;
   const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
   Json json;
-  json["name"] = product.file.mechanism.name;
+  json["name"] = product.joint.mechanism.name;
   json["folder"] = options.folder.string();
   json["published"] = built.published;
   json["alpha_deg"] = range_json(ranges.alpha);

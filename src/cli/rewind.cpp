@@ -39,12 +39,12 @@ Json points_json(const std::vector<RewindPoint>& points) {
 }
 
 /// What is wrong with the part is said of its file.
-RewindResult rewind_file(const Mechanism& mechanism, const std::string& file, Console& console) {
+RewindResult rewind_file(const JointAsItIs& joint, const std::string& file, Console& console) {
   console.progress("reading the part");
   const Part part = read_part(file);
   console.progress("winding tendons on it");
   try {
-    return rewind_part(mechanism, part);
+    return rewind_part(joint, part);
   } catch (const InputError& error) {
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     for (Diagnostic& diagnostic : diagnostics) diagnostic.place.file = file;
@@ -56,8 +56,9 @@ Reply run_rewind(const Arguments& arguments, Console& console) {
   const AsBuiltLimits limits = limits_from(arguments);
   const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings());
   const std::string& file = arguments.positionals()[1];
-  const RewindResult as_built = rewind_file(spec.mechanism, file, console);
-  const std::vector<Check> checks = as_built_checks(spec.mechanism, as_built, limits);
+  const JointAsItIs joint = as_it_is(spec.mechanism);
+  const RewindResult as_built = rewind_file(joint, file, console);
+  const std::vector<Check> checks = as_built_checks(joint.mechanism, as_built, limits);
   Reply reply;
   reply.diagnostics = spec.warnings;
   reply.text = file + ": " + as_built_text(as_built) + "\n\n" + points_table(as_built.points, console.verbose()) +

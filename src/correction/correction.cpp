@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fusee/joint/simulate.h"
+#include "fusee/mechanism/effect.h"
 #include "fusee/transmission/transmission.h"
 
 // Everything here is re-simulated with predict(): the joint as it was found with the pulley it has, and the same joint
@@ -31,67 +32,27 @@ double mean_load(const Measurement& measurement, const Mechanism& declared) {
   return count > 0 ? sum / count : declared.load.tip_force;
 }
 
-/// One wave a turn is kept: of two the larger one.
-void add_profile(const Imperfections& before, Imperfections& total) {
-  const auto size = [](const Imperfections& at) { return std::hypot(at.profile_sin, at.profile_cos); };
-  if (size(total) == 0 || (before.profile_harmonic != total.profile_harmonic && size(before) > size(total))) {
-    total.profile_sin = before.profile_sin;
-    total.profile_cos = before.profile_cos;
-    total.profile_harmonic = before.profile_harmonic;
-  } else if (before.profile_harmonic == total.profile_harmonic) {
-    total.profile_sin += before.profile_sin;
-    total.profile_cos += before.profile_cos;
-  }
-}
-
 /// What earlier calibrations found was part of the declared model this time, so far as a mechanism can have it; the
 /// rest was found anew.
-Imperfections composed(const Imperfections& before, const Imperfections& found) {
-  Imperfections total = found;
-  for (double Imperfections::*member :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::pretension,
-        &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward,
-        &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
-        &Imperfections::gravity_sin}) {
-    total.*member += before.*member;
-  }
-  total.stretch = (1 + before.stretch) * (1 + found.stretch) - 1;
-  total.pulley_scale = (1 + before.pulley_scale) * (1 + found.pulley_scale) - 1;
-  total.mean_load = before.mean_load;
-  add_profile(before, total);
+Imperfections composed(const DeclaredMechanism& declared, const Imperfections& found) {
+  Imperfections total = found_again(declared.identified, found, kind_of(declared));
+  total.joint.mean_load = declared.identified.joint.mean_load;
   return total;
 }
 
-/// Of what was found, all that the expected joint of a corrected file has or undoes itself.
-Imperfections without_the_mechanism(Imperfections found) {
-  for (double Imperfections::*member :
-       {&Imperfections::radius_offset, &Imperfections::pulley_scale, &Imperfections::runout_x, &Imperfections::runout_y,
-        &Imperfections::profile_sin, &Imperfections::profile_cos, &Imperfections::stretch, &Imperfections::pretension,
-        &Imperfections::friction, &Imperfections::guide_radius, &Imperfections::guide_outward,
-        &Imperfections::guide_down, &Imperfections::joint_length, &Imperfections::gravity_cos,
-        &Imperfections::gravity_sin}) {
-    found.*member = 0;
-  }
-  return found;
-}
-
 /// Friction moves the joint, not the curves.
-bool same_drawing(const Mechanism& a, const Mechanism& b) {
-  Mechanism one = as_it_is(a), other = as_it_is(b);
-  one.guides.mu = other.guides.mu = 0;
-  for (double Imperfections::*drawn_out :
-       {&Imperfections::radius_offset, &Imperfections::runout_x, &Imperfections::runout_y, &Imperfections::profile_sin,
-        &Imperfections::profile_cos}) {
-    if (a.identified.*drawn_out != b.identified.*drawn_out) return false;
-  }
-  return one.joint == other.joint && one.guides == other.guides && one.pulley == other.pulley &&
-         one.material == other.material;
+bool same_drawing(const DeclaredMechanism& a, const DeclaredMechanism& b) {
+  JointAsItIs one = as_it_is(a), other = as_it_is(b);
+  one.mechanism.guides.mu = other.mechanism.guides.mu = 0;
+  return one.outline == other.outline && one.mechanism.joint == other.mechanism.joint &&
+         one.mechanism.guides == other.mechanism.guides && one.mechanism.pulley == other.mechanism.pulley &&
+         one.mechanism.material == other.mechanism.material;
 }
 
-std::string why_infeasible(const Mechanism& corrected) {
+std::string why_infeasible(const DeclaredMechanism& corrected) {
   SynthesisOptions options;
   options.advice = false;
-  const SynthesisResult made = synthesise(as_it_is(corrected), options);
+  const SynthesisResult made = synthesise(as_it_is(corrected).mechanism, options);
   return made.made() ? "" : made.brief();
 }
 
@@ -104,9 +65,7 @@ class DeclaredLaw {
     if (declared.transmission) {
       ratio_ = declared.transmission->ratio;
     } else {
-      Mechanism without_findings = declared;
-      without_findings.identified = {};
-      law_.emplace(without_findings);
+      law_.emplace(declared);
     }
   }
   bool exists() const { return !law_ || !law_->dead_centre(); }
@@ -286,17 +245,17 @@ std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const Bot
 
 }  // namespace
 
-Correction correct(const Mechanism& declared, const Measurement& measurement, const Calibration& calibration) {
+Correction correct(const DeclaredMechanism& declared, const Measurement& measurement, const Calibration& calibration) {
   const Imperfections& found = calibration.identified;
   Correction correction;
-  correction.identified = composed(declared.identified, found);
-  const bool gives_way = found.stretch != 0 || found.gravity_cos != 0 || found.gravity_sin != 0;
+  correction.identified = composed(declared, found);
+  const bool gives_way = found.tendon.stretch != 0 || found.joint.weight != WeightError{};
   if (gives_way && !declared.transmission)
-    correction.identified.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
+    correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const DeclaredLaw law(declared);
   if (!range_seen(measurement).any() || !law.exists()) return correction;
 
-  Mechanism corrected = declared;
+  DeclaredMechanism corrected = declared;
   corrected.identified = correction.identified;
   correction.has_pulley = !declared.transmission && !same_drawing(declared, corrected);
   if (correction.has_pulley) correction.infeasible = why_infeasible(corrected);
@@ -304,11 +263,12 @@ Correction correct(const Mechanism& declared, const Measurement& measurement, co
   if (correction.has_pulley && declared.pulley.law == Law::compensate) correction.round = round_choice(corrected);
   if (correction.has_pulley) correction.tied_at = tied_at(corrected);
 
-  const Angles now = errors(measurement, law, predict(expected_joint(declared), found, measurement));
+  const BenchLog log = bench_log(measurement);
+  const Angles now = errors(measurement, law, predict(expected_joint(declared), found, log));
   Angles then = now;
   if (correction.has_pulley)
-    then = errors(measurement, law, predict(expected_joint(corrected), without_the_mechanism(found), measurement));
-  const BothWays table = both_ways(measurement, then, 2 * found.backlash);
+    then = errors(measurement, law, predict(expected_joint(corrected), beyond_mechanism(found, kind_of(declared)), log));
+  const BothWays table = both_ways(measurement, then, 2 * found.shaft.backlash);
   correction.error_now = rms(measurement, now);
   correction.error_with_pulley = rms(measurement, then);
   correction.error_with_table = rms(measurement, tabled(measurement, then, table));

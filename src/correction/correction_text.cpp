@@ -62,10 +62,10 @@ std::string words_of(const Calibration& calibration, const Correction& correctio
   return words;
 }
 
-std::vector<ValueEdit> identified_edits(const Mechanism& declared, const Imperfections& identified) {
-  Mechanism corrected = declared;
+std::vector<ValueEdit> identified_edits(const DeclaredMechanism& declared, const Imperfections& identified) {
+  DeclaredMechanism corrected = declared;
   corrected.identified = identified;
-  const Mechanism plain;
+  const DeclaredMechanism plain;
   std::vector<ValueEdit> edits;
   for (const Field& field : fields()) {
     if (field.table != "identified") continue;
@@ -93,7 +93,7 @@ std::size_t below_header(const std::string& text) {
 
 // What is added stands in the table, words and numbers, so that deleting the table gives the declared file back byte
 // for byte.
-std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration,
+std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared, const Calibration& calibration,
                            const Correction& correction) {
   std::string text = without_earlier_words(std::string(declared_text));
   const std::vector<ValueEdit> edits = identified_edits(declared, correction.identified);

@@ -99,22 +99,26 @@ std::array<LowerPath, 2> MadePulleys::paths(const std::array<PinPlace, 2>& mount
   return {path(Side::left, mounted[0], alpha, first), path(Side::right, mounted[1], alpha, first)};
 }
 
-JointModel joint_model(const Mechanism& mechanism) { return joint_model(MadePulleys(mechanism), mechanism); }
+JointModel joint_model(const Mechanism& mechanism) {
+  return joint_model(MadePulleys(mechanism), MountedMechanism{mechanism});
+}
 
-JointModel joint_model(const MadePulleys& made, const Mechanism& mounted) {
+JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
+  const Mechanism& mounted = in.mechanism;
   const double rho = mounted.pulley.method == Method::paper ? 0.0 : mounted.guide_pitch_radius();
   JointModel model;
   model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
-  set_statics(model, mounted);
+  set_statics(model, in);
   model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
   model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
   model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most);
   return model;
 }
 
-void set_statics(JointModel& model, const Mechanism& mounted) {
+void set_statics(JointModel& model, const MountedMechanism& in) {
+  const Mechanism& mounted = in.mechanism;
   model.EA = section_stiffness(mounted.tendon);
   model.mu = mounted.guides.mu;
   model.pretension = mounted.tendon.pretension;

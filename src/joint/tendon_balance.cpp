@@ -6,7 +6,9 @@
 namespace fusee {
 namespace {
 
-double tension(double EA, double length, double material) { return length > material ? EA * (length / material - 1.0) : 0.0; }
+double tension(double EA, double length, double material) {
+  return length > material ? EA * (length / material - 1.0) : 0.0;
+}
 
 /// Sliding with T_up = ratio · T_low.
 struct Sliding {
@@ -16,8 +18,8 @@ struct Sliding {
   double total() const { return spans.upper_material + spans.lower_material; }
   double stretch() const { return spans.upper_length + spans.lower_length - total(); }
 
-  // All material is in the two spans: X = Lu t/(k + t) + Ll t/(rk + t), with t the upper tension, X the stretch and k = EA.
-  // A quadratic whose roots differ in sign: total·t² + b t − X r k² = 0.
+  // All material is in the two spans: X = Lu t/(k + t) + Ll t/(rk + t), with t the upper tension, X the stretch and k =
+  // EA. A quadratic whose roots differ in sign: total·t² + b t − X r k² = 0.
   double upper_tension() const {
     const double k = spans.EA;
     const double b = k * (ratio * spans.upper_length + spans.lower_length - stretch() * (1.0 + ratio));

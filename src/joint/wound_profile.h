@@ -18,17 +18,19 @@ struct WoundPiece {
   double material() const { return 0.5 * (density_from + density_to) * length(); }
 };
 
-/// Last wound, first paid out. Friction on the pulley is taken to hold what was wound (many turns of e^{μφ}); or, where it keeps no
-/// strain, every arc holds what it held at first.
+/// Last wound, first paid out. Friction on the pulley is taken to hold what was wound (many turns of e^{μφ}); or, where
+/// it keeps no strain, every arc holds what it held at first.
 class WoundProfile {
  public:
   WoundProfile() = default;
   /// Everything below `arc` was wound at `density`.
-  WoundProfile(double arc, double density, bool keeps_strain = true) : arc_(arc), base_density_(density), keeps_strain_(keeps_strain) {}
+  WoundProfile(double arc, double density, bool keeps_strain = true)
+      : arc_(arc), base_density_(density), keeps_strain_(keeps_strain) {}
 
   double arc() const { return arc_; }
   bool keeps_strain() const { return keeps_strain_; }
-  /// Material between the arc `down_to` and the present end; negative above the end, where it will be wound as at first.
+  /// Material between the arc `down_to` and the present end; negative above the end, where it will be wound as at
+  /// first.
   double material_above(double down_to) const;
   /// Winds on to the arc `to`, whose end holds `density`, starting with `density_now`.
   void wind(double to, double density_now, double density);

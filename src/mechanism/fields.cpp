@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 namespace {
@@ -14,15 +15,13 @@ namespace {
 double as_it_is(double value) { return value; }
 double percent(double fraction) { return 100.0 * fraction; }
 double fraction(double percent) { return percent / 100.0; }
-double per_million(double fraction) { return 1e6 * fraction; }
-double of_a_million(double ppm) { return 1e-6 * ppm; }
 
 using Conversion = double (*)(double);
 
 template <auto Part, auto Member, Conversion to_file, Conversion from_file>
 struct NumberAccess {
-  static double get(const Mechanism& mechanism, int) { return to_file(mechanism.*Part.*Member); }
-  static void set(Mechanism& mechanism, int, double value) { mechanism.*Part.*Member = from_file(value); }
+  static double get(const DeclaredMechanism& mechanism, int) { return to_file(mechanism.*Part.*Member); }
+  static void set(DeclaredMechanism& mechanism, int, double value) { mechanism.*Part.*Member = from_file(value); }
 };
 
 constexpr std::array<std::string_view, 3> names(Law) { return {"compensate", "linear", "table"}; }
@@ -34,13 +33,13 @@ constexpr std::array<std::string_view, 3> names(Marks) { return {"engraved", "ra
 
 template <auto Part, auto Member>
 struct ChoiceAccess {
-  using Enum = std::remove_cvref_t<decltype(std::declval<Mechanism>().*Part.*Member)>;
+  using Enum = std::remove_cvref_t<decltype(std::declval<DeclaredMechanism>().*Part.*Member)>;
   static constexpr auto k_names = names(Enum{});
 
-  static std::string get(const Mechanism& mechanism) {
+  static std::string get(const DeclaredMechanism& mechanism) {
     return std::string(k_names.at(static_cast<std::size_t>(mechanism.*Part.*Member)));
   }
-  static void set(Mechanism& mechanism, std::string_view value) {
+  static void set(DeclaredMechanism& mechanism, std::string_view value) {
     const auto found = std::find(k_names.begin(), k_names.end(), value);
     demand(found != k_names.end(), "choice " + std::string(value));
     mechanism.*Part.*Member = static_cast<Enum>(found - k_names.begin());
@@ -49,18 +48,18 @@ struct ChoiceAccess {
 
 template <auto Part, auto Member>
 struct TextAccess {
-  static std::string get(const Mechanism& mechanism) { return mechanism.*Part.*Member; }
-  static void set(Mechanism& mechanism, std::string_view value) { mechanism.*Part.*Member = value; }
+  static std::string get(const DeclaredMechanism& mechanism) { return mechanism.*Part.*Member; }
+  static void set(DeclaredMechanism& mechanism, std::string_view value) { mechanism.*Part.*Member = value; }
 };
 
 template <auto Part, auto Member>
 struct BooleanAccess {
-  static std::string get(const Mechanism& mechanism) { return mechanism.*Part.*Member ? "true" : "false"; }
-  static void set(Mechanism& mechanism, std::string_view value) { mechanism.*Part.*Member = value == "true"; }
+  static std::string get(const DeclaredMechanism& mechanism) { return mechanism.*Part.*Member ? "true" : "false"; }
+  static void set(DeclaredMechanism& mechanism, std::string_view value) { mechanism.*Part.*Member = value == "true"; }
 };
 
 template <auto Part, auto Member>
-auto& member_of(Mechanism& mechanism) {
+auto& member_of(DeclaredMechanism& mechanism) {
   return mechanism.*Part.*Member;
 }
 
@@ -150,16 +149,16 @@ Field texts(const Row& row, std::vector<std::string_view> choices = {}) {
 Field schema_field() {
   Field field = base_field({"schema", "", "", "version of this file format"}, FieldKind::number);
   field.least = field.most = 1;
-  field.get = [](const Mechanism&, int) { return 1.0; };
-  field.set = [](Mechanism&, int, double) {};
+  field.get = [](const DeclaredMechanism&, int) { return 1.0; };
+  field.set = [](DeclaredMechanism&, int, double) {};
   return field;
 }
 
 Field name_field() {
   Field field = base_field({"name", "", "\"joint\"", "what the joint is called; stands in the files that are made"},
                            FieldKind::text);
-  field.get_text = [](const Mechanism& mechanism) { return mechanism.name; };
-  field.set_text = [](Mechanism& mechanism, std::string_view value) { mechanism.name = value; };
+  field.get_text = [](const DeclaredMechanism& mechanism) { return mechanism.name; };
+  field.set_text = [](DeclaredMechanism& mechanism, std::string_view value) { mechanism.name = value; };
   return field;
 }
 
@@ -169,8 +168,10 @@ Field range_field() {
   field.unit = "deg";
   field.least = -175;
   field.most = 175;
-  field.get = [](const Mechanism& m, int end) { return degrees(end == 0 ? m.joint.theta_min : m.joint.theta_max); };
-  field.set = [](Mechanism& m, int end, double value) {
+  field.get = [](const DeclaredMechanism& m, int end) {
+    return degrees(end == 0 ? m.joint.theta_min : m.joint.theta_max);
+  };
+  field.set = [](DeclaredMechanism& m, int end, double value) {
     (end == 0 ? m.joint.theta_min : m.joint.theta_max) = radians(value);
   };
   return field;
@@ -180,8 +181,8 @@ Field transmission_kind_field() {
   Field field = base_field({"transmission.kind", "", "", "a joint that is not this mechanism, for calibrate alone"},
                            FieldKind::choice);
   field.choices = {"ratio"};
-  field.get_text = [](const Mechanism& m) { return std::string(m.transmission ? "ratio" : ""); };
-  field.set_text = [](Mechanism& m, std::string_view) {
+  field.get_text = [](const DeclaredMechanism& m) { return std::string(m.transmission ? "ratio" : ""); };
+  field.set_text = [](DeclaredMechanism& m, std::string_view) {
     if (!m.transmission) m.transmission.emplace();
   };
   return field;
@@ -192,8 +193,8 @@ Field transmission_ratio_field() {
       base_field({"transmission.ratio", "", "", "theta = offset + alpha/ratio; either sign, not 0"}, FieldKind::number);
   field.least = -10000;
   field.most = 10000;
-  field.get = [](const Mechanism& m, int) { return m.transmission ? m.transmission->ratio : 0.0; };
-  field.set = [](Mechanism& m, int, double value) {
+  field.get = [](const DeclaredMechanism& m, int) { return m.transmission ? m.transmission->ratio : 0.0; };
+  field.set = [](DeclaredMechanism& m, int, double value) {
     if (!m.transmission) m.transmission.emplace();
     m.transmission->ratio = value;
   };
@@ -281,8 +282,9 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::groove_angle, degrees, radians>(
       {"body.groove_angle_deg", "", "50", "full angle between the walls of a groove"}, "deg", 0, 120));
   table.push_back(number<body, &Body::groove_depth>(
-      {"body.groove_depth_mm", "", "0", "from a groove's floor to its lip; 0: twice the tendon's diameter, at least 0.8 mm"}, "mm", 0,
-      50));
+      {"body.groove_depth_mm", "", "0",
+       "from a groove's floor to its lip; 0: twice the tendon's diameter, at least 0.8 mm"},
+      "mm", 0, 50));
   table.push_back(number<body, &Body::seat_ratio>(
       {"body.seat_ratio", "", "0.55", "seat radius of a u groove per tendon diameter"}, "", 0.5, 2));
   table.push_back(choice<body, &Body::flange>(
@@ -314,8 +316,9 @@ void add_body(std::vector<Field>& table) {
       {"body.nut_trap", "", "true",
        "the set screw goes through a nut that is slid into the hub; false: its thread is cut into the hub"}));
   table.push_back(number<body, &Body::anchor_hole>(
-      {"body.anchor_hole_mm", "", "0", "width of the channel to a tendon's knot; 0: tendon diameter + 0.3 mm, at least 0.6 mm"}, "mm", 0,
-      50));
+      {"body.anchor_hole_mm", "", "0",
+       "width of the channel to a tendon's knot; 0: tendon diameter + 0.3 mm, at least 0.6 mm"},
+      "mm", 0, 50));
   table.push_back(number<body, &Body::knot_pocket>(
       {"body.knot_pocket_mm", "", "0",
        "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, or what there is room for"},
@@ -324,8 +327,9 @@ void add_body(std::vector<Field>& table) {
       {"body.marks", "", "\"engraved\"", "home mark, clocking mark and labels on the faces"}));
   table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"},
                                                   "mm", 0.05, 5));
-  table.push_back(number<body, &Body::min_wall>({"body.min_wall_mm", "", "0", "no wall of the part may be thinner; 0: 1.2 mm, thinner on small pulleys"},
-                                                "mm", 0, 50));
+  table.push_back(number<body, &Body::min_wall>(
+      {"body.min_wall_mm", "", "0", "no wall of the part may be thinner; 0: 1.2 mm, thinner on small pulleys"}, "mm", 0,
+      50));
 }
 
 void add_making(std::vector<Field>& table) {
@@ -339,8 +343,9 @@ void add_making(std::vector<Field>& table) {
   table.push_back(number<material, &Material::hole_compensation>(
       {"material.hole_compensation_mm", "", "0.2", "added to the diameter of holes and the bore"}, "mm", -1, 2));
   table.push_back(number<material, &Material::elephant_foot>(
-      {"material.elephant_foot_mm", "", "0.4", "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"}, "mm", 0,
-      3));
+      {"material.elephant_foot_mm", "", "0.4",
+       "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"},
+      "mm", 0, 3));
   table.push_back(
       number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
   table.push_back(number<cut, &Cut::plate>(
@@ -356,7 +361,7 @@ void add_making(std::vector<Field>& table) {
 }
 
 void add_optimize(std::vector<Field>& table) {
-  constexpr auto optimize = &Mechanism::optimize;
+  constexpr auto optimize = &DeclaredMechanism::optimize;
   table.push_back(texts<optimize, &Optimization::objectives>(
       {"optimize.objective", "", "[\"max_tension\"]", "what is made small (min_bend: large); two or three for a front"},
       {"max_tension", "max_error", "footprint", "motor_torque", "min_bend"}));
@@ -374,87 +379,57 @@ void add_optimize(std::vector<Field>& table) {
       {"optimize.feasible", "", "false", "only designs of which a pulley can be made"}));
 }
 
+/// The row of a number that an effect's file declares.
+Field identified(const EffectParameter& parameter) {
+  const IdentifiedKey& key = parameter.key;
+  Field field;
+  field.table = "identified";
+  field.key = key.name;
+  field.fallback = key.fallback;
+  field.meaning = key.meaning;
+  field.unit = key.unit;
+  field.least = key.least;
+  field.most = key.most;
+  field.get = [parameter](const DeclaredMechanism& mechanism, int) {
+    return parameter.key.to_file(value_of(mechanism.identified, parameter));
+  };
+  field.set = [parameter](DeclaredMechanism& mechanism, int, double value) {
+    set_value(mechanism.identified, parameter, parameter.key.from_file(value));
+  };
+  return field;
+}
+
+/// What no effect has: the load that the joint carried while it was measured.
+Field mean_load() {
+  EffectParameter load;
+  load.number = [](Imperfections& joint) -> double& { return joint.joint.mean_load; };
+  load.key = key::plain("mean_load_N", "N", -1e+06, 1e+06,
+                        "beside load.tip_force_N, the tip force under which the joint is to follow its law");
+  return identified(load);
+}
+
+/// Of every effect, whichever kind of joint can have it: a file may change its kind and keep its findings. In the order
+/// of the chain.
 void add_identified(std::vector<Field>& table) {
-  constexpr auto identified = &Mechanism::identified;
-  table.push_back(number<identified, &Imperfections::motor_offset, degrees, radians>(
-      {"identified.motor_offset_deg", "", "0", "the shaft stands this much further than the motor sensor shows"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::motor_eccentricity_sin, degrees, radians>(
-      {"identified.motor_eccentricity_sin_deg", "", "0", "once a turn of the motor sensor: sin alpha"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::motor_eccentricity_cos, degrees, radians>(
-      {"identified.motor_eccentricity_cos_deg", "", "0", "once a turn of the motor sensor: cos alpha - 1"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::backlash, degrees, radians>(
-      {"identified.backlash_deg", "", "0", "play of alpha, full width; no pulley takes it out, compensation.csv does"}, "deg", 0, 360));
-  table.push_back(number<identified, &Imperfections::radius_offset>(
-      {"identified.radius_offset_mm", "", "0", "tendons run this much further out on the made pulley than drawn"}, "mm", -100, 100));
-  table.push_back(number<identified, &Imperfections::pulley_scale, percent, fraction>(
-      {"identified.pulley_scale_percent", "", "0", "the made pulley is larger than drawn by this"}, "%", -50, 100));
-  table.push_back(number<identified, &Imperfections::runout_x>(
-      {"identified.runout_x_mm", "", "0", "centre of the made curves off the axis, at home"}, "mm", -100, 100));
-  table.push_back(number<identified, &Imperfections::runout_y>(
-      {"identified.runout_y_mm", "", "0", "the same across"}, "mm", -100, 100));
-  table.push_back(number<identified, &Imperfections::profile_sin>(
-      {"identified.profile_sin_mm", "", "0", "a wave of the made curves, further out along the normal psi by sin n psi"}, "mm", -100, 100));
-  table.push_back(number<identified, &Imperfections::profile_cos>(
-      {"identified.profile_cos_mm", "", "0", "the same: cos n psi"}, "mm", -100, 100));
-  table.push_back(number<identified, &Imperfections::profile_harmonic>(
-      {"identified.profile_harmonic", "", "2", "that n"}, "", 1, 100));
-  table.push_back(number<identified, &Imperfections::stretch>(
-      {"identified.stretch", "", "0", "the tendon's compliance beyond the declared one, per the declared one"}, "", -0.999, 1e+06));
-  table.push_back(number<identified, &Imperfections::pretension>(
-      {"identified.pretension_N", "", "0", "added to tendon.pretension_N"}, "N", -100000, 100000));
-  table.push_back(number<identified, &Imperfections::slack>(
-      {"identified.slack_mm", "", "0", "of both tendons together, beyond what pretension takes up"}, "mm", 0, 1000));
-  table.push_back(number<identified, &Imperfections::creep>(
-      {"identified.creep_per_decade", "", "0", "compliance added in every decade of seconds, per that of the first"}, "", -0.5, 100));
-  table.push_back(number<identified, &Imperfections::slip>(
-      {"identified.slip_mm", "", "0", "let go by the anchor of tendon 1, of tendon 2 where negative"}, "mm", -1000, 1000));
-  table.push_back(number<identified, &Imperfections::slip_time>(
-      {"identified.slip_time_s", "", "0", "when it slipped, the runs one after another"}, "s", -1e+12, 1e+12));
-  table.push_back(number<identified, &Imperfections::thermal1, per_million, of_a_million>(
-      {"identified.thermal1_ppm_per_K", "", "0", "length that the unloaded tendon 1 gains by a kelvin"}, "ppm_per_K", -1e+05, 1e+05));
-  table.push_back(number<identified, &Imperfections::thermal2, per_million, of_a_million>(
-      {"identified.thermal2_ppm_per_K", "", "0", "the same of tendon 2"}, "ppm_per_K", -1e+05, 1e+05));
-  table.push_back(number<identified, &Imperfections::friction>(
-      {"identified.friction", "", "0", "added to guides.friction"}, "", -2, 2));
-  table.push_back(number<identified, &Imperfections::guide_radius>(
-      {"identified.guide_radius_mm", "", "0", "added to guides.radius_mm"}, "mm", -500, 500));
-  table.push_back(number<identified, &Imperfections::guide_outward>(
-      {"identified.guide_outward_mm", "", "0", "added to guides.EB_mm and ED_mm"}, "mm", -10000, 10000));
-  table.push_back(number<identified, &Imperfections::guide_down>(
-      {"identified.guide_down_mm", "", "0", "added to guides.OE_mm, taken from pulley.EF_mm"}, "mm", -10000, 10000));
-  table.push_back(number<identified, &Imperfections::joint_length>(
-      {"identified.length_mm", "", "0", "added to joint.length_mm"}, "mm", -10000, 10000));
-  table.push_back(number<identified, &Imperfections::gravity_cos>(
-      {"identified.gravity_cos_Nmm", "", "0", "torque against +theta: cos theta"}, "Nmm", -1e+07, 1e+07));
-  table.push_back(number<identified, &Imperfections::gravity_sin>(
-      {"identified.gravity_sin_Nmm", "", "0", "torque against +theta: sin theta"}, "Nmm", -1e+07, 1e+07));
-  table.push_back(number<identified, &Imperfections::mean_load>(
-      {"identified.mean_load_N", "", "0", "beside load.tip_force_N, the tip force under which the joint is to follow its law"}, "N", -1e+06, 1e+06));
-  table.push_back(number<identified, &Imperfections::compliance, degrees, radians>(
-      {"identified.compliance_deg", "", "0", "of a joint declared by a ratio: turned by a unit of load"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::dry_friction, degrees, radians>(
-      {"identified.dry_friction_deg", "", "0", "of a joint declared by a ratio: half loop per unit of load"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::drift, degrees, radians>(
-      {"identified.drift_deg", "", "0", "of a joint declared by a ratio: turned by a unit of load in every decade of seconds"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::step, degrees, radians>(
-      {"identified.step_deg", "", "0", "of a joint declared by a ratio: turned at slip_time_s"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::warmth, degrees, radians>(
-      {"identified.warmth_deg", "", "0", "of a joint declared by a ratio: turned by a kelvin"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::zero, degrees, radians>(
-      {"identified.zero_deg", "", "0", "what the joint sensor shows at theta = 0"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::gain, percent, fraction>(
-      {"identified.gain_percent", "", "0", "by how much the joint sensor shows too much"}, "%", -99, 1000));
-  table.push_back(number<identified, &Imperfections::joint_eccentricity_sin, degrees, radians>(
-      {"identified.joint_eccentricity_sin_deg", "", "0", "once a turn of the joint sensor: sin theta"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::joint_eccentricity_cos, degrees, radians>(
-      {"identified.joint_eccentricity_cos_deg", "", "0", "the same: cos theta - 1"}, "deg", -360, 360));
-  table.push_back(number<identified, &Imperfections::lag>(
-      {"identified.lag_s", "", "0", "by which the joint sensor is late"}, "s", 0, 1000));
+  std::vector<Field> rows, of_sensors;
+  const auto add = [&](const Effect& effect) {
+    for (const EffectParameter& parameter : effect.parameters) {
+      const auto same = [&](const Field& field) { return field.key == parameter.key.name; };
+      if (std::any_of(rows.begin(), rows.end(), same) || std::any_of(of_sensors.begin(), of_sensors.end(), same))
+        continue;
+      (effect.place == ChainPlace::joint_sensor ? of_sensors : rows).push_back(identified(parameter));
+    }
+  };
+  for (const Effect& effect : effects(JointKind::tendons)) add(effect);
+  rows.push_back(mean_load());
+  for (const Effect& effect : effects(JointKind::ratio)) add(effect);
+  table.insert(table.end(), rows.begin(), rows.end());
+  table.insert(table.end(), of_sensors.begin(), of_sensors.end());
 }
 
 void add_prior(std::vector<Field>& table) {
   const auto reading = [&table]<auto Member>(std::string_view name, std::string_view meaning) {
-    table.push_back(numbers<&Mechanism::prior, Member>({name, "", "[]", meaning}, -1e6, 1e6));
+    table.push_back(numbers<&DeclaredMechanism::prior, Member>({name, "", "[]", meaning}, -1e6, 1e6));
   };
   reading.operator()<&Prior::EB>("prior.EB_mm", "measured by hand: [value, standard uncertainty]");
   reading.operator()<&Prior::ED>("prior.ED_mm", "the same of guides.ED_mm");
@@ -462,8 +437,10 @@ void add_prior(std::vector<Field>& table) {
   reading.operator()<&Prior::EF>("prior.EF_mm", "the same of pulley.EF_mm");
   reading.operator()<&Prior::guide_radius>("prior.guide_radius_mm", "the same of guides.radius_mm");
   reading.operator()<&Prior::length>("prior.length_mm", "the same of joint.length_mm");
-  reading.operator()<&Prior::radius_offset>("prior.radius_offset_mm", "the same of the made pulley's pitch radius less the drawn one");
-  reading.operator()<&Prior::pulley_scale>("prior.pulley_scale", "the same of the made pulley's size per the drawn one");
+  reading.operator()<&Prior::radius_offset>("prior.radius_offset_mm",
+                                            "the same of the made pulley's pitch radius less the drawn one");
+  reading.operator()<&Prior::pulley_scale>("prior.pulley_scale",
+                                           "the same of the made pulley's size per the drawn one");
   reading.operator()<&Prior::modulus>("prior.modulus_MPa", "the same of tendon.modulus_MPa");
 }
 
@@ -481,7 +458,7 @@ std::vector<Field> make_table() {
 }
 
 /// Sets a field to its default.
-void set_fallback(const Field& field, Mechanism& mechanism) {
+void set_fallback(const Field& field, DeclaredMechanism& mechanism) {
   std::string_view text = field.fallback;
   if (field.kind == FieldKind::number) {
     double value = 0;
@@ -515,6 +492,16 @@ const Field* find_field(std::string_view name) {
     if (field.name() == name) return &field;
   }
   return nullptr;
+}
+
+double number_of(const Mechanism& mechanism, const Field& field, int end) {
+  return field.get(DeclaredMechanism{mechanism}, end);
+}
+
+void set_number(Mechanism& mechanism, const Field& field, int end, double value) {
+  DeclaredMechanism declared{mechanism};
+  field.set(declared, end, value);
+  mechanism = declared;
 }
 
 std::optional<NumberKey> find_number_key(std::string_view name) {
@@ -564,7 +551,7 @@ std::string_view table_meaning(std::string_view table) {
   return "the file";
 }
 
-bool is_used(const Field& field, const Mechanism& mechanism) {
+bool is_used(const Field& field, const DeclaredMechanism& mechanism) {
   if (field.only_when.empty()) return true;
   const std::size_t equals = field.only_when.find('=');
   const Field* other = find_field(field.only_when.substr(0, equals));
@@ -572,8 +559,8 @@ bool is_used(const Field& field, const Mechanism& mechanism) {
   return other->get_text(mechanism) == field.only_when.substr(equals + 1);
 }
 
-Mechanism default_mechanism() {
-  Mechanism mechanism;
+DeclaredMechanism default_mechanism() {
+  DeclaredMechanism mechanism;
   for (const Field& field : fields()) {
     if (!field.fallback.empty()) set_fallback(field, mechanism);
   }

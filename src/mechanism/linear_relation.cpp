@@ -170,7 +170,7 @@ class RelationParser {
 
 }  // namespace
 
-double LinearExpression::value(const Mechanism& mechanism) const {
+double LinearExpression::value(const DeclaredMechanism& mechanism) const {
   double total = constant;
   for (const LinearTerm& term : terms) total += term.factor * find_number_key(term.key)->get(mechanism);
   return total;

@@ -17,7 +17,7 @@
 #include "mechanism/nesting.h"
 #include "mechanism/optimize_table.h"
 
-// From bytes to a Mechanism in four steps, each of which goes on after an error so that all errors of a file come at
+// From bytes to a DeclaredMechanism in four steps, each of which goes on after an error so that all errors of a file come at
 // once:
 //   1. toml++ reads the text (a syntax error is the only one that ends the reading at once);
 //   2. the tree is flattened to "table.key" → node with its place, and --set values replace or supply entries;
@@ -67,7 +67,7 @@ class MechanismReader {
  public:
   MechanismReader(const std::string& name, const std::filesystem::path& folder) : name_(name), folder_(folder) {}
 
-  Mechanism read(std::string_view text, const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings);
+  DeclaredMechanism read(std::string_view text, const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings);
 
  private:
   // Step 1 and 2
@@ -111,7 +111,7 @@ class MechanismReader {
   std::vector<Diagnostic> table_errors_;  ///< of the CSV: they stand behind those of the file
   std::vector<Diagnostic> warnings_;
   std::map<std::string, bool> good_;  ///< fields that were taken without an error
-  Mechanism mechanism_;
+  DeclaredMechanism mechanism_;
 };
 
 void MechanismReader::fail(const Place& place, std::string message, std::string hint) {
@@ -526,7 +526,7 @@ void MechanismReader::finish(std::vector<Diagnostic>* warnings) {
   if (warnings != nullptr) *warnings = warnings_;
 }
 
-Mechanism MechanismReader::read(std::string_view text, const std::vector<Setting>& settings,
+DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector<Setting>& settings,
                                 std::vector<Diagnostic>* warnings) {
   parse(text);
   mechanism_ = default_mechanism();
@@ -549,7 +549,7 @@ Mechanism MechanismReader::read(std::string_view text, const std::vector<Setting
 
 }  // namespace
 
-Mechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                           const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings) {
   return MechanismReader(name, folder).read(text, settings, warnings);
 }

@@ -11,10 +11,10 @@
 namespace fusee {
 namespace {
 
-bool reads_back(const Field& field, const Mechanism& mechanism, int end, const std::string& text) {
+bool reads_back(const Field& field, const DeclaredMechanism& mechanism, int end, const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
-  Mechanism copy = mechanism;
+  DeclaredMechanism copy = mechanism;
   field.set(copy, end, value);
   return copy == mechanism;
 }
@@ -22,7 +22,7 @@ bool reads_back(const Field& field, const Mechanism& mechanism, int end, const s
 /// The number with the fewest digits that reads back as what the mechanism holds. Conversion from degrees or percent
 /// rounds, so that the nearest number of the file's unit may miss by one bit where a neighbour does not. A value that
 /// no number of the file's unit gives (it did not come from a file) is written to the last bit but one.
-std::string number_text(const Field& field, const Mechanism& mechanism, int end) {
+std::string number_text(const Field& field, const DeclaredMechanism& mechanism, int end) {
   const double value = field.get(mechanism, end);
   for (int digits = 1; digits <= 17; ++digits) {
     std::string text = fmt::format("{:.{}g}", value, digits);
@@ -50,8 +50,8 @@ std::string list_text(const List& list, ToText to_text) {
   return "[" + text + "]";
 }
 
-std::string value_text(const Field& field, const Mechanism& mechanism) {
-  Mechanism copy = mechanism;  // lists are reached through a reference that may write
+std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
+  DeclaredMechanism copy = mechanism;  // lists are reached through a reference that may write
   switch (field.kind) {
     case FieldKind::number:
       return number_text(field, mechanism, 0);
@@ -71,7 +71,7 @@ std::string value_text(const Field& field, const Mechanism& mechanism) {
 }
 
 /// A key that has no use here and holds nothing is written as a comment.
-bool is_blank(const Field& field, const Mechanism& mechanism) {
+bool is_blank(const Field& field, const DeclaredMechanism& mechanism) {
   if (field.only_when.empty() || is_used(field, mechanism)) return false;
   return field.get != nullptr ? field.get(mechanism, 0) == 0 : field.get_text(mechanism).empty();
 }
@@ -86,7 +86,7 @@ std::string comment(const Field& field) {
 
 }  // namespace
 
-std::string write_mechanism(const Mechanism& mechanism) {
+std::string write_mechanism(const DeclaredMechanism& mechanism) {
   std::string text = "# A mechanism of fusee. `fusee explain KEY` tells more about a key.\n";
   std::string_view table;
   for (const Field& field : fields()) {

@@ -139,8 +139,8 @@ double MovingKey::value(const Design& design) const {
   return sum;
 }
 
-Mechanism mechanism_at(const Problem& problem, const Design& design) {
-  Mechanism mechanism = problem.base;
+DeclaredMechanism mechanism_at(const Problem& problem, const Design& design) {
+  DeclaredMechanism mechanism = problem.base;
   for (const MovingKey& moving : problem.moving) moving.number.set(mechanism, moving.value(design));
   return mechanism;
 }

@@ -100,7 +100,7 @@ Mechanism table_4_mechanism(const PaperAssumptions& assumptions) {
 MechanismFile paper_problem_file(const PaperAssumptions& assumptions) {
   MechanismFile file;
   file.path = "the paper's problem";
-  file.mechanism = table_4_mechanism(assumptions);
+  file.mechanism = DeclaredMechanism(table_4_mechanism(assumptions));
   Optimization& table = file.mechanism.optimize;
   table.objectives = {"max_tension"};
   table.variables = {"joint.length_mm", "guides.ED_mm", "guides.OE_mm"};

@@ -55,13 +55,13 @@ struct Workshop {
 /// False when no such pulley can be made.
 bool design(Workshop& shop) {
   Product& product = shop.result.product;
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   shop.step("finding both pitch curves");
   SynthesisOptions synthesis_options;
   synthesis_options.tolerance = shop.options.tolerance;
   product.synthesis = synthesise(mechanism, synthesis_options);
   if (!product.synthesis.made()) return false;
-  draw_for_making(product.synthesis, mechanism);
+  draw_for_making(product.synthesis, product.joint.outline);
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
   if (!product.pulley.made()) product.pulley.advice = body_advice(mechanism);
@@ -85,13 +85,13 @@ void write_parts(Workshop& shop) {
 /// Everything below looks at files, not at what is in memory: only what was written can be printed.
 void check_parts(Workshop& shop) {
   Product& product = shop.result.product;
-  const Mechanism& mechanism = product.file.mechanism;
+  const Mechanism& mechanism = product.joint.mechanism;
   shop.step("checking the mesh that was written");
   const Part written = shop.read_back("pulley.stl");
   const auto& mesh = std::get<TriangleMesh>(written);
   shop.add(check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance));
   shop.step("winding tendons on it");
-  product.as_built = rewind_part(mechanism, written);
+  product.as_built = rewind_part(product.joint, written);
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
   for (const std::string format : {"obj", "3mf"}) {
@@ -147,7 +147,7 @@ const std::vector<std::string>& output_names() {
 BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
   result.product.file = file;
-  result.product.file.mechanism = as_it_is(file.mechanism);
+  result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(output_names());  // before the work: a refusal should not cost a wait
   if (options.dry_run) {

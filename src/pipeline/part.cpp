@@ -50,14 +50,14 @@ Polygon counter_clockwise(Polygon polygon) {
 }
 
 /// On floors as they were drawn, of a joint that has its declared pins and tendon.
-RewindResult rewind_drawn(const Mechanism& mechanism, Polygon floor1, Polygon floor2) {
-  return rewind(with_inset(mechanism), as_made(std::move(floor1), mechanism), as_made(std::move(floor2), mechanism));
+RewindResult rewind_drawn(const JointAsItIs& joint, Polygon floor1, Polygon floor2) {
+  return rewind(with_inset(joint), as_made(std::move(floor1), joint.outline), as_made(std::move(floor2), joint.outline));
 }
 
-RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) {
+RewindResult rewind_drawing(const JointAsItIs& joint, const Drawing& drawing) {
   const DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
   const DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
-  if (floor1 && floor2) return rewind_drawn(mechanism, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
+  if (floor1 && floor2) return rewind_drawn(joint, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
   const DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
   const DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
   if (!pitch1 || !pitch2) {
@@ -66,9 +66,9 @@ RewindResult rewind_drawing(const Mechanism& mechanism, const Drawing& drawing) 
         "name the layers of the two groove floors so; 'fusee build' writes such a profile.dxf");
   }
   // A centre line that lies on the pitch curve: a tendon without thickness, over pins thicker by its radius.
-  Mechanism centre_line = mechanism;
-  centre_line.guides.radius = mechanism.guide_pitch_radius();
-  centre_line.tendon.diameter = 0;
+  JointAsItIs centre_line = joint;
+  centre_line.mechanism.guides.radius = joint.mechanism.guide_pitch_radius();
+  centre_line.mechanism.tendon.diameter = 0;
   return rewind_drawn(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
 }
 
@@ -95,9 +95,9 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
   return floor;
 }
 
-RewindResult rewind_mesh(const Mechanism& mechanism, const TriangleMesh& mesh) {
-  const BodyLayout layout = axial_layout(mechanism);
-  return rewind_drawn(mechanism, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
+RewindResult rewind_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
+  const BodyLayout layout = axial_layout(joint.mechanism);
+  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 
 }  // namespace
@@ -113,10 +113,9 @@ std::vector<Check> check_part(const Part& part) {
   return check_drawing(std::get<Drawing>(part));
 }
 
-RewindResult rewind_part(const Mechanism& declared, const Part& part) {
-  const Mechanism mechanism = as_it_is(declared);
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(mechanism, *mesh);
-  return rewind_drawing(mechanism, std::get<Drawing>(part));
+RewindResult rewind_part(const JointAsItIs& joint, const Part& part) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(joint, *mesh);
+  return rewind_drawing(joint, std::get<Drawing>(part));
 }
 
 std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built,

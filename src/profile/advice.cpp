@@ -31,11 +31,11 @@ std::optional<Dial> number_dial(const Mechanism& mechanism, const std::string& k
   dial.key = key;
   dial.symbol = field->symbol.empty() ? key : std::string(field->symbol);
   dial.unit = field->unit;
-  dial.value = field->get(mechanism, 0);
+  dial.value = number_of(mechanism, *field);
   dial.least = field->least;
   dial.most = field->most;
   dial.scale = std::max(std::abs(dial.value), field->unit == "mm" && field->least < 0 ? 0.1 * mechanism.joint.R : 0.0);
-  dial.turn = [field](Mechanism& changed, double value) { field->set(changed, 0, value); };
+  dial.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
   return dial;
 }
 
@@ -43,18 +43,18 @@ std::optional<Dial> number_dial(const Mechanism& mechanism, const std::string& k
 std::vector<Dial> range_dials(const Mechanism& mechanism) {
   const Field* field = find_field("joint.range_deg");
   if (field == nullptr) return {};
-  const double low = field->get(mechanism, 0);
-  const double high = field->get(mechanism, 1);
+  const double low = number_of(mechanism, *field);
+  const double high = number_of(mechanism, *field, 1);
   Dial both{"joint.range_deg", "the range", "deg", high, 0.5, field->most, high, {}};
   both.turn = [field](Mechanism& changed, double value) {
-    field->set(changed, 0, -value);
-    field->set(changed, 1, value);
+    set_number(changed, *field, 0, -value);
+    set_number(changed, *field, 1, value);
   };
   if (std::abs(low + high) < 1e-9) return {both};
   Dial lower{"joint.range_deg[0]", "the range's lower end", "deg", low, field->least, 0.0, std::abs(low), {}};
-  lower.turn = [field](Mechanism& changed, double value) { field->set(changed, 0, value); };
+  lower.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
   Dial upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, field->most, std::abs(high), {}};
-  upper.turn = [field](Mechanism& changed, double value) { field->set(changed, 1, value); };
+  upper.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 1, value); };
   return {lower, upper};
 }
 

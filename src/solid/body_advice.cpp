@@ -13,7 +13,7 @@ constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_
                                  "body.hub_height_mm",   "body.bore_diameter_mm",    "body.anchor_hole_mm",
                                  "body.knot_pocket_mm",  "body.min_wall_mm"};
 
-double number_of(const Mechanism& mechanism, const std::string& key) { return find_field(key)->get(mechanism, 0); }
+double number_of(const Mechanism& mechanism, const std::string& key) { return fusee::number_of(mechanism, *find_field(key)); }
 
 // Numbers that were written: a change of what is automatic would be no advice, and 0 is not a small number but
 // "automatic".
@@ -30,7 +30,7 @@ void add_automatic(std::vector<Change>& changes, const Mechanism& mechanism, con
   if (std::any_of(changes.begin(), changes.end(), is_it)) return;
   Mechanism automatic = mechanism;
   const Field& field = *find_field(key);
-  field.set(automatic, 0, 0.0);
+  set_number(automatic, field, 0, 0.0);
   if (body_possible(automatic))
     changes.push_back({key, number_of(mechanism, key), 0.0, std::string(field.unit), key + " = 0 (automatic)"});
 }

@@ -11,8 +11,4 @@ double load_torque(const Mechanism& mechanism, double theta) {
   return load.tip_force * mechanism.joint.R + load.torque + weight_moment(load) * std::sin(load.tilt - theta);
 }
 
-double section_stiffness(const Tendon& tendon) {
-  return tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter;
-}
-
 }  // namespace fusee

@@ -64,7 +64,7 @@ BENCHMARK(checks)->Unit(benchmark::kMillisecond);
 
 void rewinding(benchmark::State& state) {
   const Part part = paper_pulley().mesh;
-  for (auto _ : state) benchmark::DoNotOptimize(rewind_part(paper().mechanism, part));
+  for (auto _ : state) benchmark::DoNotOptimize(rewind_part({paper().mechanism, {}}, part));
 }
 BENCHMARK(rewinding)->Unit(benchmark::kMillisecond);
 

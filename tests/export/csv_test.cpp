@@ -31,10 +31,10 @@ std::vector<std::vector<std::string>> cells(const std::string& table) {
 
 Product round_product() {
   Product product;
-  product.file.mechanism = testing::plain_mechanism();
-  product.file.mechanism.load.tip_force = 10;
+  product.joint.mechanism = testing::plain_mechanism();
+  product.joint.mechanism.load.tip_force = 10;
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(15), 8);
-  const Transmission transmission(product.file.mechanism);
+  const Transmission transmission(product.joint.mechanism);
   product.synthesis.stroke = {transmission.at_theta(radians(-20)), transmission.at_theta(0),
                               transmission.at_theta(radians(20))};
   for (const TransmissionPoint& point : product.synthesis.stroke) {

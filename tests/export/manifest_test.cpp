@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 Product made_product() {
   Product product;
-  product.file.mechanism = testing::plain_mechanism();
+  product.joint.mechanism = testing::plain_mechanism();
   product.file.path = "/home/somebody/joints/finger.toml";
   product.file.sha256 = sha256("finger");
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(20));
@@ -61,7 +61,7 @@ TEST(Manifest, HoldsTheMechanismInTheFilesUnits) {
 
 TEST(Manifest, NeitherMachineNorBadTextGetsIntoIt) {
   Product product = made_product();
-  product.file.mechanism.name = "\xFF\"quoted\"";
+  product.joint.mechanism.name = "\xFF\"quoted\"";
   const std::string text = manifest_json(product, {});
   EXPECT_EQ(text.find("somebody"), std::string::npos);
   EXPECT_TRUE(Json::accept(text));
@@ -82,7 +82,7 @@ TEST(Manifest, ANumberThatIsNoneIsNullAndItsCheckSaysFailed) {
 /// Round pulleys: everything is known from tangents to circles.
 TEST(TendonLengths, ARoundPulleyIsWoundAsACircleIs) {
   Product product = made_product();
-  const Mechanism& m = product.file.mechanism;
+  const Mechanism& m = product.joint.mechanism;
   product.synthesis = testing::pulley_of(testing::circle(20), testing::circle(20), 3600);
   const Transmission transmission(m);
   product.synthesis.stroke = {transmission.at_alpha(0)};

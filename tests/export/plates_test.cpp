@@ -21,7 +21,7 @@ using testing::on_layer;
 
 Product product_of(const testing::SupportShape& p1, const testing::SupportShape& p2) {
   Product product;
-  Mechanism& mechanism = product.file.mechanism;
+  Mechanism& mechanism = product.joint.mechanism;
   mechanism = testing::plain_mechanism();
   mechanism.body.bore_diameter = 6;
   mechanism.cut = {0.2, 3, 300, 200, 3};
@@ -67,7 +67,7 @@ TEST(Plates, KerfIsExact) {
 
 TEST(Plates, NoKerfChangesNothing) {
   Product product = egg_with_anchor();
-  product.file.mechanism.cut.kerf = 0;
+  product.joint.mechanism.cut.kerf = 0;
   for (const PlateLayer& layer : make_plates(product).layers) {
     for (std::size_t i = 0; i < layer.holes.size(); ++i)
       EXPECT_NEAR(signed_area(layer.holes[i]), signed_area(layer.cut_holes[i]), 1e-9);
@@ -80,7 +80,7 @@ TEST(Plates, CountsFollowTheThickness) {
   EXPECT_EQ(plates_for(3.1, 3.0), 2);
   EXPECT_EQ(plates_for(0.5, 3.0), 1);
   Product product = egg();
-  product.file.mechanism.cut.plate = 0.5;  // d = 1: 1.1 mm take three, flanges of 1.2 mm three
+  product.joint.mechanism.cut.plate = 0.5;  // d = 1: 1.1 mm take three, flanges of 1.2 mm three
   const Plates plates = make_plates(product);
   EXPECT_EQ(layer_named(plates, "P1 CORE").count, 3);
   EXPECT_EQ(layer_named(plates, "FLANGE 1").count, 3);
@@ -105,8 +105,8 @@ TEST(Plates, DowelsKeepClearAndFitInOneWay) {
 
 TEST(Plates, NoRoomForDowelsIsSaid) {
   Product product = product_of(testing::circle(6), testing::circle(6));
-  product.file.mechanism.cut.dowel = 6;
-  product.file.mechanism.body.bore_diameter = 8;
+  product.joint.mechanism.cut.dowel = 6;
+  product.joint.mechanism.body.bore_diameter = 8;
   const Plates plates = make_plates(product);
   EXPECT_THAT(plates.dowels, IsEmpty());
   EXPECT_THAT(plates.notes, Contains(HasSubstr("no room for two of 6 mm")));
@@ -163,8 +163,8 @@ TEST(PlatesDxf, HolesComeBeforeOutlines) {
 
 TEST(PlatesDxf, NoPlateLiesOnAnother) {
   Product product = egg();
-  product.file.mechanism.cut.sheet_width = 100;
-  product.file.mechanism.cut.sheet_height = 60;
+  product.joint.mechanism.cut.sheet_width = 100;
+  product.joint.mechanism.cut.sheet_height = 60;
   const Drawing drawing = drawn(product);
   EXPECT_GT(on_layer(drawing, "SHEET").size(), 1u);
   const auto outlines = on_layer(drawing, "CUT_OUTER");
@@ -179,14 +179,14 @@ TEST(PlatesDxf, NoPlateLiesOnAnother) {
 
 TEST(PlatesDxf, APlateLargerThanItsSheetIsSaidAndFailsTheCheck) {
   Product product = egg();
-  product.file.mechanism.cut.sheet_width = 30;
+  product.joint.mechanism.cut.sheet_width = 30;
   EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("larger than a sheet of 30 x 200 mm")));
   EXPECT_THAT(failed(check_drawing(drawn(product))), Contains("nothing_outside"));
 }
 
 TEST(PlatesDxf, AKerfWiderThanTheHolesIsSaid) {
   Product product = egg_with_anchor();
-  product.file.mechanism.cut.kerf = 7;
+  product.joint.mechanism.cut.kerf = 7;
   EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is left out: a kerf of 7 mm is wider")));
 }
 
@@ -201,8 +201,8 @@ TEST(PlatesDxf, EveryPlateCarriesItsNumber) {
 
 TEST(PlatesDxf, SmallPlatesCarryWhatFits) {
   Product product = product_of(testing::circle(6), testing::circle(6));
-  product.file.mechanism.body.bore_diameter = 2;
-  product.file.mechanism.body.hub_height = 0;
+  product.joint.mechanism.body.bore_diameter = 2;
+  product.joint.mechanism.body.hub_height = 0;
   const Plates plates = make_plates(product);
   for (const PlacedPlate& plate : plates.placed) {
     const PlateLayer& layer = plates.layers[plate.layer];

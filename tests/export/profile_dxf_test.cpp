@@ -15,8 +15,8 @@ using testing::on_layer;
 
 Product product_of(const testing::SupportShape& p1, const testing::SupportShape& p2) {
   Product product;
-  product.file.mechanism = testing::plain_mechanism();
-  product.file.mechanism.body.bore_diameter = 6;
+  product.joint.mechanism = testing::plain_mechanism();
+  product.joint.mechanism.body.bore_diameter = 6;
   product.synthesis = testing::pulley_of(p1, p2);
   return product;
 }
@@ -55,8 +55,8 @@ TEST_P(BothVersions, SameInputSameBytes) { EXPECT_EQ(profile_dxf(egg(), GetParam
 
 TEST(ProfileDxf, TheBoreIsTheShaftAndNoPrintersHole) {
   Product product = egg();
-  product.file.mechanism.material.hole_compensation = 0.3;
-  product.file.mechanism.material.shrinkage = 0.01;
+  product.joint.mechanism.material.hole_compensation = 0.3;
+  product.joint.mechanism.material.shrinkage = 0.01;
   const auto bore = on_layer(read_dxf(profile_dxf(product, DxfVersion::ac1015), "profile.dxf"), "BORE");
   ASSERT_EQ(bore.size(), 1u);
   for (const Vec2& p : bore[0].points) EXPECT_NEAR(p.norm(), 3, 1e-6);

@@ -43,10 +43,10 @@ TriangleMesh tube(std::uint32_t count, std::uint32_t rings) {
 
 Product sample(Mechanism mechanism = testing::forearm()) {
   Product product;
-  product.file.mechanism = std::move(mechanism);
+  product.joint.mechanism = std::move(mechanism);
   product.file.path = "profiles/forearm.toml";
   product.file.sha256 = std::string(64, 'a');
-  product.synthesis = synthesise(product.file.mechanism);
+  product.synthesis = synthesise(product.joint.mechanism);
   product.pulley.status = PulleyStatus::made;
   product.pulley.layout.groove_depth = 2;
   product.pulley.layout.bore.radius = 2.5;
@@ -173,8 +173,8 @@ TEST(Report, EscapesWhatPeopleWrite) {
   const std::string nasty = "<script>alert('x')</script>{{tool}}</style>]]>&\"\x01";
   const std::size_t scripts = parsed(report_html(sample())).select_nodes("//script").size();
   Product product = sample();
-  product.file.mechanism.name = nasty;
-  product.file.mechanism.material = {nasty, 0.002, 0.2, 0.4};
+  product.joint.mechanism.name = nasty;
+  product.joint.mechanism.material = {nasty, 0.002, 0.2, 0.4};
   product.pulley.layout.scale = 1.002;
   product.file.path = nasty;
   product.file.sha256 = nasty;

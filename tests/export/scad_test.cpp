@@ -14,9 +14,9 @@ using ::testing::Not;
 
 Product product_of(int count = 240) {
   Product product;
-  product.file.mechanism = testing::plain_mechanism();
+  product.joint.mechanism = testing::plain_mechanism();
   product.synthesis = testing::pulley_of(testing::circle(16), {18, {{1, 0.5, 1}, {2, 1, 0.3}}}, count);
-  product.pulley.layout = resolve_layout(product.file.mechanism, product.synthesis);
+  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
   return product;
 }
 
@@ -57,8 +57,8 @@ TEST(Scad, ThinnedPointsStayNearTheCurveAndKeepItsBox) {
 
 TEST(Scad, ParametersStandAtTheTopForTheCustomizer) {
   Product product = product_of();
-  product.file.mechanism.body.bore_diameter = 6;
-  product.pulley.layout = resolve_layout(product.file.mechanism, product.synthesis);
+  product.joint.mechanism.body.bore_diameter = 6;
+  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
   const std::string text = scad_text(product);
   EXPECT_THAT(text, HasSubstr("/* [Bore] */"));
   EXPECT_THAT(text, HasSubstr("\nbore = 6; // [1:0.1:40]"));
@@ -68,7 +68,7 @@ TEST(Scad, ParametersStandAtTheTopForTheCustomizer) {
 
 TEST(Scad, AnyNameStaysInItsComment) {
   Product product = product_of();
-  product.file.mechanism.name = "two\nlines(); cube(9);";
+  product.joint.mechanism.name = "two\nlines(); cube(9);";
   EXPECT_THAT(scad_text(product), Not(HasSubstr("\nlines")));
 }
 

@@ -15,7 +15,7 @@ TEST(Corpus, EveryFileIsReadOrRefused) {
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
     const std::string text = read_file(entry.path(), 16 << 20);
     try {
-      const Mechanism mechanism = parse_mechanism(text, "corpus", corpus);
+      const DeclaredMechanism mechanism = parse_mechanism(text, "corpus", corpus);
       EXPECT_TRUE(parse_mechanism(write_mechanism(mechanism), "written", corpus) == mechanism) << entry.path();
       ++read;
     } catch (const InputError& error) {

@@ -31,7 +31,7 @@ TEST(Edit, WritesKeysThatWereLeftToTheirDefault) {
       edit_values(k_good_file, {{"guides.friction", 0.2}, {"body.min_wall_mm", 1.5}, {"body.mark_depth_mm", 0.5}});
   EXPECT_EQ(edited, replaced(k_good_file, "[guides]\n", "[guides]\nfriction = 0.2\n") +
                         "\n[body]\nmin_wall_mm = 1.5\nmark_depth_mm = 0.5\n");
-  const Mechanism mechanism = parse_mechanism(edited, "f.toml");
+  const DeclaredMechanism mechanism = parse_mechanism(edited, "f.toml");
   EXPECT_EQ(mechanism.guides.mu, 0.2);
   EXPECT_EQ(mechanism.body.min_wall, 1.5);
 }
@@ -42,7 +42,7 @@ TEST(Edit, ReachesInlineTables) {
       "pulley = {EF_mm = 80, r1_mm = 16}\ntendon.diameter_mm = 1\n";
   const std::string edited =
       edit_values(text, {{"joint.length_mm", 90.0}, {"guides.friction", 0.3}, {"tendon.diameter_mm", 2.0}});
-  const Mechanism mechanism = parse_mechanism(edited, "f.toml");
+  const DeclaredMechanism mechanism = parse_mechanism(edited, "f.toml");
   EXPECT_EQ(mechanism.joint.R, 90.0);
   EXPECT_EQ(mechanism.guides.mu, 0.3);
   EXPECT_EQ(mechanism.tendon.diameter, 2.0);
@@ -52,7 +52,7 @@ TEST(Edit, SurvivesWindowsLineEnds) {
   std::string text;
   for (const char c : k_good_file) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
   const std::string edited = edit_values("\xEF\xBB\xBF" + text, {{"pulley.r1_mm", 17.5}, {"guides.friction", 0.25}});
-  const Mechanism mechanism = parse_mechanism(edited, "f.toml");
+  const DeclaredMechanism mechanism = parse_mechanism(edited, "f.toml");
   EXPECT_EQ(mechanism.pulley.r1, 17.5);
   EXPECT_EQ(mechanism.guides.mu, 0.25);
 }

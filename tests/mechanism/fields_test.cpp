@@ -29,12 +29,12 @@ TEST(Fields, TheUnitStandsInTheName) {
 }
 
 TEST(Fields, EachRowReachesAMemberOfItsOwn) {
-  const Mechanism start = parse_mechanism(k_good_file, "f.toml");
-  std::vector<Mechanism> changed;
+  const DeclaredMechanism start = parse_mechanism(k_good_file, "f.toml");
+  std::vector<DeclaredMechanism> changed;
   for (const Field& field : fields()) {
     if (field.key == "schema") continue;
     for (int end = 0; end < (field.kind == FieldKind::range ? 2 : 1); ++end) {
-      Mechanism mechanism = start;
+      DeclaredMechanism mechanism = start;
       if (field.set != nullptr) {
         field.set(mechanism, end, 0.25 * field.least + 0.75 * field.most - 0.125);
         EXPECT_NEAR(field.get(mechanism, end), 0.25 * field.least + 0.75 * field.most - 0.125, 1e-9) << field.name();
@@ -54,14 +54,14 @@ TEST(Fields, EachRowReachesAMemberOfItsOwn) {
         EXPECT_NE(field.get_text(mechanism), now) << field.name();
       }
       EXPECT_FALSE(mechanism == start) << field.name();
-      for (const Mechanism& other : changed) EXPECT_FALSE(mechanism == other) << field.name();
+      for (const DeclaredMechanism& other : changed) EXPECT_FALSE(mechanism == other) << field.name();
       changed.push_back(mechanism);
     }
   }
 }
 
 TEST(Fields, DefaultsLieWithinTheirBounds) {
-  const Mechanism defaults = default_mechanism();
+  const DeclaredMechanism defaults = default_mechanism();
   for (const Field& field : fields()) {
     if (field.kind != FieldKind::number || field.fallback.empty()) continue;
     EXPECT_GE(field.get(defaults, 0), field.least) << field.name();
@@ -70,7 +70,7 @@ TEST(Fields, DefaultsLieWithinTheirBounds) {
 }
 
 TEST(NumberKeys, AreNumbersAndEndsOfRanges) {
-  Mechanism mechanism = parse_mechanism(k_good_file, "f.toml");
+  DeclaredMechanism mechanism = parse_mechanism(k_good_file, "f.toml");
   EXPECT_EQ(find_number_key("joint.length_mm")->get(mechanism), 100.0);
   find_number_key("joint.range_deg[1]")->set(mechanism, 20.0);
   EXPECT_NEAR(mechanism.joint.theta_max, radians(20.0), 1e-15);

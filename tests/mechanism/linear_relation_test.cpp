@@ -14,7 +14,7 @@ using testing::HasSubstr;
 double difference(const std::string& text) {
   const ParsedRelation parsed = parse_relation(text);
   EXPECT_FALSE(parsed.fault) << text << ": " << parsed.fault->message;
-  const Mechanism mechanism = parse_mechanism(k_good_file, "f.toml");
+  const DeclaredMechanism mechanism = parse_mechanism(k_good_file, "f.toml");
   return parsed.relation.left.value(mechanism) - parsed.relation.right.value(mechanism);
 }
 

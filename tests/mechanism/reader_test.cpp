@@ -37,7 +37,7 @@ std::string only_error(const std::string& text, const std::vector<Setting>& sett
 std::string with(const std::string& from, const std::string& to) { return replaced(k_good_file, from, to); }
 
 TEST(Reader, ReadsEveryNumberInItsUnit) {
-  const Mechanism m =
+  const DeclaredMechanism m =
       parse_mechanism(k_good_file + "[material]\nshrinkage_percent = 0.5\n[body]\ngroove_angle_deg = 60\n", "f.toml");
   EXPECT_EQ(m.name, "test");
   EXPECT_EQ(m.joint.R, 100);
@@ -49,7 +49,7 @@ TEST(Reader, ReadsEveryNumberInItsUnit) {
 }
 
 TEST(Reader, FillsInDefaults) {
-  const Mechanism m = parse_mechanism(k_good_file, "f.toml");
+  const DeclaredMechanism m = parse_mechanism(k_good_file, "f.toml");
   EXPECT_EQ(m.guides.radius, 2);
   EXPECT_EQ(m.guides.mu, 0.12);
   EXPECT_EQ(m.pulley.law, Law::compensate);
@@ -171,7 +171,7 @@ TEST(Reader, BoreAndHorn) {
 }
 
 TEST(Reader, RatioStandsInPlaceOfTheMechanism) {
-  const Mechanism m = parse_mechanism("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = -1.093\n", "f.toml");
+  const DeclaredMechanism m = parse_mechanism("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = -1.093\n", "f.toml");
   ASSERT_TRUE(m.transmission.has_value());
   EXPECT_EQ(m.transmission->ratio, -1.093);
   const std::vector<Diagnostic> both = errors_of(k_good_file + "[transmission]\nkind = \"ratio\"\nratio = 2\n");
@@ -194,7 +194,7 @@ TEST(Reader, SettingsSupplyAndReplace) {
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"pulley.law", "linear"}, {"pulley.ratio", "2"}}).pulley.law,
             Law::linear);
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"body.nut_trap", "false"}}).body.nut_trap, false);
-  const Mechanism ranged = parse_mechanism(k_good_file, "f.toml", ".", {{"joint.range_deg", "[-20, 10]"}});
+  const DeclaredMechanism ranged = parse_mechanism(k_good_file, "f.toml", ".", {{"joint.range_deg", "[-20, 10]"}});
   EXPECT_DOUBLE_EQ(ranged.joint.theta_max, std::acos(-1.0) / 18);
   // The last one holds.
   EXPECT_EQ(parse_mechanism(k_good_file, "f.toml", ".", {{"guides.EB_mm", "60"}, {"guides.EB_mm", "70"}}).guides.EB,
@@ -283,7 +283,7 @@ TEST(Reader, LoadsTheTableBesideTheFile) {
   std::ofstream(folder / "joint.toml") << text;
   EXPECT_THAT(only_error(text), HasSubstr("13:9 pulley.table: ./law.csv: cannot be read"));
   std::ofstream(folder / "law.csv") << "alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0\n45,15\n90,30\n";
-  const Mechanism m = read_mechanism(folder / "joint.toml").mechanism;
+  const DeclaredMechanism m = read_mechanism(folder / "joint.toml").mechanism;
   ASSERT_THAT(m.pulley.rows, SizeIs(5));
   EXPECT_DOUBLE_EQ(m.pulley.rows[4].alpha, std::acos(-1.0) / 2);
   std::ofstream(folder / "law.csv") << "alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0\n45,-15\n90,30\n";

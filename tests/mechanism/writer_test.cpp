@@ -22,7 +22,7 @@ double random_number(const Field& field) {
   return field.least + fraction * (field.most - field.least);
 }
 
-void set_random(const Field& field, Mechanism& mechanism) {
+void set_random(const Field& field, DeclaredMechanism& mechanism) {
   switch (field.kind) {
     case FieldKind::number:
       field.set(mechanism, 0, random_number(field));
@@ -49,8 +49,8 @@ void set_random(const Field& field, Mechanism& mechanism) {
 }
 
 /// Every field at random, then made to agree with itself.
-Mechanism random_mechanism() {
-  Mechanism mechanism;
+DeclaredMechanism random_mechanism() {
+  DeclaredMechanism mechanism;
   const bool other_joint = *rc::gen::inRange(0, 5) == 0;
   for (const Field& field : fields()) {
     const bool of_mechanism = field.table == "joint" || field.table == "guides" || field.table == "pulley";
@@ -59,7 +59,7 @@ Mechanism random_mechanism() {
   }
   if (other_joint) {
     // What is not declared has its defaults.
-    const Mechanism defaults = default_mechanism();
+    const DeclaredMechanism defaults = default_mechanism();
     mechanism.joint = defaults.joint;
     mechanism.guides = defaults.guides;
     mechanism.pulley = defaults.pulley;
@@ -74,7 +74,7 @@ Mechanism random_mechanism() {
 TEST(Writer, WhatIsWrittenReadsBackExactly) {
   ::setenv("RC_PARAMS", "seed=1 max_success=300", /*replace=*/0);
   const bool holds = rc::check("parse(write(m)) == m", [] {
-    const Mechanism mechanism = random_mechanism();
+    const DeclaredMechanism mechanism = random_mechanism();
     RC_ASSERT(parse_mechanism(write_mechanism(mechanism), "written") == mechanism);
   });
   EXPECT_TRUE(holds);
@@ -85,7 +85,7 @@ TEST(Writer, ATableIsWrittenByItsName) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "law.csv") << "alpha_deg,theta_deg\n-90,-30\n-45,-15\n0,0\n45,15\n90,30\n";
   const std::string text = replaced(k_good_file, "r1_mm = 16\n", "law = \"table\"\ntable = \"law.csv\"\n");
-  const Mechanism mechanism = parse_mechanism(text, "f.toml", folder);
+  const DeclaredMechanism mechanism = parse_mechanism(text, "f.toml", folder);
   EXPECT_EQ(mechanism.pulley.rows.size(), 5u);
   EXPECT_TRUE(parse_mechanism(write_mechanism(mechanism), "written", folder) == mechanism);
   std::filesystem::remove_all(folder);
@@ -111,9 +111,9 @@ TEST(Writer, EveryKeyStandsThereWithItsMeaning) {
 }
 
 TEST(Writer, AnglesThatNoFileGivesAreKeptToTheLastBits) {
-  Mechanism mechanism = parse_mechanism(k_good_file, "f.toml");
+  DeclaredMechanism mechanism = parse_mechanism(k_good_file, "f.toml");
   mechanism.joint.theta_min = -1.0 / 3;
-  const Mechanism again = parse_mechanism(write_mechanism(mechanism), "written");
+  const DeclaredMechanism again = parse_mechanism(write_mechanism(mechanism), "written");
   EXPECT_DOUBLE_EQ(again.joint.theta_min, -1.0 / 3);
 }
 
@@ -122,7 +122,7 @@ TEST(Writer, TheOptimizeTableReadsBack) {
                            "[optimize]\nobjective = [\"max_tension\", \"footprint\"]\nvariables = [\"joint.length_mm\", \"joint.range_deg[1]\"]\n"
                            "lower = [80, 20]\nupper = [120.5, 40]\ntied = [\"guides.EB_mm = guides.ED_mm\"]\n"
                            "constraints = [\"2 * (guides.EB_mm - 1) <= joint.length_mm / 2 + 3\"]\nfeasible = true\n";
-  const Mechanism mechanism = parse_mechanism(text, "f.toml");
+  const DeclaredMechanism mechanism = parse_mechanism(text, "f.toml");
   EXPECT_EQ(mechanism.optimize.objectives.size(), 2u);
   EXPECT_EQ(mechanism.optimize.upper, (std::vector<double>{120.5, 40.0}));
   EXPECT_TRUE(mechanism.optimize.feasible);

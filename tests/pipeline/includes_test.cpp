@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::map<std::string, int> k_flow = {
-    {"base", 0},     {"mechanism", 1}, {"transmission", 2}, {"profile", 3},    {"measurement", 4},
-    {"joint", 5},    {"analysis", 6},  {"optimize", 7},     {"paper", 8},      {"calibration", 9},
+    {"base", 0},     {"mechanism", 1}, {"transmission", 2}, {"profile", 3},    {"joint", 4},
+    {"analysis", 5}, {"optimize", 6},  {"paper", 7},        {"measurement", 8}, {"calibration", 9},
     {"correction", 10}, {"solid", 11}, {"export", 12},      {"pipeline", 13},  {"cli", 14}};
 
 struct Include {

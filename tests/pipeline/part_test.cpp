@@ -35,7 +35,7 @@ class MadePart : public ::testing::Test {
   /// The names of what fails when tendons are wound on it.
   static std::vector<std::string> failures(const Part& part) {
     std::vector<std::string> names;
-    for (const Check& check : as_built_checks(*mechanism_, rewind_part(*mechanism_, part), {})) {
+    for (const Check& check : as_built_checks(*mechanism_, rewind_part({*mechanism_, {}}, part), {})) {
       if (!check.ok) names.push_back(check.name);
     }
     return names;
@@ -61,7 +61,7 @@ TEST_F(MadePart, AsMadePasses) { EXPECT_THAT(failures(*mesh_), IsEmpty()); }
 TEST_F(MadePart, InsideOutGivesTheSameAngles) {
   TriangleMesh mesh = *mesh_;
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  EXPECT_NEAR(rewind_part(*mechanism_, mesh).max_theta_error, rewind_part(*mechanism_, *mesh_).max_theta_error, 1e-9);
+  EXPECT_NEAR(rewind_part({*mechanism_, {}}, mesh).max_theta_error, rewind_part({*mechanism_, {}}, *mesh_).max_theta_error, 1e-9);
 }
 
 TEST_F(MadePart, PrintedTooSmallGivesWrongAngles) {
@@ -84,8 +84,8 @@ TEST_F(MadePart, TurnedOnItsShaftLeavesSlack) {
 }
 
 TEST_F(MadePart, WithoutGroovesIsBadInput) {
-  EXPECT_THROW(rewind_part(*mechanism_, changed([](Vec3& v) { v.z() += 1000; })), InputError);
-  EXPECT_THROW(rewind_part(*mechanism_, TriangleMesh()), InputError);
+  EXPECT_THROW(rewind_part({*mechanism_, {}}, changed([](Vec3& v) { v.z() += 1000; })), InputError);
+  EXPECT_THROW(rewind_part({*mechanism_, {}}, TriangleMesh()), InputError);
 }
 
 TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {
@@ -93,7 +93,7 @@ TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {
   Drawing floors, pitches;
   floors.paths = {path("P1_FLOOR", synthesis_->p1, floor), path("P2_FLOOR", synthesis_->p2, floor)};
   pitches.paths = {path("P1_PITCH", synthesis_->p1, 0), path("P2_PITCH", synthesis_->p2, 0)};
-  const RewindResult by_floors = rewind_part(*mechanism_, floors), by_pitches = rewind_part(*mechanism_, pitches);
+  const RewindResult by_floors = rewind_part({*mechanism_, {}}, floors), by_pitches = rewind_part({*mechanism_, {}}, pitches);
   EXPECT_LT(degrees(by_floors.max_theta_error), 0.005);
   // The tolerance of the polygons: 0.01 mm of tendon is 0.01° here.
   EXPECT_NEAR(degrees(by_floors.max_theta_error), degrees(by_pitches.max_theta_error), 0.005);
@@ -104,15 +104,15 @@ TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {
 TEST_F(MadePart, AsADrawingWithoutLayersIsBadInput) {
   Drawing drawing;
   drawing.paths = {path("P1_FLOOR", synthesis_->p1, 0)};
-  EXPECT_THROW(rewind_part(*mechanism_, drawing), InputError);
+  EXPECT_THROW(rewind_part({*mechanism_, {}}, drawing), InputError);
 }
 
 TEST_F(MadePart, LargerForShrinkageIsWoundAtItsShrunkSize) {
   Mechanism shrinking = *mechanism_;
   shrinking.material.shrinkage = 0.02;
   const TriangleMesh mesh = make_pulley(shrinking, synthesise(shrinking)).mesh;
-  EXPECT_LT(degrees(rewind_part(shrinking, mesh).max_theta_error), 0.005);
-  EXPECT_GT(degrees(rewind_part(*mechanism_, mesh).max_theta_error), 0.1);
+  EXPECT_LT(degrees(rewind_part({shrinking, {}}, mesh).max_theta_error), 0.005);
+  EXPECT_GT(degrees(rewind_part({*mechanism_, {}}, mesh).max_theta_error), 0.1);
 }
 
 bool agree(const std::vector<Check>& checks) { return all_ok(checks); }

@@ -7,8 +7,8 @@
 namespace fusee::testing {
 
 /// The paper's mechanism at 100 mm over point pins, r1 20, EF 60: the reference case of the project.
-inline Mechanism reference() {
-  Mechanism mechanism;
+inline DeclaredMechanism reference() {
+  DeclaredMechanism mechanism;
   mechanism.name = "reference";
   mechanism.joint = {100.0, radians(-30.0), radians(30.0)};
   mechanism.guides = {50.0, 50.0, -40.0, 0.0, 0.12};
@@ -19,8 +19,8 @@ inline Mechanism reference() {
 }
 
 /// A joint that can be made: pins and tendon of real size, a smaller pulley further from the pins.
-inline Mechanism forearm() {
-  Mechanism mechanism = reference();
+inline DeclaredMechanism forearm() {
+  DeclaredMechanism mechanism = reference();
   mechanism.name = "forearm";
   mechanism.guides.radius = 2.0;
   mechanism.pulley.EF = 80.0;
@@ -29,8 +29,8 @@ inline Mechanism forearm() {
 }
 
 /// Both pulleys non-circular: θ = α/3.2.
-inline Mechanism linear_wrist() {
-  Mechanism mechanism = forearm();
+inline DeclaredMechanism linear_wrist() {
+  DeclaredMechanism mechanism = forearm();
   mechanism.pulley.law = Law::linear;
   mechanism.pulley.ratio = 3.2;
   mechanism.joint.theta_min = radians(-25.0);
@@ -39,8 +39,8 @@ inline Mechanism linear_wrist() {
 }
 
 /// Nothing alike on both sides.
-inline Mechanism unsymmetric() {
-  Mechanism mechanism = forearm();
+inline DeclaredMechanism unsymmetric() {
+  DeclaredMechanism mechanism = forearm();
   mechanism.guides.EB = 42.0;
   mechanism.guides.ED = 56.0;
   mechanism.guides.OE = -30.0;
@@ -50,7 +50,7 @@ inline Mechanism unsymmetric() {
 }
 
 /// The mirror image of a joint: what was left is right.
-inline Mechanism mirrored(Mechanism mechanism) {
+inline DeclaredMechanism mirrored(Mechanism mechanism) {
   std::swap(mechanism.guides.EB, mechanism.guides.ED);
   std::swap(mechanism.joint.theta_min, mechanism.joint.theta_max);
   mechanism.joint.theta_min *= -1.0;
@@ -59,7 +59,7 @@ inline Mechanism mirrored(Mechanism mechanism) {
 }
 
 /// Every length times `factor`.
-inline Mechanism scaled(Mechanism mechanism, double factor) {
+inline DeclaredMechanism scaled(Mechanism mechanism, double factor) {
   for (double* length : {&mechanism.joint.R, &mechanism.guides.EB, &mechanism.guides.ED, &mechanism.guides.OE, &mechanism.guides.radius,
                          &mechanism.pulley.EF, &mechanism.pulley.r1, &mechanism.tendon.diameter}) {
     *length *= factor;

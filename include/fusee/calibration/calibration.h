@@ -79,7 +79,7 @@ struct Calibration {
 };
 
 /// Nothing is fitted before the noise floor is known; nothing is accepted that does not hold on data it did not see.
-Calibration calibrate(const Mechanism& declared, const Measurement& measurement,
+Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
                       const CalibrationOptions& options = {});
 
 }  // namespace fusee

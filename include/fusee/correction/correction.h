@@ -35,10 +35,10 @@ struct Correction {
 };
 
 /// `declared` as the file says, with the [identified] of earlier calibrations still apart.
-Correction correct(const Mechanism& declared, const Measurement& measurement, const Calibration& calibration);
+Correction correct(const DeclaredMechanism& declared, const Measurement& measurement, const Calibration& calibration);
 
 /// The declared file with the [identified] table, its comments kept; what was found stands above it in words.
-std::string corrected_toml(std::string_view declared_text, const Mechanism& declared, const Calibration& calibration,
+std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared, const Calibration& calibration,
                            const Correction& correction);
 std::string compensation_csv(const Correction& correction);
 

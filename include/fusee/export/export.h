@@ -8,6 +8,7 @@
 
 #include "fusee/base/check.h"
 #include "fusee/base/files.h"
+#include "fusee/joint/as_it_is.h"
 #include "fusee/mechanism/file.h"
 #include "fusee/profile/rewind.h"
 #include "fusee/profile/synthesis.h"
@@ -17,7 +18,8 @@ namespace fusee {
 
 /// All that is known of a finished pulley.
 struct Product {
-  MechanismFile file;
+  MechanismFile file;       ///< as it was read
+  JointAsItIs joint;        ///< what was made, and what for
   SynthesisResult synthesis;
   Pulley pulley;
   RewindResult as_built;

@@ -1,35 +1,48 @@
 /// \file
-/// What to make so that the joint as it is follows the law that its file declares.
+/// What to make so that the joint as it is follows the law that its file declares: the one gate between what was
+/// declared and what is mounted and made.
+///
+/// Every command that asks what a joint really does goes through as_it_is(); nothing behind it knows of [identified],
+/// and what was declared is never overwritten.
 #pragma once
 
 #include "fusee/base/plane.h"
+#include "fusee/joint/joint_model.h"
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/profile/synthesis.h"
 
 namespace fusee {
 
-/// The joint as [identified] says it is, asked to follow the law that the file declares: identified geometry, tendon
-/// and weight; a law that, given way under the mean load, is the declared θ(α); and shrinkage that a pulley scaled in
-/// making comes out right from. The range is that of the unloaded joint. Of `identified` only what draw_for_making()
-/// takes out stays: radius offset, wave of the profile and runout. The mechanism itself when nothing of this was
-/// identified.
-Mechanism as_it_is(const Mechanism& mechanism);
+/// What `imperfections` say of pins, length, friction and tendon, in place of what is declared.
+MountedMechanism mounted(const Mechanism& declared, const Imperfections& imperfections);
+
+/// The joint as it is, and what is made for it.
+struct JointAsItIs {
+  /// As mounted, with identified weight. [pulley], range and shrinkage are of the pulley to make: given way under the
+  /// mean load the joint then follows the declared θ(α), and a pulley scaled in making comes out right.
+  Mechanism mechanism;
+  /// What making does to the curves beyond that: draw_for_making() draws them the other way.
+  OutlineError outline;
+};
+/// The declared mechanism itself where nothing of this was identified.
+JointAsItIs as_it_is(const DeclaredMechanism& declared);
+
 /// The joint that a measurement is held against: as it is, with the pulley that was made for it. Nothing is left in
 /// `identified`.
-Mechanism expected_joint(const Mechanism& declared);
+DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 
 /// Draws both curves further in and off the axis, so that they come out where they belong.
-void draw_for_making(SynthesisResult& synthesis, const Mechanism& mechanism);
+void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline);
 /// Seen the other way: a floor drawn off the axis, on it …
-Polygon as_made(Polygon drawn, const Mechanism& mechanism);
+Polygon as_made(Polygon drawn, const OutlineError& outline);
 /// … and the joint in which the tendon lies on a floor drawn further in as the real one lies on the made floor:
 /// thicker, over thinner pins.
-Mechanism with_inset(Mechanism mechanism);
+Mechanism with_inset(const JointAsItIs& joint);
 
 /// Where the motor must stand when the tendons are tied, the unloaded joint at home, for the loaded joint to follow the
 /// declared law, rad. No pulley can give this: tied at 0, the joint is off by as much at every α, and compensation.csv
 /// says so.
-double tied_at(const Mechanism& mechanism);
+double tied_at(const DeclaredMechanism& declared);
 
 /// P1 may stay round when the best r1 on the joint as it is misses the law it needs by little.
 struct RoundChoice {
@@ -38,6 +51,6 @@ struct RoundChoice {
   bool suffices = false;
 };
 /// For law = "compensate" alone.
-RoundChoice round_choice(const Mechanism& mechanism);
+RoundChoice round_choice(const DeclaredMechanism& declared);
 
 }  // namespace fusee

@@ -14,6 +14,12 @@
 
 namespace fusee {
 
+/// A mechanism with identified pins, length, friction and tendon in place of the declared ones. Its pulley is still the
+/// declared one.
+struct MountedMechanism {
+  Mechanism mechanism;
+};
+
 /// A tendon below its pin, in its right-hand image (α counts as winding in). mm, rad.
 struct LowerPath {
   double p = 0;       ///< moment arm about the pulley's axis
@@ -77,8 +83,8 @@ struct JointModel {
 /// The joint as declared. Its law must exist over the range (Transmission::dead_centre() is null).
 JointModel joint_model(const Mechanism& mechanism);
 /// The pulleys `made`, turned in the mechanism `mounted`, whose own [pulley] law is not looked at.
-JointModel joint_model(const MadePulleys& made, const Mechanism& mounted);
+JointModel joint_model(const MadePulleys& made, const MountedMechanism& mounted);
 /// EA, friction, pretension and weight of `mounted` in a model of the same geometry.
-void set_statics(JointModel& model, const Mechanism& mounted);
+void set_statics(JointModel& model, const MountedMechanism& mounted);
 
 }  // namespace fusee

@@ -4,15 +4,16 @@
 
 #include <vector>
 
-#include "fusee/measurement/measurement.h"
-#include "fusee/mechanism/imperfections.h"
+#include "fusee/joint/bench_log.h"
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
 
-/// θ as the joint's sensor would have logged it, rad, run by run, sample by sample. NaN where the joint has no
+/// θ as the joint sensor shows it, rad, run by run, parallel to the rows.
+using Readings = std::vector<std::vector<double>>;
+
+/// What the sensor would have logged of the joint `declared` with these imperfections. NaN where the joint has no
 /// equilibrium.
-std::vector<std::vector<double>> predict(const Mechanism& declared, const Imperfections& imperfections,
-                                         const Measurement& measurement);
+Readings predict(const Mechanism& declared, const Imperfections& imperfections, const BenchLog& log);
 
 }  // namespace fusee

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/joint/bench_log.h"
 #include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
@@ -71,6 +72,9 @@ Run parse_run(std::string_view text, const std::string& name, const MeasurementO
 /// The roles that a column can have, and the column that has each unless the options say otherwise: {"alpha",
 /// "alpha_deg"} …
 const std::vector<std::pair<std::string, std::string>>& column_roles();
+
+/// What drove the joint in these runs.
+BenchLog bench_log(const Measurement& measurement);
 
 /// Takes back whole turns at which an encoder began (with a note). Data that cannot be of the declared joint are said
 /// and not fitted: α and θ exchanged, opposite sign, radians given as degrees, a zero that was not set, a motion lost

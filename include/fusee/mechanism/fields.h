@@ -3,6 +3,7 @@
 /// explain`, `fusee new`, the JSON schema and the searches for advice.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,14 +36,14 @@ struct Field {
   std::string_view meaning;               ///< one line
 
   /// In the file's unit. number: the value; range: `end` 0 or 1. Only for number and range.
-  double (*get)(const Mechanism&, int end) = nullptr;
-  void (*set)(Mechanism&, int end, double value) = nullptr;
+  std::function<double(const DeclaredMechanism&, int end)> get;
+  std::function<void(DeclaredMechanism&, int end, double value)> set;
   /// choice, text and boolean ("true"/"false").
-  std::string (*get_text)(const Mechanism&) = nullptr;
-  void (*set_text)(Mechanism&, std::string_view value) = nullptr;
+  std::string (*get_text)(const DeclaredMechanism&) = nullptr;
+  void (*set_text)(DeclaredMechanism&, std::string_view value) = nullptr;
   /// Lists: numbers and texts. Their members themselves.
-  std::vector<double>& (*numbers)(Mechanism&) = nullptr;
-  std::vector<std::string>& (*texts)(Mechanism&) = nullptr;
+  std::vector<double>& (*numbers)(DeclaredMechanism&) = nullptr;
+  std::vector<std::string>& (*texts)(DeclaredMechanism&) = nullptr;
 
   std::string name() const;  ///< "joint.length_mm"
 };
@@ -52,13 +53,17 @@ std::span<const Field> fields();
 /// By dotted name, or null.
 const Field* find_field(std::string_view name);
 
+/// The value of a number (or of one end of a range) of a mechanism of which no more is known, in the file's unit.
+double number_of(const Mechanism& mechanism, const Field& field, int end = 0);
+void set_number(Mechanism& mechanism, const Field& field, int end, double value);
+
 /// A number that can be turned: a field of kind number, or one end of a range ("joint.range_deg[0]").
 struct NumberKey {
   const Field* field = nullptr;
   int end = 0;
 
-  double get(const Mechanism& mechanism) const { return field->get(mechanism, end); }
-  void set(Mechanism& mechanism, double value) const { field->set(mechanism, end, value); }
+  double get(const DeclaredMechanism& mechanism) const { return field->get(mechanism, end); }
+  void set(DeclaredMechanism& mechanism, double value) const { field->set(mechanism, end, value); }
 };
 /// By dotted name; null when there is no such key or it holds no number of the mechanism.
 std::optional<NumberKey> find_number_key(std::string_view name);
@@ -71,8 +76,8 @@ std::vector<std::string> field_tables();
 std::string_view table_meaning(std::string_view table);
 
 /// True when the key has a use in this mechanism (see Field::only_when).
-bool is_used(const Field& field, const Mechanism& mechanism);
+bool is_used(const Field& field, const DeclaredMechanism& mechanism);
 /// A mechanism with every default and nothing else.
-Mechanism default_mechanism();
+DeclaredMechanism default_mechanism();
 
 }  // namespace fusee

@@ -20,7 +20,7 @@ struct Setting {
 
 /// A mechanism read from a file, with what the manifest needs to name it.
 struct MechanismFile {
-  Mechanism mechanism;
+  DeclaredMechanism mechanism;
   std::string path;
   std::string sha256;                  ///< of the file's bytes (settings are not in it)
   std::vector<Diagnostic> warnings;
@@ -31,11 +31,11 @@ struct MechanismFile {
 MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings = {});
 
 /// The same from text; `name` stands in the messages, tables are looked for in `folder`.
-Mechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder = ".",
+DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder = ".",
                           const std::vector<Setting>& settings = {}, std::vector<Diagnostic>* warnings = nullptr);
 
 /// A complete file with every key, its meaning, unit, range and default as a comment. parse(write(m)) == m.
-std::string write_mechanism(const Mechanism& mechanism);
+std::string write_mechanism(const DeclaredMechanism& mechanism);
 
 /// `fusee explain`: a key ("r1_mm", "pulley.r1_mm"), a table ("pulley") or "" for the list. InputError with the nearest key.
 std::string explain(std::string_view key);

@@ -1,63 +1,125 @@
 /// \file
-/// By how much a joint is not as declared: one number for each way in which it can differ. All zero: as declared.
+/// By how much a joint is not as declared, part by part in the order of the chain: motor sensor → shaft → pulley →
+/// tendon → pins → joint → joint sensor. All zero: as declared. rad, mm, N, s.
 ///
-/// In the order of the chain motor sensor → shaft → pulley → tendon → pins → joint → joint sensor. rad, mm, N, s.
+/// What acts together stands together: sums, caches and corrections take parts, never lists of numbers. Which of these
+/// numbers belong to which cause says effect.h.
 #pragma once
 
 namespace fusee {
 
-struct Imperfections {
-  // Motor sensor: the shaft stands at α + offset + sin · sin α + cos · (cos α − 1).
-  double motor_offset = 0;            ///< rad
-  double motor_eccentricity_sin = 0;  ///< rad
-  double motor_eccentricity_cos = 0;  ///< rad
+/// The shaft stands at α + offset + sin · sin α + cos · (cos α − 1), where the sensor shows α. rad
+struct MotorSensorError {
+  double offset = 0;
+  double eccentricity_sin = 0;
+  double eccentricity_cos = 0;
 
-  // Between shaft and pulley.
-  double backlash = 0;                ///< full width, rad of α
+  bool operator==(const MotorSensorError&) const = default;
+};
 
-  // Pulley, both halves alike.
-  double radius_offset = 0;           ///< pitch curves further out by this all round, mm
-  double pulley_scale = 0;            ///< pitch curves larger by this fraction
-  double runout_x = 0;                ///< centre of the pitch curves off the axis, at home, mm
-  double runout_y = 0;                ///< mm
-  double profile_sin = 0;             ///< a wave all round: pitch curves further out by sin nψ along the normal ψ of the part, mm
-  double profile_cos = 0;             ///< and by cos nψ, mm
-  double profile_harmonic = 2;        ///< n
+/// Between shaft and pulley.
+struct ShaftError {
+  double backlash = 0;  ///< full width, rad of α
 
-  // Tendon.
-  double stretch = 0;                 ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
-  double pretension = 0;              ///< added to that of tendon 1 at home, N
-  double slack = 0;                   ///< of both tendons together, beyond what pretension takes up, mm
-  double creep = 0;                   ///< compliance added in every decade of time since a run began, as a fraction
-  double slip = 0;                    ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
-  double slip_time = 0;               ///< s, on the bench's clock: runs one after another
-  double thermal1 = 0;                ///< unloaded length of tendon 1 added per kelvin, as a fraction
-  double thermal2 = 0;                ///< of tendon 2: one may lie nearer to what is warm
+  bool operator==(const ShaftError&) const = default;
+};
 
-  // Pins.
-  double friction = 0;                ///< added to the capstan coefficient
-  double guide_radius = 0;            ///< added to the pins' radius, mm
-  double guide_outward = 0;           ///< both pins further from the middle, mm
-  double guide_down = 0;              ///< both pins further from the joint, mm
+/// How the pitch curves of both pulleys lie in the part beside where they were drawn. Drawing them the other way undoes
+/// it.
+struct OutlineError {
+  double offset = 0;    ///< further out all round, mm
+  double runout_x = 0;  ///< their centre off the axis, at home, mm
+  double runout_y = 0;
+  double wave_sin = 0;    ///< a wave all round: further out by sin nψ along the normal ψ of the part, mm
+  double wave_cos = 0;    ///< and by cos nψ, mm
+  double wave_order = 2;  ///< n
 
-  // Joint.
-  double joint_length = 0;            ///< added to OC, mm
-  double gravity_cos = 0;             ///< torque against +θ: cos · cos θ + sin · sin θ, N·mm
-  double gravity_sin = 0;
-  double mean_load = 0;               ///< tip force beside the declared one, under which the joint is to follow its law, N
-  // Of a joint declared by a ratio, whose tendons are not known; rad.
-  double compliance = 0;              ///< turned by a unit of load
-  double dry_friction = 0;            ///< half loop per unit of |load|
-  double drift = 0;                   ///< turned by a unit of load in every decade of time since a run began
-  double step = 0;                    ///< turned at `slip_time`
-  double warmth = 0;                  ///< turned by a kelvin
+  bool operator==(const OutlineError&) const = default;
+};
 
-  // Joint sensor: it shows zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1), late by `lag`.
-  double zero = 0;                    ///< rad
+struct PulleyError {
+  OutlineError outline;
+  double scale = 0;  ///< pitch curves larger by this fraction
+
+  bool operator==(const PulleyError&) const = default;
+};
+
+struct TendonError {
+  double stretch = 0;     ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
+  double pretension = 0;  ///< added to that of tendon 1 at home, N
+  double slack = 0;       ///< of both tendons together, beyond what pretension takes up, mm
+  double creep = 0;       ///< compliance added in every decade of time since a run began, as a fraction
+  double slip = 0;        ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
+  double slip_time = 0;   ///< s, on the bench's clock: runs one after another
+  double thermal1 = 0;    ///< unloaded length of tendon 1 added per kelvin, as a fraction
+  double thermal2 = 0;    ///< of tendon 2: one may lie nearer to what is warm
+
+  bool operator==(const TendonError&) const = default;
+};
+
+/// Both pins alike.
+struct PinPlaceError {
+  double radius = 0;   ///< added to the pins' radius, mm
+  double outward = 0;  ///< further from the middle, mm
+  double down = 0;     ///< further from the joint, mm; the pulley's axis stays
+
+  bool operator==(const PinPlaceError&) const = default;
+};
+
+struct PinError {
+  PinPlaceError place;
+  double friction = 0;  ///< added to the capstan coefficient
+
+  bool operator==(const PinError&) const = default;
+};
+
+/// A torque against +θ beside what is declared: cos · cos θ + sin · sin θ, N·mm.
+struct WeightError {
+  double cos = 0;
+  double sin = 0;
+
+  bool operator==(const WeightError&) const = default;
+};
+
+struct JointError {
+  double length = 0;  ///< added to OC, mm
+  WeightError weight;
+  double mean_load = 0;  ///< tip force beside the declared one, under which the joint is to follow its law, N
+
+  bool operator==(const JointError&) const = default;
+};
+
+/// Of a joint declared by a ratio, whose tendons are not known. rad.
+struct RatioJointError {
+  double compliance = 0;    ///< turned by a unit of load
+  double dry_friction = 0;  ///< half loop per unit of |load|
+  double drift = 0;         ///< turned by a unit of load in every decade of time since a run began
+  double step = 0;          ///< turned at TendonError::slip_time
+  double warmth = 0;        ///< turned by a kelvin
+
+  bool operator==(const RatioJointError&) const = default;
+};
+
+/// It shows zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1), late by `lag`.
+struct JointSensorError {
+  double zero = 0;  ///< rad
   double gain = 0;
-  double joint_eccentricity_sin = 0;  ///< rad
-  double joint_eccentricity_cos = 0;  ///< rad
-  double lag = 0;                     ///< s
+  double eccentricity_sin = 0;  ///< rad
+  double eccentricity_cos = 0;  ///< rad
+  double lag = 0;               ///< s
+
+  bool operator==(const JointSensorError&) const = default;
+};
+
+struct Imperfections {
+  MotorSensorError motor;
+  ShaftError shaft;
+  PulleyError pulley;
+  TendonError tendon;
+  PinError pins;
+  JointError joint;
+  RatioJointError ratio_joint;
+  JointSensorError sensor;
 
   bool operator==(const Imperfections&) const = default;
 };

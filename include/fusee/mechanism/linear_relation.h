@@ -22,7 +22,7 @@ struct LinearExpression {
   std::vector<LinearTerm> terms;
   double constant = 0;
 
-  double value(const Mechanism& mechanism) const;
+  double value(const DeclaredMechanism& mechanism) const;
 };
 
 enum class Relation { equal, at_most };

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fusee/base/units.h"
@@ -70,6 +71,11 @@ struct Tendon {
 
   bool operator==(const Tendon&) const = default;
 };
+
+/// Tension per strain of a tendon: modulus · πd²/4, N.
+inline double section_stiffness(const Tendon& tendon) {
+  return tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter;
+}
 
 /// What the joint carries. Forces and torques are positive against +θ: they load tendon 2.
 struct Load {
@@ -160,6 +166,7 @@ struct Prior {
   bool operator==(const Prior&) const = default;
 };
 
+/// A mechanism, whosoever's: as declared, as mounted, or as it is made.
 struct Mechanism {
   std::string name;
   Joint joint;
@@ -170,9 +177,6 @@ struct Mechanism {
   Body body;
   Material material;
   Cut cut;
-  Optimization optimize;
-  Imperfections identified;  ///< what fusee calibrate found; all zero: as declared
-  Prior prior;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
 
   bool operator==(const Mechanism&) const = default;
@@ -181,6 +185,19 @@ struct Mechanism {
   double guide_pitch_radius() const { return guides.radius + 0.5 * tendon.diameter; }
   /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
   double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
+};
+
+/// All that a file says: the mechanism as declared, what was found to be otherwise, and what is asked. What must work in
+/// the joint as it is goes through as_it_is() (joint/as_it_is.h), which alone reads `identified`.
+struct DeclaredMechanism : Mechanism {
+  Optimization optimize;
+  Imperfections identified;  ///< what fusee calibrate found; all zero: as declared
+  Prior prior;
+
+  DeclaredMechanism() = default;
+  /// Of which no more is known.
+  explicit DeclaredMechanism(Mechanism mechanism) : Mechanism(std::move(mechanism)) {}
+  bool operator==(const DeclaredMechanism&) const = default;
 };
 
 }  // namespace fusee

@@ -51,7 +51,7 @@ struct ObjectiveCap {
 };
 
 struct Problem {
-  Mechanism base;
+  DeclaredMechanism base;
   std::vector<Objective> objectives;
   std::vector<Variable> variables;
   std::vector<MovingKey> moving;  ///< variables in their order, then what is tied
@@ -65,7 +65,7 @@ struct Problem {
 Problem make_problem(const MechanismFile& file);
 
 /// The mechanism of a design, ties followed; without its [optimize].
-Mechanism mechanism_at(const Problem& problem, const Design& design);
+DeclaredMechanism mechanism_at(const Problem& problem, const Design& design);
 /// What a design changes in the person's file.
 std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design);
 /// How far beyond its constraints a design lies, each in units of its own size; 0 when it keeps them all.

@@ -1,5 +1,5 @@
 /// \file
-/// What [load] pulls with, and what a tendon's section holds against it.
+/// What [load] turns the joint with.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
@@ -12,7 +12,5 @@ constexpr double k_gravity = 9.80665;  ///< standard, m/s²
 double weight_moment(const Load& load);
 /// Torque against +θ of everything [load] declares, N·mm.
 double load_torque(const Mechanism& mechanism, double theta);
-/// Tension per strain of a tendon: modulus · πd²/4, N.
-double section_stiffness(const Tendon& tendon);
 
 }  // namespace fusee

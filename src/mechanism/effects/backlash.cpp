@@ -1,19 +1,28 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect backlash(const Mechanism&, const Measurement&) {
+Effect backlash(JointKind) {
   Effect effect;
   effect.name = "backlash";
-  effect.place = "shaft";
+  effect.place = ChainPlace::shaft;
+  effect.rank = 1;
   effect.signature =
       "a square loop of constant width in alpha, whatever load and speed; it decays over distance after a reversal";
-  effect.correctable_by = "table";
   effect.separating_run =
       "repeat one run at a tenth of its speed and one at another load: backlash changes with neither";
-  effect.parameters = {{"width_deg", &Imperfections::backlash, 0, 0.5, 2e-3, shown::in_degrees}};
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {};
+  effect.parameters = {
+      {.name = "width_deg",
+       .number = [](Imperfections& at) -> double& { return at.shaft.backlash; },
+       .least = 0,
+       .most = 0.5,
+       .step = 2e-3,
+       .shown = shown::in_degrees,
+       .key = key::in_degrees("backlash_deg", 0, 360,
+                              "play of alpha, full width; no pulley takes it out, compensation.csv does")}};
   effect.starts = {{radians(0.3)}, {radians(1.5)}, {radians(5.0)}};
-  effect.applies = applies::always;
   return effect;
 }
 

@@ -1,4 +1,4 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 namespace {
@@ -9,20 +9,36 @@ double total(double added, const Mechanism& declared) {
 
 }  // namespace
 
-Effect capstan_friction(const Mechanism& declared, const Measurement&) {
+Effect capstan_friction(JointKind kind) {
   Effect effect;
   effect.name = "capstan_friction";
-  effect.place = "pins";
+  effect.place = ChainPlace::pins;
+  effect.rank = 1;
   effect.signature = "a loop that grows with load and wrap, with a transition after each reversal";
-  effect.correctable_by = "table";
   effect.separating_run = "run at two loads: friction's loop grows with the load, backlash's does not";
-  effect.parameters = {{"mu", &Imperfections::friction, -1, 2, 5e-3, total}};
-  effect.starts = {{0.1}, {0.4}};
-  if (declared.transmission) {
-    effect.parameters = {{"half_loop_deg_per_load", &Imperfections::dry_friction, 0, 1e6, 1e-3, shown::in_degrees}};
-    effect.starts.clear();
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {};
+  if (kind == JointKind::ratio) {
+    effect.needs = {.load = true};
+    effect.parameters = {{.name = "half_loop_deg_per_load",
+                          .number = [](Imperfections& at) -> double& { return at.ratio_joint.dry_friction; },
+                          .least = 0,
+                          .most = 1e6,
+                          .step = 1e-3,
+                          .shown = shown::in_degrees,
+                          .key = key::in_degrees("dry_friction_deg", -360, 360,
+                                                 "of a joint declared by a ratio: half loop per unit of load")}};
+    return effect;
   }
-  effect.applies = applies::to_tendons_or_load;
+  effect.parameters = {{.name = "mu",
+                        .number = [](Imperfections& at) -> double& { return at.pins.friction; },
+                        .least = -1,
+                        .most = 2,
+                        .step = 5e-3,
+                        .shown = total,
+                        .key = key::plain("friction", "", -2, 2, "added to guides.friction"),
+                        .again = WhenFoundAgain::added}};
+  effect.starts = {{0.1}, {0.4}};
   return effect;
 }
 

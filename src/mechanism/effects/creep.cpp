@@ -1,18 +1,36 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect creep(const Mechanism& declared, const Measurement&) {
+Effect creep(JointKind kind) {
   Effect effect;
   effect.name = "creep";
-  effect.place = "tendon";
+  effect.place = ChainPlace::tendon;
+  effect.rank = 3;
   effect.signature = "grows with the logarithm of time at constant load";
-  effect.correctable_by = "table";
   effect.separating_run = "hold one loaded position for ten minutes and log it";
-  effect.parameters = {{"compliance_percent_per_decade", &Imperfections::creep, 0, 10, 2e-3, shown::in_percent}};
-  if (declared.transmission)
-    effect.parameters = {{"per_decade_deg_per_load", &Imperfections::drift, -1e6, 1e6, 1e-4, shown::in_degrees}};
-  effect.applies = applies::with_time_and_load;
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.time = true, .load = true};
+  if (kind == JointKind::ratio) {
+    effect.parameters = {{.name = "per_decade_deg_per_load",
+                          .number = [](Imperfections& at) -> double& { return at.ratio_joint.drift; },
+                          .least = -1e6,
+                          .most = 1e6,
+                          .step = 1e-4,
+                          .shown = shown::in_degrees,
+                          .key = key::in_degrees(
+                              "drift_deg", -360, 360,
+                              "of a joint declared by a ratio: turned by a unit of load in every decade of seconds")}};
+    return effect;
+  }
+  effect.parameters = {{.name = "compliance_percent_per_decade",
+                        .number = [](Imperfections& at) -> double& { return at.tendon.creep; },
+                        .least = 0,
+                        .most = 10,
+                        .step = 2e-3,
+                        .shown = shown::in_percent,
+                        .key = key::plain("creep_per_decade", "", -0.5, 100,
+                                          "compliance added in every decade of seconds, per that of the first")}};
   return effect;
 }
 

@@ -1,17 +1,32 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect gravity(const Mechanism&, const Measurement&) {
+Effect gravity(JointKind) {
   Effect effect;
   effect.name = "gravity";
-  effect.place = "joint";
+  effect.place = ChainPlace::joint;
+  effect.rank = 2;
   effect.signature = "a load that turns with the joint: it acts through the tendons' stretch";
-  effect.correctable_by = "pulley";
   effect.separating_run = "repeat one run with the joint lying on its side";
-  effect.parameters = {{"cos_Nmm", &Imperfections::gravity_cos, -1e6, 1e6, 1, shown::as_is},
-                       {"sin_Nmm", &Imperfections::gravity_sin, -1e6, 1e6, 1, shown::as_is}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.tendons = true};
+  effect.parameters = {{.name = "cos_Nmm",
+                        .number = [](Imperfections& at) -> double& { return at.joint.weight.cos; },
+                        .least = -1e6,
+                        .most = 1e6,
+                        .step = 1,
+                        .shown = shown::as_is,
+                        .key = key::plain("gravity_cos_Nmm", "Nmm", -1e+07, 1e+07, "torque against +theta: cos theta"),
+                        .again = WhenFoundAgain::added},
+                       {.name = "sin_Nmm",
+                        .number = [](Imperfections& at) -> double& { return at.joint.weight.sin; },
+                        .least = -1e6,
+                        .most = 1e6,
+                        .step = 1,
+                        .shown = shown::as_is,
+                        .key = key::plain("gravity_sin_Nmm", "Nmm", -1e+07, 1e+07, "torque against +theta: sin theta"),
+                        .again = WhenFoundAgain::added}};
   return effect;
 }
 

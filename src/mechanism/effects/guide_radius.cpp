@@ -1,4 +1,5 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
 namespace {
@@ -7,17 +8,31 @@ double total(double added, const Mechanism& declared) {
   return declared.guides.radius + added > 0 ? declared.guides.radius + added : 0.0;
 }
 
+std::vector<HandReading> by_caliper(const DeclaredMechanism& declared) {
+  return hand_reading(declared.prior.guide_radius, declared.guides.radius);
+}
+
 }  // namespace
 
-Effect guide_radius(const Mechanism&, const Measurement&) {
+Effect guide_radius(JointKind) {
   Effect effect;
   effect.name = "guide_radius";
-  effect.place = "pins";
+  effect.place = ChainPlace::pins;
+  effect.rank = 2;
   effect.signature = "smooth in theta, no direction; grows towards both ends of the range";
-  effect.correctable_by = "pulley";
   effect.separating_run = "measure the guide pins with a caliper";
-  effect.parameters = {{"radius_mm", &Imperfections::guide_radius, -20, 20, 5e-3, total}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.tendons = true};
+  effect.parameters = {
+      {.name = "radius_mm",
+       .number = [](Imperfections& at) -> double& { return at.pins.place.radius; },
+       .least = -20,
+       .most = 20,
+       .step = 5e-3,
+       .shown = total,
+       .key = key::plain("guide_radius_mm", "mm", -500, 500, "added to guides.radius_mm"),
+       .again = WhenFoundAgain::added,
+       .by_hand = {"measure the guide pins with a caliper and write [prior] guide_radius_mm", k_caliper, by_caliper}}};
   return effect;
 }
 

@@ -1,21 +1,37 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
 namespace {
 
 double total(double added, const Mechanism& declared) { return declared.joint.R + added; }
 
+std::vector<HandReading> by_caliper(const DeclaredMechanism& declared) {
+  return hand_reading(declared.prior.length, declared.joint.R);
+}
+
 }  // namespace
 
-Effect joint_length(const Mechanism&, const Measurement&) {
+Effect joint_length(JointKind) {
   Effect effect;
   effect.name = "joint_length";
-  effect.place = "joint";
+  effect.place = ChainPlace::joint;
+  effect.rank = 1;
   effect.signature = "smooth in theta, no direction; a load turns the joint further in proportion";
-  effect.correctable_by = "pulley";
   effect.separating_run = "measure from the joint's axis to the tendons' attachment with a caliper";
-  effect.parameters = {{"length_mm", &Imperfections::joint_length, -50, 50, 1e-2, total}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.tendons = true};
+  effect.parameters = {
+      {.name = "length_mm",
+       .number = [](Imperfections& at) -> double& { return at.joint.length; },
+       .least = -50,
+       .most = 50,
+       .step = 1e-2,
+       .shown = total,
+       .key = key::plain("length_mm", "mm", -10000, 10000, "added to joint.length_mm"),
+       .again = WhenFoundAgain::added,
+       .by_hand = {"measure from the joint's axis to the tendons' attachment and write [prior] length_mm", k_caliper,
+                   by_caliper}}};
   return effect;
 }
 

@@ -1,17 +1,31 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect joint_sensor_eccentricity(const Mechanism&, const Measurement&) {
+Effect joint_sensor_eccentricity(JointKind) {
   Effect effect;
   effect.name = "joint_sensor_eccentricity";
-  effect.place = "joint sensor";
+  effect.place = ChainPlace::joint_sensor;
+  effect.rank = 3;
   effect.signature = "once per turn of the joint sensor, whichever way and load";
-  effect.correctable_by = "table";
   effect.separating_run = "turn the joint's encoder on its axis by a quarter turn and repeat the slow unloaded run";
-  effect.parameters = {{"sin_deg", &Imperfections::joint_eccentricity_sin, -0.3, 0.3, 2e-3, shown::in_degrees},
-                       {"cos_deg", &Imperfections::joint_eccentricity_cos, -0.5, 0.5, 5e-3, shown::in_degrees}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.tendons = true};
+  effect.parameters = {
+      {.name = "sin_deg",
+       .number = [](Imperfections& at) -> double& { return at.sensor.eccentricity_sin; },
+       .least = -0.3,
+       .most = 0.3,
+       .step = 2e-3,
+       .shown = shown::in_degrees,
+       .key = key::in_degrees("joint_eccentricity_sin_deg", -360, 360, "once a turn of the joint sensor: sin theta")},
+      {.name = "cos_deg",
+       .number = [](Imperfections& at) -> double& { return at.sensor.eccentricity_cos; },
+       .least = -0.5,
+       .most = 0.5,
+       .step = 5e-3,
+       .shown = shown::in_degrees,
+       .key = key::in_degrees("joint_eccentricity_cos_deg", -360, 360, "the same: cos theta - 1")}};
   return effect;
 }
 

@@ -1,16 +1,30 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
+namespace {
 
-Effect joint_sensor_gain(const Mechanism&, const Measurement&) {
+constexpr double k_square = 0.005;  // of the gain, by a square
+
+}  // namespace
+
+Effect joint_sensor_gain(JointKind) {
   Effect effect;
   effect.name = "joint_sensor_gain";
-  effect.place = "joint sensor";
+  effect.place = ChainPlace::joint_sensor;
+  effect.rank = 2;
   effect.signature = "in proportion to theta, whichever way and load";
-  effect.correctable_by = "table";
   effect.separating_run = "read the joint's sensor against a square at two angles";
-  effect.parameters = {{"gain_percent", &Imperfections::gain, -0.3, 0.3, 1e-3, shown::in_percent}};
-  effect.applies = applies::always;
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {};
+  effect.parameters = {
+      {.name = "gain_percent",
+       .number = [](Imperfections& at) -> double& { return at.sensor.gain; },
+       .least = -0.3,
+       .most = 0.3,
+       .step = 1e-3,
+       .shown = shown::in_percent,
+       .key = key::in_percent("gain_percent", -99, 1000, "by how much the joint sensor shows too much"),
+       .by_hand = {"read the joint's sensor against a square at two angles", k_square}}};
   return effect;
 }
 

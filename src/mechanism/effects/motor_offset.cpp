@@ -1,16 +1,24 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect motor_offset(const Mechanism&, const Measurement&) {
+Effect motor_offset(JointKind) {
   Effect effect;
   effect.name = "motor_offset";
-  effect.place = "motor sensor";
+  effect.place = ChainPlace::motor_sensor;
+  effect.rank = 1;
   effect.signature = "like a zero offset of the joint, in proportion to the transmission's slope";
-  effect.correctable_by = "table";
   effect.separating_run = "drive the joint to a mechanical stop or mark at home and read both sensors there";
-  effect.parameters = {{"offset_deg", &Imperfections::motor_offset, -0.35, 0.35, 1e-3, shown::in_degrees}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.tendons = true};
+  effect.parameters = {{.name = "offset_deg",
+                        .number = [](Imperfections& at) -> double& { return at.motor.offset; },
+                        .least = -0.35,
+                        .most = 0.35,
+                        .step = 1e-3,
+                        .shown = shown::in_degrees,
+                        .key = key::in_degrees("motor_offset_deg", -360, 360,
+                                               "the shaft stands this much further than the motor sensor shows")}};
   return effect;
 }
 

@@ -1,17 +1,32 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect motor_sensor_eccentricity(const Mechanism&, const Measurement&) {
+Effect motor_sensor_eccentricity(JointKind) {
   Effect effect;
   effect.name = "motor_sensor_eccentricity";
-  effect.place = "motor sensor";
+  effect.place = ChainPlace::motor_sensor;
+  effect.rank = 2;
   effect.signature = "once per turn of the motor sensor, whichever way and load";
-  effect.correctable_by = "table";
   effect.separating_run = "turn the motor's encoder on its shaft by a quarter turn and repeat the slow unloaded run";
-  effect.parameters = {{"sin_deg", &Imperfections::motor_eccentricity_sin, -0.2, 0.2, 1e-3, shown::in_degrees},
-                       {"cos_deg", &Imperfections::motor_eccentricity_cos, -0.2, 0.2, 1e-3, shown::in_degrees}};
-  effect.applies = applies::to_full_turn;
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.full_turn = true};
+  effect.parameters = {
+      {.name = "sin_deg",
+       .number = [](Imperfections& at) -> double& { return at.motor.eccentricity_sin; },
+       .least = -0.2,
+       .most = 0.2,
+       .step = 1e-3,
+       .shown = shown::in_degrees,
+       .key = key::in_degrees("motor_eccentricity_sin_deg", -360, 360, "once a turn of the motor sensor: sin alpha")},
+      {.name = "cos_deg",
+       .number = [](Imperfections& at) -> double& { return at.motor.eccentricity_cos; },
+       .least = -0.2,
+       .most = 0.2,
+       .step = 1e-3,
+       .shown = shown::in_degrees,
+       .key =
+           key::in_degrees("motor_eccentricity_cos_deg", -360, 360, "once a turn of the motor sensor: cos alpha - 1")}};
   return effect;
 }
 

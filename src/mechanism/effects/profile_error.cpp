@@ -1,19 +1,67 @@
-#include "mechanism/effects/effect.h"
+#include <cmath>
+
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
+namespace {
 
-Effect profile_error(const Mechanism&, const Measurement&) {
+double as_written(double order) { return order; }
+
+double size(const OutlineError& outline) { return std::hypot(outline.wave_sin, outline.wave_cos); }
+
+/// Waves of one order add up. Of two orders one is kept, the larger.
+void larger_wave(const Imperfections& before, Imperfections& joint) {
+  const OutlineError& first = before.pulley.outline;
+  OutlineError& total = joint.pulley.outline;
+  if (size(total) == 0 || (first.wave_order != total.wave_order && size(first) > size(total))) {
+    total.wave_sin = first.wave_sin;
+    total.wave_cos = first.wave_cos;
+    total.wave_order = first.wave_order;
+  } else if (first.wave_order == total.wave_order) {
+    total.wave_sin += first.wave_sin;
+    total.wave_cos += first.wave_cos;
+  }
+}
+
+}  // namespace
+
+Effect profile_error(JointKind) {
   Effect effect;
   effect.name = "profile_error";
-  effect.place = "pulley";
+  effect.place = ChainPlace::pulley;
+  effect.rank = 4;
   effect.signature = "twice or three times per turn of the pulley, whichever way and load";
-  effect.correctable_by = "pulley";
   effect.separating_run = "turn the pulley on its shaft by an eighth of a turn and repeat the slow unloaded run";
-  effect.parameters = {{"sin_mm", &Imperfections::profile_sin, -2, 2, 2e-3, shown::as_is},
-                       {"cos_mm", &Imperfections::profile_cos, -2, 2, 2e-3, shown::as_is},
-                       {"harmonic", &Imperfections::profile_harmonic, 2, 3, 1, shown::as_is, true}};
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.full_turn = true};
+  effect.found_again = larger_wave;
+  effect.parameters = {{.name = "sin_mm",
+                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_sin; },
+                        .least = -2,
+                        .most = 2,
+                        .step = 2e-3,
+                        .shown = shown::as_is,
+                        .key = key::plain("profile_sin_mm", "mm", -100, 100,
+                                          "a wave of the made curves, further out along the normal psi by sin n psi"),
+                        .again = WhenFoundAgain::added},
+                       {.name = "cos_mm",
+                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_cos; },
+                        .least = -2,
+                        .most = 2,
+                        .step = 2e-3,
+                        .shown = shown::as_is,
+                        .key = key::plain("profile_cos_mm", "mm", -100, 100, "the same: cos n psi"),
+                        .again = WhenFoundAgain::added},
+                       {.name = "harmonic",
+                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_order; },
+                        .least = 2,
+                        .most = 3,
+                        .step = 1,
+                        .shown = shown::as_is,
+                        .key = {"profile_harmonic", "", "that n", 1, 100, as_written, as_written, "2"},
+                        .again = WhenFoundAgain::added,
+                        .searched = true}};
   effect.starts = {{0, 0, 2}, {0, 0, 3}};
-  effect.applies = applies::to_full_turn;
   return effect;
 }
 

@@ -1,17 +1,33 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect pulley_runout(const Mechanism&, const Measurement&) {
+Effect pulley_runout(JointKind) {
   Effect effect;
   effect.name = "pulley_runout";
-  effect.place = "pulley";
+  effect.place = ChainPlace::pulley;
+  effect.rank = 3;
   effect.signature = "once per turn of the pulley, whichever way and load";
-  effect.correctable_by = "pulley";
   effect.separating_run = "turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run";
-  effect.parameters = {{"x_mm", &Imperfections::runout_x, -2, 2, 2e-3, shown::as_is},
-                       {"y_mm", &Imperfections::runout_y, -2, 2, 2e-3, shown::as_is}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.tendons = true};
+  effect.parameters = {
+      {.name = "x_mm",
+       .number = [](Imperfections& at) -> double& { return at.pulley.outline.runout_x; },
+       .least = -2,
+       .most = 2,
+       .step = 2e-3,
+       .shown = shown::as_is,
+       .key = key::plain("runout_x_mm", "mm", -100, 100, "centre of the made curves off the axis, at home"),
+       .again = WhenFoundAgain::added},
+      {.name = "y_mm",
+       .number = [](Imperfections& at) -> double& { return at.pulley.outline.runout_y; },
+       .least = -2,
+       .most = 2,
+       .step = 2e-3,
+       .shown = shown::as_is,
+       .key = key::plain("runout_y_mm", "mm", -100, 100, "the same across"),
+       .again = WhenFoundAgain::added}};
   return effect;
 }
 

@@ -1,16 +1,37 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
+namespace {
 
-Effect pulley_scale(const Mechanism&, const Measurement&) {
+constexpr double k_of_a_diameter = 0.003;  // of a print's size, by a caliper
+
+std::vector<HandReading> by_diameters(const DeclaredMechanism& declared) {
+  return hand_reading(declared.prior.pulley_scale, 1);
+}
+
+}  // namespace
+
+Effect pulley_scale(JointKind) {
   Effect effect;
   effect.name = "pulley_scale";
-  effect.place = "pulley";
+  effect.place = ChainPlace::pulley;
+  effect.rank = 2;
   effect.signature = "smooth in alpha, no direction, no load: both pulleys too large in proportion";
-  effect.correctable_by = "pulley";
   effect.separating_run = "measure two diameters of the printed part with a caliper";
-  effect.parameters = {{"scale_percent", &Imperfections::pulley_scale, -0.15, 0.15, 2e-4, shown::in_percent}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.tendons = true};
+  effect.parameters = {
+      {.name = "scale_percent",
+       .number = [](Imperfections& at) -> double& { return at.pulley.scale; },
+       .least = -0.15,
+       .most = 0.15,
+       .step = 2e-4,
+       .shown = shown::in_percent,
+       .key = key::in_percent("pulley_scale_percent", -50, 100, "the made pulley is larger than drawn by this"),
+       .again = WhenFoundAgain::compounded,
+       .by_hand = {"measure two diameters of the print with a caliper and write [prior] pulley_scale", k_of_a_diameter,
+                   by_diameters}}};
   return effect;
 }
 

@@ -1,16 +1,36 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
+#include "mechanism/effects/by_hand.h"
 
 namespace fusee {
+namespace {
 
-Effect radius_offset(const Mechanism&, const Measurement&) {
+std::vector<HandReading> by_caliper(const DeclaredMechanism& declared) {
+  return hand_reading(declared.prior.radius_offset, 0);
+}
+
+}  // namespace
+
+Effect radius_offset(JointKind) {
   Effect effect;
   effect.name = "radius_offset";
-  effect.place = "pulley";
+  effect.place = ChainPlace::pulley;
+  effect.rank = 1;
   effect.signature = "smooth in alpha, no direction, no load: both pulleys too large by a constant";
-  effect.correctable_by = "pulley";
   effect.separating_run = "measure the diameter of the pulley's groove floor and of the tendon with a caliper";
-  effect.parameters = {{"offset_mm", &Imperfections::radius_offset, -2, 2, 2e-3, shown::as_is}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.tendons = true};
+  effect.parameters = {
+      {.name = "offset_mm",
+       .number = [](Imperfections& at) -> double& { return at.pulley.outline.offset; },
+       .least = -2,
+       .most = 2,
+       .step = 2e-3,
+       .shown = shown::as_is,
+       .key = key::plain("radius_offset_mm", "mm", -100, 100,
+                         "tendons run this much further out on the made pulley than drawn"),
+       .again = WhenFoundAgain::added,
+       .by_hand = {"measure the pulley's groove floor and the tendon with a caliper and write [prior] radius_offset_mm",
+                   k_caliper, by_caliper}}};
   return effect;
 }
 

@@ -1,17 +1,24 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect sensor_lag(const Mechanism&, const Measurement&) {
+Effect sensor_lag(JointKind) {
   Effect effect;
   effect.name = "sensor_lag";
-  effect.place = "joint sensor";
+  effect.place = ChainPlace::joint_sensor;
+  effect.rank = 4;
   effect.signature = "a loop that grows with speed; it decays in time after a stop";
-  effect.correctable_by = "table";
   effect.separating_run = "repeat one run at a tenth of its speed, and dwell at a few places: a delay vanishes";
-  effect.parameters = {{"lag_ms", &Imperfections::lag, 0, 2, 2e-3, shown::in_ms}};
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.time = true};
+  effect.parameters = {{.name = "lag_ms",
+                        .number = [](Imperfections& at) -> double& { return at.sensor.lag; },
+                        .least = 0,
+                        .most = 2,
+                        .step = 2e-3,
+                        .shown = shown::in_ms,
+                        .key = key::plain("lag_s", "s", 0, 1000, "by which the joint sensor is late")}};
   effect.starts = {{0.02}, {0.1}, {0.5}};
-  effect.applies = applies::with_speeds;
   return effect;
 }
 

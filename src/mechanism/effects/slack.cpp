@@ -1,4 +1,4 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 namespace {
@@ -9,17 +9,32 @@ double total(double added, const Mechanism& declared) {
 
 }  // namespace
 
-Effect slack(const Mechanism&, const Measurement&) {
+Effect slack(JointKind) {
   Effect effect;
   effect.name = "slack";
-  effect.place = "tendon";
+  effect.place = ChainPlace::tendon;
+  effect.rank = 2;
   effect.signature = "lost motion that grows as the moment arm shrinks, taken up by load and gone with pretension";
-  effect.correctable_by = "table";
   effect.separating_run = "repeat one run with twice the pretension: slack goes, backlash stays";
-  effect.parameters = {{"slack_mm", &Imperfections::slack, 0, 10, 5e-3, shown::as_is},
-                       {"pretension_N", &Imperfections::pretension, -1000, 1000, 0.1, total}};
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.tendons = true};
+  effect.parameters = {
+      {.name = "slack_mm",
+       .number = [](Imperfections& at) -> double& { return at.tendon.slack; },
+       .least = 0,
+       .most = 10,
+       .step = 5e-3,
+       .shown = shown::as_is,
+       .key = key::plain("slack_mm", "mm", 0, 1000, "of both tendons together, beyond what pretension takes up")},
+      {.name = "pretension_N",
+       .number = [](Imperfections& at) -> double& { return at.tendon.pretension; },
+       .least = -1000,
+       .most = 1000,
+       .step = 0.1,
+       .shown = total,
+       .key = key::plain("pretension_N", "N", -100000, 100000, "added to tendon.pretension_N"),
+       .again = WhenFoundAgain::added}};
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};
-  effect.applies = applies::to_tendons;
   return effect;
 }
 

@@ -1,21 +1,53 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
-Effect tendon_slip(const Mechanism& declared, const Measurement&) {
+Effect tendon_slip(JointKind kind) {
   Effect effect;
   effect.name = "tendon_slip";
-  effect.place = "tendon";
+  effect.place = ChainPlace::tendon;
+  effect.rank = 4;
   effect.signature = "one step in time, at high tension, that stays";
-  effect.correctable_by = "";
   effect.separating_run = "mark the tendon where it enters the pulley and look again after a loaded run";
-  // Released tendon 1 lets the joint go up, released tendon 2 down.
-  effect.parameters = {{"released_mm", &Imperfections::slip, -20, 20, 1e-2, shown::as_is},
-                       {"time_s", &Imperfections::slip_time, -1e12, 1e12, 1, shown::as_is, true}};
-  if (declared.transmission)
-    effect.parameters.front() = {"step_deg", &Imperfections::step, -0.5, 0.5, 1e-3, shown::in_degrees};
+  effect.correctable_by = CorrectableBy::nothing;
+  effect.needs = {.time = true};
   effect.starts_in_time = true;
-  effect.applies = applies::with_time;
+  if (kind == JointKind::ratio) {
+    effect.parameters = {
+        {.name = "step_deg",
+         .number = [](Imperfections& at) -> double& { return at.ratio_joint.step; },
+         .least = -0.5,
+         .most = 0.5,
+         .step = 1e-3,
+         .shown = shown::in_degrees,
+         .key = key::in_degrees("step_deg", -360, 360, "of a joint declared by a ratio: turned at slip_time_s")},
+        {.name = "time_s",
+         .number = [](Imperfections& at) -> double& { return at.tendon.slip_time; },
+         .least = -1e12,
+         .most = 1e12,
+         .step = 1,
+         .shown = shown::as_is,
+         .key = key::plain("slip_time_s", "s", -1e+12, 1e+12, "when it slipped, the runs one after another"),
+         .searched = true}};
+    return effect;
+  }
+  // Released tendon 1 lets the joint go up, released tendon 2 down.
+  effect.parameters = {
+      {.name = "released_mm",
+       .number = [](Imperfections& at) -> double& { return at.tendon.slip; },
+       .least = -20,
+       .most = 20,
+       .step = 1e-2,
+       .shown = shown::as_is,
+       .key = key::plain("slip_mm", "mm", -1000, 1000, "let go by the anchor of tendon 1, of tendon 2 where negative")},
+      {.name = "time_s",
+       .number = [](Imperfections& at) -> double& { return at.tendon.slip_time; },
+       .least = -1e12,
+       .most = 1e12,
+       .step = 1,
+       .shown = shown::as_is,
+       .key = key::plain("slip_time_s", "s", -1e+12, 1e+12, "when it slipped, the runs one after another"),
+       .searched = true}};
   return effect;
 }
 

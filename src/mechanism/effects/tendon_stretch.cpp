@@ -1,30 +1,53 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 namespace {
 
 double section(double stretch, const Mechanism& declared) {
-  const double d = declared.tendon.diameter;
-  return declared.tendon.modulus * 0.25 * k_pi * d * d / (1.0 + stretch);
+  return section_stiffness(declared.tendon) / (1.0 + stretch);
+}
+
+std::vector<HandReading> by_modulus(const DeclaredMechanism& declared) {
+  const std::vector<double>& modulus = declared.prior.modulus;
+  if (modulus.size() != 2 || !(modulus[0] > 0)) return {};
+  const double ratio = declared.tendon.modulus / modulus[0];
+  return {{ratio - 1.0, ratio * modulus[1] / modulus[0]}};
 }
 
 }  // namespace
 
-Effect tendon_stretch(const Mechanism& declared, const Measurement&) {
+Effect tendon_stretch(JointKind kind) {
   Effect effect;
   effect.name = "tendon_stretch";
-  effect.place = "tendon";
+  effect.place = ChainPlace::tendon;
+  effect.rank = 1;
   effect.signature = "in proportion to the load, zero without; the same both ways";
-  effect.correctable_by = "pulley";
   effect.separating_run = "run the same strokes at no load, at half and at full load, and at the reversed load";
-  effect.parameters = {{"EA_N", &Imperfections::stretch, -0.9, 60, 0.01, section}};
-  effect.starts = {{0.5}, {2.0}, {10.0}};
-  if (declared.transmission) {
-    effect.correctable_by = "table";
-    effect.parameters = {{"compliance_deg_per_load", &Imperfections::compliance, -1e6, 1e6, 1e-3, shown::in_degrees}};
-    effect.starts.clear();
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.load = true};
+  if (kind == JointKind::ratio) {
+    effect.correctable_by = CorrectableBy::table;
+    effect.parameters = {{.name = "compliance_deg_per_load",
+                          .number = [](Imperfections& at) -> double& { return at.ratio_joint.compliance; },
+                          .least = -1e6,
+                          .most = 1e6,
+                          .step = 1e-3,
+                          .shown = shown::in_degrees,
+                          .key = key::in_degrees("compliance_deg", -360, 360,
+                                                 "of a joint declared by a ratio: turned by a unit of load")}};
+    return effect;
   }
-  effect.applies = applies::with_load;
+  effect.parameters = {{.name = "EA_N",
+                        .number = [](Imperfections& at) -> double& { return at.tendon.stretch; },
+                        .least = -0.9,
+                        .most = 60,
+                        .step = 0.01,
+                        .shown = section,
+                        .key = key::plain("stretch", "", -0.999, 1e+06,
+                                          "the tendon's compliance beyond the declared one, per the declared one"),
+                        .again = WhenFoundAgain::compounded,
+                        .by_hand = {"", 0, by_modulus}}};
+  effect.starts = {{0.5}, {2.0}, {10.0}};
   return effect;
 }
 

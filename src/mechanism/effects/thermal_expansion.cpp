@@ -1,24 +1,42 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
-namespace {
 
-double in_ppm(double value, const Mechanism&) { return 1e6 * value; }
-
-}  // namespace
-
-Effect thermal_expansion(const Mechanism& declared, const Measurement&) {
+Effect thermal_expansion(JointKind kind) {
   Effect effect;
   effect.name = "thermal_expansion";
-  effect.place = "tendon";
+  effect.place = ChainPlace::tendon;
+  effect.rank = 5;
   effect.signature = "follows the temperature";
-  effect.correctable_by = "";
   effect.separating_run = "log temperature_C over a warm-up without motion";
-  effect.parameters = {{"tendon1_ppm_per_K", &Imperfections::thermal1, -5e-3, 5e-3, 2e-6, in_ppm},
-                       {"tendon2_ppm_per_K", &Imperfections::thermal2, -5e-3, 5e-3, 2e-6, in_ppm}};
-  if (declared.transmission)
-    effect.parameters = {{"per_K_deg", &Imperfections::warmth, -0.05, 0.05, 1e-4, shown::in_degrees}};
-  effect.applies = applies::with_temperature;
+  effect.correctable_by = CorrectableBy::nothing;
+  effect.needs = {.temperature = true};
+  if (kind == JointKind::ratio) {
+    effect.parameters = {
+        {.name = "per_K_deg",
+         .number = [](Imperfections& at) -> double& { return at.ratio_joint.warmth; },
+         .least = -0.05,
+         .most = 0.05,
+         .step = 1e-4,
+         .shown = shown::in_degrees,
+         .key = key::in_degrees("warmth_deg", -360, 360, "of a joint declared by a ratio: turned by a kelvin")}};
+    return effect;
+  }
+  effect.parameters = {
+      {.name = "tendon1_ppm_per_K",
+       .number = [](Imperfections& at) -> double& { return at.tendon.thermal1; },
+       .least = -5e-3,
+       .most = 5e-3,
+       .step = 2e-6,
+       .shown = shown::in_ppm,
+       .key = key::in_ppm("thermal1_ppm_per_K", "length that the unloaded tendon 1 gains by a kelvin")},
+      {.name = "tendon2_ppm_per_K",
+       .number = [](Imperfections& at) -> double& { return at.tendon.thermal2; },
+       .least = -5e-3,
+       .most = 5e-3,
+       .step = 2e-6,
+       .shown = shown::in_ppm,
+       .key = key::in_ppm("thermal2_ppm_per_K", "the same of tendon 2")}};
   return effect;
 }
 

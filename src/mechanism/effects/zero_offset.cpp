@@ -1,16 +1,29 @@
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
+namespace {
 
-Effect zero_offset(const Mechanism&, const Measurement&) {
+constexpr double k_mark = radians(0.2);  // how well a person sets a joint to a mark
+
+}  // namespace
+
+Effect zero_offset(JointKind) {
   Effect effect;
   effect.name = "zero_offset";
-  effect.place = "joint sensor";
+  effect.place = ChainPlace::joint_sensor;
+  effect.rank = 1;
   effect.signature = "one constant";
-  effect.correctable_by = "table";
   effect.separating_run = "drive the joint to a mechanical stop or mark at home and read both sensors there";
-  effect.parameters = {{"offset_deg", &Imperfections::zero, -0.35, 0.35, 1e-3, shown::in_degrees}};
-  effect.applies = applies::to_tendons;
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.tendons = true};
+  effect.parameters = {{.name = "offset_deg",
+                        .number = [](Imperfections& at) -> double& { return at.sensor.zero; },
+                        .least = -0.35,
+                        .most = 0.35,
+                        .step = 1e-3,
+                        .shown = shown::in_degrees,
+                        .key = key::in_degrees("zero_deg", -360, 360, "what the joint sensor shows at theta = 0"),
+                        .by_hand = {"drive the joint to a mark at home and read its sensor there", k_mark}}};
   return effect;
 }
 

@@ -1,0 +1,28 @@
+/// \file
+/// What drives a joint on its bench: logged motor angles, loads, temperatures, run by run.
+#pragma once
+
+#include <vector>
+
+namespace fusee {
+
+struct BenchRow {
+  double time = 0;         ///< s; 0 where it was not logged
+  double alpha = 0;        ///< as the motor's sensor showed it, rad
+  double load = 0;         ///< tip force, positive against +θ, N; of a joint declared by a ratio in the log's own unit
+  double temperature = 0;  ///< °C
+};
+
+struct BenchRun {
+  std::vector<BenchRow> rows;  ///< by time
+  bool has_load = false;       ///< else the declared load acts
+  bool has_temperature = false;
+};
+
+/// Runs in the order in which they were made.
+using BenchLog = std::vector<BenchRun>;
+
+/// What is added to each run's time so that runs whose clocks begin anew follow one another. s
+std::vector<double> bench_clock(const BenchLog& log);
+
+}  // namespace fusee

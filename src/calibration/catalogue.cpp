@@ -1,0 +1,70 @@
+#include "calibration/catalogue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace fusee {
+namespace {
+
+/// A sensor that drifts by less has seen one temperature.
+constexpr double k_least_warming = 1.0;  // K
+/// Less than this of a turn, and what comes back once a turn looks like a slope.
+constexpr double k_full_turn = radians(150.0);
+
+struct Span {
+  double least = 1e300;
+  double most = -1e300;
+
+  void take(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  double size() const { return most - least; }
+};
+
+Span span_of(const Measurement& measurement, double Sample::*member) {
+  Span span;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) span.take(sample.*member);
+  }
+  return span;
+}
+
+bool all(const Measurement& measurement, bool Run::*has) {
+  return std::all_of(measurement.runs.begin(), measurement.runs.end(), [&](const Run& run) { return run.*has; });
+}
+
+bool has_load(const Mechanism& declared, const Measurement& measurement) {
+  if (declared.load.tip_force != 0 || declared.load.torque != 0 || declared.load.mass > 0) return true;
+  return std::any_of(measurement.runs.begin(), measurement.runs.end(), [](const Run& run) {
+    return run.has_load && std::any_of(run.samples.begin(), run.samples.end(),
+                                       [](const Sample& sample) { return std::abs(sample.load) > 0; });
+  });
+}
+
+bool has_warming(const Measurement& measurement) {
+  return all(measurement, &Run::has_temperature) && span_of(measurement, &Sample::temperature).size() > k_least_warming;
+}
+
+bool can_be_seen(const Needs& needs, const Mechanism& declared, const Measurement& measurement) {
+  return !(needs.time && !all(measurement, &Run::has_time)) && !(needs.load && !has_load(declared, measurement)) &&
+         !(needs.temperature && !has_warming(measurement)) &&
+         !(needs.full_turn && !(span_of(measurement, &Sample::alpha).size() > k_full_turn)) &&
+         !(needs.tendons && declared.transmission);
+}
+
+}  // namespace
+
+std::vector<const Effect*> catalogue(const Mechanism& declared, const Measurement& measurement,
+                                     std::span<const Effect* const> more) {
+  std::vector<const Effect*> all(more.begin(), more.end());
+  for (const Effect& effect : effects(kind_of(declared))) all.push_back(&effect);
+  std::erase_if(all, [&](const Effect* effect) { return !can_be_seen(effect->needs, declared, measurement); });
+  std::stable_sort(all.begin(), all.end(), [](const Effect* a, const Effect* b) {
+    return std::tie(a->place, a->rank) < std::tie(b->place, b->rank);
+  });
+  return all;
+}
+
+}  // namespace fusee

@@ -1,0 +1,29 @@
+/// \file
+/// The statics of a joint that is not as declared: pulleys made for the declaration and imperfect themselves, in the
+/// mechanism as mounted.
+#pragma once
+
+#include "fusee/joint/as_it_is.h"
+#include "fusee/joint/joint_model.h"
+
+namespace fusee {
+
+/// What the tendons' paths depend on: joints that have it in common have their geometry in common.
+struct GeometryError {
+  PulleyError pulley;
+  PinPlaceError pins;
+  double joint_length = 0;
+
+  bool operator==(const GeometryError&) const = default;
+};
+GeometryError geometry_of(const Imperfections& imperfections);
+
+/// Both tendons' paths. Of the imperfections only geometry_of() acts.
+JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared, const Imperfections& imperfections);
+/// Stiffness, friction, pretension, slack and weight, in a model of that geometry.
+void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& imperfections);
+
+/// Both.
+JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, const Imperfections& imperfections);
+
+}  // namespace fusee

@@ -1,0 +1,222 @@
+#include "joint/needed_law.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fusee/joint/simulate.h"
+#include "fusee/transmission/load.h"
+
+namespace fusee {
+namespace {
+
+/// P1 stays round below this miss of the needed law: what tendons on a drawn outline miss anyway, and little beside any
+/// error worth a pulley.
+constexpr double k_round_suffices = radians(0.005);
+/// A joint that gives way by less is not worth another law.
+constexpr double k_least_shift = radians(0.002);
+/// What the loaded joint may still miss its law by when the search for the pulley's law ends.
+constexpr double k_law_reached = radians(1e-5);
+constexpr int k_law_rows = 152;
+constexpr int k_rows_beyond = 4;  ///< the same distance apart, at each end
+
+/// What makes the declared law worth keeping under load. Friction and pretension alone hardly move the mean of both
+/// directions.
+bool gives_way(const Imperfections& at) {
+  return at.tendon.stretch != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
+}
+/// The declared law as rows, both ends of the range among them, a little beyond them where it goes on. Empty where it
+/// does not exist.
+std::vector<LawRow> declared_rows(const Mechanism& declared) {
+  const Transmission law(declared);
+  if (law.dead_centre()) return {};
+  const double low = declared.joint.theta_min, high = declared.joint.theta_max;
+  std::vector<LawRow> rows;
+  for (int i = -k_rows_beyond; i <= k_law_rows + k_rows_beyond; ++i) {
+    const double theta = (low * (k_law_rows - i) + high * i) / k_law_rows;
+    const LawRow row{law.alpha(theta), theta};
+    if (!std::isfinite(row.alpha) || (!rows.empty() && row.alpha <= rows.back().alpha)) continue;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// What is identified of the weight, added to the declared one: weight · sin(tilt − θ).
+Load with_weight(Load load, const WeightError& at, double R) {
+  if (at == WeightError{}) return load;
+  const double declared = weight_moment(load);
+  const double cos_part = declared * std::sin(load.tilt) + at.cos;
+  const double sin_part = at.sin - declared * std::cos(load.tilt);
+  if (load.lever == 0) load.lever = R;
+  load.mass = std::hypot(cos_part, sin_part) / (k_gravity * load.lever);
+  load.tilt = std::atan2(cos_part, -sin_part);
+  return load;
+}
+
+/// `rows` seen from the pulley, whose own home is where its tendons are tied at θ = 0.
+std::vector<LawRow> from_home(std::vector<LawRow> rows, double home) {
+  for (LawRow& row : rows) row.alpha -= home;
+  return rows;
+}
+
+}  // namespace
+
+Mechanism identified_joint(const DeclaredMechanism& declared) {
+  Mechanism joint = mounted(declared, declared.identified).mechanism;
+  joint.load = with_weight(joint.load, declared.identified.joint.weight, joint.joint.R);
+  return joint;
+}
+
+Mechanism with_law(Mechanism joint, const NeededLaw& needed) {
+  joint.pulley.law = Law::table;
+  joint.pulley.rows = from_home(needed.rows, needed.home);
+  joint.joint.theta_min = needed.theta_min;
+  joint.joint.theta_max = needed.theta_max;
+  return joint;
+}
+
+namespace {
+
+/// One run up and down through these angles under a constant tip force.
+BenchLog sweep(const std::vector<LawRow>& rows, double tip_force) {
+  BenchRun run;
+  run.has_load = true;
+  const auto add = [&](const LawRow& row) { run.rows.push_back({.alpha = row.alpha, .load = tip_force}); };
+  std::for_each(rows.begin(), rows.end(), add);
+  std::for_each(rows.rbegin(), rows.rend(), add);
+  return {run};
+}
+
+/// θ of the loaded joint at each row's α, mean of both directions.
+std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow>& at, double tip_force) {
+  const std::vector<double> theta = predict(joint, {}, sweep(at, tip_force)).front();
+  std::vector<double> mean;
+  for (std::size_t i = 0; i < at.size(); ++i) mean.push_back(0.5 * (theta[i] + theta[theta.size() - 1 - i]));
+  return mean;
+}
+
+/// Least squares by Chebyshev polynomials of α: a pulley's curvature holds the law's second derivative, so that a kink
+/// (a tendon that falls slack) would be a dent. What moderate loads do is smooth and comes through to 1e-5 of itself.
+class Smoothed {
+ public:
+  explicit Smoothed(const std::vector<LawRow>& rows) : basis_(static_cast<Eigen::Index>(rows.size()), k_terms) {
+    const double middle = 0.5 * (rows.front().alpha + rows.back().alpha),
+                 half = 0.5 * (rows.back().alpha - rows.front().alpha);
+    for (Eigen::Index i = 0; i < basis_.rows(); ++i) {
+      const double x = std::clamp((rows[static_cast<std::size_t>(i)].alpha - middle) / half, -1.0, 1.0);
+      for (Eigen::Index k = 0; k < k_terms; ++k) basis_(i, k) = std::cos(static_cast<double>(k) * std::acos(x));
+    }
+    solver_.compute(basis_);
+  }
+  Eigen::VectorXd of(const Eigen::VectorXd& values) const { return basis_ * solver_.solve(values); }
+
+ private:
+  static constexpr Eigen::Index k_terms = 9;
+  Eigen::MatrixXd basis_;
+  Eigen::HouseholderQR<Eigen::MatrixXd> solver_;
+};
+
+/// The rows drawn further by `miss`; null where θ would not grow with α or home is out of reach.
+std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRow>& wanted, const Joint& joint,
+                                       const Eigen::VectorXd& miss) {
+  constexpr double rounding = 1e-12;
+  double low = 0, high = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    LawRow& row = needed.rows[i];
+    row.theta -= miss(static_cast<Eigen::Index>(i));
+    if (i > 0 && row.theta <= needed.rows[i - 1].theta) return std::nullopt;
+    if (wanted[i].theta <= joint.theta_min + rounding) low = row.theta;
+    if (wanted[i].theta <= joint.theta_max + rounding) high = row.theta;
+  }
+  needed.theta_min = std::min(low, 0.0);
+  needed.theta_max = std::max(high, 0.0);
+  return needed;
+}
+
+/// The law by which `joint`, giving way under its load, stands where `wanted` says. Null where there is none.
+///
+/// Without the pins' friction: that is a loop about this mean, and its turns at both ends of the range are none of the
+/// pulley's.
+std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, double tip_force) {
+  joint.guides.mu = 0;
+  const std::vector<LawRow>& wanted = declared.rows;
+  const Smoothed smoothed(wanted);
+  NeededLaw needed = declared;
+  for (int i = 0; i < 20; ++i) {
+    const Mechanism made = with_law(joint, needed);
+    if (Transmission(made).dead_centre()) return std::nullopt;
+    const std::vector<double> theta = mean_motion(made, from_home(wanted, needed.home), tip_force);
+    Eigen::VectorXd miss(static_cast<Eigen::Index>(wanted.size()));
+    for (std::size_t k = 0; k < wanted.size(); ++k) miss(static_cast<Eigen::Index>(k)) = theta[k] - wanted[k].theta;
+    if (!miss.allFinite()) return std::nullopt;
+    miss = smoothed.of(miss);
+    const auto next = drawn_further(needed, wanted, joint.joint, miss);
+    if (!next) return std::nullopt;
+    needed = *next;
+    needed.home = 0;
+    needed.home = Transmission(with_law(joint, needed)).alpha(0.0);
+    if (miss.cwiseAbs().maxCoeff() < k_law_reached) break;
+  }
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    needed.shifted = needed.shifted || std::abs(needed.rows[k].theta - wanted[k].theta) > k_least_shift;
+  return needed;
+}
+
+}  // namespace
+
+NeededLaw needed_law(const DeclaredMechanism& declared) {
+  const NeededLaw as_declared{declared_rows(declared), 0, declared.joint.theta_min, declared.joint.theta_max, false};
+  if (as_declared.rows.empty() || !gives_way(declared.identified)) return as_declared;
+  const auto needed =
+      given_way(identified_joint(declared), as_declared, declared.load.tip_force + declared.identified.joint.mean_load);
+  return needed && needed->shifted ? *needed : as_declared;
+}
+
+namespace {
+
+/// The worst miss of the rows by a joint whose law is `joint`'s; where home may shift, at its best place.
+double worst_miss(const Mechanism& joint, const NeededLaw& needed) {
+  const Transmission law(joint);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (law.dead_centre()) return none;
+  double least = none, most = -none;
+  for (const LawRow& row : needed.rows) {
+    const double off = (law.alpha(row.theta) - row.alpha) * law.at_theta(row.theta).g;
+    if (!std::isfinite(off)) return none;
+    least = std::min(least, off);
+    most = std::max(most, off);
+  }
+  return needed.shifted ? 0.5 * (most - least) : std::max(most, -least);
+}
+
+}  // namespace
+
+RoundChoice round_choice(const DeclaredMechanism& declared, const NeededLaw& needed) {
+  Mechanism joint = identified_joint(declared);
+  RoundChoice choice;
+  choice.r1 = joint.pulley.r1;
+  if (declared.pulley.law != Law::compensate || needed.rows.empty()) return choice;
+  const auto miss = [&](double r1) {
+    joint.pulley.r1 = r1;
+    return worst_miss(joint, needed);
+  };
+  // The worst miss has one minimum over r1: golden section.
+  double low = 0.8 * choice.r1, high = 1.25 * choice.r1;
+  constexpr double golden = 0.6180339887498949;
+  for (int i = 0; i < 40; ++i) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    if (miss(a) < miss(b)) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  choice.r1 = 0.5 * (low + high);
+  choice.max_error = miss(choice.r1);
+  choice.suffices = choice.max_error <= k_round_suffices;
+  return choice;
+}
+
+}  // namespace fusee

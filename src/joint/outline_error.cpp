@@ -1,0 +1,75 @@
+#include "joint/outline_error.h"
+
+#include <cmath>
+
+#include "fusee/joint/as_it_is.h"
+
+namespace fusee {
+namespace {
+
+/// Draws a point further in by what making moves it out. Making moves points w along their normals, which moves the
+/// support of a curve with radius of curvature ρ by w + w'²/(2ρ) (support_wave).
+void draw_wave_out(OutlinePoint& point, const OutlineError& outline) {
+  if (outline.wave_sin == 0 && outline.wave_cos == 0) return;
+  const OutlineWave w = outline_wave(point.psi, outline);
+  const double rho = point.curvature_radius;
+  const double support = w.outward + 0.5 * w.slope * w.slope / rho;
+  const double slope = w.slope + w.slope * w.bend / rho;
+  point.position -= support * point.normal + slope * Vec2(-point.normal.y(), point.normal.x());
+  point.curvature_radius -= w.outward + w.bend;
+}
+
+}  // namespace
+
+OutlineWave outline_wave(double psi, const OutlineError& outline) {
+  const double n = outline.wave_order;
+  const double outward = outline.wave_sin * std::sin(n * psi) + outline.wave_cos * std::cos(n * psi);
+  const double slope = n * (outline.wave_sin * std::cos(n * psi) - outline.wave_cos * std::sin(n * psi));
+  return {outward, slope, -n * n * outward};
+}
+
+// Every point of the outline is moved along its normal by w. The farthest point along ψ is then a neighbour: beside w
+// it gains w'²/(2ρ), with ρ the radius of curvature, for which the support stands.
+SupportWave support_wave(double psi, double support, const OutlineError& outline) {
+  const double n = outline.wave_order;
+  const double s = outline.wave_sin;
+  const double c = outline.wave_cos;
+  const double sine = std::sin(n * psi);
+  const double cosine = std::cos(n * psi);
+  const OutlineWave w = outline_wave(psi, outline);
+  const double squares =
+      0.5 * n * n *
+      ((s * s + c * c) * psi + ((s * s - c * c) * sine * cosine + s * c * (cosine * cosine - sine * sine)) / n);
+  return {w.outward + 0.5 * w.slope * w.slope / support, (c * sine - s * cosine) / n + 0.5 * squares / support};
+}
+
+void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline) {
+  for (Outline* curve : {&synthesis.p1, &synthesis.p2}) {
+    for (OutlinePoint& point : curve->points) {
+      draw_wave_out(point, outline);
+      point.position -= Vec2(outline.runout_x, outline.runout_y) + outline.offset * point.normal;
+      point.curvature_radius -= outline.offset;
+    }
+  }
+}
+
+Polygon as_made(Polygon drawn, const OutlineError& outline) {
+  const Polygon centred = drawn;
+  const std::size_t n = drawn.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 along = (centred[(i + 1) % n] - centred[(i + n - 1) % n]).normalized();
+    drawn[i] += Vec2(outline.runout_x, outline.runout_y);
+    const Vec2 normal(along.y(), -along.x());
+    drawn[i] += outline_wave(std::atan2(normal.y(), normal.x()), outline).outward * normal;
+  }
+  return drawn;
+}
+
+Mechanism with_inset(const JointAsItIs& joint) {
+  Mechanism mechanism = joint.mechanism;
+  mechanism.tendon.diameter += 2 * joint.outline.offset;
+  mechanism.guides.radius -= joint.outline.offset;
+  return mechanism;
+}
+
+}  // namespace fusee

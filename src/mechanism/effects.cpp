@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <tuple>
+
+#include "fusee/mechanism/effect.h"
+#include "mechanism/effect_list.h"
+
+namespace fusee {
+namespace {
+
+std::vector<Effect> in_order(JointKind kind) {
+  std::vector<Effect> all = effect_list(kind);
+  std::erase_if(all, [&](const Effect& effect) { return kind == JointKind::ratio && effect.needs.tendons; });
+  std::stable_sort(all.begin(), all.end(), [](const Effect& a, const Effect& b) {
+    return std::tie(a.place, a.rank) < std::tie(b.place, b.rank);
+  });
+  return all;
+}
+
+double as_it_stands(double value) { return value; }
+double percent(double fraction) { return 100.0 * fraction; }
+double fraction(double percent) { return percent / 100.0; }
+double per_million(double fraction) { return 1e6 * fraction; }
+double of_a_million(double ppm) { return 1e-6 * ppm; }
+
+}  // namespace
+
+std::string_view word(ChainPlace place) {
+  switch (place) {
+    case ChainPlace::motor_sensor:
+      return "motor sensor";
+    case ChainPlace::shaft:
+      return "shaft";
+    case ChainPlace::pulley:
+      return "pulley";
+    case ChainPlace::tendon:
+      return "tendon";
+    case ChainPlace::pins:
+      return "pins";
+    case ChainPlace::joint:
+      return "joint";
+    case ChainPlace::joint_sensor:
+      return "joint sensor";
+  }
+  return "";
+}
+
+std::string_view word(CorrectableBy remedy) {
+  switch (remedy) {
+    case CorrectableBy::nothing:
+      return "";
+    case CorrectableBy::table:
+      return "table";
+    case CorrectableBy::pulley:
+      return "pulley";
+  }
+  return "";
+}
+
+JointKind kind_of(const Mechanism& mechanism) { return mechanism.transmission ? JointKind::ratio : JointKind::tendons; }
+
+std::span<const Effect> effects(JointKind kind) {
+  static const std::vector<Effect> of_tendons = in_order(JointKind::tendons), of_ratio = in_order(JointKind::ratio);
+  return kind == JointKind::ratio ? of_ratio : of_tendons;
+}
+
+const Effect* find_effect(std::string_view name, JointKind kind) {
+  const std::span<const Effect> all = effects(kind);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Effect& effect) { return effect.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+double value_of(const Imperfections& joint, const EffectParameter& parameter) {
+  Imperfections copy = joint;  // numbers are reached through a reference that may write
+  return parameter.number(copy);
+}
+
+void set_value(Imperfections& joint, const EffectParameter& parameter, double value) {
+  parameter.number(joint) = value;
+}
+
+void reset(Imperfections& joint, const EffectParameter& parameter) {
+  set_value(joint, parameter, value_of({}, parameter));
+}
+
+Imperfections found_again(const Imperfections& before, const Imperfections& found, JointKind kind) {
+  Imperfections total = found;
+  for (const Effect& effect : effects(kind)) {
+    if (effect.found_again != nullptr) {
+      effect.found_again(before, total);
+      continue;
+    }
+    for (const EffectParameter& parameter : effect.parameters) {
+      const double first = value_of(before, parameter), second = value_of(found, parameter);
+      if (parameter.again == WhenFoundAgain::added) set_value(total, parameter, second + first);
+      if (parameter.again == WhenFoundAgain::compounded) set_value(total, parameter, (1 + first) * (1 + second) - 1);
+    }
+  }
+  return total;
+}
+
+Imperfections beyond_mechanism(const Imperfections& found, JointKind kind) {
+  Imperfections rest = found;
+  for (const Effect& effect : effects(kind)) {
+    for (const EffectParameter& parameter : effect.parameters) {
+      if (parameter.again != WhenFoundAgain::anew) reset(rest, parameter);
+    }
+  }
+  return rest;
+}
+
+namespace key {
+
+IdentifiedKey plain(std::string_view name, std::string_view unit, double least, double most, std::string_view meaning) {
+  return {name, unit, meaning, least, most, as_it_stands, as_it_stands};
+}
+IdentifiedKey in_degrees(std::string_view name, double least, double most, std::string_view meaning) {
+  return {name, "deg", meaning, least, most, degrees, radians};
+}
+IdentifiedKey in_percent(std::string_view name, double least, double most, std::string_view meaning) {
+  return {name, "%", meaning, least, most, percent, fraction};
+}
+IdentifiedKey in_ppm(std::string_view name, std::string_view meaning) {
+  return {name, "ppm_per_K", meaning, -1e5, 1e5, per_million, of_a_million};
+}
+
+}  // namespace key
+
+}  // namespace fusee
