@@ -39,6 +39,8 @@ struct Evidence {
   std::vector<HandReading> readings;
   double floor = 0;  ///< rms noise, rad
 
+  /// Rows in use, block by block.
+  std::vector<Eigen::Index> rows() const;
   std::size_t rows_used() const;
 };
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "calibration/contract_effects.h"
 #include "mechanism/effects/effect.h"
 #include "fusee/base/files.h"
 #include "fusee/mechanism/file.h"
@@ -71,29 +72,7 @@ TEST(CalibrationPage, TheCatalogueHoldsEveryNameThatWasPromised) {
   std::vector<std::string> names;
   for (const Effect& effect : catalogue(read_mechanism(k_profiles / "forearm.toml").mechanism, rich_measurement()))
     names.push_back(effect.name);
-  for (const char* name : {"zero_offset",
-                           "motor_offset",
-                           "joint_sensor_gain",
-                           "joint_sensor_eccentricity",
-                           "motor_sensor_eccentricity",
-                           "sensor_lag",
-                           "radius_offset",
-                           "pulley_scale",
-                           "pulley_runout",
-                           "guide_radius",
-                           "guide_position",
-                           "joint_length",
-                           "tendon_stretch",
-                           "capstan_friction",
-                           "backlash",
-                           "slack",
-                           "creep",
-                           "tendon_slip",
-                           "thermal_expansion",
-                           "gravity",
-                           "profile_error"}) {
-    EXPECT_THAT(names, testing::Contains(name));
-  }
+  for (const char* name : k_contract_effects) EXPECT_THAT(names, testing::Contains(name));
 }
 
 }  // namespace

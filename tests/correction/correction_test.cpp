@@ -147,7 +147,7 @@ TEST(RoundChoice, StaysRoundWhereThatSuffices) {
 
 Calibration found_guide_radius() {
   Calibration calibration;
-  calibration.verdict = "explained";
+  calibration.verdict = CalibrationVerdict::explained;
   FoundEffect effect;
   effect.name = "guide_radius";
   effect.place = "pins";

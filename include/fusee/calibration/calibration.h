@@ -32,7 +32,7 @@ struct FoundEffect {
   std::vector<std::string> group;  ///< `name` and every effect whose held-out error is within one standard error
   std::string place;               ///< "tendon", "pins", "motor sensor" …
   std::vector<FittedParameter> parameters;
-  double rms_drop = 0;         ///< of the held-out residual, rad
+  double rms_drop = 0;         ///< of the held-out residual, rad; never below 0
   std::string correctable_by;  ///< "pulley", "table" or ""
 };
 
@@ -57,8 +57,11 @@ struct Detectable {
   double smallest = 0;  ///< rad at the joint
 };
 
+/// CONTRACT §6; in words: words.h.
+enum class CalibrationVerdict { not_testable, not_repeatable, unexplained, confounded, explained, no_effect };
+
 struct Calibration {
-  std::string verdict;  ///< CONTRACT §6: not_testable, not_repeatable, unexplained, confounded, explained, no_effect
+  CalibrationVerdict verdict = CalibrationVerdict::not_testable;
   std::string summary;  ///< two sentences that a person can act on
   std::vector<FoundEffect> effects;
   Imperfections identified;  ///< what the effects amount to; all zero without any
