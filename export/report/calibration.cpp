@@ -8,6 +8,7 @@
 
 #include "export/tool.h"
 #include "fusee/base/units.h"
+#include "fusee/calibration/words.h"
 
 namespace fusee {
 namespace {
@@ -31,10 +32,10 @@ Json effect_json(const FoundEffect& effect) {
   }
   return {{"name", effect.name},
           {"group", effect.group},
-          {"place", effect.place},
+          {"place", word(effect.place)},
           {"parameters", parameters},
           {"rms_drop_deg", angle(effect.rms_drop)},
-          {"correctable_by", effect.correctable_by}};
+          {"correctable_by", word(effect.correctable_by)}};
 }
 
 Json figures_json(const ErrorFigures& figures) {
@@ -79,6 +80,8 @@ Json detectable_json(const Calibration& calibration) {
 
 Json correctable_json(const Correction& correction) {
   Json json = {{"by_pulley_rms_deg", angle(correction.by_pulley)}, {"by_table_rms_deg", angle(correction.by_table)}};
+  if (!correction.infeasible.empty()) json["infeasible"] = correction.infeasible;
+  if (correction.tied_at != 0) json["tied_at_deg"] = angle(correction.tied_at);
   if (correction.round.r1 > 0) {
     json["p1_round"] = {{"best_r1_mm", number(correction.round.r1)},
                         {"max_error_deg", angle(correction.round.max_error)},
@@ -93,7 +96,7 @@ std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::er
 
 std::string calibration_json(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
-  Json json = {{"schema", 1}, {"verdict", calibration.verdict}, {"summary", calibration.summary}};
+  Json json = {{"schema", 1}, {"verdict", word(calibration.verdict)}, {"summary", calibration.summary}};
   json["effects"] = effects_json(calibration);
   json["noise_floor_deg"] = angle(calibration.noise.rms);
   json["noise_floor"] = {{"degrees_of_freedom", number(calibration.noise.degrees_of_freedom)},
@@ -123,7 +126,7 @@ std::string calibration_manifest_json(const CalibrationProduct& product, const s
                    {"sha256", product.file.sha256}};
   json["runs"] = Json::array();
   for (const Run& run : product.measurement.runs) json["runs"].push_back(run.name);
-  json["verdict"] = product.calibration.verdict;
+  json["verdict"] = word(product.calibration.verdict);
   json["outputs"] = Json::array();
   for (const OutputFile& file : outputs)
     json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});

@@ -14,6 +14,7 @@
 #include "export/report/tables.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
+#include "fusee/calibration/words.h"
 
 namespace fusee {
 namespace {
@@ -52,16 +53,25 @@ struct Sign {
   std::string sign;
 };
 
-Sign sign_of(const std::string& verdict) {
-  if (verdict == "explained" || verdict == "no_effect") return {"good", "✓"};
-  if (verdict == "confounded" || verdict == "unexplained") return {"noted", "?"};
+Sign sign_of(CalibrationVerdict verdict) {
+  switch (verdict) {
+    case CalibrationVerdict::explained:
+    case CalibrationVerdict::no_effect:
+      return {"good", "✓"};
+    case CalibrationVerdict::confounded:
+    case CalibrationVerdict::unexplained:
+      return {"noted", "?"};
+    case CalibrationVerdict::not_repeatable:
+    case CalibrationVerdict::not_testable:
+      break;
+  }
   return {"bad", "✗"};
 }
 
 std::string verdict_section(const Calibration& calibration) {
   const Sign sign = sign_of(calibration.verdict);
   return "<section class=\"verdict " + sign.style + "\"><span class=\"sign\">" + sign.sign + "</span><p><b>" +
-         safe_text(first_upper(open_words(calibration.verdict))) + ".</b> " + safe_text(calibration.summary) +
+         safe_text(first_upper(open_words(std::string(word(calibration.verdict))))) + ".</b> " + safe_text(calibration.summary) +
          "</p></section>\n";
 }
 
@@ -130,6 +140,9 @@ std::vector<std::string> correction_items(const Correction& correction) {
     items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
                     " rms, by simulation.");
     if (correction.round.r1 > 0) items.push_back(round_words(correction) + ".");
+    if (correction.tied_at != 0) items.push_back(first_upper(tied_words(correction)) + ".");
+  } else if (!correction.infeasible.empty()) {
+    items.push_back(first_upper(infeasible_words(correction)) + ".");
   } else {
     items.push_back("Nothing was identified that another pulley would take out.");
   }
@@ -169,16 +182,13 @@ using Signatures = std::map<std::string, const Effect*>;
 
 std::string effect_card(const FoundEffect& effect, const Signatures& known, const std::string& load_unit) {
   std::string html = "<div class=\"effect\"><h3>" +
-                     safe_text(first_upper(open_words(effect.name)) + ", at the " + effect.place) +
+                     safe_text(first_upper(open_words(effect.name)) + ", at the " + std::string(word(effect.place))) +
                      "</h3><p class=\"found\">";
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
   html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) +
           " rms off the error on data that were not fitted. " +
-          (effect.correctable_by == "pulley"  ? "A corrected pulley can take it out."
-           : effect.correctable_by == "table" ? "The table can take it out."
-                                              : "Neither a pulley nor a table can take it out.") +
-          "</p>";
+          std::string(remedy_words(effect)) + "</p>";
   if (const auto found = known.find(effect.name); found != known.end())
     html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   const std::vector<std::string> rivals = rivals_of(effect);
@@ -380,7 +390,7 @@ std::string calibration_report_html(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
   std::string html = page_head(product, name) + verdict_section(calibration);
-  if (calibration.verdict != "not_testable") {
+  if (calibration.verdict != CalibrationVerdict::not_testable) {
     html += key_numbers(product) + action_section(product) + effects_section(product) + residuals_section(product) +
             rest_section(product) + figures_section(product) + evidence_section(calibration) +
             detectable_section(calibration);

@@ -89,6 +89,17 @@ std::string round_words(const Correction& correction) {
   return "P1 is shaped and misses nothing; round, " + radius + "would miss the law " + miss;
 }
 
+std::string infeasible_words(const Correction& correction) {
+  return "the pulley that would correct this cannot be made: " + correction.infeasible;
+}
+
+std::string tied_words(const Correction& correction) {
+  return "tie its tendons with the unloaded joint at home and the motor at " +
+         rounded(degrees(correction.tied_at), 4) +
+         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which "
+         "compensation.csv has";
+}
+
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration) {
   std::vector<Detectable> sorted = calibration.detectable;
   std::stable_sort(sorted.begin(), sorted.end(),

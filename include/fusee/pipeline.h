@@ -1,11 +1,12 @@
 /// \file
-/// fusee in five functions: the first thing to read.
+/// fusee in six functions: the first thing to read.
 ///
 ///     MechanismFile   file      = read_mechanism("forearm.toml");             // mechanism/file.h    what the joint is
 ///     SynthesisResult synthesis = synthesise(file.mechanism);                 // profile/synthesis.h θ(α) → both pitch curves
 ///     Pulley          pulley    = make_pulley(file.mechanism, synthesis);     // solid/pulley.h      → one checked body
 ///     RewindResult    as_built  = rewind(file.mechanism, floor1, floor2);     // profile/rewind.h    what it will do
 ///     BuildResult     built     = build(file, options);                       // all of these, and every file
+///     CalibrateResult found     = calibrate(file, runs, options);             // pipeline/calibrate.h  measured runs → what is off, a better file
 #pragma once
 
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "fusee/export/export.h"
+#include "fusee/pipeline/calibrate.h"
 
 namespace fusee {
 

@@ -54,7 +54,7 @@ void name_held_out(const Evidence& evidence, Calibration& calibration) {
 
 Calibration not_testable(const std::vector<std::string>& reasons) {
   Calibration calibration;
-  calibration.verdict = "not_testable";
+  calibration.verdict = CalibrationVerdict::not_testable;
   for (const std::string& reason : reasons) calibration.summary += (calibration.summary.empty() ? "" : " ") + reason;
   calibration.next_runs = {
       "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster"};
@@ -85,10 +85,33 @@ void validate(const Mechanism& declared, const Measurement& kept, const Selectio
   for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
 }
 
+/// The tendons' elastic model takes N across OC; read_measurement() and compare_with_declared() see to it.
+bool is_torque(const Mechanism& declared, const Measurement& measurement) {
+  return !declared.transmission && (measurement.load_unit == "Nm" || measurement.load_unit == "Nmm");
+}
+
+std::vector<std::string> why_not_testable(const Mechanism& declared, const Measurement& measurement) {
+  if (measurement.not_testable.empty() && is_torque(declared, measurement))
+    return {"The load column holds a torque in " + measurement.load_unit +
+            ", and the declared joint takes a tip force: read the runs for this joint."};
+  return measurement.not_testable;
+}
+
+void describe_errors(const Mechanism& declared, const Measurement& measurement, const Selection& selection,
+                     Calibration& calibration) {
+  const BenchLog log = bench_log(measurement);
+  calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, log));
+  calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, log));
+  calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(selection.none));
+  calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(selection.best));
+  calibration.iso_before = iso230(measurement, calibration.residuals_before);
+  calibration.iso_after = iso230(measurement, calibration.residuals_after);
+}
+
 }  // namespace
 
 Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
-  if (!measurement.not_testable.empty()) return not_testable(measurement.not_testable);
+  if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty()) return not_testable(reasons);
   const NoiseFloor noise = noise_floor(measurement);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
@@ -108,13 +131,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = selection.best.at;
-  const BenchLog log = bench_log(measurement);
-  calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, log));
-  calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, log));
-  calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(selection.none));
-  calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(selection.best));
-  calibration.iso_before = iso230(measurement, calibration.residuals_before);
-  calibration.iso_after = iso230(measurement, calibration.residuals_after);
+  describe_errors(declared, measurement, selection, calibration);
   name_held_out(evidence, calibration);
   validate(declared, part(measurement, options.hold_out, true), selection, calibration);
   conclude(evidence, selection, calibration);

@@ -172,12 +172,12 @@ std::vector<std::size_t> without_outliers(const Eigen::VectorXd& residual, std::
 
 // ---- what was measured by hand --------------------------------------------------------------------------------------
 
-std::vector<Reading> hand_readings(const DeclaredMechanism& declared) {
-  std::vector<Reading> readings;
+std::vector<HandReading> hand_readings(const DeclaredMechanism& declared) {
+  std::vector<HandReading> readings;
   for (const Effect& effect : effects(kind_of(declared))) {
     for (const EffectParameter& parameter : effect.parameters) {
       if (parameter.by_hand.readings == nullptr) continue;
-      for (const HandReading& reading : parameter.by_hand.readings(declared))
+      for (const CaliperReading& reading : parameter.by_hand.readings(declared))
         readings.push_back({&parameter, reading.value, reading.uncertainty});
     }
   }
@@ -197,45 +197,72 @@ Eigen::VectorXd flat(const Readings& readings) {
   return all;
 }
 
+std::vector<Eigen::Index> Evidence::rows() const {
+  std::vector<Eigen::Index> all;
+  for (const Block& block : blocks) {
+    for (const std::size_t row : block.rows) all.push_back(static_cast<Eigen::Index>(row));
+  }
+  return all;
+}
+
 std::size_t Evidence::rows_used() const {
   std::size_t rows = 0;
   for (const Block& block : blocks) rows += block.rows.size();
   return rows;
 }
 
-Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor) {
-  Evidence evidence;
-  evidence.declared = &declared;
-  evidence.floor = floor;
-  evidence.measurement = measurement;
+namespace {
+
+/// As many rows of each run as many fits can bear.
+Measurement thinned(const Mechanism& declared, Measurement measurement, std::vector<bool>& counted) {
   const std::size_t runs = std::max<std::size_t>(1, measurement.runs.size());
   const std::size_t cheaper = declared.transmission ? k_cheaper : 1;
   const std::size_t most = cheaper * std::min(k_rows_a_run, std::max<std::size_t>(60, k_most_rows / runs));
-  std::vector<bool> counted;
-  for (Run& run : evidence.measurement.runs) run = thinned(run, most, counted);
-  evidence.log = bench_log(evidence.measurement);
-  Forward forward(declared, evidence.log);
+  for (Run& run : measurement.runs) run = thinned(run, most, counted);
+  return measurement;
+}
+
+Eigen::VectorXd measured_theta(const Measurement& measurement) {
   Readings theta;
-  for (const Run& run : evidence.measurement.runs) {
+  for (const Run& run : measurement.runs) {
     theta.emplace_back();
     for (const Sample& sample : run.samples) theta.back().push_back(sample.theta);
   }
-  evidence.theta = flat(theta);
+  return flat(theta);
+}
+
+/// Strokes with enough rows of those that are `counted`, without outliers of what the declared joint leaves.
+std::vector<Block> blocks_of(const Evidence& evidence, const std::vector<bool>& counted) {
+  Forward forward(*evidence.declared, evidence.log);
   const Eigen::VectorXd residual = evidence.theta - flat(forward({}));
+  std::vector<Block> blocks;
   std::size_t offset = 0;
   for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
     const Run& run = evidence.measurement.runs[i];
     for (std::size_t s = 0; s < run.strokes.size(); ++s) {
+      const Stroke& stroke = run.strokes[s];
       // Where the play stood when the log began is not known: the first stroke finds out.
-      if (run.strokes[s].partial || (s == 0 && run.strokes.size() > 2)) continue;
-      Block block{i, s, without_outliers(residual, offset + run.strokes[s].first, offset + run.strokes[s].last, floor)};
-      block.rows.erase(
-          std::remove_if(block.rows.begin(), block.rows.end(), [&](std::size_t row) { return !counted[row]; }),
-          block.rows.end());
-      if (block.rows.size() >= k_least_rows_a_block) evidence.blocks.push_back(std::move(block));
+      if (stroke.partial || (s == 0 && run.strokes.size() > 2)) continue;
+      Block block{i, s, without_outliers(residual, offset + stroke.first, offset + stroke.last, evidence.floor)};
+      std::erase_if(block.rows, [&](std::size_t row) { return !counted[row]; });
+      if (block.rows.size() >= k_least_rows_a_block) blocks.push_back(std::move(block));
     }
     offset += run.samples.size();
   }
+  return blocks;
+}
+
+}  // namespace
+
+Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor) {
+  Evidence evidence;
+  evidence.declared = &declared;
+  evidence.floor = floor;
+  std::vector<bool> counted;
+  evidence.measurement = thinned(declared, measurement, counted);
+  evidence.log = bench_log(evidence.measurement);
+  evidence.theta = measured_theta(evidence.measurement);
+  evidence.blocks = blocks_of(evidence, counted);
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);
   evidence.readings = hand_readings(declared);

@@ -24,7 +24,7 @@ struct Block {
 using Fold = std::vector<std::size_t>;
 
 /// What a caliper says of a number of the joint: [prior] of the file.
-struct Reading {
+struct HandReading {
   const EffectParameter* parameter = nullptr;
   double value = 0;
   double uncertainty = 0;  ///< standard
@@ -39,9 +39,11 @@ struct Evidence {
   std::vector<Fold> run_folds;       ///< whole runs; strokes of a lone run
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed where the data vary them, or as run_folds
   std::vector<std::string> factors;  ///< by which whole levels are held out
-  std::vector<Reading> readings;
+  std::vector<HandReading> readings;
   double floor = 0;  ///< rms noise, rad
 
+  /// Rows in use, block by block.
+  std::vector<Eigen::Index> rows() const;
   std::size_t rows_used() const;
 };
 

@@ -3,27 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/intervals.h"
+#include "calibration/thresholds.h"
 #include "fusee/base/text.h"
 
 namespace fusee {
 namespace {
 
-/// The size that five of six would be found of: a one-sided 95 % test with 80 % power takes 2.5 standard errors, blocks
-/// being few 2.8.
-constexpr double k_detectable = 2.8;
-/// Nothing smaller than this part of the noise is accepted (selection.cpp).
-constexpr double k_least = 0.5;
-
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit,
-                                               const std::vector<Interval>& ranges, const Effect& effect) {
-  const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, fit.effects);
+                                               const std::vector<ConfidenceInterval>& ranges, const Effect& effect) {
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
     const double value = value_of(fit.at, own);
     double low = value;
     double high = value;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      if (parameters[k] != &own) continue;
+    for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+      if (fit.parameters[k] != &own) continue;
       low = std::clamp(ranges[k].low * own.step, own.least, own.most);
       high = std::clamp(ranges[k].high * own.step, own.least, own.most);
     }
@@ -42,46 +37,36 @@ std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect&
   return effect.name + " (" + numbers + ")";
 }
 
+/// By how much the held-out error falls with `effect` beside the others, rad; by how much it does from the declared joint
+/// where the others alone give none that could be simulated. An effect without which the held-out error is no larger
+/// takes nothing away, and not less than nothing.
+double rms_drop(Workers& workers, const Selection& selection, const Effect& effect) {
+  const Fit& best = selection.best;
+  const Fit others = workers.one().fit(without(best.effects, effect), without(best.at, effect));
+  const Fit& before = others.usable ? others : selection.none;
+  return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(best.by_factor.mean_square));
+}
+
 }  // namespace
 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& workers, const Selection& selection) {
   const Fit& best = selection.best;
-  const std::vector<Interval> ranges = intervals(evidence, best);
+  const std::vector<ConfidenceInterval> ranges = intervals(evidence, best);
   std::vector<FoundEffect> all;
   for (const Effect* effect : best.effects) {
     FoundEffect found;
     found.name = effect->name;
-    found.place = word(effect->place);
-    found.correctable_by = word(effect->correctable_by);
+    found.place = effect->place;
+    found.correctable_by = effect->correctable_by;
     found.parameters = fitted_parameters(evidence, best, ranges, *effect);
     found.group = {effect->name};
     for (const Rival& rival : selection.rivals) {
       if (rival.accepted == effect && as_good(evidence, rival.fit, best)) found.group.push_back(rival.rival->name);
     }
-    EffectSet others;
-    Imperfections from = best.at;
-    for (const EffectParameter& parameter : effect->parameters)
-      reset(from, parameter);
-    std::copy_if(best.effects.begin(), best.effects.end(), std::back_inserter(others),
-                 [&](const Effect* other) { return other != effect; });
-    const Fit without = fit_effects(evidence, workers.one(), others, from);
-    found.rms_drop = std::sqrt(without.by_factor.mean_square) - std::sqrt(best.by_factor.mean_square);
+    found.rms_drop = rms_drop(workers, selection, *effect);
     all.push_back(std::move(found));
   }
   return all;
-}
-
-double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
-  double squares = 0;
-  double rows = 0;
-  for (const Block& block : evidence.blocks) {
-    for (const std::size_t i : block.rows) {
-      const auto row = static_cast<Eigen::Index>(i);
-      squares += (one[row] - other[row]) * (one[row] - other[row]);
-      rows += 1;
-    }
-  }
-  return rows > 0 ? std::sqrt(squares / rows) : 0.0;
 }
 
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection) {
@@ -97,21 +82,19 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
 }
 
 std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& workers, const Selection& selection) {
-  std::vector<const Effect*> others;
-  for (const Effect* effect : selection.catalogue) {
-    if (std::find(selection.best.effects.begin(), selection.best.effects.end(), effect) ==
-        selection.best.effects.end())
-      others.push_back(effect);
-  }
+  const Fit& best = selection.best;
+  EffectSet others = selection.catalogue;
+  std::erase_if(others, [&](const Effect* effect) { return contains(best.effects, *effect); });
   std::vector<double> sizes(others.size(), -1);
-  workers.each(others.size(), [&](Forward& forward, std::size_t i) {
-    const Fit wider = with_direction(evidence, forward, selection.best, *others[i]);
+  workers.each(others.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Fit wider = fitter.with_direction(best, *others[i]);
     if (!wider.usable) return;
-    const std::vector<Interval> ranges = intervals(evidence, wider);
-    sizes[i] = k_least * evidence.floor;
-    for (Eigen::Index k = selection.best.x.size(); k < wider.x.size(); ++k) {
+    const std::vector<ConfidenceInterval> ranges = intervals(evidence, wider);
+    sizes[i] = k_thresholds.least_drop * evidence.floor;
+    for (Eigen::Index k = best.x.size(); k < wider.x.size(); ++k) {
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));
-      sizes[i] = std::max(sizes[i], k_detectable * ranges[static_cast<std::size_t>(k)].deviation * sensitivity);
+      sizes[i] =
+          std::max(sizes[i], k_thresholds.detectable * ranges[static_cast<std::size_t>(k)].deviation * sensitivity);
     }
   });
   std::vector<Detectable> found;

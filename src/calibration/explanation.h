@@ -20,7 +20,4 @@ std::vector<std::string> null_combinations(const Evidence& evidence, const Selec
 /// Of every effect that was not found: the least that these data would have shown, at the joint.
 std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& workers, const Selection& selection);
 
-/// rms over the rows that were fitted to, rad.
-double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other);
-
 }  // namespace fusee

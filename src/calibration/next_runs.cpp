@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/thresholds.h"
 #include "fusee/base/text.h"
 
 namespace fusee {
 namespace {
 
-/// Apart by this many times the noise: told apart.
-constexpr double k_told = 3.0;
 constexpr std::size_t k_most_proposals = 4;
 constexpr double k_lever_load = 0.3;     // of the pretension, as a tip force
 
@@ -142,7 +141,7 @@ struct Ranked {
   std::vector<double> apart;
 
   std::size_t told() const {
-    return static_cast<std::size_t>(std::count_if(apart.begin(), apart.end(), [](double a) { return a > k_told; }));
+    return static_cast<std::size_t>(std::count_if(apart.begin(), apart.end(), [](double a) { return a > k_thresholds.told_apart; }));
   }
   double most() const { return *std::max_element(apart.begin(), apart.end()); }
 };
@@ -150,7 +149,7 @@ struct Ranked {
 std::string sentence(const Ranked& ranked, const std::vector<const Rival*>& pairs) {
   std::string told;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (ranked.apart[i] <= k_told) continue;
+    if (ranked.apart[i] <= k_thresholds.told_apart) continue;
     told += (told.empty() ? "" : ", ") + pairs[i]->accepted->name + " from " + pairs[i]->rival->name + " (" +
             rounded(std::min(ranked.apart[i], 999.0), 2) + " × what it is uncertain by)";
   }

@@ -5,6 +5,11 @@
 #include <optional>
 #include <tuple>
 
+#include "calibration/acceptance.h"
+#include "calibration/catalogue.h"
+#include "calibration/intervals.h"
+#include "calibration/thresholds.h"
+
 // Greedy, with a look one step further: causes come in pairs, of which neither may explain much alone, and a third that
 // resembles both may explain more than either. So pairs are tried from the best few wherever the best single does not
 // reach the noise; and once there is a set, every member is held against every effect in its place, and gives way where
@@ -13,78 +18,15 @@
 namespace fusee {
 namespace {
 
-/// An effect smaller than this part of the noise floor is not worth a name: the model's own error may be as large.
-constexpr double k_least_drop = 0.5;
-/// A cause explains a good part of what stands above the floor; what explains a small part of it is the neighbour of a
-/// cause unknown.
-constexpr double k_least_share = 0.30;
-constexpr double k_least_bic_drop = 6.0;
-/// A rival takes an effect's place if it does better by this part of the floor's square.
-constexpr double k_better = 0.03;
-/// Strokes that should be alike are apart by this part of the noise within them: the joint does not repeat.
-constexpr double k_walks = 0.7;
-/// A joint that is loose nearly everywhere explains everything: play that costs more than this is no explanation. In
-/// squares of the floor.
-constexpr double k_dearest_play = 2.0;
-/// What was measured by hand speaks against an explanation that is off by three standard uncertainties.
-constexpr double k_contradicted = 9.0;
-/// Where structure is left, what was found must have taken this share of all there was: else it is the neighbour of a
-/// cause unknown.
-constexpr double k_most_of_it = 0.80;
-constexpr double k_most_of_what_walks = 0.95;
-constexpr std::size_t k_most_effects = 5;
-constexpr std::size_t k_most_pairs = 10;
-constexpr int k_most_exchanges = 4;
-/// A rival whose held-out error is within this of the best may be as good once it is fitted to the end.
-constexpr double k_near = 2.0;
-
-bool excludes_zero(const Evidence& evidence, const Fit& fit, const Effect& effect) {
-  const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, fit.effects);
-  const std::vector<Interval> ranges = intervals(evidence, fit);
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    for (const EffectParameter& own : effect.parameters) {
-      if (&own == parameters[k] && (ranges[k].low > 0 || ranges[k].high < 0)) return true;
-    }
-  }
-  return false;
-}
-
-/// Whether `after` is worth its numbers; the evidence and the reason stand in `candidate`.
-bool accepted(const Evidence& evidence, const Fit& before, const Fit& after, Candidate& candidate) {
-  if (!after.usable) {
-    candidate.why = "the joint could not be simulated with it";
-    return false;
-  }
-  const double floor2 = evidence.floor * evidence.floor;
-  const Comparison drop = compare(evidence, before, after);
-  candidate.held_out_rms = std::sqrt(after.by_factor.mean_square);
-  candidate.margin = drop.t;
-  candidate.delta_bic = bic_drop(evidence, before, after);
-  const double gain = before.by_factor.mean_square - after.by_factor.mean_square;
-  const double excess = std::max(1e-30, before.by_factor.mean_square - floor2);
-  if (!(gain > std::pow(k_least_drop * evidence.floor, 2))) {
-    candidate.why = "the held-out error does not fall by what the noise would show";
-  } else if (!(drop.t > drop.needed_t) || !(drop.t_over_runs > 1.0)) {
-    candidate.why = "the held-out error falls in some strokes and not in others";
-  } else if (!(candidate.delta_bic > k_least_bic_drop)) {
-    candidate.why = "too many numbers for what it explains";
-  } else if (!(gain > k_least_share * excess)) {
-    candidate.why = "it explains a small part of what is there";
-  } else {
-    return true;
-  }
-  return false;
-}
-
-/// Held-out mean square error, a caliper's reading counted as a row.
-double score(const Evidence& evidence, const Fit& fit) {
-  const double rows = static_cast<double>(std::max<std::size_t>(1, evidence.rows_used()));
-  return fit.by_factor.mean_square + evidence.floor * evidence.floor * fit.against_readings / rows;
-}
-
 struct Trial {
   Fit fit;
   Candidate candidate;
+};
+
+/// Places of two among singles.
+struct Pair {
+  std::size_t one = 0;
+  std::size_t other = 0;
 };
 
 /// A fit that is there, and what is tried beside it.
@@ -105,23 +47,20 @@ class Selector {
   std::vector<Trial> trials(const std::string& what, const std::vector<Addition>& added);
   const Trial* best_of(std::vector<Trial>& trials);
   std::vector<Trial> singles();
-  std::vector<std::pair<const Trial*, const Trial*>> promising_pairs(const std::vector<Trial>& singles) const;
+  std::vector<Pair> promising_pairs(const std::vector<Trial>& singles) const;
   std::optional<Trial> best_pair(const std::vector<Trial>& singles);
   bool grow();
   void find_rivals();
   bool exchange();
   void drop_needless();
   void retreat();
-  Fit without(const Effect* effect);
+  Fit best_without(const Effect& effect);
   void note(const std::vector<Trial>& trials, const Trial* taken);
 
-  bool at_floor(const Fit& fit) const {
-    const double floor2 = evidence_.floor * evidence_.floor;
-    return fit.by_run.mean_square - fit.price <= noise_limit(evidence_.floor) && fit.price <= k_dearest_play * floor2;
-  }
-  bool has(const Effect& effect) const {
-    const EffectSet& all = selection_.best.effects;
-    return std::find(all.begin(), all.end(), &effect) != all.end();
+  /// Nothing is left to look for, and not because the joint is loose.
+  bool is_done(const Fit& fit) const {
+    return is_at_floor(fit, evidence_.floor) &&
+           fit.price <= k_thresholds.dearest_play * evidence_.floor * evidence_.floor;
   }
   void report(const std::string& what, double share) const {
     if (progress_) progress_(what, share);
@@ -154,8 +93,8 @@ std::vector<Trial> Selector::trials(const std::string& what, const std::vector<A
   report(what, 0);
   workers_.each(
       added.size(),
-      [&](Forward& forward, std::size_t i) {
-        all[i].fit = with_effect(evidence_, forward, *added[i].base, *added[i].effect);
+      [&](const Fitter& fitter, std::size_t i) {
+        all[i].fit = fitter.with_effect(*added[i].base, *added[i].effect);
         judge(selection_.best, all[i]);
       },
       [&](std::size_t done) { report(what, static_cast<double>(done) / count); });
@@ -179,7 +118,7 @@ const Trial* Selector::best_of(std::vector<Trial>& trials) {
   std::rotate(trials.begin(), simplest, simplest + 1);
   for (Trial& trial : trials) {
     if (!trial.candidate.accepted) continue;
-    Fit settled = fit_effects(evidence_, workers_.one(), trial.fit.effects, trial.fit.at);
+    Fit settled = workers_.one().fit(trial.fit.effects, trial.fit.at);
     if (settled.usable) trial.fit = std::move(settled);
     judge(selection_.best, trial);
     if (trial.candidate.accepted) return &trial;
@@ -190,58 +129,70 @@ const Trial* Selector::best_of(std::vector<Trial>& trials) {
 std::vector<Trial> Selector::singles() {
   std::vector<Addition> added;
   for (const Effect* effect : selection_.catalogue) {
-    if (!has(*effect)) added.push_back({&selection_.best, effect});
+    if (!contains(selection_.best.effects, *effect)) added.push_back({&selection_.best, effect});
   }
   return trials("trying effects one by one", added);
 }
 
-/// All pairs of singles by what a linear fit of both would leave, the best first. A single's directions are its slopes
-/// and the way it went.
-std::vector<std::pair<const Trial*, const Trial*>> Selector::promising_pairs(const std::vector<Trial>& singles) const {
-  const Fit& base = selection_.best;
-  std::vector<Eigen::Index> rows;
-  for (const Block& block : evidence_.blocks) {
-    for (const std::size_t row : block.rows) rows.push_back(static_cast<Eigen::Index>(row));
-  }
-  std::vector<Eigen::Index> first{base.x.size()};
-  for (const Trial& single : singles) first.push_back(first.back() + single.fit.x.size() - base.x.size() + 1);
-  Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()), first.back());
+/// What a linear look at a fit and its single additions needs: their slopes side by side, over the rows in use.
+struct Directions {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd pull;             ///< of what the fit leaves
+  std::vector<Eigen::Index> first;  ///< column of each single; the fit's own stand before the first of them
+};
+
+/// A single's directions are its slopes and the way it went.
+Directions directions_of(const std::vector<Eigen::Index>& rows, const Fit& base, const std::vector<Trial>& singles) {
+  Directions all;
+  all.first = {base.x.size()};
+  for (const Trial& single : singles) all.first.push_back(all.first.back() + single.fit.x.size() - base.x.size() + 1);
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()), all.first.back());
   columns.leftCols(base.x.size()) = base.J(rows, Eigen::all);
   for (std::size_t i = 0; i < singles.size(); ++i) {
     const Fit& fit = singles[i].fit;
     const Eigen::Index own = fit.x.size() - base.x.size();
-    columns.middleCols(first[i], own) = fit.J.rightCols(own)(rows, Eigen::all);
-    columns.col(first[i] + own) = (base.residual - fit.residual)(rows);
+    columns.middleCols(all.first[i], own) = fit.J.rightCols(own)(rows, Eigen::all);
+    columns.col(all.first[i] + own) = (base.residual - fit.residual)(rows);
   }
-  const Eigen::MatrixXd gram = columns.transpose() * columns;
-  const Eigen::VectorXd pull = columns.transpose() * base.residual(rows);
+  all.gram = columns.transpose() * columns;
+  all.pull = columns.transpose() * base.residual(rows);
+  return all;
+}
+
+/// Squares that a linear fit of both would take away.
+double promised_by(const Directions& all, const Pair& pair) {
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index k = 0; k < all.first.front(); ++k) chosen.push_back(k);
+  for (const std::size_t single : {pair.one, pair.other}) {
+    for (Eigen::Index k = all.first[single]; k < all.first[single + 1]; ++k) chosen.push_back(k);
+  }
+  Eigen::MatrixXd JJ = all.gram(chosen, chosen);
+  JJ.diagonal() += 1e-9 * JJ.diagonal() + Eigen::VectorXd::Constant(JJ.rows(), 1e-300);
+  const Eigen::VectorXd Jr = all.pull(chosen);
+  return Jr.dot(JJ.ldlt().solve(Jr));
+}
+
+/// The best of all pairs of singles by what a linear fit of both would leave, the best first.
+std::vector<Pair> Selector::promising_pairs(const std::vector<Trial>& singles) const {
+  const Directions all = directions_of(evidence_.rows(), selection_.best, singles);
   std::vector<std::tuple<double, std::size_t, std::size_t>> ranked;
   for (std::size_t i = 0; i < singles.size(); ++i) {
-    for (std::size_t j = i + 1; j < singles.size(); ++j) {
-      std::vector<Eigen::Index> chosen;
-      for (Eigen::Index k = 0; k < base.x.size(); ++k) chosen.push_back(k);
-      for (const std::size_t single : {i, j}) {
-        for (Eigen::Index k = first[single]; k < first[single + 1]; ++k) chosen.push_back(k);
-      }
-      Eigen::MatrixXd JJ = gram(chosen, chosen);
-      JJ.diagonal() += 1e-9 * JJ.diagonal() + Eigen::VectorXd::Constant(JJ.rows(), 1e-300);
-      const Eigen::VectorXd Jr = pull(chosen);
-      ranked.emplace_back(-Jr.dot(JJ.ldlt().solve(Jr)), i, j);
-    }
+    for (std::size_t j = i + 1; j < singles.size(); ++j) ranked.emplace_back(-promised_by(all, {i, j}), i, j);
   }
   std::sort(ranked.begin(), ranked.end());
-  std::vector<std::pair<const Trial*, const Trial*>> pairs;
+  std::vector<Pair> pairs;
   for (const auto& [gain, i, j] : ranked) {
-    if (pairs.size() < k_most_pairs) pairs.emplace_back(&singles[i], &singles[j]);
+    if (pairs.size() < k_thresholds.most_pairs) pairs.push_back({i, j});
   }
   return pairs;
 }
 
 /// Of pairs in which each is needed beside the other, the one that explains most.
 std::optional<Trial> Selector::best_pair(const std::vector<Trial>& singles) {
-  if (selection_.best.effects.size() + 2 > k_most_effects) return std::nullopt;
+  if (selection_.best.effects.size() + 2 > k_thresholds.most_effects) return std::nullopt;
   std::vector<Addition> added;
-  for (const auto& [one, other] : promising_pairs(singles)) added.push_back({&one->fit, other->fit.effects.back()});
+  for (const Pair& pair : promising_pairs(singles))
+    added.push_back({&singles[pair.one].fit, singles[pair.other].fit.effects.back()});
   const auto alone = [&](const Effect* effect) -> const Fit& {
     return std::find_if(singles.begin(), singles.end(), [&](const Trial& t) { return t.fit.effects.back() == effect; })
         ->fit;
@@ -274,7 +225,7 @@ bool Selector::grow() {
   std::vector<Trial> alone = singles();
   const Trial* first = best_of(alone);
   std::optional<Trial> pair;
-  if (first == nullptr || !at_floor(first->fit)) pair = best_pair(alone);
+  if (first == nullptr || !is_done(first->fit)) pair = best_pair(alone);
   Candidate scratch;
   if (pair && first != nullptr && !accepted(evidence_, first->fit, pair->fit, scratch)) pair.reset();
   if (pair) {
@@ -293,38 +244,31 @@ bool Selector::grow() {
   return true;
 }
 
-Fit Selector::without(const Effect* effect) {
-  EffectSet effects;
-  Imperfections from = selection_.best.at;
-  for (const Effect* other : selection_.best.effects) {
-    if (other != effect) effects.push_back(other);
-  }
-  for (const EffectParameter& parameter : effect->parameters)
-    reset(from, parameter);
-  return fit_effects(evidence_, workers_.one(), effects, from);
+Fit Selector::best_without(const Effect& effect) {
+  return workers_.one().fit(without(selection_.best.effects, effect), without(selection_.best.at, effect));
 }
 
 /// Every effect in the place of every accepted one; those that come near are fitted to the end.
 void Selector::find_rivals() {
   selection_.rivals.clear();
   std::vector<Fit> bases;
-  for (const Effect* effect : selection_.best.effects) bases.push_back(without(effect));
+  for (const Effect* effect : selection_.best.effects) bases.push_back(best_without(*effect));
   std::vector<Addition> added;
   for (std::size_t i = 0; i < bases.size(); ++i) {
     for (const Effect* rival : selection_.catalogue) {
-      if (has(*rival) || !bases[i].usable) continue;
+      if (contains(selection_.best.effects, *rival) || !bases[i].usable) continue;
       selection_.rivals.push_back({selection_.best.effects[i], rival, {}});
       added.push_back({&bases[i], rival});
     }
   }
   const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
-  const double near = k_near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
+  const double near = k_thresholds.near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
   workers_.each(
       added.size(),
-      [&](Forward& forward, std::size_t i) {
+      [&](const Fitter& fitter, std::size_t i) {
         Fit& fit = selection_.rivals[i].fit;
-        fit = with_effect(evidence_, forward, *added[i].base, *added[i].effect);
-        if (fit.usable && fit.by_factor.mean_square < near) fit = fit_effects(evidence_, forward, fit.effects, fit.at);
+        fit = fitter.with_effect(*added[i].base, *added[i].effect);
+        if (fit.usable && fit.by_factor.mean_square < near) fit = fitter.fit(fit.effects, fit.at);
       },
       [&](std::size_t done) { report("holding rivals against what was found", static_cast<double>(done) / count); });
   std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
@@ -336,7 +280,7 @@ bool Selector::exchange() {
   for (const Rival& rival : selection_.rivals) {
     const double gain = score(evidence_, selection_.best) - score(evidence_, rival.fit);
     const bool clearly =
-        gain > k_better * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
+        gain > k_thresholds.better * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
     if (clearly && (best == nullptr || score(evidence_, rival.fit) < score(evidence_, best->fit))) best = &rival;
   }
   if (best == nullptr) return false;
@@ -353,7 +297,7 @@ bool Selector::exchange() {
 void Selector::drop_needless() {
   for (std::size_t i = 0; i < selection_.best.effects.size() && selection_.best.effects.size() > 1;) {
     const Effect* effect = selection_.best.effects[i];
-    Fit fewer = without(effect);
+    Fit fewer = best_without(*effect);
     Candidate candidate;
     if (!fewer.usable || accepted(evidence_, fewer, selection_.best, candidate)) {
       ++i;
@@ -373,8 +317,8 @@ void Selector::retreat() {
   const double all = selection_.none.by_run.mean_square - floor2;
   const double left = selection_.best.by_run.mean_square - floor2;
   const bool walks = is_walking(stroke_scatter(evidence_, selection_.best));
-  if (!walks && at_floor(selection_.best)) return;
-  if (left <= (1.0 - (walks ? k_most_of_what_walks : k_most_of_it)) * all) return;
+  if (!walks && is_done(selection_.best)) return;
+  if (left <= (1.0 - (walks ? k_thresholds.most_of_what_walks : k_thresholds.most_of_it)) * all) return;
   for (const Effect* effect : selection_.best.effects) {
     Candidate candidate;
     candidate.name = effect->name;
@@ -388,31 +332,21 @@ void Selector::retreat() {
 
 Selection Selector::run() {
   selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement);
-  selection_.none = fit_effects(evidence_, workers_.one(), {}, {});
+  selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
   if (!selection_.none.usable) return std::move(selection_);
   for (int exchanges = 0;;) {
-    while (!at_floor(selection_.best) && selection_.best.effects.size() < k_most_effects && grow()) {
+    while (!is_done(selection_.best) && selection_.best.effects.size() < k_thresholds.most_effects && grow()) {
     }
     drop_needless();
     find_rivals();
-    if (exchanges++ == k_most_exchanges || !exchange()) break;
+    if (exchanges++ == k_thresholds.most_exchanges || !exchange()) break;
   }
   retreat();
   return std::move(selection_);
 }
 
 }  // namespace
-
-double noise_limit(double floor) { return (1.0 + k_least_drop * k_least_drop) * floor * floor; }
-
-bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best) {
-  if (rival.against_readings > best.against_readings + k_contradicted) return false;
-  const Comparison worse = compare(evidence, rival, best);
-  return worse.mean <= std::max(worse.standard_error, std::pow(k_least_drop * evidence.floor, 2));
-}
-
-bool is_walking(const StrokeScatter& scatter) { return scatter.between > k_walks * scatter.within; }
 
 Selection select_effects(const Evidence& evidence, Workers& workers,
                          const std::function<void(const std::string&, double)>& progress) {

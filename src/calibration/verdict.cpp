@@ -10,8 +10,6 @@ namespace fusee {
 namespace {
 
 constexpr int k_bins = 12;
-/// The rest is at the floor while its mean square is less than this many times the floor's.
-constexpr double k_at_floor = 1.35;
 
 std::string in_degrees(double angle) { return rounded(degrees(angle), 3) + "°"; }
 
@@ -27,97 +25,129 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Means of a residual by place and direction, over all runs.
+class Places {
+ public:
+  explicit Places(const Measurement& measurement) {
+    for (const Run& run : measurement.runs) {
+      for (const Sample& sample : run.samples) alpha_.push_back(sample.alpha);
+    }
+    const auto [least, most] = std::minmax_element(alpha_.begin(), alpha_.end());
+    least_ = *least;
+    span_ = *most - *least;
+  }
+
+  void add(std::size_t row, int direction, double residual) {
+    const int place = std::clamp(static_cast<int>(k_bins * (alpha_[row] - least_) / span_), 0, k_bins - 1);
+    Bin& bin = bins_[{place, direction}];
+    bin.sum += residual;
+    bin.count += 1;
+  }
+
+  /// Where the mean is largest, in words; "" without a row.
+  std::string largest() const {
+    const auto found = std::max_element(bins_.begin(), bins_.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.second.mean()) < std::abs(b.second.mean());
+    });
+    if (found == bins_.end()) return "";
+    const auto& [place, bin] = *found;
+    const double from = least_ + span_ * place.first / k_bins;
+    return "largest at alpha " + rounded(degrees(from), 3) + " … " + rounded(degrees(from + span_ / k_bins), 3) +
+           "°, " + (place.second > 0 ? "rising" : "falling") + ": " + in_degrees(bin.mean()) + " on average";
+  }
+
+ private:
+  std::vector<double> alpha_;  ///< of every row
+  double least_ = 0;
+  double span_ = 0;
+  std::map<std::pair<int, int>, Bin> bins_;  ///< by place and direction
+};
+
+std::string group_words(const FoundEffect& effect) {
+  return effect.group.size() > 1 ? "one of {" + list(effect.group) + "}" : effect.name;
+}
+
+std::string effects_words(const std::vector<FoundEffect>& effects) {
+  std::vector<std::string> names;
+  for (const FoundEffect& effect : effects) names.push_back(group_words(effect));
+  return list(names);
+}
+
+CalibrationVerdict verdict_of(bool walks, bool above_floor, const std::vector<FoundEffect>& effects) {
+  const auto is_group = [](const FoundEffect& effect) { return effect.group.size() > 1; };
+  if (walks) return CalibrationVerdict::not_repeatable;
+  if (above_floor) return CalibrationVerdict::unexplained;
+  if (effects.empty()) return CalibrationVerdict::no_effect;
+  return std::any_of(effects.begin(), effects.end(), is_group) ? CalibrationVerdict::confounded
+                                                               : CalibrationVerdict::explained;
+}
+
+/// What a person can act on.
+std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter) {
+  const std::string names = effects_words(calibration.effects);
+  switch (calibration.verdict) {
+    case CalibrationVerdict::not_repeatable:
+      return "The same angle, direction and load give joint angles that differ by " + in_degrees(scatter.between) +
+             " rms from stroke to stroke: look for something loose before any correction.";
+    case CalibrationVerdict::unexplained:
+      return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
+             in_degrees(rest.structure) + " rms stay unexplained, " + rest.where + ".";
+    case CalibrationVerdict::confounded:
+      return "The data are explained by " + names + ", and cannot tell which.";
+    case CalibrationVerdict::explained:
+      return "The data are explained by " + names + ".";
+    case CalibrationVerdict::no_effect:
+      return "The joint does what its file declares, as far as the data can tell.";
+    case CalibrationVerdict::not_testable:
+      break;  // concluded before anything is fitted
+  }
+  return "";
+}
+
+std::string figures(const Calibration& calibration, double floor) {
+  return "Held-out error " + in_degrees(calibration.before.held_out_rms) + " before, " +
+         in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) + ".";
+}
+
+/// What the verdict itself asks for, beside what would split a group.
+void ask_for_runs(Calibration& calibration) {
+  if (calibration.verdict == CalibrationVerdict::not_repeatable) {
+    calibration.next_runs.insert(calibration.next_runs.begin(),
+                                 "tighten what can be loose and repeat one run five times without touching anything");
+  } else if (calibration.verdict == CalibrationVerdict::unexplained) {
+    calibration.next_runs.push_back(
+        "turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the "
+        "pulley's");
+  }
+}
+
 }  // namespace
 
 Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   Rest rest;
   rest.structure = std::sqrt(std::max(0.0, fit.by_run.mean_square - fit.price - evidence.floor * evidence.floor));
-  double least = 1e300;
-  double most = -1e300;
-  std::vector<const Sample*> samples;
-  for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) {
-      samples.push_back(&sample);
-      least = std::min(least, sample.alpha);
-      most = std::max(most, sample.alpha);
-    }
-  }
-  const auto bin_of = [&](std::size_t row) {
-    return std::clamp(static_cast<int>(k_bins * (samples[row]->alpha - least) / (most - least)), 0, k_bins - 1);
-  };
-  std::map<std::pair<int, int>, Bin> places;  // by place and direction, over all runs
-  double products = 0;
-  double squares = 0;
+  rest.autocorrelation = lag_one_correlation(evidence, fit);
+  Places places(evidence.measurement);
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
-    for (std::size_t i = 0; i < block.rows.size(); ++i) {
-      const double r = fit.residual[static_cast<Eigen::Index>(block.rows[i])];
-      if (i > 0) products += r * fit.residual[static_cast<Eigen::Index>(block.rows[i - 1])];
-      squares += r * r;
-      Bin& bin = places[{bin_of(block.rows[i]), direction}];
-      bin.sum += r;
-      bin.count += 1;
-    }
+    for (const std::size_t row : block.rows) places.add(row, direction, fit.residual[static_cast<Eigen::Index>(row)]);
   }
-  rest.autocorrelation = squares > 0 ? products / squares : 0;
-  const auto largest = std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.second.mean()) < std::abs(b.second.mean());
-  });
-  if (largest != places.end()) {
-    const double from = least + (most - least) * largest->first.first / k_bins;
-    rest.where = "largest at alpha " + rounded(degrees(from), 3) + " … " +
-                 rounded(degrees(from + (most - least) / k_bins), 3) + "°, " +
-                 (largest->first.second > 0 ? "rising" : "falling") + ": " + in_degrees(largest->second.mean()) +
-                 " on average";
-  }
+  rest.where = places.largest();
   return rest;
 }
 
 void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
-  const double floor = evidence.floor;
-  const double after = std::pow(held_out_rms(selection.best), 2);
-  const bool above = after > k_at_floor * floor * floor;
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  std::vector<std::string> names;
-  bool confounded = false;
-  for (const FoundEffect& effect : calibration.effects) {
-    names.push_back(effect.group.size() > 1 ? "one of {" + list(effect.group) + "}" : effect.name);
-    confounded = confounded || effect.group.size() > 1;
-  }
-  const std::string figures = "Held-out error " + in_degrees(calibration.before.held_out_rms) + " before, " +
-                              in_degrees(calibration.after.held_out_rms) + " after, noise floor " + in_degrees(floor) +
-                              ".";
+  const bool above_floor = !is_at_floor(selection.best, evidence.floor);
   calibration.rest_autocorrelation = rest.autocorrelation;
-  if (above) {
+  if (above_floor) {
     calibration.unexplained_rms = rest.structure;
     calibration.unexplained_where = rest.where;
   }
-  if (is_walking(scatter)) {
-    calibration.verdict = "not_repeatable";
-    calibration.summary = "The same angle, direction and load give joint angles that differ by " +
-                          in_degrees(scatter.between) +
-                          " rms from stroke to stroke: look for something loose before any correction. " + figures;
-    calibration.next_runs.insert(calibration.next_runs.begin(),
-                                 "tighten what can be loose and repeat one run five times without touching anything");
-  } else if (above) {
-    calibration.verdict = "unexplained";
-    calibration.summary =
-        (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + list(names)) + "; " +
-        in_degrees(rest.structure) + " rms stay unexplained, " + rest.where + ". " + figures;
-    calibration.next_runs.push_back(
-        "turn the pulley on its shaft by a quarter turn and repeat the slow unloaded run: what moves with it is the "
-        "pulley's");
-  } else if (confounded) {
-    calibration.verdict = "confounded";
-    calibration.summary = "The data are explained by " + list(names) + ", and cannot tell which. " + figures;
-  } else if (!names.empty()) {
-    calibration.verdict = "explained";
-    calibration.summary = "The data are explained by " + list(names) + ". " + figures;
-  } else {
-    calibration.verdict = "no_effect";
-    calibration.summary = "The joint does what its file declares, as far as the data can tell. " + figures;
-  }
+  calibration.verdict = verdict_of(is_walking(scatter), above_floor, calibration.effects);
+  calibration.summary = finding(calibration, rest, scatter) + " " + figures(calibration, evidence.floor);
+  ask_for_runs(calibration);
 }
 
 }  // namespace fusee

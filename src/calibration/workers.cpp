@@ -13,12 +13,12 @@ constexpr unsigned k_most_threads = 8;
 
 }  // namespace
 
-Workers::Workers(const Evidence& evidence) {
+Workers::Workers(const Evidence& evidence) : evidence_(evidence) {
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, k_most_threads);
   for (unsigned i = 0; i < threads; ++i) forwards_.emplace_back(*evidence.declared, evidence.log);
 }
 
-void Workers::each(std::size_t count, const std::function<void(Forward&, std::size_t)>& job,
+void Workers::each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
                    const std::function<void(std::size_t)>& done) {
   std::atomic<std::size_t> next{0};
   std::mutex guard;
@@ -30,7 +30,8 @@ void Workers::each(std::size_t count, const std::function<void(Forward&, std::si
   };
   const auto work = [&](Forward& forward) {
     try {
-      for (std::size_t i = next++; i < count; i = next++) job(forward, i);
+      const Fitter fitter(evidence_, forward);
+      for (std::size_t i = next++; i < count; i = next++) job(fitter, i);
     } catch (...) {
       fail();
     }
@@ -38,8 +39,9 @@ void Workers::each(std::size_t count, const std::function<void(Forward&, std::si
   std::vector<std::thread> others;
   for (std::size_t i = 1; i < std::min(forwards_.size(), count); ++i) others.emplace_back(work, std::ref(forwards_[i]));
   try {
+    const Fitter fitter = one();
     for (std::size_t i = next++; i < count; i = next++) {
-      job(forwards_.front(), i);
+      job(fitter, i);
       if (done) done(std::min<std::size_t>(next, count));
     }
   } catch (...) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "calibration/evidence.h"
+#include "calibration/fit.h"
 
 namespace fusee {
 
@@ -16,12 +16,13 @@ class Workers {
 
   /// Calls `job` for 0 … count − 1, each with a simulation of its own thread. The first exception is passed on.
   /// `done(n)` is called from this thread whenever n of the jobs were seen to have ended; it may throw.
-  void each(std::size_t count, const std::function<void(Forward&, std::size_t)>& job,
+  void each(std::size_t count, const std::function<void(const Fitter&, std::size_t)>& job,
             const std::function<void(std::size_t)>& done = {});
-  /// For a single simulation in between.
-  Forward& one() { return forwards_.front(); }
+  /// For a single fit in between.
+  Fitter one() { return Fitter(evidence_, forwards_.front()); }
 
  private:
+  const Evidence& evidence_;
   std::vector<Forward> forwards_;
 };
 

@@ -1,19 +1,18 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/table.h"
-#include "fusee/base/files.h"
 #include "fusee/base/text.h"
-#include "fusee/export/calibration.h"
+#include "fusee/calibration/words.h"
+#include "fusee/pipeline.h"
 
 namespace fusee::cli {
 namespace {
 
-constexpr std::size_t k_largest_spec = 1 << 20;
-constexpr std::size_t k_largest_law = 8 << 20;
 constexpr std::size_t k_width = 78;
 
 // ---- what is asked --------------------------------------------------------------------------------------------------
@@ -40,29 +39,16 @@ MeasurementOptions columns_from(const Arguments& arguments) {
   return options;
 }
 
-/// Measured runs and those held out; a file named twice is read once.
-struct Files {
-  std::vector<std::filesystem::path> all;
-  std::size_t fitted = 0;  ///< the first ones; the others are held out
-};
+std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
 
-Files files_from(const Arguments& arguments) {
-  Files files;
-  const std::vector<std::string> held = arguments.texts("--hold-out");
-  std::set<std::filesystem::path> seen;
-  const auto key = [](const std::string& name) { return std::filesystem::path(name).lexically_normal(); };
-  for (const std::string& name : held) seen.insert(key(name));
-  for (std::size_t i = 1; i < arguments.positionals().size(); ++i) {
-    if (seen.insert(key(arguments.positionals()[i])).second) files.all.emplace_back(arguments.positionals()[i]);
-  }
-  files.fitted = files.all.size();
-  seen.clear();
-  for (const std::string& name : held) {
-    if (seen.insert(key(name)).second) files.all.emplace_back(name);
-  }
-  if (files.fitted == 0)
+std::vector<std::filesystem::path> runs_from(const Arguments& arguments) {
+  std::vector<std::filesystem::path> runs = paths(arguments.positionals());
+  runs.erase(runs.begin());
+  std::set<std::filesystem::path> held;
+  for (const auto& name : paths(arguments.texts("--hold-out"))) held.insert(name.lexically_normal());
+  if (std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return held.count(run.lexically_normal()) > 0; }))
     throw UsageError("every run is held out: none is left to fit", "leave --hold-out away for one of them");
-  return files;
+  return runs;
 }
 
 // ---- what is answered -----------------------------------------------------------------------------------------------
@@ -130,7 +116,7 @@ std::string noise_text(const Calibration& c) {
 }
 
 std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
-  std::string words = effect.name + " (" + effect.place + ")";
+  std::string words = effect.name + " (" + std::string(word(effect.place)) + ")";
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
@@ -147,11 +133,6 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   return texts;
 }
 
-std::string tied_words(const Correction& correction) {
-  return "tie its tendons with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
-         " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which compensation.csv has";
-}
-
 std::vector<std::string> correction_texts(const Correction& correction) {
   std::vector<std::string> texts;
   if (correction.has_pulley) {
@@ -159,7 +140,7 @@ std::vector<std::string> correction_texts(const Correction& correction) {
     if (correction.round.r1 > 0) texts.push_back(round_words(correction));
     if (correction.tied_at != 0) texts.push_back(tied_words(correction));
   } else if (!correction.infeasible.empty()) {
-    texts.push_back("the pulley that would correct this cannot be made: " + correction.infeasible);
+    texts.push_back(infeasible_words(correction));
   } else {
     texts.push_back("nothing was identified that another pulley would take out");
   }
@@ -192,92 +173,23 @@ std::string tried_table(const Calibration& c) {
 
 std::string summary(const CalibrationProduct& product, bool verbose) {
   const Calibration& c = product.calibration;
-  std::string text = product.file.mechanism.name + ": " + c.verdict + "\n" + wrapped(c.summary, "  ");
-  if (c.verdict == "not_testable") return text + items("Measure next", c.next_runs);
+  std::string text = product.file.mechanism.name + ": " + std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ");
+  if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", c.next_runs);
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
   text += items("Cannot be told apart by these data", c.null_combinations) +
           items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
-  if (verbose || c.verdict == "no_effect")
+  if (verbose || c.verdict == CalibrationVerdict::no_effect)
     text += items("Would have been seen, at the joint, rms", detectable_texts(c));
   return verbose ? text + tried_table(c) : text;
 }
 
-// ---- what is left behind --------------------------------------------------------------------------------------------
-
-/// corrected.toml lies elsewhere: the table of law = "table" goes with it, under its own name.
-void add_law_table(const MechanismFile& file, std::string& corrected, std::vector<OutputFile>& outputs) {
-  const PulleyDrive& pulley = file.mechanism.pulley;
-  if (file.mechanism.transmission || pulley.law != Law::table) return;
-  const std::filesystem::path table(pulley.table);
-  const std::string name = table.filename().string();
-  if (const std::size_t at = corrected.find("\"" + pulley.table + "\""); at != std::string::npos)
-    corrected.replace(at + 1, pulley.table.size(), name);
-  outputs.push_back({name, read_file(std::filesystem::path(file.path).parent_path() / table, k_largest_law)});
-}
-
-/// The text that corrected.toml begins with: the person's own, or every key where --set gave others than stand there.
-std::string declared_text(const Arguments& arguments, const MechanismFile& file) {
-  return arguments.settings().empty() ? read_file(file.path, k_largest_spec) : write_mechanism(file.mechanism);
-}
-
-std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std::string& declared) {
-  std::vector<OutputFile> outputs;
-  outputs.push_back({"calibration.json", calibration_json(product)});
-  std::string corrected = corrected_toml(declared, product.file.mechanism, product.calibration, product.correction);
-  add_law_table(product.file, corrected, outputs);
-  outputs.push_back({"corrected.toml", corrected});
-  outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
-  outputs.push_back({"report.html", calibration_report_html(product)});
-  outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});
-  return outputs;
-}
-
-std::vector<std::string> output_names(const MechanismFile& file) {
-  std::vector<std::string> names = {"calibration.json", "corrected.toml", "compensation.csv", "report.html",
-                                    "manifest.json"};
-  const PulleyDrive& pulley = file.mechanism.pulley;
-  if (!file.mechanism.transmission && pulley.law == Law::table)
-    names.push_back(std::filesystem::path(pulley.table).filename().string());
-  return names;
-}
-
-void publish(OutputFolder& folder, const std::vector<OutputFile>& outputs) {
-  const InterruptsDeferred deferred;
-  for (const OutputFile& file : outputs) {
-    stop_if_interrupted();
-    folder.stage(file);
-  }
-  folder.publish();
-}
+// ---- the whole ------------------------------------------------------------------------------------------------------
 
 /// A bar of 20 places on the progress line.
 std::string bar(const std::string& what, double share) {
   const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
   const auto full = static_cast<std::size_t>(percent / 5);
   return "[" + std::string(full, '#') + std::string(20 - full, '.') + "] " + std::to_string(percent) + " %, " + what;
-}
-
-Calibration calibration_of(const Mechanism& mechanism, const Measurement& measurement, std::size_t fitted,
-                           Console& console) {
-  CalibrationOptions options;
-  for (std::size_t i = fitted; i < measurement.runs.size(); ++i) options.hold_out.push_back(measurement.runs[i].name);
-  options.progress = [&console](const std::string& what, double share) { console.progress(bar(what, share)); };
-  return calibrate(mechanism, measurement, options);
-}
-
-/// A torque is not a tip force: the elastic model of tendons takes N across OC.
-void convert_load(const Mechanism& mechanism, Measurement& measurement) {
-  const double per_newton = measurement.load_unit == "Nm"    ? 1000.0 / mechanism.joint.R
-                            : measurement.load_unit == "Nmm" ? 1.0 / mechanism.joint.R
-                                                             : 0.0;
-  if (mechanism.transmission || per_newton == 0) return;
-  for (Run& run : measurement.runs) {
-    for (Sample& sample : run.samples) sample.load *= per_newton;
-    run.mean_load *= per_newton;
-  }
-  measurement.notes.push_back("the load column holds a torque in " + measurement.load_unit +
-                              ": taken as a tip force across OC, positive against +theta");
-  measurement.load_unit = "N";
 }
 
 std::string files_text(const std::vector<OutputFile>& outputs, const std::string& folder, bool published) {
@@ -294,58 +206,51 @@ Json outputs_json(const std::vector<OutputFile>& outputs) {
   return list;
 }
 
-void add_notes(const CalibrationProduct& product, bool verbose, Reply& reply) {
-  const std::vector<std::string>& notes = product.measurement.notes;
-  reply.diagnostics = product.file.warnings;
+void add_notes(const CalibrateResult& result, bool verbose, Reply& reply) {
+  const std::vector<std::string>& notes = result.product.measurement.notes;
+  reply.diagnostics = result.product.file.warnings;
   for (const std::string& words : verbose ? notes : shortened_notes(notes))
     reply.diagnostics.push_back(note(Severity::note, words));
+  if (result.rewritten)
+    reply.diagnostics.push_back(
+        note(Severity::note,
+             "corrected.toml holds what --set gave, and so every key; the comments of the file are left out"));
 }
 
-/// What is looked for is what is still amiss: a corrected file describes the joint as it is.
-CalibrationProduct product_of(const Files& files, const MeasurementOptions& columns, MechanismFile file,
-                              Console& console) {
-  CalibrationProduct product;
-  product.file = std::move(file);
-  const Mechanism& declared = product.file.mechanism;
-  console.progress("reading the runs");
-  product.measurement = read_measurement(files.all, columns);
-  const Mechanism expected = expected_joint(declared);
-  compare_with_declared(expected, product.measurement);
-  convert_load(expected, product.measurement);
-  product.calibration = calibration_of(expected, product.measurement, files.fitted, console);
-  console.progress("working out the correction");
-  product.correction.identified = declared.identified;
-  if (product.calibration.verdict != "not_testable")
-    product.correction = correct(declared, product.measurement, product.calibration);
-  return product;
+CalibrateOptions options_from(const Arguments& arguments, const std::filesystem::path& spec, Console& console) {
+  CalibrateOptions options;
+  options.columns = columns_from(arguments);
+  options.hold_out = paths(arguments.texts("--hold-out"));
+  options.folder =
+      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_calibration")).string());
+  options.force = arguments.has("--force");
+  options.dry_run = arguments.has("--dry-run");
+  options.progress = [&console](const std::string& what, std::optional<double> share) {
+    console.progress(share ? bar(what, *share) : what);
+  };
+  return options;
 }
 
 Reply run_calibrate(const Arguments& arguments, Console& console) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const MeasurementOptions columns = columns_from(arguments);
-  const Files files = files_from(arguments);
-  MechanismFile file = read_mechanism(spec, arguments.settings());
-  const std::string folder =
-      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_calibration")).string());
-  OutputFolder target(folder, arguments.has("--force"));
-  target.claim(output_names(file));  // before the work: a refusal should not cost a wait
-  const std::string declared = declared_text(arguments, file);
-
-  const CalibrationProduct product = product_of(files, columns, std::move(file), console);
-  const std::vector<OutputFile> outputs = outputs_of(product, declared);
-  const bool published = !arguments.has("--dry-run");
-  if (published) publish(target, outputs);
+  CalibrateOptions options = options_from(arguments, spec, console);
+  const std::vector<std::filesystem::path> runs = runs_from(arguments);
+  const MechanismFile file = read_mechanism(spec, arguments.settings());
+  std::optional<InterruptsDeferred> writing;
+  options.before_writing = [&writing] {
+    if (!writing) writing.emplace();
+    stop_if_interrupted();
+  };
+  const CalibrateResult result = calibrate(file, runs, options);
+  writing.reset();
   Reply reply;
-  add_notes(product, console.verbose(), reply);
-  if (!arguments.settings().empty())
-    reply.diagnostics.push_back(
-        note(Severity::note,
-             "corrected.toml holds what --set gave, and so every key; the comments of the file are left out"));
-  reply.text = summary(product, console.verbose()) + files_text(outputs, folder, published);
-  reply.fields = Json::parse(calibration_json(product));
-  reply.fields["folder"] = folder;
-  reply.fields["published"] = published;
-  reply.fields["outputs"] = outputs_json(outputs);
+  add_notes(result, console.verbose(), reply);
+  reply.text = summary(result.product, console.verbose()) +
+               files_text(result.outputs, options.folder.string(), result.published);
+  reply.fields = Json::parse(calibration_json(result.product));
+  reply.fields["folder"] = options.folder.string();
+  reply.fields["published"] = result.published;
+  reply.fields["outputs"] = outputs_json(result.outputs);
   return reply;
 }
 

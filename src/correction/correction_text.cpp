@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fusee/base/text.h"
+#include "fusee/calibration/words.h"
 #include "fusee/correction/correction.h"
 #include "fusee/mechanism/edit.h"
 #include "fusee/mechanism/fields.h"
@@ -17,7 +18,7 @@ std::string one_line(std::string text) {
 }
 
 std::string found_text(const FoundEffect& effect) {
-  std::string text = "# " + effect.name + " (" + effect.place + ")";
+  std::string text = "# " + effect.name + " (" + std::string(word(effect.place)) + ")";
   for (const FittedParameter& parameter : effect.parameters) {
     text += ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) +
             " to " + rounded(parameter.high);
@@ -50,7 +51,7 @@ std::string without_earlier_words(std::string text) {
 }
 
 std::string words_of(const Calibration& calibration, const Correction& correction) {
-  std::string words = std::string(k_title) + "# verdict: " + one_line(calibration.verdict) + "\n";
+  std::string words = std::string(k_title) + "# verdict: " + std::string(word(calibration.verdict)) + "\n";
   for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
   if (correction.tied_at != 0) {

@@ -148,4 +148,11 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
   return measurement;
 }
 
+Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
+                             const MeasurementOptions& options) {
+  Measurement measurement = read_measurement(files, options);
+  compare_with_declared(declared, measurement);
+  return measurement;
+}
+
 }  // namespace fusee

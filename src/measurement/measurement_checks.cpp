@@ -223,9 +223,7 @@ void suspect_radians(const DeclaredLaw& law, const Slopes& slopes, Measurement& 
                               " deg in any run: if these are radians, let the columns' names end in _rad");
 }
 
-}  // namespace
-
-void compare_with_declared(const Mechanism& declared, Measurement& measurement) {
+void hold_against_law(const Mechanism& declared, Measurement& measurement) {
   if (!measurement.not_testable.empty() || measurement.runs.empty()) return;
   const DeclaredLaw law(declared);
   if (!law.known()) return;
@@ -235,6 +233,33 @@ void compare_with_declared(const Mechanism& declared, Measurement& measurement) 
   std::string found = fault(law, slopes);
   if (found.empty()) found = wrong_zero(law, measurement);
   if (!found.empty()) measurement.not_testable.push_back(found);
+}
+
+// ---- loads ----------------------------------------------------------------------------------------------------------
+
+/// Tip force across OC that is a unit of the load column; 0 for what is no torque.
+double force_of_unit(const std::string& unit, double length) {
+  return unit == "Nm" ? 1000.0 / length : unit == "Nmm" ? 1.0 / length : 0.0;
+}
+
+/// A torque is not a tip force: the elastic model of tendons takes N across OC.
+void take_torques_as_forces(const Mechanism& declared, Measurement& measurement) {
+  const double per_unit = declared.transmission ? 0.0 : force_of_unit(measurement.load_unit, declared.joint.R);
+  if (per_unit == 0) return;
+  for (Run& run : measurement.runs) {
+    for (Sample& sample : run.samples) sample.load *= per_unit;
+    run.mean_load *= per_unit;
+  }
+  measurement.notes.push_back("the load column holds a torque in " + measurement.load_unit +
+                              ": taken as a tip force across OC, positive against +theta");
+  measurement.load_unit = "N";
+}
+
+}  // namespace
+
+void compare_with_declared(const Mechanism& declared, Measurement& measurement) {
+  hold_against_law(declared, measurement);
+  take_torques_as_forces(declared, measurement);
 }
 
 }  // namespace fusee

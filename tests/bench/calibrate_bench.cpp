@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "fusee/calibration/words.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/base/text.h"
 #include "fusee/correction/correction.h"
@@ -117,7 +118,7 @@ void calibrate_rows(benchmark::State& state) {
   for (auto _ : state) {
     const Calibration calibration = calibrate(forearm(), measurement);
     benchmark::DoNotOptimize(correct(forearm(), measurement, calibration));
-    verdict = calibration.verdict;
+    verdict = word(calibration.verdict);
     for (const FoundEffect& effect : calibration.effects) verdict += " " + effect.name;
   }
   state.SetLabel(verdict);

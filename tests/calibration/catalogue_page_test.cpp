@@ -3,30 +3,14 @@
 
 #include <filesystem>
 
-#include "mechanism/effects/effect.h"
+#include "calibration/contract_effects.h"
 #include "fusee/base/files.h"
-#include "fusee/mechanism/file.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 namespace {
 
 const std::filesystem::path k_profiles = std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles";
-
-/// Everything logged, everything varied: no effect is beyond its reach.
-Measurement rich_measurement() {
-  Measurement measurement;
-  measurement.load_unit = "N";
-  for (const double load : {0.0, 10.0}) {
-    Run run;
-    run.has_time = run.has_load = run.has_temperature = true;
-    run.speed = 0.2 * (1 + load);
-    run.mean_load = load;
-    for (int i = 0; i <= 100; ++i)
-      run.samples.push_back({i * 0.1, radians(-180 + 3.6 * i), radians(-30 + 0.6 * i), load, 20 + 0.2 * i, 5, 5});
-    measurement.runs.push_back(run);
-  }
-  return measurement;
-}
 
 std::string numbers(const Effect& effect) {
   std::string text;
@@ -34,24 +18,22 @@ std::string numbers(const Effect& effect) {
   return text;
 }
 
-std::string corrected_by(const std::string& what) { return what.empty() ? "–" : what; }
+std::string corrected_by(CorrectableBy what) {
+  return what == CorrectableBy::nothing ? "–" : std::string(word(what));
+}
 
 /// As a joint with tendons has them; what a joint declared by a ratio has instead stands behind it.
 std::string catalogue_table() {
-  const Measurement measurement = rich_measurement();
-  const Mechanism ratio = parse_mechanism("schema = 1\n[transmission]\nkind = \"ratio\"\nratio = 4\n", "ratio.toml");
-  const std::vector<Effect> plain = catalogue(ratio, measurement);
   std::string text =
       "| place | effect | how it shows | its numbers | taken out by | what tells it from its rivals "
       "|\n|---|---|---|---|---|---|\n";
-  for (const Effect& effect : catalogue(read_mechanism(k_profiles / "forearm.toml").mechanism, measurement)) {
+  for (const Effect& effect : effects(JointKind::tendons)) {
     std::string shown = numbers(effect), by = corrected_by(effect.correctable_by);
-    for (const Effect& other : plain) {
-      if (other.name != effect.name) continue;
-      if (numbers(other) != shown) shown += "; ratio: " + numbers(other);
-      if (other.correctable_by != effect.correctable_by) by += "; ratio: " + corrected_by(other.correctable_by);
+    if (const Effect* other = find_effect(effect.name, JointKind::ratio)) {
+      if (numbers(*other) != shown) shown += "; ratio: " + numbers(*other);
+      if (other->correctable_by != effect.correctable_by) by += "; ratio: " + corrected_by(other->correctable_by);
     }
-    text += "| " + effect.place + " | `" + effect.name + "` | " + effect.signature + " | " + shown + " | " + by +
+    text += "| " + std::string(word(effect.place)) + " | `" + effect.name + "` | " + effect.signature + " | " + shown + " | " + by +
             " | " + effect.separating_run + " |\n";
   }
   return text;
@@ -69,31 +51,9 @@ TEST(CalibrationPage, ItsCatalogueIsThatOfTheProgram) {
 
 TEST(CalibrationPage, TheCatalogueHoldsEveryNameThatWasPromised) {
   std::vector<std::string> names;
-  for (const Effect& effect : catalogue(read_mechanism(k_profiles / "forearm.toml").mechanism, rich_measurement()))
+  for (const Effect& effect : effects(JointKind::tendons))
     names.push_back(effect.name);
-  for (const char* name : {"zero_offset",
-                           "motor_offset",
-                           "joint_sensor_gain",
-                           "joint_sensor_eccentricity",
-                           "motor_sensor_eccentricity",
-                           "sensor_lag",
-                           "radius_offset",
-                           "pulley_scale",
-                           "pulley_runout",
-                           "guide_radius",
-                           "guide_position",
-                           "joint_length",
-                           "tendon_stretch",
-                           "capstan_friction",
-                           "backlash",
-                           "slack",
-                           "creep",
-                           "tendon_slip",
-                           "thermal_expansion",
-                           "gravity",
-                           "profile_error"}) {
-    EXPECT_THAT(names, testing::Contains(name));
-  }
+  for (const char* name : k_contract_effects) EXPECT_THAT(names, testing::Contains(name));
 }
 
 }  // namespace

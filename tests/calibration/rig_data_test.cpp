@@ -40,7 +40,7 @@ std::vector<std::string> names(const Calibration& calibration) {
 
 TEST(RigData, a_joint_that_is_as_declared_gets_no_blame) {
   const Calibration found = rig("a_declared_right");
-  EXPECT_EQ(found.verdict, "no_effect");
+  EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect);
   EXPECT_TRUE(found.effects.empty());
   EXPECT_LT(degrees(found.before.rms), 0.022);  // the sensor's noise is 0.02°
   EXPECT_FALSE(found.detectable.empty());
@@ -48,7 +48,7 @@ TEST(RigData, a_joint_that_is_as_declared_gets_no_blame) {
 
 TEST(RigData, a_soft_tendon_is_found_with_its_stiffness) {
   const Calibration found = rig("b_stretch");
-  EXPECT_EQ(found.verdict, "explained");
+  EXPECT_EQ(found.verdict, CalibrationVerdict::explained);
   ASSERT_THAT(names(found), ElementsAre("tendon_stretch"));
   EXPECT_THAT(found.effects[0].group, ElementsAre("tendon_stretch"));
   const double truth = 9000.0 * 0.25 * k_pi * 0.8 * 0.8;
@@ -59,7 +59,7 @@ TEST(RigData, a_soft_tendon_is_found_with_its_stiffness) {
 
 TEST(RigData, backlash_is_found_with_its_width) {
   const Calibration found = rig("c_backlash");
-  EXPECT_EQ(found.verdict, "explained");
+  EXPECT_EQ(found.verdict, CalibrationVerdict::explained);
   ASSERT_THAT(names(found), ElementsAre("backlash"));
   EXPECT_THAT(found.effects[0].group, ElementsAre("backlash"));
   EXPECT_NEAR(found.effects[0].parameters[0].value, 2.4, 0.05);
@@ -74,7 +74,7 @@ TEST(RigData, a_thicker_pin_is_in_the_group) {
 
 TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
   const Calibration found = rig("e_one_sweep_only");
-  EXPECT_EQ(found.verdict, "confounded");
+  EXPECT_EQ(found.verdict, CalibrationVerdict::confounded);
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_GT(found.effects[0].group.size(), 1u);
   EXPECT_TRUE(testing::Matches(Contains("pulley_scale"))(found.effects[0].group) ||
@@ -84,7 +84,7 @@ TEST(RigData, one_sweep_cannot_name_a_cause_alone) {
 
 TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
   const Calibration found = rig("f_not_in_any_catalogue");
-  EXPECT_EQ(found.verdict, "unexplained");
+  EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
   EXPECT_TRUE(found.effects.empty()) << found.summary;
   EXPECT_GT(degrees(found.unexplained_rms), 0.05);
   EXPECT_FALSE(found.unexplained_where.empty());
@@ -111,7 +111,7 @@ TEST(RealJaw, backlash_and_stretch_and_no_delay) {
   EXPECT_THAT(names(found), Contains("backlash"));
   EXPECT_THAT(names(found), Contains("tendon_stretch"));
   EXPECT_THAT(names(found), Not(Contains("sensor_lag")));
-  EXPECT_EQ(found.verdict, "unexplained");
+  EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
   EXPECT_GT(degrees(found.before.held_out_rms), 1.5);
   EXPECT_LE(degrees(found.after.held_out_rms), 0.32);
 }

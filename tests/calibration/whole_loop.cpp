@@ -5,6 +5,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/files.h"
+#include "fusee/calibration/words.h"
 #include "fusee/mechanism/file.h"
 #include "fusee/profile/synthesis.h"
 #include "fusee/transmission/transmission.h"
@@ -142,7 +143,7 @@ LoopOutcome turn_loop(const MadeJoint& joint, const std::string& spec, const Loo
   LoopOutcome outcome;
   outcome.name = hidden.name;
   outcome.found = found_words(calibration);
-  outcome.verdict = calibration.verdict;
+  outcome.verdict = word(calibration.verdict);
   outcome.corrected_toml = corrected_toml(spec, joint.declared, calibration, correction);
   const MadeJoint then = with_corrected_pulley(joint, parse_mechanism(outcome.corrected_toml, "corrected.toml"));
   outcome.before = joint_error(joint, hidden, 0);

@@ -61,7 +61,7 @@ LoopCase case_of(const Joint& joint, const std::string& name) {
 /// The correction for what is truly there.
 Correction known_correction(const Joint& joint, const LoopCase& hidden) {
   Calibration calibration;
-  calibration.verdict = "explained";
+  calibration.verdict = CalibrationVerdict::explained;
   calibration.identified = truth_of(hidden.hidden, joint.made.declared);
   return correct(joint.made.declared, measured(joint.made, hidden, scratch(hidden.name)), calibration);
 }
@@ -193,7 +193,7 @@ TEST(WholeLoop, GoesOnFromACorrectedFile) {
   corrected.identified = first.identified;
   const Measurement again = measured(corrected_joint(joint, first), hidden, scratch("again"));
   const Calibration second = calibrate(expected_joint(corrected), again);
-  EXPECT_EQ(second.verdict, "no_effect") << second.summary;
+  EXPECT_EQ(second.verdict, CalibrationVerdict::no_effect) << second.summary;
   EXPECT_LT(degrees(second.before.rms), 0.022);
   EXPECT_EQ(correct(corrected, again, second).identified, first.identified);
 }

@@ -147,10 +147,10 @@ TEST(RoundChoice, StaysRoundWhereThatSuffices) {
 
 Calibration found_guide_radius() {
   Calibration calibration;
-  calibration.verdict = "explained";
+  calibration.verdict = CalibrationVerdict::explained;
   FoundEffect effect;
   effect.name = "guide_radius";
-  effect.place = "pins";
+  effect.place = ChainPlace::pins;
   effect.group = {"guide_radius"};
   effect.parameters = {{"radius_mm", 3.5, 3.4, 3.6}};
   calibration.effects = {effect};

@@ -6,13 +6,15 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
+#include "fusee/calibration/words.h"
 #include "fusee/mechanism/file.h"
 
 namespace fusee::rig {
 namespace {
 
-constexpr std::array k_verdicts = {"explained", "confounded",     "unexplained",
-                                   "no_effect", "not_repeatable", "not_testable"};
+constexpr std::array k_verdicts = {CalibrationVerdict::explained,      CalibrationVerdict::confounded,
+                                   CalibrationVerdict::unexplained,    CalibrationVerdict::no_effect,
+                                   CalibrationVerdict::not_repeatable, CalibrationVerdict::not_testable};
 
 bool holds(const std::vector<std::string>& group, const std::string& name) {
   return std::find(group.begin(), group.end(), name) != group.end();
@@ -101,7 +103,7 @@ Judgement judge(const Case& made, const Calibration& found) {
   std::string seen;
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);
   one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
-              " x noise): " + found.verdict + groups;
+              " x noise): " + std::string(word(one.verdict)) + groups;
   return one;
 }
 
@@ -132,10 +134,10 @@ Rates rates(const std::vector<Judgement>& judgements) {
     (one.outside ? outside : inside) += 1;
     (one.outside ? outside_blamed : inside_blamed) += one.false_groups > 0 ? 1 : 0;
     alone += one.wrong_alone > 0 ? 1 : 0;
-    said += one.outside && (one.verdict == "unexplained" || one.verdict == "not_repeatable") ? 1 : 0;
+    said += one.outside && (one.verdict == CalibrationVerdict::unexplained || one.verdict == CalibrationVerdict::not_repeatable) ? 1 : 0;
     if (one.outside || one.named > 0) continue;
     ++plain;
-    quiet += one.verdict == "no_effect" ? 1 : 0;
+    quiet += one.verdict == CalibrationVerdict::no_effect ? 1 : 0;
   }
   return {share(named - held, named),      share(inside_blamed, inside), share(outside_blamed, outside),
           share(alone, judgements.size()), share(said, outside),         share(quiet, plain)};
@@ -143,7 +145,7 @@ Rates rates(const std::vector<Judgement>& judgements) {
 
 std::string matrix(const std::vector<Judgement>& judgements) {
   std::string text = "| truth | joints | held | alone | missed | false blame | wrong alone";
-  for (const char* verdict : k_verdicts) text += std::string(" | ") + verdict;
+  for (const CalibrationVerdict verdict : k_verdicts) text += " | " + std::string(word(verdict));
   text += " |\n|---|";
   for (std::size_t i = 0; i < 6 + k_verdicts.size(); ++i) text += "--:|";
   text += "\n";

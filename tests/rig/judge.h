@@ -14,7 +14,7 @@ namespace fusee::rig {
 /// One joint's answer.
 struct Judgement {
   std::string truth;
-  std::string verdict;
+  CalibrationVerdict verdict = CalibrationVerdict::not_testable;
   std::size_t named = 0;         ///< faults that have a name
   std::size_t held = 0;          ///< of these, in a reported group
   std::size_t alone = 0;         ///< of these, named alone

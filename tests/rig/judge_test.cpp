@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "calibration/contract_effects.h"
 #include "fusee/base/diagnostics.h"
 
 namespace fusee::rig {
@@ -13,7 +14,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-Calibration answer(const std::string& verdict, const std::vector<std::vector<std::string>>& groups) {
+Calibration answer(CalibrationVerdict verdict, const std::vector<std::vector<std::string>>& groups) {
   Calibration found;
   found.verdict = verdict;
   for (const std::vector<std::string>& group : groups) {
@@ -34,7 +35,7 @@ Case with(const std::vector<std::string>& faults) {
 
 TEST(Judge, counts_what_was_found_and_what_was_not) {
   const Judgement one =
-      judge(with({"tendon_stretch", "backlash"}), answer("confounded", {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
+      judge(with({"tendon_stretch", "backlash"}), answer(CalibrationVerdict::confounded, {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
   EXPECT_EQ(one.named, 2u);
   EXPECT_EQ(one.held, 1u);
   EXPECT_EQ(one.alone, 0u);
@@ -44,20 +45,20 @@ TEST(Judge, counts_what_was_found_and_what_was_not) {
 }
 
 TEST(Judge, kin_of_a_fault_without_a_name_is_no_false_blame) {
-  const Judgement kin = judge(with({"giving_frame"}), answer("explained", {{"tendon_stretch"}}));
+  const Judgement kin = judge(with({"giving_frame"}), answer(CalibrationVerdict::explained, {{"tendon_stretch"}}));
   EXPECT_TRUE(kin.outside);
   EXPECT_EQ(kin.false_groups, 0u);
-  EXPECT_EQ(judge(with({"giving_frame"}), answer("explained", {{"backlash"}})).false_groups, 1u);
+  EXPECT_EQ(judge(with({"giving_frame"}), answer(CalibrationVerdict::explained, {{"backlash"}})).false_groups, 1u);
 }
 
 TEST(Judge, rates_are_shares_of_what_they_say) {
   const std::vector<Judgement> all = {
-      judge(with({}), answer("no_effect", {})),
-      judge(with({}), answer("explained", {{"backlash"}})),
-      judge(with({"backlash"}), answer("explained", {{"backlash"}})),
-      judge(with({"backlash"}), answer("no_effect", {})),
-      judge(with({"lump"}), answer("unexplained", {})),
-      judge(with({"lump"}), answer("confounded", {{"profile_error", "gravity"}})),
+      judge(with({}), answer(CalibrationVerdict::no_effect, {})),
+      judge(with({}), answer(CalibrationVerdict::explained, {{"backlash"}})),
+      judge(with({"backlash"}), answer(CalibrationVerdict::explained, {{"backlash"}})),
+      judge(with({"backlash"}), answer(CalibrationVerdict::no_effect, {})),
+      judge(with({"lump"}), answer(CalibrationVerdict::unexplained, {})),
+      judge(with({"lump"}), answer(CalibrationVerdict::confounded, {{"profile_error", "gravity"}})),
   };
   const Rates found = rates(all);
   EXPECT_DOUBLE_EQ(found.miss, 0.5);
@@ -71,27 +72,7 @@ TEST(Judge, rates_are_shares_of_what_they_say) {
 
 TEST(Truths, name_every_effect_of_the_contract_and_some_that_nobody_named) {
   const std::vector<std::string> names = fault_names();
-  for (const char* name : {"zero_offset",
-                           "motor_offset",
-                           "joint_sensor_gain",
-                           "joint_sensor_eccentricity",
-                           "motor_sensor_eccentricity",
-                           "sensor_lag",
-                           "radius_offset",
-                           "pulley_scale",
-                           "pulley_runout",
-                           "guide_radius",
-                           "guide_position",
-                           "joint_length",
-                           "tendon_stretch",
-                           "capstan_friction",
-                           "backlash",
-                           "slack",
-                           "creep",
-                           "tendon_slip",
-                           "thermal_expansion",
-                           "gravity",
-                           "profile_error"}) {
+  for (const char* name : k_contract_effects) {
     EXPECT_THAT(names, Contains(name));
     EXPECT_TRUE(has_name(name));
   }

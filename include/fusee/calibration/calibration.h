@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "fusee/measurement/measurement.h"
-#include "fusee/mechanism/imperfections.h"
-#include "fusee/mechanism/mechanism.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 
@@ -30,10 +29,10 @@ struct FittedParameter {
 struct FoundEffect {
   std::string name;
   std::vector<std::string> group;  ///< `name` and every effect whose held-out error is within one standard error
-  std::string place;               ///< "tendon", "pins", "motor sensor" …
+  ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
-  double rms_drop = 0;         ///< of the held-out residual, rad
-  std::string correctable_by;  ///< "pulley", "table" or ""
+  double rms_drop = 0;         ///< of the held-out residual, rad; never below 0
+  CorrectableBy correctable_by = CorrectableBy::nothing;
 };
 
 /// A candidate that was tried: the evidence for it, or against.
@@ -57,8 +56,11 @@ struct Detectable {
   double smallest = 0;  ///< rad at the joint
 };
 
+/// CONTRACT §6; in words: words.h.
+enum class CalibrationVerdict { not_testable, not_repeatable, unexplained, confounded, explained, no_effect };
+
 struct Calibration {
-  std::string verdict;  ///< CONTRACT §6: not_testable, not_repeatable, unexplained, confounded, explained, no_effect
+  CalibrationVerdict verdict = CalibrationVerdict::not_testable;
   std::string summary;  ///< two sentences that a person can act on
   std::vector<FoundEffect> effects;
   Imperfections identified;  ///< what the effects amount to; all zero without any

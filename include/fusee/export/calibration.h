@@ -34,6 +34,10 @@ std::string parameter_words(const FittedParameter& parameter, const std::string&
 std::vector<std::string> rivals_of(const FoundEffect& effect);
 /// Whether P1 stays round, and by how much it would miss its law.
 std::string round_words(const Correction& correction);
+/// Why no corrected pulley can be made, of a correction that says so.
+std::string infeasible_words(const Correction& correction);
+/// Where to tie the tendons of a corrected pulley, of a correction that asks for another place than 0.
+std::string tied_words(const Correction& correction);
 /// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
 /// together. Smallest first.
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration);

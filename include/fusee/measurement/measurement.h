@@ -28,7 +28,7 @@ struct Sample {
   double time = 0;         ///< s
   double alpha = 0;        ///< rad, unwrapped
   double theta = 0;        ///< rad, unwrapped
-  double load = 0;         ///< in the load column's own unit: N for load_N (a tip force, positive against +θ)
+  double load = 0;         ///< in `load_unit`: N for load_N (a tip force, positive against +θ)
   double temperature = 0;  ///< °C
   double tension1 = 0;     ///< N
   double tension2 = 0;
@@ -56,7 +56,7 @@ struct Measurement {
   std::vector<Run> runs;
   double alpha_quantum = 0;  ///< step of the sensor, rad; 0 when it is finer than can be told
   double theta_quantum = 0;
-  std::string load_unit;                  ///< of the load column, from its name: "N", "Nm", "Nmm"; "" without one
+  std::string load_unit;                  ///< from the load column's name: "N", "Nm", "Nmm"; "" without one
   std::vector<std::string> notes;         ///< what was dropped, repaired or suspected, with file and line
   std::vector<std::string> not_testable;  ///< reasons why nothing can be concluded; empty when it can
 };
@@ -65,6 +65,10 @@ struct Measurement {
 /// twice; `not_testable` for what can be read but not used. Files of any length: of all together a million rows are
 /// kept, evenly, and a note says so.
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const MeasurementOptions& options = {});
+
+/// The same for a joint: compare_with_declared() is done.
+Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
+                             const MeasurementOptions& options = {});
 
 /// One run from text; `name` stands in the messages. InputError. Notes and reasons go to `into`.
 Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into);
@@ -78,7 +82,8 @@ BenchLog bench_log(const Measurement& measurement);
 
 /// Takes back whole turns at which an encoder began (with a note). Data that cannot be of the declared joint are said
 /// and not fitted: α and θ exchanged, opposite sign, radians given as degrees, a zero that was not set, a motion lost
-/// in noise. Adds the reasons to `not_testable`.
+/// in noise. Adds the reasons to `not_testable`. A torque is taken as a tip force where the joint has tendons (with a
+/// note).
 void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or

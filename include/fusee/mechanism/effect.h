@@ -48,7 +48,7 @@ struct IdentifiedKey {
 };
 
 /// What a person read with a caliper: by how much the joint differs from its file, and how sure that is.
-struct HandReading {
+struct CaliperReading {
   double value = 0;        ///< of the number
   double uncertainty = 0;  ///< standard
 };
@@ -58,7 +58,7 @@ struct ByHand {
   std::string_view words;  ///< what to measure and what to write; empty: it cannot
   double uncertainty = 0;  ///< of such a reading, as a rule
   /// What [prior] of the file says of the number; null where it has no key for it.
-  std::vector<HandReading> (*readings)(const DeclaredMechanism& declared) = nullptr;
+  std::vector<CaliperReading> (*readings)(const DeclaredMechanism& declared) = nullptr;
 };
 
 struct EffectParameter {

@@ -12,7 +12,7 @@ inline constexpr double k_caliper = 0.05;  ///< a caliper's standard uncertainty
 
 /// A line of [prior], [value, standard uncertainty] of something that is `declared`, as a reading of by how much the
 /// joint differs from its file. None where the line is empty.
-inline std::vector<HandReading> hand_reading(const std::vector<double>& prior, double declared) {
+inline std::vector<CaliperReading> hand_reading(const std::vector<double>& prior, double declared) {
   if (prior.size() != 2) return {};
   return {{prior[0] - declared, prior[1]}};
 }

@@ -4,16 +4,16 @@
 namespace fusee {
 namespace {
 
-std::vector<HandReading> outward_by_caliper(const DeclaredMechanism& declared) {
-  std::vector<HandReading> both = hand_reading(declared.prior.EB, declared.guides.EB);
-  const std::vector<HandReading> right = hand_reading(declared.prior.ED, declared.guides.ED);
+std::vector<CaliperReading> outward_by_caliper(const DeclaredMechanism& declared) {
+  std::vector<CaliperReading> both = hand_reading(declared.prior.EB, declared.guides.EB);
+  const std::vector<CaliperReading> right = hand_reading(declared.prior.ED, declared.guides.ED);
   both.insert(both.end(), right.begin(), right.end());
   return both;
 }
 
 /// The pulley's axis stays where it is declared: pins further down are pins closer to it.
-std::vector<HandReading> down_by_caliper(const DeclaredMechanism& declared) {
-  std::vector<HandReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
+std::vector<CaliperReading> down_by_caliper(const DeclaredMechanism& declared) {
+  std::vector<CaliperReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
   const std::vector<double>& EF = declared.prior.EF;
   if (EF.size() == 2) both.push_back({declared.pulley.EF - EF[0], EF[1]});
   return both;

@@ -6,7 +6,7 @@ namespace {
 
 double total(double added, const Mechanism& declared) { return declared.joint.R + added; }
 
-std::vector<HandReading> by_caliper(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.length, declared.joint.R);
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 constexpr double k_of_a_diameter = 0.003;  // of a print's size, by a caliper
 
-std::vector<HandReading> by_diameters(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> by_diameters(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.pulley_scale, 1);
 }
 

@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-std::vector<HandReading> by_caliper(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.radius_offset, 0);
 }
 

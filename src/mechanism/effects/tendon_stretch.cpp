@@ -7,7 +7,7 @@ double section(double stretch, const Mechanism& declared) {
   return section_stiffness(declared.tendon) / (1.0 + stretch);
 }
 
-std::vector<HandReading> by_modulus(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> by_modulus(const DeclaredMechanism& declared) {
   const std::vector<double>& modulus = declared.prior.modulus;
   if (modulus.size() != 2 || !(modulus[0] > 0)) return {};
   const double ratio = declared.tendon.modulus / modulus[0];

@@ -1,0 +1,19 @@
+/// \file
+/// The words of a calibration, once: terminal, page, JSON and corrected.toml say the same.
+///
+/// Names and places of effects stand in the effects' own files, reasons beside the decisions (Candidate::why).
+#pragma once
+
+#include <string_view>
+
+#include "fusee/calibration/calibration.h"
+
+namespace fusee {
+
+/// As CONTRACT §6 names it: "not_testable".
+std::string_view word(CalibrationVerdict verdict);
+
+/// What can be done about an effect, a sentence.
+std::string_view remedy_words(const FoundEffect& effect);
+
+}  // namespace fusee

@@ -1,0 +1,43 @@
+/// \file
+/// The simulated joint held against what was logged.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "calibration/parameters.h"
+#include "joint/forward.h"
+
+namespace fusee {
+
+/// What a model says of the logged angles, all runs one after another.
+struct Said {
+  Eigen::VectorXd residual;  ///< measured − model, rad; beyond the play where the model's joint is loose
+  Eigen::VectorXd loose;     ///< half that play, rad
+};
+
+/// For one thread. Evidence and simulation must outlive it.
+class Model {
+ public:
+  Model(const Evidence& evidence, Forward& forward) : evidence_(evidence), forward_(forward) {}
+
+  const Evidence& evidence() const { return evidence_; }
+  Parameters varied(const EffectSet& effects) const { return fusee::varied(*evidence_.declared, effects); }
+  Said said(const Imperfections& at) const;
+  /// dθ/dx of one parameter by a step of its own size, away from its upper bound; `residual` is what is said at `at`.
+  Eigen::VectorXd slope(const Imperfections& at, const EffectParameter& parameter,
+                        const Eigen::VectorXd& residual) const;
+
+ private:
+  const Evidence& evidence_;
+  Forward& forward_;
+};
+
+/// What a place within the play must answer for, rad²: a loose joint may stand anywhere, which explains any reading and
+/// so each one less well. The likelihood of a place within the play against that of a reading with noise alone, as a
+/// square of residuals.
+double price_of_play(double loose, double floor);
+
+/// rms over the rows in use, rad.
+double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other);
+
+}  // namespace fusee

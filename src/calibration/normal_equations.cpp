@@ -1,0 +1,88 @@
+#include "calibration/normal_equations.h"
+
+#include <cmath>
+
+#include "calibration/fit.h"
+
+namespace fusee {
+namespace {
+
+/// dθ/dx of a row. Of a fit without parameters J holds nothing, not even a place to point at.
+Eigen::VectorXd slopes_of(const Fit& fit, Eigen::Index row) {
+  return fit.x.size() > 0 ? Eigen::VectorXd(fit.J.row(row).transpose()) : Eigen::VectorXd();
+}
+
+void add_row(const Fit& fit, Eigen::Index row, double floor, NormalEquations& normal) {
+  const Eigen::VectorXd J = slopes_of(fit, row);
+  normal.JJ.noalias() += J * J.transpose();
+  normal.Jr.noalias() += J * fit.residual[row];
+  normal.rr += fit.residual[row] * fit.residual[row] + price_of_play(fit.loose[row], floor);
+  normal.rows += 1;
+}
+
+}  // namespace
+
+NormalEquations NormalEquations::none(Eigen::Index parameters) {
+  return {Eigen::MatrixXd::Zero(parameters, parameters), Eigen::VectorXd::Zero(parameters), 0, 0};
+}
+
+NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+  JJ += other.JJ;
+  Jr += other.Jr;
+  return *this;
+}
+
+NormalEquations& NormalEquations::operator-=(const NormalEquations& other) {
+  JJ -= other.JJ;
+  Jr -= other.Jr;
+  return *this;
+}
+
+Eigen::VectorXd least_squares_step(const NormalEquations& normal, const Eigen::VectorXd& x, double ridge) {
+  if (normal.empty()) return {};
+  const Eigen::MatrixXd A = normal.JJ + ridge * Eigen::MatrixXd::Identity(normal.JJ.rows(), normal.JJ.cols());
+  return A.ldlt().solve(normal.Jr - ridge * x);
+}
+
+NormalEquations sums_of(const Block& block, const Fit& fit, double floor) {
+  NormalEquations sums = NormalEquations::none(fit.x.size());
+  for (const std::size_t row : block.rows) add_row(fit, static_cast<Eigen::Index>(row), floor, sums);
+  return sums;
+}
+
+NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit) {
+  NormalEquations sums = NormalEquations::none(fit.x.size());
+  for (const HandReading& reading : evidence.readings) {
+    for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+      const EffectParameter& parameter = *fit.parameters[k];
+      if (!is_read_by(parameter, reading)) continue;
+      const auto i = static_cast<Eigen::Index>(k);
+      const double slope = parameter.step / reading.uncertainty * evidence.floor;
+      sums.JJ(i, i) += slope * slope;
+      sums.Jr[i] += slope * (reading.value - value_of(fit.at, *reading.parameter)) / reading.uncertainty * evidence.floor;
+    }
+  }
+  return sums;
+}
+
+double against_readings(const Evidence& evidence, const Imperfections& at) {
+  double squares = 0;
+  for (const HandReading& reading : evidence.readings)
+    squares += std::pow((reading.value - value_of(at, *reading.parameter)) / reading.uncertainty, 2);
+  return squares;
+}
+
+NormalEquations sums_of_all(const Evidence& evidence, const Fit& fit) {
+  NormalEquations normal = fit.readings;
+  for (const Eigen::Index row : evidence.rows()) add_row(fit, row, evidence.floor, normal);
+  return normal;
+}
+
+bool is_finite(const Evidence& evidence, const Fit& fit) {
+  for (const Eigen::Index row : evidence.rows()) {
+    if (!std::isfinite(fit.residual[row]) || !slopes_of(fit, row).allFinite()) return false;
+  }
+  return true;
+}
+
+}  // namespace fusee

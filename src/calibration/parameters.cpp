@@ -1,0 +1,50 @@
+#include "calibration/parameters.h"
+
+#include <algorithm>
+
+namespace fusee {
+
+const EffectParameter* free_offset(const Mechanism& declared) {
+  static const EffectParameter offset{.name = "offset_deg",
+                                      .number = [](Imperfections& at) -> double& { return at.sensor.zero; },
+                                      .least = -100.0,
+                                      .most = 100.0,
+                                      .step = 1e-2,
+                                      .shown = shown::in_degrees,
+                                      .key = {}};
+  return declared.transmission ? &offset : nullptr;
+}
+
+Parameters varied(const Mechanism& declared, const EffectSet& effects) {
+  Parameters parameters;
+  if (const EffectParameter* offset = free_offset(declared)) parameters.push_back(offset);
+  for (const Effect* effect : effects) {
+    for (const EffectParameter& parameter : effect->parameters) {
+      if (!parameter.searched) parameters.push_back(&parameter);
+    }
+  }
+  return parameters;
+}
+
+Imperfections without(Imperfections at, const Effect& effect) {
+  for (const EffectParameter& parameter : effect.parameters) reset(at, parameter);
+  return at;
+}
+
+EffectSet without(const EffectSet& effects, const Effect& effect) {
+  EffectSet others;
+  std::copy_if(effects.begin(), effects.end(), std::back_inserter(others),
+               [&](const Effect* other) { return other != &effect; });
+  return others;
+}
+
+bool contains(const EffectSet& effects, const Effect& effect) {
+  return std::find(effects.begin(), effects.end(), &effect) != effects.end();
+}
+
+bool at_bound(const Imperfections& at, const EffectParameter& parameter) {
+  const double value = value_of(at, parameter);
+  return value <= parameter.least + 1e-9 * parameter.step || value >= parameter.most - 1e-9 * parameter.step;
+}
+
+}  // namespace fusee

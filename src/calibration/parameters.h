@@ -1,0 +1,34 @@
+/// \file
+/// The numbers that a fit varies, and where they stand in the imperfections of a joint.
+#pragma once
+
+#include <vector>
+
+#include "calibration/evidence.h"
+#include "fusee/mechanism/effect.h"
+
+namespace fusee {
+
+using EffectSet = std::vector<const Effect*>;
+
+/// In the order of a fit's x.
+using Parameters = std::vector<const EffectParameter*>;
+
+/// Whether the reading is of this number.
+inline bool is_read_by(const EffectParameter& parameter, const HandReading& reading) {
+  return parameter.number == reading.parameter->number;
+}
+
+/// θ = offset + α/ratio declares its offset free; null of any other joint.
+const EffectParameter* free_offset(const Mechanism& declared);
+/// What is fitted of these effects, behind the free offset.
+Parameters varied(const Mechanism& declared, const EffectSet& effects);
+
+/// `at` without an effect.
+Imperfections without(Imperfections at, const Effect& effect);
+EffectSet without(const EffectSet& effects, const Effect& effect);
+bool contains(const EffectSet& effects, const Effect& effect);
+
+bool at_bound(const Imperfections& at, const EffectParameter& parameter);
+
+}  // namespace fusee

@@ -1,0 +1,40 @@
+/// \file
+/// What is said of fits: which of two is better and how surely, how much a rest repeats.
+#pragma once
+
+#include "calibration/fit.h"
+
+namespace fusee {
+
+/// How much lower the held-out error of `better` is: mean over the blocks, and standard error of that mean.
+struct Comparison {
+  double mean = 0;  ///< rad²
+  double standard_error = 0;
+  double t = 0;
+  double t_over_runs = 0;
+  double needed_t = 0;  ///< one-sided 95 %
+};
+Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better);
+
+/// Whether two held-out errors are the same as far as the data can tell: within a standard error, or within a small
+/// part of the noise.
+bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
+
+/// Drop of the Bayesian information criterion with as many rows as the rest's autocorrelation leaves.
+double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better);
+
+/// Of the residual from row to row within blocks, −1 … 1.
+double lag_one_correlation(const Evidence& evidence, const Fit& fit);
+
+/// Of the residual: rms of the means of strokes about their run and direction, beyond what noise does to means, and rms
+/// within strokes. rad
+struct StrokeScatter {
+  double between = 0;
+  double within = 0;
+};
+StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit);
+
+/// Whether strokes of one run and direction differ by more than noise lets them.
+bool is_walking(const StrokeScatter& scatter);
+
+}  // namespace fusee

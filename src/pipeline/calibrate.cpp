@@ -1,0 +1,128 @@
+#include "fusee/pipeline/calibrate.h"
+
+#include <set>
+
+#include "fusee/joint/as_it_is.h"
+#include "pipeline/law_table_copy.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_largest_spec = 1 << 20;
+
+/// Files to read, each once; those held out stand last.
+struct RunFiles {
+  std::vector<std::filesystem::path> all;
+  std::size_t fitted = 0;
+};
+
+RunFiles run_files(const std::vector<std::filesystem::path>& runs, const std::vector<std::filesystem::path>& hold_out) {
+  RunFiles files;
+  std::set<std::filesystem::path> seen;
+  for (const auto& run : hold_out) seen.insert(run.lexically_normal());
+  for (const auto& run : runs) {
+    if (seen.insert(run.lexically_normal()).second) files.all.push_back(run);
+  }
+  files.fitted = files.all.size();
+  seen.clear();
+  for (const auto& run : hold_out) {
+    if (seen.insert(run.lexically_normal()).second) files.all.push_back(run);
+  }
+  return files;
+}
+
+/// A calibration under way.
+struct Bench {
+  const MechanismFile& file;
+  const CalibrateOptions& options;
+  CalibrateResult& result;
+
+  void step(const std::string& what, std::optional<double> share = std::nullopt) const {
+    if (options.progress) options.progress(what, share);
+  }
+};
+
+std::vector<std::string> names_from(const Measurement& measurement, std::size_t first) {
+  std::vector<std::string> names;
+  for (std::size_t i = first; i < measurement.runs.size(); ++i) names.push_back(measurement.runs[i].name);
+  return names;
+}
+
+/// What is looked for is what is still amiss: a corrected file describes the joint as it is.
+void conclude(const Bench& bench, const RunFiles& runs) {
+  CalibrationProduct& product = bench.result.product;
+  const DeclaredMechanism& declared = bench.file.mechanism;
+  const DeclaredMechanism expected = expected_joint(declared);
+  bench.step("reading the runs");
+  product.measurement = read_measurement(runs.all, expected, bench.options.columns);
+  CalibrationOptions options;
+  options.hold_out = names_from(product.measurement, runs.fitted);
+  options.progress = [&](const std::string& what, double share) { bench.step(what, share); };
+  product.calibration = calibrate(expected, product.measurement, options);
+  bench.step("working out the correction");
+  product.correction.identified = declared.identified;
+  if (product.calibration.verdict != CalibrationVerdict::not_testable)
+    product.correction = correct(declared, product.measurement, product.calibration);
+}
+
+/// The person's own text while it says what the mechanism is; else every key.
+std::string own_text(const MechanismFile& file, bool& rewritten) {
+  const std::filesystem::path path = file.path;
+  rewritten = true;
+  if (path.empty()) return write_mechanism(file.mechanism);
+  const std::string text = read_file(path, k_largest_spec);
+  rewritten = parse_mechanism(text, file.path, path.parent_path()) != file.mechanism;
+  return rewritten ? write_mechanism(file.mechanism) : text;
+}
+
+/// What corrected.toml begins with, wherever it lies.
+std::string declared_text(const MechanismFile& file, bool& rewritten) {
+  const std::string text = own_text(file, rewritten);
+  return law_table_name(file.mechanism) ? with_table_beside(text, file) : text;
+}
+
+std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std::string& declared) {
+  std::vector<OutputFile> outputs;
+  outputs.push_back({"calibration.json", calibration_json(product)});
+  if (law_table_name(product.file.mechanism)) outputs.push_back(law_table_copy(product.file));
+  outputs.push_back({"corrected.toml",
+                     corrected_toml(declared, product.file.mechanism, product.calibration, product.correction)});
+  outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
+  outputs.push_back({"report.html", calibration_report_html(product)});
+  outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});
+  return outputs;
+}
+
+std::vector<std::string> output_names(const MechanismFile& file) {
+  std::vector<std::string> names = {"calibration.json", "corrected.toml", "compensation.csv", "report.html",
+                                    "manifest.json"};
+  if (const auto table = law_table_name(file.mechanism)) names.push_back(*table);
+  return names;
+}
+
+void publish(const Bench& bench, OutputFolder& folder) {
+  for (const OutputFile& output : bench.result.outputs) {
+    if (bench.options.before_writing) bench.options.before_writing();
+    folder.stage(output);
+  }
+  folder.publish();
+  bench.result.published = true;
+}
+
+}  // namespace
+
+CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
+                          const CalibrateOptions& options) {
+  CalibrateResult result;
+  result.product.file = file;
+  const Bench bench{file, options, result};
+  OutputFolder target(options.folder, options.force);
+  target.claim(output_names(file));  // before the work: a refusal should not cost a wait
+  const std::string declared = declared_text(file, result.rewritten);
+  conclude(bench, run_files(runs, options.hold_out));
+  result.outputs = outputs_of(result.product, declared);
+  if (!options.dry_run) publish(bench, target);
+  return result;
+}
+
+}  // namespace fusee
