@@ -118,7 +118,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   if (evidence.blocks.size() < 2)
     return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Workers workers(evidence);
-  const Selection selection = select_effects(evidence, workers, options.progress);
+  const Selection selection = select_effects(evidence, workers, options);
   if (!selection.none.usable)
     return not_testable(
         {"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not "

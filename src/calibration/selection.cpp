@@ -37,8 +37,8 @@ struct Addition {
 
 class Selector {
  public:
-  Selector(const Evidence& evidence, Workers& workers, const std::function<void(const std::string&, double)>& progress)
-      : evidence_(evidence), workers_(workers), progress_(progress) {}
+  Selector(const Evidence& evidence, Workers& workers, const CalibrationOptions& options)
+      : evidence_(evidence), workers_(workers), options_(options) {}
 
   Selection run();
 
@@ -63,12 +63,12 @@ class Selector {
            fit.price <= k_thresholds.dearest_play * evidence_.floor * evidence_.floor;
   }
   void report(const std::string& what, double share) const {
-    if (progress_) progress_(what, share);
+    if (options_.progress) options_.progress(what, share);
   }
 
   const Evidence& evidence_;
   Workers& workers_;
-  const std::function<void(const std::string&, double)>& progress_;
+  const CalibrationOptions& options_;
   Selection selection_;
 };
 
@@ -262,7 +262,8 @@ void Selector::find_rivals() {
     }
   }
   const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
-  const double near = k_thresholds.near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
+  const double near =
+      k_thresholds.near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
   workers_.each(
       added.size(),
       [&](const Fitter& fitter, std::size_t i) {
@@ -279,8 +280,8 @@ bool Selector::exchange() {
   const Rival* best = nullptr;
   for (const Rival& rival : selection_.rivals) {
     const double gain = score(evidence_, selection_.best) - score(evidence_, rival.fit);
-    const bool clearly =
-        gain > k_thresholds.better * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
+    const bool clearly = gain > k_thresholds.better * evidence_.floor * evidence_.floor &&
+                         excludes_zero(evidence_, rival.fit, *rival.rival);
     if (clearly && (best == nullptr || score(evidence_, rival.fit) < score(evidence_, best->fit))) best = &rival;
   }
   if (best == nullptr) return false;
@@ -331,7 +332,7 @@ void Selector::retreat() {
 }
 
 Selection Selector::run() {
-  selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement);
+  selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects);
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
   if (!selection_.none.usable) return std::move(selection_);
@@ -348,9 +349,8 @@ Selection Selector::run() {
 
 }  // namespace
 
-Selection select_effects(const Evidence& evidence, Workers& workers,
-                         const std::function<void(const std::string&, double)>& progress) {
-  return Selector(evidence, workers, progress).run();
+Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {
+  return Selector(evidence, workers, options).run();
 }
 
 }  // namespace fusee

@@ -2,7 +2,6 @@
 /// Which effects the data ask for, which would do as well, and what they would have shown of the others.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,6 @@ struct Selection {
 };
 
 /// An empty catalogue's answer with an unusable `none` where the declared joint has no equilibrium.
-Selection select_effects(const Evidence& evidence, Workers& workers,
-                         const std::function<void(const std::string&, double)>& progress);
+Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options);
 
 }  // namespace fusee

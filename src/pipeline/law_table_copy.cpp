@@ -40,7 +40,7 @@ std::string with_table_beside(const std::string& text, const MechanismFile& file
     changed.replace(at, declared.size(), beside);
     if (has_beside(changed, table_path(file).parent_path(), beside)) return changed;
   }
-  Mechanism mechanism = file.mechanism;
+  DeclaredMechanism mechanism = file.mechanism;
   mechanism.pulley.table = beside;
   return write_mechanism(mechanism);
 }

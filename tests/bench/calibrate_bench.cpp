@@ -20,8 +20,8 @@ namespace {
 
 using namespace fusee;
 
-const Mechanism& forearm() {
-  static const Mechanism mechanism =
+const DeclaredMechanism& forearm() {
+  static const DeclaredMechanism mechanism =
       read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml").mechanism;
   return mechanism;
 }
@@ -73,9 +73,9 @@ const std::vector<std::vector<double>>& true_angles() {
       measurement.runs.push_back(run);
     }
     Imperfections hidden;
-    hidden.stretch = 40000.0 / 12000.0 - 1;
-    hidden.backlash = radians(1.2);
-    return predict(forearm(), hidden, measurement);
+    hidden.tendon.stretch = 40000.0 / 12000.0 - 1;
+    hidden.shaft.backlash = radians(1.2);
+    return predict(forearm(), hidden, bench_log(measurement));
   }();
   return angles;
 }

@@ -94,7 +94,7 @@ TEST(RigData, what_no_catalogue_holds_stays_unexplained) {
 TEST(RealJaw, backlash_and_stretch_and_no_delay) {
   const char* folder = std::getenv("FUSEE_DAVINCI_JAW");
   if (folder == nullptr) GTEST_SKIP() << "FUSEE_DAVINCI_JAW names no folder";
-  const Mechanism declared = parse_mechanism(
+  const DeclaredMechanism declared = parse_mechanism(
       "schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.0928961748633879\n", "jaw.toml");
   MeasurementOptions options;
   options.columns = {{"load", "tau_out_Nm"}};

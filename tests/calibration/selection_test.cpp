@@ -7,7 +7,7 @@
 #include <random>
 
 #include "calibration/contract_effects.h"
-#include "mechanism/effects/effect.h"
+#include "fusee/mechanism/effect.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/base/units.h"
 #include "fusee/calibration/calibration.h"
@@ -22,7 +22,7 @@ using testing::Not;
 
 constexpr double k_noise = radians(0.02);
 
-Mechanism bench_joint() {
+DeclaredMechanism bench_joint() {
   const std::string folder = std::string(FUSEE_SOURCE_DIR) + "/tests/data/rig/a_declared_right/";
   return read_mechanism(folder + "spec.toml").mechanism;
 }
@@ -59,7 +59,7 @@ Run planned(const std::string& name, const Plan& plan, double alpha_most, double
 }
 
 /// What sensors with white noise would log of a joint that differs from its file by `at`.
-Measurement logged(const Mechanism& declared, const Imperfections& at, const std::vector<Plan>& plans,
+Measurement logged(const DeclaredMechanism& declared, const Imperfections& at, const std::vector<Plan>& plans,
                    unsigned seed = 1) {
   Measurement measurement;
   measurement.load_unit = "N";
@@ -67,7 +67,7 @@ Measurement logged(const Mechanism& declared, const Imperfections& at, const std
     measurement.runs.push_back(
         planned("run_" + std::to_string(i + 1) + ".csv", plans[i], radians(100), 80.0 * static_cast<double>(i)));
   }
-  const std::vector<std::vector<double>> theta = predict(declared, at, measurement);
+  const std::vector<std::vector<double>> theta = predict(declared, at, bench_log(measurement));
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, k_noise);
   for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -92,22 +92,23 @@ double apart(const std::vector<std::vector<double>>& one, const std::vector<std:
 }
 
 /// Of a size that moves θ by eight times the noise, rms.
-Imperfections well_seen(const Mechanism& declared, const Effect& effect) {
+Imperfections well_seen(const DeclaredMechanism& declared, const Effect& effect) {
   const Measurement measurement = logged(declared, {}, k_full);
   const auto moved = [&](double size) {
     Imperfections at;
     double part = 1;
     for (const EffectParameter& parameter : effect.parameters) {
       if (parameter.searched) continue;
-      at.*parameter.member = std::clamp(part * size * parameter.step, parameter.least, parameter.most);
+      set_value(at, parameter, std::clamp(part * size * parameter.step, parameter.least, parameter.most));
       part *= -0.6;
       if (parameter.least == 0) part = std::abs(part);
     }
     return at;
   };
-  const std::vector<std::vector<double>> as_declared = predict(declared, {}, measurement);
+  const BenchLog log = bench_log(measurement);
+  const Readings as_declared = predict(declared, {}, log);
   double size = 1;
-  for (int i = 0; i < 60 && apart(predict(declared, moved(size), measurement), as_declared) < 8 * k_noise; ++i)
+  for (int i = 0; i < 60 && apart(predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
     size *= 1.25;
   return moved(size);
 }
@@ -130,11 +131,9 @@ std::string why(const Calibration& found) {
 class EveryEffect : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
-  const Mechanism declared = bench_joint();
-  const std::vector<Effect> effects = catalogue(declared, logged(declared, {}, k_full));
-  const auto effect =
-      std::find_if(effects.begin(), effects.end(), [](const Effect& e) { return e.name == GetParam(); });
-  ASSERT_NE(effect, effects.end());
+  const DeclaredMechanism declared = bench_joint();
+  const Effect* effect = find_effect(GetParam(), JointKind::tendons);
+  ASSERT_NE(effect, nullptr);
   const Imperfections truth = well_seen(declared, *effect);
   const Calibration found = calibrate(declared, logged(declared, truth, k_full));
   EXPECT_THAT(found.verdict, testing::AnyOf(CalibrationVerdict::explained, CalibrationVerdict::confounded));
@@ -154,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(all_but_slip(
                          [](const auto& one) { return one.param; });
 
 TEST(Selection, FindsNothingWhereNothingIs) {
-  const Mechanism declared = bench_joint();
+  const DeclaredMechanism declared = bench_joint();
   for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
     const Calibration found = calibrate(declared, logged(declared, {}, k_full, seed));
     EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect) << found.summary;
@@ -164,22 +163,22 @@ TEST(Selection, FindsNothingWhereNothingIs) {
 }
 
 TEST(Selection, FindsBothOfAPairWithTheirNumbers) {
-  const Mechanism declared = bench_joint();
+  const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
-  truth.stretch = 2.0;
-  truth.backlash = radians(1.5);
+  truth.tendon.stretch = 2.0;
+  truth.shaft.backlash = radians(1.5);
   const Calibration found = calibrate(declared, logged(declared, truth, k_full));
   // In runs of less than a minute much creep is like little more stretch.
   EXPECT_THAT(found.verdict, testing::AnyOf(CalibrationVerdict::explained, CalibrationVerdict::confounded));
   ASSERT_EQ(found.effects.size(), 2u);
-  EXPECT_NEAR(found.identified.stretch, 2.0, 0.05);
-  EXPECT_NEAR(found.identified.backlash, radians(1.5), radians(0.03));
+  EXPECT_NEAR(found.identified.tendon.stretch, 2.0, 0.05);
+  EXPECT_NEAR(found.identified.shaft.backlash, radians(1.5), radians(0.03));
 }
 
 TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
-  const Mechanism declared = bench_joint();
+  const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
-  truth.backlash = radians(2);
+  truth.shaft.backlash = radians(2);
   const Calibration one_speed = calibrate(declared, logged(declared, truth, {{0, 1}}));
   EXPECT_EQ(one_speed.verdict, CalibrationVerdict::confounded);
   EXPECT_THAT(all_groups(one_speed), Contains("backlash"));
@@ -191,9 +190,9 @@ TEST(Selection, TellsADelayFromPlayOnlyAtTwoSpeeds) {
 }
 
 TEST(Selection, ACaliperSplitsAGroup) {
-  Mechanism declared = bench_joint();
+  DeclaredMechanism declared = bench_joint();
   Imperfections truth;
-  truth.pulley_scale = -0.02;
+  truth.pulley.scale = -0.02;
   const Measurement measurement = logged(declared, truth, {{0, 1}});
   const Calibration without = calibrate(declared, measurement);
   ASSERT_THAT(all_groups(without), Contains("pulley_scale"));
@@ -205,7 +204,7 @@ TEST(Selection, ACaliperSplitsAGroup) {
 }
 
 TEST(Selection, AWalkingZeroIsNoEffectOfTheCatalogue) {
-  const Mechanism declared = bench_joint();
+  const DeclaredMechanism declared = bench_joint();
   Measurement measurement = logged(declared, {}, k_full);
   std::mt19937 random(3);
   std::normal_distribution<double> step(0.0, 8 * k_noise);
@@ -221,9 +220,9 @@ TEST(Selection, AWalkingZeroIsNoEffectOfTheCatalogue) {
 }
 
 TEST(Selection, NamedRunsAreNeverFittedTo) {
-  const Mechanism declared = bench_joint();
+  const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
-  truth.backlash = radians(2);
+  truth.shaft.backlash = radians(2);
   Measurement measurement = logged(declared, truth, k_full);
   CalibrationOptions options;
   options.hold_out = {"run_5.csv"};
@@ -233,7 +232,7 @@ TEST(Selection, NamedRunsAreNeverFittedTo) {
   // What the held-out run says changes nothing of what was found.
   for (Sample& sample : measurement.runs.back().samples) sample.theta += radians(3);
   const Calibration other = calibrate(declared, measurement, options);
-  EXPECT_EQ(other.identified.backlash, found.identified.backlash);
+  EXPECT_EQ(other.identified.shaft.backlash, found.identified.shaft.backlash);
   EXPECT_GT(other.after.held_out_rms, radians(2.9));
 }
 

@@ -66,7 +66,7 @@ std::string found_words(const Calibration& calibration) {
 }
 
 /// As printed: shrunk as the declared material does, not as the drawing was told.
-Outline printed(Outline outline, const Mechanism& declared, const Mechanism& drawn) {
+Outline printed(Outline outline, const DeclaredMechanism& declared, const Mechanism& drawn) {
   const double scale = (1.0 - declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
   for (OutlinePoint& point : outline.points) point.position *= scale;
   return outline;
@@ -74,7 +74,7 @@ Outline printed(Outline outline, const Mechanism& declared, const Mechanism& dra
 
 }  // namespace
 
-std::vector<LoopCase> loop_cases(const Mechanism& declared, double load) {
+std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load) {
   const double R = declared.joint.R;
   std::vector<LoopCase> cases;
   const auto add = [&](const std::string& name, auto set) {
@@ -102,14 +102,15 @@ std::vector<LoopCase> loop_cases(const Mechanism& declared, double load) {
   return cases;
 }
 
-MadeJoint with_corrected_pulley(const MadeJoint& declared, const Mechanism& corrected) {
-  const Mechanism drawn = as_it_is(corrected);
+MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechanism& corrected) {
+  const JointAsItIs made_for = as_it_is(corrected);
+  const Mechanism& drawn = made_for.mechanism;
   SynthesisOptions options;
   options.tolerance = 2e-5;
   options.advice = false;
   SynthesisResult made = synthesise(drawn, options);
   if (!made.made()) throw InputError("corrected.toml", made.brief());
-  draw_for_making(made, drawn);
+  draw_for_making(made, made_for.outline);
   MadeJoint joint = declared;
   joint.p1 = printed(made.p1, declared.declared, drawn);
   joint.p2 = printed(made.p2, declared.declared, drawn);

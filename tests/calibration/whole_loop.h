@@ -22,7 +22,7 @@ struct LoopCase {
 };
 
 /// One of each kind, on the forearm-sized joint and on others.
-std::vector<LoopCase> loop_cases(const Mechanism& declared, double load);
+std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load);
 
 /// What one turn of the loop did. rad, rms of θ − θ(α) as declared, one unloaded or evenly loaded run without noise.
 struct LoopOutcome {
@@ -39,7 +39,7 @@ struct LoopOutcome {
 };
 
 /// The joint with the pulley that `fusee build` makes of `corrected`, on the bench of `declared`.
-MadeJoint with_corrected_pulley(const MadeJoint& declared, const Mechanism& corrected);
+MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechanism& corrected);
 
 /// What the same joint misses of its law with another pulley, its motor's zero moved as `tied_at` says. rad rms
 double joint_error(const MadeJoint& joint, const LoopCase& hidden, double tied_at);

@@ -27,26 +27,26 @@ constexpr double k_load = 5;  // N
 Joint joint_of(const std::string& file, bool friction = true) {
   Joint joint;
   joint.spec = read_file(std::filesystem::path(FUSEE_SOURCE_DIR) / file, 1 << 20);
-  Mechanism declared = parse_mechanism(joint.spec, file);
+  DeclaredMechanism declared = parse_mechanism(joint.spec, file);
   if (!friction) declared.guides.mu = 0;
   joint.made = make_joint(declared);
   return joint;
 }
 
 /// What a perfect calibration would say.
-Imperfections truth_of(const Hidden& hidden, const Mechanism& declared) {
+Imperfections truth_of(const Hidden& hidden, const DeclaredMechanism& declared) {
   Imperfections at;
-  at.radius_offset = hidden.radius_offset;
-  at.pulley_scale = hidden.pulley_scale;
-  at.runout_x = hidden.runout_x;
-  at.runout_y = hidden.runout_y;
-  at.guide_radius = hidden.guide_radius;
-  at.guide_outward = hidden.guide_outward;
-  at.guide_down = hidden.guide_down;
-  at.joint_length = hidden.joint_length;
-  if (hidden.modulus > 0) at.stretch = declared.tendon.modulus / hidden.modulus - 1;
-  at.gravity_cos = hidden.gravity * std::sin(hidden.gravity_direction);
-  at.gravity_sin = -hidden.gravity * std::cos(hidden.gravity_direction);
+  at.pulley.outline.offset = hidden.radius_offset;
+  at.pulley.scale = hidden.pulley_scale;
+  at.pulley.outline.runout_x = hidden.runout_x;
+  at.pulley.outline.runout_y = hidden.runout_y;
+  at.pins.place.radius = hidden.guide_radius;
+  at.pins.place.outward = hidden.guide_outward;
+  at.pins.place.down = hidden.guide_down;
+  at.joint.length = hidden.joint_length;
+  if (hidden.modulus > 0) at.tendon.stretch = declared.tendon.modulus / hidden.modulus - 1;
+  at.joint.weight.cos = hidden.gravity * std::sin(hidden.gravity_direction);
+  at.joint.weight.sin = -hidden.gravity * std::cos(hidden.gravity_direction);
   return at;
 }
 
@@ -67,7 +67,7 @@ Correction known_correction(const Joint& joint, const LoopCase& hidden) {
 }
 
 MadeJoint corrected_joint(const Joint& joint, const Correction& correction) {
-  Mechanism corrected = joint.made.declared;
+  DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = correction.identified;
   return with_corrected_pulley(joint.made, corrected);
 }
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(WholeLoop, Known,
                            return joint + "_" + std::get<1>(each.param);
                          });
 
-BuildResult built(const Mechanism& corrected, double tolerance = 0.01) {
+BuildResult built(const DeclaredMechanism& corrected, double tolerance = 0.01) {
   MechanismFile file;
   file.mechanism = corrected;
   BuildOptions options;
@@ -115,7 +115,7 @@ BuildResult built(const Mechanism& corrected, double tolerance = 0.01) {
 TEST_P(Known, FaultGivesAPulleyThatPassesAllChecks) {
   const auto [file, name] = GetParam();
   const Joint joint = joint_of(file);
-  Mechanism corrected = joint.made.declared;
+  DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = known_correction(joint, case_of(joint, name)).identified;
   const BuildResult result = built(corrected);
   EXPECT_EQ(result.status, BuildStatus::done) << result.product.synthesis.brief();
@@ -152,7 +152,7 @@ TEST(WholeLoop, TheDrawingThatBuildWritesTakesTheFaultOut) {
   LoopCase hidden = case_of(joint, "pulley_runout");
   hidden.hidden.radius_offset = -0.2;
   hidden.hidden.guide_outward = 0.5;
-  Mechanism corrected = joint.made.declared;
+  DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = known_correction(joint, hidden).identified;
   const BuildResult result = built(corrected, 2e-4);
   MadeJoint drawn = joint.made;
@@ -167,8 +167,8 @@ TEST(WholeLoop, TheWrongCauseIsSeen) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "pulley_runout");
   Correction half = known_correction(joint, hidden);
-  half.identified.runout_x *= 0.5;
-  half.identified.runout_y *= 0.5;
+  half.identified.pulley.outline.runout_x *= 0.5;
+  half.identified.pulley.outline.runout_y *= 0.5;
   const double before = joint_error(joint.made, hidden, 0);
   EXPECT_NEAR(joint_error(corrected_joint(joint, half), hidden, 0) / before, 0.5, 0.05);
 }
@@ -189,7 +189,7 @@ TEST(WholeLoop, GoesOnFromACorrectedFile) {
   const Joint joint = joint_of("profiles/forearm.toml");
   const LoopCase hidden = case_of(joint, "guide_position");
   const Correction first = known_correction(joint, hidden);
-  Mechanism corrected = joint.made.declared;
+  DeclaredMechanism corrected = joint.made.declared;
   corrected.identified = first.identified;
   const Measurement again = measured(corrected_joint(joint, first), hidden, scratch("again"));
   const Calibration second = calibrate(expected_joint(corrected), again);
@@ -200,21 +200,21 @@ TEST(WholeLoop, GoesOnFromACorrectedFile) {
 
 TEST(WholeLoop, WhatIsFoundLaterIsAdded) {
   const Joint joint = joint_of("profiles/forearm.toml");
-  Mechanism corrected = joint.made.declared;
-  corrected.identified.guide_radius = 1;
-  corrected.identified.stretch = 1;
-  corrected.identified.pulley_scale = 0.01;
-  corrected.identified.backlash = 0.02;
+  DeclaredMechanism corrected = joint.made.declared;
+  corrected.identified.pins.place.radius = 1;
+  corrected.identified.tendon.stretch = 1;
+  corrected.identified.pulley.scale = 0.01;
+  corrected.identified.shaft.backlash = 0.02;
   Calibration second;
-  second.identified.guide_radius = 0.5;
-  second.identified.stretch = 0.5;
-  second.identified.pulley_scale = 0.01;
+  second.identified.pins.place.radius = 0.5;
+  second.identified.tendon.stretch = 0.5;
+  second.identified.pulley.scale = 0.01;
   const Imperfections total =
       correct(corrected, measured(joint.made, case_of(joint, "guide_radius"), scratch("added")), second).identified;
-  EXPECT_EQ(total.guide_radius, 1.5);
-  EXPECT_EQ(total.stretch, 2.0);
-  EXPECT_NEAR(total.pulley_scale, 0.0201, 1e-12);
-  EXPECT_EQ(total.backlash, 0);  // a table's matter: not found again, it is gone
+  EXPECT_EQ(total.pins.place.radius, 1.5);
+  EXPECT_EQ(total.tendon.stretch, 2.0);
+  EXPECT_NEAR(total.pulley.scale, 0.0201, 1e-12);
+  EXPECT_EQ(total.shaft.backlash, 0);  // a table's matter: not found again, it is gone
 }
 
 /// From what the bench logged to the pulley, nothing told.

@@ -36,22 +36,23 @@ r1_mm = 16
 diameter_mm = 1
 )";
 
-Mechanism declared() { return parse_mechanism(k_declared, "forearm.toml"); }
-Mechanism frictionless() {
-  Mechanism mechanism = declared();
+DeclaredMechanism declared() { return parse_mechanism(k_declared, "forearm.toml"); }
+DeclaredMechanism frictionless() {
+  DeclaredMechanism mechanism = declared();
   mechanism.guides.mu = 0;
   return mechanism;
 }
 
 /// How far a joint with the true geometry `truth` and a pulley made for `drawn` misses the law of `wanted`: tendons
 /// wound on the outline, scaled by `scale` and `offset` further out, its centre moved by `runout`. rad
-double miss(const Mechanism& wanted, const Mechanism& truth, const Mechanism& drawn, double scale = 1,
+double miss(const Mechanism& wanted, const Mechanism& truth, const JointAsItIs& made_for, double scale = 1,
             double offset = 0, const Vec2& runout = {0, 0}) {
+  const Mechanism& drawn = made_for.mechanism;
   SynthesisOptions options;
   options.tolerance = 0.001;
   SynthesisResult made = synthesise(drawn, options);
   if (!made.made()) return std::numeric_limits<double>::quiet_NaN();
-  draw_for_making(made, drawn);
+  draw_for_making(made, made_for.outline);
   const double printed = scale / (1 - drawn.material.shrinkage);
   const auto floor = [&](const Outline& outline) {
     Polygon polygon = parallel(outline, -0.5 * drawn.tendon.diameter);
@@ -74,73 +75,75 @@ double miss(const Mechanism& wanted, const Mechanism& truth, const Mechanism& dr
 }
 
 TEST(AsItIs, NothingIdentifiedChangesNothing) {
-  EXPECT_EQ(as_it_is(declared()), declared());
-  Mechanism backlash = declared();
-  backlash.identified.backlash = 0.1;
-  backlash.identified.lag = 0.1;
-  EXPECT_EQ(as_it_is(backlash).pulley, declared().pulley);
+  EXPECT_EQ(as_it_is(declared()).mechanism, static_cast<const Mechanism&>(declared()));
+  EXPECT_EQ(as_it_is(declared()).outline, OutlineError{});
+  DeclaredMechanism backlash = declared();
+  backlash.identified.shaft.backlash = 0.1;
+  backlash.identified.sensor.lag = 0.1;
+  EXPECT_EQ(as_it_is(backlash).mechanism.pulley, declared().pulley);
 }
 
-TEST(AsItIs, IsItself) {
-  Mechanism mechanism = declared();
-  mechanism.identified.guide_radius = 1.5;
-  mechanism.identified.runout_x = 0.1;
-  const Mechanism once = as_it_is(mechanism);
-  EXPECT_EQ(as_it_is(once), once);
-  EXPECT_EQ(expected_joint(mechanism).identified, Imperfections{});
+TEST(AsItIs, IsExpectedOfTheNextCalibration) {
+  DeclaredMechanism mechanism = declared();
+  mechanism.identified.pins.place.radius = 1.5;
+  mechanism.identified.pulley.outline.runout_x = 0.1;
+  const DeclaredMechanism expected = expected_joint(mechanism);
+  EXPECT_EQ(static_cast<const Mechanism&>(expected), as_it_is(mechanism).mechanism);
+  EXPECT_EQ(expected.identified, Imperfections{});
+  EXPECT_EQ(expected_joint(expected), expected);
 }
 
 TEST(AsItIs, AnotherGuideRadiusIsTakenOut) {
-  Mechanism mechanism = declared();
-  mechanism.identified.guide_radius = 2.0;
-  Mechanism truth = declared();
+  DeclaredMechanism mechanism = declared();
+  mechanism.identified.pins.place.radius = 2.0;
+  DeclaredMechanism truth = declared();
   truth.guides.radius += 2.0;
-  const double before = miss(declared(), truth, declared());
+  const double before = miss(declared(), truth, as_it_is(declared()));
   EXPECT_GT(degrees(before), 0.2);
   EXPECT_LT(degrees(miss(declared(), truth, as_it_is(mechanism))), 0.03);
 }
 
 TEST(AsItIs, AnotherLengthIsTakenOut) {
-  Mechanism mechanism = declared();
-  mechanism.identified.joint_length = 2.0;
-  Mechanism truth = declared();
+  DeclaredMechanism mechanism = declared();
+  mechanism.identified.joint.length = 2.0;
+  DeclaredMechanism truth = declared();
   truth.joint.R += 2.0;
-  const double before = miss(declared(), truth, declared());
+  const double before = miss(declared(), truth, as_it_is(declared()));
   EXPECT_LT(miss(declared(), truth, as_it_is(mechanism)), 0.1 * before);
 }
 
 TEST(AsItIs, AnOffsetOfThePulleyIsTakenOut) {
   for (const double offset : {0.2, -0.3}) {
-    Mechanism mechanism = declared();
-    mechanism.identified.radius_offset = offset;
-    const double before = miss(declared(), declared(), declared(), 1, offset);
+    DeclaredMechanism mechanism = declared();
+    mechanism.identified.pulley.outline.offset = offset;
+    const double before = miss(declared(), declared(), as_it_is(declared()), 1, offset);
     EXPECT_GT(degrees(before), 0.2);
     EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, offset), 0.05 * before);
     // Grooves, anchors and holes stay those of the tendon that there is.
-    EXPECT_EQ(as_it_is(mechanism).tendon, declared().tendon);
+    EXPECT_EQ(as_it_is(mechanism).mechanism.tendon, declared().tendon);
   }
 }
 
 TEST(AsItIs, AScaleOfThePulleyIsTakenOut) {
-  Mechanism mechanism = declared();
-  mechanism.identified.pulley_scale = -0.02;
-  const double before = miss(declared(), declared(), declared(), 0.98);
+  DeclaredMechanism mechanism = declared();
+  mechanism.identified.pulley.scale = -0.02;
+  const double before = miss(declared(), declared(), as_it_is(declared()), 0.98);
   EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 0.98), 0.05 * before);
 }
 
 TEST(AsItIs, ARunoutIsTakenOut) {
-  Mechanism mechanism = declared();
-  mechanism.identified.runout_x = 0.3;
-  mechanism.identified.runout_y = -0.2;
-  const double before = miss(declared(), declared(), declared(), 1, 0, {0.3, -0.2});
+  DeclaredMechanism mechanism = declared();
+  mechanism.identified.pulley.outline.runout_x = 0.3;
+  mechanism.identified.pulley.outline.runout_y = -0.2;
+  const double before = miss(declared(), declared(), as_it_is(declared()), 1, 0, {0.3, -0.2});
   EXPECT_LT(miss(declared(), declared(), as_it_is(mechanism), 1, 0, {0.3, -0.2}), 0.05 * before);
 }
 
 TEST(RoundChoice, StaysRoundWhereThatSuffices) {
-  Mechanism mechanism = declared();
+  DeclaredMechanism mechanism = declared();
   EXPECT_TRUE(round_choice(mechanism).suffices);
   EXPECT_NEAR(round_choice(mechanism).r1, 16, 1e-3);
-  mechanism.identified.guide_outward = 5;
+  mechanism.identified.pins.place.outward = 5;
   EXPECT_FALSE(round_choice(mechanism).suffices);
   EXPECT_GT(degrees(round_choice(mechanism).max_error), 0.005);
 }
@@ -154,7 +157,7 @@ Calibration found_guide_radius() {
   effect.group = {"guide_radius"};
   effect.parameters = {{"radius_mm", 3.5, 3.4, 3.6}};
   calibration.effects = {effect};
-  calibration.identified.guide_radius = 1.5;
+  calibration.identified.pins.place.radius = 1.5;
   return calibration;
 }
 
@@ -167,8 +170,8 @@ TEST(CorrectedToml, KeepsTheFileAndAddsWhatWasFound) {
   EXPECT_THAT(text, HasSubstr("\nguide_radius_mm = 1.5\n"));
   EXPECT_EQ(text.substr(0, text.find("\n[identified]")), k_declared);
   EXPECT_THAT(text, HasSubstr("# guide_radius (pins): radius_mm = 3.5"));
-  Mechanism read = parse_mechanism(text, "corrected.toml");
-  EXPECT_EQ(read.identified.guide_radius, 1.5);
+  DeclaredMechanism read = parse_mechanism(text, "corrected.toml");
+  EXPECT_EQ(read.identified.pins.place.radius, 1.5);
   read.identified = {};
   EXPECT_EQ(read, declared());
 }
@@ -178,9 +181,9 @@ TEST(CorrectedToml, ASecondCalibrationReplacesTheFirst) {
   correction.identified = found_guide_radius().identified;
   const std::string once = corrected_toml(k_declared, declared(), found_guide_radius(), correction);
   EXPECT_EQ(corrected_toml(once, parse_mechanism(once, "a.toml"), found_guide_radius(), correction), once);
-  correction.identified.guide_radius = 1.6;
+  correction.identified.pins.place.radius = 1.6;
   const std::string twice = corrected_toml(once, parse_mechanism(once, "a.toml"), found_guide_radius(), correction);
-  EXPECT_EQ(parse_mechanism(twice, "b.toml").identified.guide_radius, 1.6);
+  EXPECT_EQ(parse_mechanism(twice, "b.toml").identified.pins.place.radius, 1.6);
   EXPECT_EQ(twice.find("\n[identified]"), twice.rfind("\n[identified]"));
 }
 
@@ -190,7 +193,7 @@ struct Loop {
   Calibration calibration;
 };
 
-Loop loop_of(const Mechanism& mechanism, double loop) {
+Loop loop_of(const DeclaredMechanism& mechanism, double loop) {
   const Transmission law(mechanism);
   Loop data;
   Run run;
@@ -208,7 +211,7 @@ Loop loop_of(const Mechanism& mechanism, double loop) {
   data.measurement.runs.push_back(run);
   data.calibration.residuals_before = {before};
   data.calibration.residuals_after = {std::vector<double>(400, 0.0)};
-  data.calibration.identified.backlash = loop / law.at_alpha(0).g;
+  data.calibration.identified.shaft.backlash = loop / law.at_alpha(0).g;
   return data;
 }
 
@@ -224,7 +227,7 @@ TEST(Correct, ALoopGoesIntoTheTable) {
   ASSERT_GT(correction.table.size(), 20u);
   const Transmission law(frictionless());
   for (const CompensationRow& row : correction.table) {
-    const double play = data.calibration.identified.backlash;
+    const double play = data.calibration.identified.shaft.backlash;
     EXPECT_NEAR(row.alpha_up, law.alpha(row.theta) + 0.5 * play, 1e-3);
     EXPECT_NEAR(row.alpha_down, law.alpha(row.theta) - 0.5 * play, 1e-3);
   }
@@ -235,7 +238,7 @@ TEST(Correct, ALoopGoesIntoTheTable) {
 TEST(Correct, AGuideRadiusGoesIntoThePulley) {
   Loop data = loop_of(frictionless(), 0);
   data.calibration.identified = {};
-  data.calibration.identified.guide_radius = 1.5;
+  data.calibration.identified.pins.place.radius = 1.5;
   const Correction correction = correct(frictionless(), data.measurement, data.calibration);
   EXPECT_TRUE(correction.has_pulley);
   EXPECT_FALSE(correction.round.suffices);
@@ -245,10 +248,10 @@ TEST(Correct, AGuideRadiusGoesIntoThePulley) {
 }
 
 TEST(Correct, ARatioHasATableOnly) {
-  const Mechanism jaw =
+  const DeclaredMechanism jaw =
       parse_mechanism("schema = 1\nname = \"jaw\"\n[transmission]\nkind = \"ratio\"\nratio = -1.1\n", "jaw.toml");
   Loop data = loop_of(declared(), radians(1.0));
-  data.calibration.identified.backlash = 2 * 1.1 * radians(0.5);
+  data.calibration.identified.shaft.backlash = 2 * 1.1 * radians(0.5);
   const Correction correction = correct(jaw, data.measurement, data.calibration);
   EXPECT_FALSE(correction.has_pulley);
   ASSERT_FALSE(correction.table.empty());

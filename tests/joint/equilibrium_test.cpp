@@ -365,7 +365,7 @@ TEST(MadePulleys, WindWhatTheirMomentArmSays) {
   mounted.guides.EB += 1.0;
   mounted.guides.OE -= 0.7;
   mounted.guides.radius += 0.8;
-  const JointModel model = joint_model(MadePulleys(linear_wrist()).offset_by(0.3), mounted);
+  const JointModel model = joint_model(MadePulleys(linear_wrist()).offset_by(0.3), MountedMechanism{mounted});
   constexpr double step = 1e-5;
   for (const double alpha : {-1.1, -0.2, 0.6, 1.2}) {
     const auto at = model.lower(alpha);

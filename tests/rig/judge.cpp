@@ -119,7 +119,7 @@ std::vector<std::filesystem::path> write_case(const Case& made, const std::files
 
 Judgement calibrate_case(const Case& made, const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> runs = write_case(made, folder);
-  const Mechanism declared = read_mechanism(folder / "spec.toml").mechanism;
+  const DeclaredMechanism declared = read_mechanism(folder / "spec.toml").mechanism;
   Measurement measurement = read_measurement(runs);
   compare_with_declared(declared, measurement);
   return judge(made, calibrate(declared, measurement));

@@ -188,7 +188,7 @@ Log sensed(const Track& track, const Way& way, const RunPlan& plan, const Hidden
 
 }  // namespace
 
-MadeJoint make_joint(const Mechanism& declared) {
+MadeJoint make_joint(const DeclaredMechanism& declared) {
   SynthesisOptions options;
   options.tolerance = 2e-5;
   options.advice = false;

@@ -118,13 +118,13 @@ using Log = std::vector<Row>;
 
 /// Both pitch curves that were made for a declared mechanism.
 struct MadeJoint {
-  Mechanism declared;
+  DeclaredMechanism declared;
   Outline p1, p2;
   double alpha_min = 0;  ///< of the declared range
   double alpha_max = 0;
 };
 /// InputError when there is no pulley for it.
-MadeJoint make_joint(const Mechanism& declared);
+MadeJoint make_joint(const DeclaredMechanism& declared);
 
 /// The runs one after another on one clock. Each begins unloaded at home, goes to the start of the sweep, is loaded
 /// there, and is logged.

@@ -299,7 +299,7 @@ struct Twin {
 };
 
 std::vector<Twin> twins() {
-  const Mechanism declared = forearm().declared;
+  const DeclaredMechanism declared = forearm().declared;
   const double half = 0.5 * declared.tendon.diameter;
   const auto as_made = [half](const OutlinePoint& point) -> Vec2 { return point.position - half * point.normal; };
   std::vector<Twin> all(7, {"", {}, declared, as_made});
@@ -490,7 +490,7 @@ TEST(Fault, gravity_is_a_load_that_turns_with_the_joint) {
 }
 
 TEST(Fault, slack_is_lost_motion_and_the_joint_stays_where_it_was_left) {
-  Mechanism declared = elastic();
+  DeclaredMechanism declared = elastic();
   const MadeJoint joint = make_joint(declared);
   Hidden hidden;
   hidden.slack = 0.5;
@@ -508,7 +508,7 @@ TEST(Fault, slack_is_lost_motion_and_the_joint_stays_where_it_was_left) {
 }
 
 TEST(Fault, friction_over_a_pin_comes_to_the_capstan_ratio_and_not_beyond) {
-  Mechanism declared = testing::forearm();
+  DeclaredMechanism declared = testing::forearm();
   declared.guides.mu = 0.3;
   const MadeJoint joint = make_joint(declared);
   Bench bench(joint, {});

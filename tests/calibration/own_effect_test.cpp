@@ -1,0 +1,103 @@
+// An effect of one's own: a file like this one, and nothing else, and it is looked for and found.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "fusee/calibration/calibration.h"
+#include "fusee/joint/simulate.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_noise = radians(0.01);
+
+/// A print of five lobes: a bed that stands on five feet. No effect of the program is it, which look for two and three.
+Effect five_lobes() {
+  Effect effect;
+  effect.name = "five_lobes";
+  effect.place = ChainPlace::pulley;
+  effect.rank = 5;
+  effect.signature = "five times per turn of the pulley, whichever way and load";
+  effect.correctable_by = CorrectableBy::pulley;
+  effect.needs = {.tendons = true};
+  effect.parameters = {{.name = "sin_mm",
+                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_sin; },
+                        .least = -2,
+                        .most = 2,
+                        .step = 2e-3,
+                        .shown = shown::as_is,
+                        .key = {}},
+                       {.name = "cos_mm",
+                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_cos; },
+                        .least = -2,
+                        .most = 2,
+                        .step = 2e-3,
+                        .shown = shown::as_is,
+                        .key = {}},
+                       {.name = "order",
+                        .number = [](Imperfections& at) -> double& { return at.pulley.outline.wave_order; },
+                        .least = 5,
+                        .most = 5,
+                        .step = 1,
+                        .shown = shown::as_is,
+                        .key = {},
+                        .searched = true}};
+  effect.starts = {{0, 0, 5}};
+  return effect;
+}
+
+/// Five strokes there and back over the whole range.
+Measurement measured(const DeclaredMechanism& declared, const Imperfections& truth) {
+  constexpr int k_rows = 120;
+  constexpr double k_most = radians(100);
+  Measurement measurement;
+  measurement.load_unit = "N";
+  for (int r = 0; r < 3; ++r) {
+    fusee::Run run;
+    run.name = "run_" + std::to_string(r + 1) + ".csv";
+    for (int stroke = 0; stroke < 6; ++stroke) {
+      const bool up = stroke % 2 == 0;
+      const std::size_t first = run.samples.size();
+      for (int i = 0; i < k_rows; ++i) {
+        Sample sample;
+        sample.alpha = (up ? 1 : -1) * k_most * (2.0 * i / (k_rows - 1) - 1.0);
+        run.samples.push_back(sample);
+      }
+      run.strokes.push_back({first, run.samples.size() - 1, up ? 1 : -1, stroke / 2, false});
+    }
+    measurement.runs.push_back(run);
+  }
+  const Readings theta = predict(declared, truth, bench_log(measurement));
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, k_noise);
+  for (std::size_t r = 0; r < theta.size(); ++r) {
+    for (std::size_t i = 0; i < theta[r].size(); ++i)
+      measurement.runs[r].samples[i].theta = theta[r][i] + noise(random);
+  }
+  return measurement;
+}
+
+TEST(EffectOfOnesOwn, IsFoundAndNotWithoutItsFile) {
+  const DeclaredMechanism declared = testing::forearm();
+  Imperfections truth;
+  truth.pulley.outline.wave_sin = 0.2;
+  truth.pulley.outline.wave_order = 5;
+  const Measurement measurement = measured(declared, truth);
+  EXPECT_EQ(calibrate(declared, measurement).verdict, CalibrationVerdict::unexplained);
+  const Effect own = five_lobes();
+  CalibrationOptions options;
+  options.more_effects = {&own};
+  const Calibration found = calibrate(declared, measurement, options);
+  EXPECT_EQ(found.verdict, CalibrationVerdict::explained) << found.summary;
+  ASSERT_EQ(found.effects.size(), 1u);
+  EXPECT_EQ(found.effects.front().name, "five_lobes");
+  EXPECT_THAT(found.effects.front().group, ::testing::ElementsAre("five_lobes"));
+  EXPECT_NEAR(found.effects.front().parameters.at(0).value, 0.2, 0.005);
+  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.2, 0.005);
+  EXPECT_EQ(found.identified.pulley.outline.wave_order, 5);
+}
+
+}  // namespace
+}  // namespace fusee
