@@ -261,7 +261,8 @@ void Selector::find_rivals() {
     }
   }
   const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
-  const double near = k_thresholds.near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
+  const double near =
+      k_thresholds.near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
   workers_.each(
       added.size(),
       [&](const Fitter& fitter, std::size_t i) {
@@ -278,8 +279,8 @@ bool Selector::exchange() {
   const Rival* best = nullptr;
   for (const Rival& rival : selection_.rivals) {
     const double gain = score(evidence_, selection_.best) - score(evidence_, rival.fit);
-    const bool clearly =
-        gain > k_thresholds.better * evidence_.floor * evidence_.floor && excludes_zero(evidence_, rival.fit, *rival.rival);
+    const bool clearly = gain > k_thresholds.better * evidence_.floor * evidence_.floor &&
+                         excludes_zero(evidence_, rival.fit, *rival.rival);
     if (clearly && (best == nullptr || score(evidence_, rival.fit) < score(evidence_, best->fit))) best = &rival;
   }
   if (best == nullptr) return false;

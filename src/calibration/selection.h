@@ -20,7 +20,7 @@ struct Rival {
 };
 
 struct Selection {
-  Catalogue catalogue;  ///< what the fits below name
+  Catalogue catalogue;        ///< what the fits below name
   Fit none;                   ///< the declared model
   Fit best;                   ///< with all accepted effects
   std::vector<Rival> rivals;  ///< of every accepted effect, usable ones

@@ -22,7 +22,9 @@ std::filesystem::path scratch(const std::string& name) {
   return folder;
 }
 
-void leave(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void leave(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 std::vector<std::string> names(const std::vector<OutputFile>& outputs) {
   std::vector<std::string> all;
@@ -67,9 +69,9 @@ TEST(CalibrateVerb, WhatIsThrownBeforeWritingLeavesNothing) {
   const std::filesystem::path folder = scratch("thrown") / "out";
   CalibrateOptions options = into(folder);
   options.before_writing = [] { throw std::runtime_error("enough"); };
-  EXPECT_THROW(calibrate(read_mechanism(k_rig / "e_one_sweep_only/spec.toml"), {k_rig / "e_one_sweep_only/run_1.csv"},
-                         options),
-               std::runtime_error);
+  EXPECT_THROW(
+      calibrate(read_mechanism(k_rig / "e_one_sweep_only/spec.toml"), {k_rig / "e_one_sweep_only/run_1.csv"}, options),
+      std::runtime_error);
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
@@ -114,7 +116,8 @@ TEST(CalibrateVerb, ATorqueIsWorthItsTipForce) {
 
 // ---- the table of law = "table" -------------------------------------------------------------------------------------
 
-/// The forearm with its law as a table in a folder of its own; the table's name stands in a comment and in the name too.
+/// The forearm with its law as a table in a folder of its own; the table's name stands in a comment and in the name
+/// too.
 MechanismFile tabled(const std::filesystem::path& folder, const std::string& quoted = "\"laws/law.csv\"") {
   std::filesystem::create_directories(folder / "laws");
   std::string law = "alpha_deg,theta_deg\n";
@@ -143,7 +146,8 @@ TEST(LawTable, TheValueAloneIsEdited) {
   expected.replace(expected.find("table = \"laws/law.csv\""), 22, "table = \"law.csv\"");
   EXPECT_EQ(with_table_beside(text, file), expected);
   EXPECT_EQ(law_table_copy(file).name, "law.csv");
-  EXPECT_EQ(law_table_copy(file).bytes, read_file(std::filesystem::path(file.path).parent_path() / "laws/law.csv", 9999));
+  EXPECT_EQ(law_table_copy(file).bytes,
+            read_file(std::filesystem::path(file.path).parent_path() / "laws/law.csv", 9999));
 }
 
 TEST(LawTable, OtherWaysToWriteItAreFound) {

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "calibration/contract_effects.h"
-#include "mechanism/effects/effect.h"
 #include "fusee/base/files.h"
 #include "fusee/mechanism/file.h"
+#include "mechanism/effects/effect.h"
 
 namespace fusee {
 namespace {

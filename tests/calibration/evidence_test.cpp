@@ -46,8 +46,7 @@ TEST(Gather, ARowThatJumpsIsLeftOut) {
   measurement.runs[0].samples[wild].theta += 20 * k_floor;
   const Evidence evidence = gather(joint(), measurement, k_floor);
   EXPECT_EQ(evidence.rows_used(), 3 * k_rows - 1);
-  for (const Block& block : evidence.blocks)
-    EXPECT_EQ(std::count(block.rows.begin(), block.rows.end(), wild), 0);
+  for (const Block& block : evidence.blocks) EXPECT_EQ(std::count(block.rows.begin(), block.rows.end(), wild), 0);
   EXPECT_NEAR(evidence.theta[wild], measurement.runs[0].samples[wild].theta, 1e-15) << "as history it stays";
 }
 

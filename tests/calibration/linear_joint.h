@@ -11,7 +11,7 @@
 namespace fusee::linear {
 
 constexpr double k_ratio = 4;
-constexpr double k_floor = 1e-3;  // rad
+constexpr double k_floor = 1e-3;    // rad
 constexpr std::size_t k_rows = 20;  // of a stroke
 
 inline const Mechanism& joint() {

@@ -55,7 +55,8 @@ TEST(Compare, BlocksThatNoFoldHoldsDoNotCount) {
 
 TEST(Bic, OfWhiteResidualsCountsEveryRow) {
   const Evidence evidence = two_runs();
-  Fit worse = with_errors(evidence, std::vector<double>(8, 1.0)), better = with_errors(evidence, worse.by_factor.by_block, 2);
+  Fit worse = with_errors(evidence, std::vector<double>(8, 1.0)),
+      better = with_errors(evidence, worse.by_factor.by_block, 2);
   worse.mean_square = 2;
   better.mean_square = 1;
   const double n = static_cast<double>(8 * k_rows);
@@ -64,7 +65,8 @@ TEST(Bic, OfWhiteResidualsCountsEveryRow) {
 
 TEST(Bic, OfCorrelatedResidualsCountsFewer) {
   const Evidence evidence = two_runs();
-  Fit worse = with_errors(evidence, std::vector<double>(8, 1.0)), better = with_errors(evidence, worse.by_factor.by_block, 1);
+  Fit worse = with_errors(evidence, std::vector<double>(8, 1.0)),
+      better = with_errors(evidence, worse.by_factor.by_block, 1);
   better.residual.setOnes();
   worse.mean_square = 2;
   better.mean_square = 1;

@@ -67,7 +67,8 @@ TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
   leave(5);
   find({{"zero_offset", "motor_offset"}});
   // The largest mean: the last twelfth of the way down.
-  for (std::size_t row = k_rows; row < k_rows + 2; ++row) selection.best.residual[static_cast<Eigen::Index>(row)] = 0.05;
+  for (std::size_t row = k_rows; row < k_rows + 2; ++row)
+    selection.best.residual[static_cast<Eigen::Index>(row)] = 0.05;
   EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
   EXPECT_NEAR(calibration.unexplained_rms, 2 * k_floor, 1e-12);
   EXPECT_THAT(calibration.unexplained_where, HasSubstr("falling"));
