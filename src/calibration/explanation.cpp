@@ -37,9 +37,9 @@ std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect&
   return effect.name + " (" + numbers + ")";
 }
 
-/// By how much the held-out error falls with `effect` beside the others, rad; by how much it does from the declared joint
-/// where the others alone give none that could be simulated. An effect without which the held-out error is no larger
-/// takes nothing away, and not less than nothing.
+/// By how much the held-out error falls with `effect` beside the others, rad; by how much it does from the declared
+/// joint where the others alone give none that could be simulated. An effect without which the held-out error is no
+/// larger takes nothing away, and not less than nothing.
 double rms_drop(Workers& workers, const Selection& selection, const Effect& effect) {
   const Fit& best = selection.best;
   const Fit others = workers.one().fit(without(best.effects, effect), without(best.at, effect));

@@ -7,9 +7,7 @@
 
 namespace fusee {
 
-bool is_at_floor(const Fit& fit, double floor) {
-  return held_out_square(fit) <= k_thresholds.at_floor * floor * floor;
-}
+bool is_at_floor(const Fit& fit, double floor) { return held_out_square(fit) <= k_thresholds.at_floor * floor * floor; }
 
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {

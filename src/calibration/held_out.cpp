@@ -28,7 +28,10 @@ bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
 class Folds {
  public:
   Folds(const Evidence& evidence, const Fit& fit)
-      : fit_(fit), ridge_(wide_prior(evidence.floor)), all_(fit.readings), error_(fit.sums.size(), 0.0),
+      : fit_(fit),
+        ridge_(wide_prior(evidence.floor)),
+        all_(fit.readings),
+        error_(fit.sums.size(), 0.0),
         times_(fit.sums.size(), 0) {
     for (const NormalEquations& sums : fit.sums) all_ += sums;
   }

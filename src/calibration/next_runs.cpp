@@ -141,7 +141,8 @@ struct Ranked {
   std::vector<double> apart;
 
   std::size_t told() const {
-    return static_cast<std::size_t>(std::count_if(apart.begin(), apart.end(), [](double a) { return a > k_thresholds.told_apart; }));
+    return static_cast<std::size_t>(
+        std::count_if(apart.begin(), apart.end(), [](double a) { return a > k_thresholds.told_apart; }));
   }
   double most() const { return *std::max_element(apart.begin(), apart.end()); }
 };

@@ -8,8 +8,8 @@
 
 namespace fusee {
 
-/// As things are, and the effect's own starts: one value a parameter. Where it may have happened at any time, the places
-/// at which a step would take most out of what `base` leaves, with several sizes each.
+/// As things are, and the effect's own starts: one value a parameter. Where it may have happened at any time, the
+/// places at which a step would take most out of what `base` leaves, with several sizes each.
 std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& base, const Effect& effect);
 
 }  // namespace fusee

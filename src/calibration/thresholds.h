@@ -80,6 +80,6 @@ struct Thresholds {
   double told_apart = 3.0;
 };
 
-inline constexpr Thresholds k_thresholds;
+inline constexpr Thresholds k_thresholds{};
 
 }  // namespace fusee

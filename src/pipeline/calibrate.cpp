@@ -85,8 +85,8 @@ std::vector<OutputFile> outputs_of(const CalibrationProduct& product, const std:
   std::vector<OutputFile> outputs;
   outputs.push_back({"calibration.json", calibration_json(product)});
   if (law_table_name(product.file.mechanism)) outputs.push_back(law_table_copy(product.file));
-  outputs.push_back({"corrected.toml",
-                     corrected_toml(declared, product.file.mechanism, product.calibration, product.correction)});
+  outputs.push_back(
+      {"corrected.toml", corrected_toml(declared, product.file.mechanism, product.calibration, product.correction)});
   outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
   outputs.push_back({"report.html", calibration_report_html(product)});
   outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});

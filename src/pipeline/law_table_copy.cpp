@@ -29,8 +29,8 @@ OutputFile law_table_copy(const MechanismFile& file) {
   return {law_table_name(file.mechanism).value(), read_file(table_path(file), k_largest_law)};
 }
 
-// The same words may stand in a comment or in another value: the one place is that with which the reader finds the table
-// in its own folder. A value written with escapes stands nowhere as it reads: then every key is written anew.
+// The same words may stand in a comment or in another value: the one place is that with which the reader finds the
+// table in its own folder. A value written with escapes stands nowhere as it reads: then every key is written anew.
 std::string with_table_beside(const std::string& text, const MechanismFile& file) {
   const std::string& declared = file.mechanism.pulley.table;
   const std::string beside = law_table_name(file.mechanism).value();

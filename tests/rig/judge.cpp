@@ -134,7 +134,10 @@ Rates rates(const std::vector<Judgement>& judgements) {
     (one.outside ? outside : inside) += 1;
     (one.outside ? outside_blamed : inside_blamed) += one.false_groups > 0 ? 1 : 0;
     alone += one.wrong_alone > 0 ? 1 : 0;
-    said += one.outside && (one.verdict == CalibrationVerdict::unexplained || one.verdict == CalibrationVerdict::not_repeatable) ? 1 : 0;
+    said += one.outside && (one.verdict == CalibrationVerdict::unexplained ||
+                            one.verdict == CalibrationVerdict::not_repeatable)
+                ? 1
+                : 0;
     if (one.outside || one.named > 0) continue;
     ++plain;
     quiet += one.verdict == CalibrationVerdict::no_effect ? 1 : 0;

@@ -34,8 +34,8 @@ Case with(const std::vector<std::string>& faults) {
 }
 
 TEST(Judge, counts_what_was_found_and_what_was_not) {
-  const Judgement one =
-      judge(with({"tendon_stretch", "backlash"}), answer(CalibrationVerdict::confounded, {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
+  const Judgement one = judge(with({"tendon_stretch", "backlash"}),
+                              answer(CalibrationVerdict::confounded, {{"creep", "tendon_stretch"}, {"sensor_lag"}}));
   EXPECT_EQ(one.named, 2u);
   EXPECT_EQ(one.held, 1u);
   EXPECT_EQ(one.alone, 0u);

@@ -31,9 +31,9 @@ struct CalibrateResult {
   bool rewritten = false;  ///< corrected.toml has every key: the text of `file.path` says something else (--set)
 };
 
-/// Reads the runs, holds them against the joint as `file` describes it, and leaves calibration.json, corrected.toml (with
-/// the table of law = "table" beside it), compensation.csv, report.html and manifest.json. Data that decide nothing are
-/// a verdict; InputError for what cannot be read, OutputError where it may not be written, before the work.
+/// Reads the runs, holds them against the joint as `file` describes it, and leaves calibration.json, corrected.toml
+/// (with the table of law = "table" beside it), compensation.csv, report.html and manifest.json. Data that decide
+/// nothing are a verdict; InputError for what cannot be read, OutputError where it may not be written, before the work.
 /// A run that is both fitted and held out is held out. corrected.toml keeps the text of `file.path`, comments and
 /// all, where that says what `file.mechanism` is.
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,

@@ -1,0 +1,147 @@
+#include "cli/calibration_summary.h"
+
+#include <algorithm>
+
+#include "cli/table.h"
+#include "fusee/base/text.h"
+#include "fusee/calibration/words.h"
+
+namespace fusee::cli {
+namespace {
+
+constexpr std::size_t k_width = 78;
+
+/// Characters of UTF-8 text: every byte that does not continue one.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Words broken into lines of the terminal's usual width.
+std::string wrapped(const std::string& words, const std::string& indent) {
+  std::string text, line = indent;
+  std::size_t at = 0;
+  while (at < words.size()) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    const std::string word = words.substr(at, end - at);
+    if (line.size() > indent.size() && characters(line) + 1 + characters(word) > k_width) {
+      text += line + "\n";
+      line = indent;
+    }
+    line += (line.size() > indent.size() ? " " : "") + word;
+    at = end + 1;
+  }
+  return text + line + "\n";
+}
+
+std::string item(const std::string& words) {
+  std::string text = wrapped(words, "    ");
+  text.replace(0, 4, "  - ");
+  return text;
+}
+
+std::string items(const std::string& title, const std::vector<std::string>& all) {
+  std::string text = all.empty() ? "" : "\n" + title + "\n";
+  for (const std::string& one : all) text += item(one);
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string deg(double value) { return fixed(degrees(value), 4); }
+
+std::string figures_table(const Calibration& c) {
+  const auto row = [](const std::string& name, double before, double after) {
+    return std::vector<std::string>{name, deg(before), deg(after)};
+  };
+  return table(
+      {{"deg at the joint"}, {"before", Align::right}, {"after", Align::right}},
+      {row("  rms", c.before.rms, c.after.rms), row("  largest", c.before.max, c.after.max),
+       row("  rms held out", c.before.held_out_rms, c.after.held_out_rms),
+       row("  ISO 230-2 A", c.iso_before.A, c.iso_after.A), row("  ISO 230-2 R", c.iso_before.R, c.iso_after.R),
+       row("  ISO 230-2 B", c.iso_before.B, c.iso_after.B), row("  ISO 230-2 E", c.iso_before.E, c.iso_after.E),
+       row("  ISO 230-2 M", c.iso_before.M, c.iso_after.M)});
+}
+
+std::string noise_text(const Calibration& c) {
+  std::string words =
+      "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
+  if (c.noise.rms > 0) words += "; what is left is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
+  return wrapped(words, "  ");
+}
+
+std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
+  std::string words = effect.name + " (" + std::string(word(effect.place)) + ")";
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+    words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
+  words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
+  const std::vector<std::string> rivals = rivals_of(effect);
+  return words + (rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals));
+}
+
+std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {
+  std::vector<std::string> texts;
+  for (const FoundEffect& effect : c.effects) texts.push_back(effect_text(effect, load_unit));
+  if (texts.empty()) texts.push_back("none accepted");
+  if (!c.unexplained_where.empty())
+    texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms, " + c.unexplained_where);
+  return texts;
+}
+
+std::vector<std::string> correction_texts(const Correction& correction) {
+  std::vector<std::string> texts;
+  if (correction.has_pulley) {
+    texts.push_back("the pulley of corrected.toml takes away " + deg(correction.by_pulley) + " deg rms");
+    if (correction.round.r1 > 0) texts.push_back(round_words(correction));
+    if (correction.tied_at != 0) texts.push_back(tied_words(correction));
+  } else if (!correction.infeasible.empty()) {
+    texts.push_back(infeasible_words(correction));
+  } else {
+    texts.push_back("nothing was identified that another pulley would take out");
+  }
+  if (!correction.table.empty())
+    texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" +
+                    (correction.has_pulley ? " beyond that" : ""));
+  return texts;
+}
+
+std::vector<std::string> detectable_texts(const Calibration& c) {
+  std::vector<std::string> texts;
+  for (const auto& [size, names] : detectable_groups(c)) texts.push_back(deg(size) + " deg: " + joined(names));
+  return texts;
+}
+
+std::string tried_table(const Calibration& c) {
+  if (c.tried.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const Candidate& candidate : c.tried) {
+    rows.push_back({"  " + candidate.name, deg(candidate.held_out_rms), fixed(candidate.margin, 1),
+                    fixed(candidate.delta_bic, 1), candidate.accepted ? "taken" : ""});
+  }
+  return "\n" + table({{"Tried, in this order"},
+                       {"deg held out", Align::right},
+                       {"margin", Align::right},
+                       {"BIC drop", Align::right},
+                       {""}},
+                      rows);
+}
+
+}  // namespace
+
+std::string calibration_summary(const CalibrationProduct& product, bool verbose) {
+  const Calibration& c = product.calibration;
+  std::string text =
+      product.file.mechanism.name + ": " + std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ");
+  if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", c.next_runs);
+  text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
+  text += items("Cannot be told apart by these data", c.null_combinations) +
+          items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
+  if (verbose || c.verdict == CalibrationVerdict::no_effect)
+    text += items("Would have been seen, at the joint, rms", detectable_texts(c));
+  return verbose ? text + tried_table(c) : text;
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,104 @@
+// How runs are thinned, cut into strokes and held out together.
+#include "calibration/evidence.h"
+
+#include <gmock/gmock.h>
+
+#include "calibration/linear_joint.h"
+
+namespace fusee::linear {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Measurement quiet(const std::vector<double>& loads) {
+  return measured(loads, [](const Sample&) { return 0.0; });
+}
+
+std::vector<std::size_t> strokes_of(const Evidence& evidence, std::size_t run) {
+  std::vector<std::size_t> strokes;
+  for (const Block& block : evidence.blocks) {
+    if (block.run == run) strokes.push_back(block.stroke);
+  }
+  return strokes;
+}
+
+TEST(Gather, TheFirstStrokeFindsOutWhereThePlayStood) {
+  Measurement measurement = quiet({0, 5});
+  measurement.runs[1].strokes.resize(2);  // too few to do without one
+  const Evidence evidence = gather(joint(), measurement, k_floor);
+  EXPECT_THAT(strokes_of(evidence, 0), ElementsAre(1, 2, 3));
+  EXPECT_THAT(strokes_of(evidence, 1), ElementsAre(0, 1));
+  EXPECT_EQ(evidence.rows_used(), 5 * k_rows);
+  EXPECT_EQ(evidence.rows().size(), evidence.rows_used());
+  EXPECT_EQ(evidence.theta.size(), static_cast<Eigen::Index>(8 * k_rows));
+}
+
+TEST(Gather, APartialStrokeIsNone) {
+  Measurement measurement = quiet({0});
+  measurement.runs[0].strokes[2].partial = true;
+  EXPECT_THAT(strokes_of(gather(joint(), measurement, k_floor), 0), ElementsAre(1, 3));
+}
+
+TEST(Gather, ARowThatJumpsIsLeftOut) {
+  Measurement measurement = quiet({0});
+  const std::size_t wild = 2 * k_rows + 7;
+  measurement.runs[0].samples[wild].theta += 20 * k_floor;
+  const Evidence evidence = gather(joint(), measurement, k_floor);
+  EXPECT_EQ(evidence.rows_used(), 3 * k_rows - 1);
+  for (const Block& block : evidence.blocks) EXPECT_EQ(std::count(block.rows.begin(), block.rows.end(), wild), 0);
+  EXPECT_NEAR(evidence.theta[wild], measurement.runs[0].samples[wild].theta, 1e-15) << "as history it stays";
+}
+
+TEST(Gather, LongRunsAreThinnedEvenlyAndKeepTheEndsOfStrokes) {
+  Measurement measurement = quiet({0});
+  fusee::Run& run = measurement.runs[0];
+  const fusee::Run pattern = run;
+  run.samples.clear();
+  constexpr std::size_t finer = 200;
+  for (const Sample& sample : pattern.samples) run.samples.insert(run.samples.end(), finer, sample);
+  for (Stroke& stroke : run.strokes) stroke = {stroke.first * finer, stroke.last * finer + finer - 1, stroke.direction};
+  const Evidence evidence = gather(joint(), measurement, k_floor);
+  const fusee::Run& thin = evidence.measurement.runs[0];
+  EXPECT_LE(evidence.rows_used(), 850u);
+  EXPECT_GE(evidence.rows_used(), 500u);
+  ASSERT_EQ(thin.strokes.size(), 4u);
+  for (std::size_t s = 0; s < 4; ++s) {
+    EXPECT_EQ(thin.samples[thin.strokes[s].first].alpha, pattern.samples[pattern.strokes[s].first].alpha);
+    EXPECT_EQ(thin.samples[thin.strokes[s].last].alpha, pattern.samples[pattern.strokes[s].last].alpha);
+  }
+}
+
+TEST(Folds, OfALoneRunAreItsStrokes) {
+  const Evidence evidence = gather(joint(), quiet({0}), k_floor);
+  EXPECT_THAT(evidence.run_folds, ElementsAre(ElementsAre(0), ElementsAre(1), ElementsAre(2)));
+  EXPECT_EQ(evidence.factor_folds, evidence.run_folds);
+  EXPECT_THAT(evidence.factors, IsEmpty());
+}
+
+TEST(Folds, OfRunsThatAreAlikeAreWholeRuns) {
+  const Evidence evidence = gather(joint(), quiet({0, 0}), k_floor);
+  EXPECT_THAT(evidence.run_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
+  EXPECT_EQ(evidence.factor_folds, evidence.run_folds);
+}
+
+TEST(Folds, HoldWholeLevelsOfLoadOut) {
+  const Evidence evidence = gather(joint(), quiet({0, 5, 0.1, 5}), k_floor);
+  EXPECT_THAT(evidence.factors, ElementsAre("load"));
+  EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2, 6, 7, 8), ElementsAre(3, 4, 5, 9, 10, 11)));
+}
+
+TEST(Folds, ALevelThatIsNearlyAllIsNotHeldOut) {
+  const Evidence evidence = gather(joint(), quiet({0, 0, 5}), k_floor);
+  EXPECT_THAT(evidence.factors, ElementsAre("load"));
+  EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(6, 7, 8), ElementsAre(0, 1, 2), ElementsAre(3, 4, 5)));
+}
+
+TEST(Folds, SpeedIsAFactorToo) {
+  Measurement measurement = quiet({0, 0});
+  measurement.runs[1].speed *= 5;
+  EXPECT_THAT(gather(joint(), measurement, k_floor).factors, ElementsAre("speed"));
+}
+
+}  // namespace
+}  // namespace fusee::linear

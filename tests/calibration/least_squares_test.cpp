@@ -1,0 +1,273 @@
+// Normal equations, held-out errors, fits and intervals against least squares done another way.
+#include <gmock/gmock.h>
+
+#include "calibration/intervals.h"
+#include "calibration/linear_joint.h"
+#include "calibration/thresholds.h"
+
+namespace fusee::linear {
+namespace {
+
+/// Slopes of two numbers, and something to explain.
+struct Problem {
+  Evidence evidence;
+  Eigen::MatrixXd J;
+  Eigen::VectorXd r;
+};
+
+Problem some_problem() {
+  Problem problem{evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; })), {}, {}};
+  const Eigen::Index rows = problem.evidence.theta.size();
+  problem.J.resize(rows, 2);
+  problem.r.resize(rows);
+  const auto noise = white_noise(1.0, 7);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    problem.J(i, 0) = 1;
+    problem.J(i, 1) = noise({});
+    problem.r[i] = 0.3 - 0.2 * problem.J(i, 1) + 0.1 * noise({});
+  }
+  return problem;
+}
+
+Eigen::VectorXd by_qr(const Eigen::MatrixXd& J, const Eigen::VectorXd& r) { return J.householderQr().solve(r); }
+
+TEST(LeastSquares, AStepIsThatOfAnOrthogonalFactorisation) {
+  const Problem problem = some_problem();
+  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  const NormalEquations all = sums_of_all(problem.evidence, fit);
+  const Eigen::VectorXd step = least_squares_step(all, fit.x, 0);
+  EXPECT_LT((step - by_qr(problem.J, problem.r)).norm(), 1e-12);
+  EXPECT_NEAR(all.squares_after(step), (problem.r - problem.J * step).squaredNorm(), 1e-10);
+  EXPECT_EQ(all.rows, static_cast<double>(problem.r.size()));
+}
+
+TEST(LeastSquares, ARidgeIsARowThatSaysNothing) {
+  const Problem problem = some_problem();
+  Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  fit.x << 2, -1;
+  const double ridge = 9;
+  Eigen::MatrixXd J(problem.J.rows() + 2, 2);
+  J << problem.J, std::sqrt(ridge) * Eigen::Matrix2d::Identity();
+  Eigen::VectorXd r(J.rows());
+  r << problem.r, -std::sqrt(ridge) * fit.x;
+  EXPECT_LT((least_squares_step(sums_of_all(problem.evidence, fit), fit.x, ridge) - by_qr(J, r)).norm(), 1e-12);
+}
+
+TEST(LeastSquares, BlocksAddUp) {
+  const Problem problem = some_problem();
+  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  NormalEquations sum = NormalEquations::none(2);
+  for (const NormalEquations& block : fit.sums) sum += block;
+  const NormalEquations all = sums_of_all(problem.evidence, fit);
+  EXPECT_LT((sum.JJ - all.JJ).norm(), 1e-9);
+  sum -= all;
+  EXPECT_LT(sum.Jr.norm(), 1e-9);
+}
+
+TEST(LeastSquares, ACaliperIsARowOfTheFloorsNoise) {
+  Evidence evidence = evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; }));
+  const Effect& stretch = named("tendon_stretch");
+  evidence.readings = {{&stretch.parameters.front(), 0.02, 0.004}};
+  Fit fit;
+  fit.parameters = {&stretch.parameters.front()};
+  fit.x = Eigen::VectorXd::Zero(1);
+  const double step = stretch.parameters.front().step;
+  const NormalEquations row = sums_of_readings(evidence, fit);
+  EXPECT_DOUBLE_EQ(row.JJ(0, 0), std::pow(step / 0.004 * k_floor, 2));
+  EXPECT_NEAR(least_squares_step(row, fit.x, 0)[0] * step, 0.02, 1e-15);
+  EXPECT_DOUBLE_EQ(against_readings(evidence, {}), 25.0);
+}
+
+// ---- held out -------------------------------------------------------------------------------------------------------
+
+/// Mean square of a block's rows, fitted to all rows but those of `fold`.
+double error_without(const Problem& problem, const Fold& fold, std::size_t of) {
+  std::vector<Eigen::Index> rest, own;
+  for (std::size_t b = 0; b < problem.evidence.blocks.size(); ++b) {
+    const bool held = std::find(fold.begin(), fold.end(), b) != fold.end();
+    for (const std::size_t row : problem.evidence.blocks[b].rows) {
+      if (!held) rest.push_back(static_cast<Eigen::Index>(row));
+      if (b == of) own.push_back(static_cast<Eigen::Index>(row));
+    }
+  }
+  const Eigen::VectorXd step = by_qr(problem.J(rest, Eigen::all), problem.r(rest));
+  return (problem.r(own) - problem.J(own, Eigen::all) * step).squaredNorm() / static_cast<double>(own.size());
+}
+
+TEST(HeldOut, IsTheErrorOfAFitToTheOthers) {
+  Problem problem = some_problem();
+  problem.evidence.factor_folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  double sum = 0;
+  for (std::size_t b = 0; b < 8; ++b) {
+    const Fold fold = problem.evidence.factor_folds[b / 4];
+    EXPECT_NEAR(fit.by_factor.by_block[b], error_without(problem, fold, b), 1e-7) << b;
+    EXPECT_NEAR(fit.by_run.by_block[b], error_without(problem, {b}, b), 1e-7) << b;
+    sum += fit.by_factor.by_block[b] / 8;
+  }
+  EXPECT_NEAR(fit.by_factor.mean_square, sum, 1e-12);
+}
+
+TEST(HeldOut, ALevelThatAloneKnowsANumberIsHeldOutByStrokes) {
+  Problem problem = some_problem();
+  problem.J.col(1).head(4 * k_rows).setZero();  // the first run says nothing of the second number
+  problem.evidence.factor_folds = {{4, 5, 6, 7}};
+  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  for (std::size_t b = 0; b < 4; ++b) EXPECT_TRUE(std::isnan(fit.by_factor.by_block[b]));
+  double sum = 0;
+  for (std::size_t b = 4; b < 8; ++b) {
+    EXPECT_NEAR(fit.by_factor.by_block[b], error_without(problem, {b}, b), 1e-7);
+    sum += fit.by_factor.by_block[b] / 4;
+  }
+  EXPECT_NEAR(fit.by_factor.mean_square, sum, 1e-12);
+}
+
+// ---- fits through the simulation ------------------------------------------------------------------------------------
+
+constexpr double k_offset = 0.01;      // rad
+constexpr double k_compliance = 2e-3;  // rad per N
+
+Evidence yielding(unsigned seed) {
+  return evidence_of(measured({0, 5, -5}, [noise = white_noise(k_floor, seed)](const Sample& sample) mutable {
+    return k_offset - k_compliance * sample.load + noise(sample);
+  }));
+}
+
+/// Offset and compliance by straight least squares.
+Eigen::VectorXd regression(const Evidence& evidence) {
+  Eigen::MatrixXd J(evidence.theta.size(), 2);
+  Eigen::VectorXd r = evidence.theta;
+  Eigen::Index row = 0;
+  for (const fusee::Run& run : evidence.measurement.runs) {
+    for (const Sample& sample : run.samples) {
+      J.row(row) << 1, -sample.load;
+      r[row++] -= sample.alpha / k_ratio;
+    }
+  }
+  return by_qr(J, r);
+}
+
+class LinearFit : public testing::Test {
+ protected:
+  Evidence evidence = yielding(3);
+  Forward forward{joint(), evidence.log};
+  Fitter fitter{evidence, forward};
+  const Effect& stretch = named("tendon_stretch");
+
+  double compliance(const Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
+};
+
+TEST_F(LinearFit, IsLeastSquares) {
+  const Fit fit = fitter.fit({&stretch}, {});
+  const Eigen::VectorXd expected = regression(evidence);
+  ASSERT_TRUE(fit.usable);
+  // Ceres stops where the squares fall by less than 1e-4 of themselves: within 2 % of a standard error.
+  const double standard_error = k_floor / std::sqrt(8 * k_rows);
+  EXPECT_NEAR(value_of(fit.at, *fit.parameters[0]), expected[0], 0.02 * standard_error);
+  EXPECT_NEAR(compliance(fit), expected[1], 0.02 * standard_error / 5);
+  EXPECT_NEAR(compliance(fit), k_compliance, 5e-5);
+  EXPECT_NEAR(fit.mean_square, k_floor * k_floor, 0.2 * k_floor * k_floor);
+  EXPECT_EQ(fit.price, 0);
+}
+
+TEST_F(LinearFit, ACandidateByChordsEndsWhereTheFitDoes) {
+  const Fit base = fitter.fit({}, {});
+  const Fit candidate = fitter.with_effect(base, stretch);
+  ASSERT_TRUE(candidate.usable);
+  EXPECT_NEAR(compliance(candidate), regression(evidence)[1], 1e-7);
+  EXPECT_EQ(candidate.effects, EffectSet{&stretch});
+  EXPECT_LT(candidate.by_run.mean_square, 0.1 * base.by_run.mean_square);
+}
+
+TEST_F(LinearFit, ADirectionIsTheSlopeAndNoFit) {
+  const Fit base = fitter.fit({}, {});
+  const Fit wider = fitter.with_direction(base, stretch);
+  EXPECT_EQ(wider.at, base.at);
+  EXPECT_EQ(wider.x[1], 0);
+  EXPECT_EQ(wider.residual, base.residual);
+  const double step = stretch.parameters.front().step;
+  Eigen::Index row = 0;
+  for (const fusee::Run& run : evidence.measurement.runs) {
+    for (const Sample& sample : run.samples) EXPECT_NEAR(wider.J(row++, 1), -step * sample.load, 1e-12);
+  }
+}
+
+TEST_F(LinearFit, IntervalsHoldTheTruth) {
+  const Fit fit = fitter.fit({&stretch}, {});
+  const std::vector<ConfidenceInterval> found = intervals(evidence, fit);
+  const double step = stretch.parameters.front().step;
+  EXPECT_LT(found[1].low * step, k_compliance);
+  EXPECT_GT(found[1].high * step, k_compliance);
+  EXPECT_TRUE(excludes_zero(evidence, fit, stretch));
+}
+
+TEST(RobustFit, AWildRowPullsNoFurtherThanItsBound) {
+  Measurement measurement = measured({0}, [](const Sample&) { return 0.0; });
+  measurement.runs[0].samples[30].theta += 20 * k_floor;
+  const Evidence evidence = evidence_of(measurement);
+  Forward forward(joint(), evidence.log);
+  const Fit fit = Fitter(evidence, forward).fit({}, {});
+  // Huber: n − 1 rows at 0 balance one that counts five scales, and the scale is the floor.
+  const double n = static_cast<double>(evidence.rows_used());
+  EXPECT_NEAR(value_of(fit.at, *fit.parameters[0]), 5 * k_floor / (n - 1), 0.02 * 5 * k_floor / (n - 1));
+}
+
+// ---- intervals ------------------------------------------------------------------------------------------------------
+
+/// The mean of noise that is white from stroke to stroke.
+Fit mean_fit(const Evidence& evidence, const Eigen::VectorXd& noise) {
+  Fit fit = hand_made(evidence, Eigen::MatrixXd::Ones(noise.size(), 1), noise);
+  const Eigen::VectorXd mean = Eigen::VectorXd::Constant(1, noise.mean());
+  fit = hand_made(evidence, fit.J, noise - Eigen::VectorXd::Constant(noise.size(), mean[0]));
+  fit.x = mean;
+  return fit;
+}
+
+TEST(Intervals, CoverTheTruthAsOftenAsResamplingSixteenStrokesDoes) {
+  Measurement measurement;
+  for (const char* name : {"one", "two"}) measurement.runs.push_back(run_of(name, 0, 8));  // two runs: no clusters
+  const Evidence evidence = evidence_of(measurement);
+  constexpr int trials = 400;
+  int covered = 0;
+  double deviation = 0;
+  for (unsigned seed = 0; seed < trials; ++seed) {
+    const auto normal = white_noise(1.0, seed);
+    Eigen::VectorXd noise(evidence.theta.size());
+    for (const Block& block : evidence.blocks) {
+      const double stroke = normal({});
+      for (const std::size_t row : block.rows) noise[static_cast<Eigen::Index>(row)] = stroke;
+    }
+    const ConfidenceInterval found = intervals(evidence, mean_fit(evidence, noise)).front();
+    covered += found.low <= 0 && found.high >= 0 ? 1 : 0;
+    deviation += found.deviation / trials;
+  }
+  // |t| with 15 degrees of freedom below 1.96 √(15/16): 92.3 %. The standard error of the share is 1.3 %.
+  EXPECT_NEAR(covered / static_cast<double>(trials), 0.923, 0.04);
+  // A quarter of ± 1.96 √(15/16) s/√16, and s of sixteen is 1.7 % too small.
+  EXPECT_NEAR(deviation, 0.98 * std::sqrt(15.0 / 16.0) * 0.983 / 4, 0.01);
+}
+
+TEST(Intervals, HoldNoPriorAboutNoEffect) {
+  Evidence evidence = evidence_of(measured({0}, [](const Sample&) { return 0.0; }));
+  evidence.floor = 1;  // a wide prior would weigh as much as all rows
+  const double rows = static_cast<double>(evidence.rows_used());
+  Fit fit = hand_made(evidence, Eigen::MatrixXd::Constant(evidence.theta.size(), 1, std::sqrt(wide_prior(1) / rows)),
+                      Eigen::VectorXd::Zero(evidence.theta.size()));
+  fit.x[0] = 7;
+  const ConfidenceInterval found = intervals(evidence, fit).front();
+  EXPECT_NEAR(found.low, 7, 1e-9);
+  EXPECT_NEAR(found.high, 7, 1e-9);
+}
+
+TEST(Intervals, OfANumberAtItsBoundReachZero) {
+  const Evidence evidence = evidence_of(measured({0}, [](const Sample&) { return 0.0; }));
+  Fit fit = hand_made(evidence, Eigen::MatrixXd::Zero(evidence.theta.size(), 1),
+                      Eigen::VectorXd::Zero(evidence.theta.size()));
+  fit.x[0] = 7;
+  const ConfidenceInterval found = intervals(evidence, fit).front();
+  EXPECT_NEAR(found.low, 0, 1e-12);
+  EXPECT_EQ(found.high, 7);
+}
+
+}  // namespace
+}  // namespace fusee::linear

@@ -1,0 +1,144 @@
+// Verdict by verdict, from fits whose figures are given.
+#include "calibration/verdict.h"
+
+#include <gmock/gmock.h>
+
+#include "calibration/explanation.h"
+#include "calibration/catalogue.h"
+#include "calibration/linear_joint.h"
+#include "fusee/calibration/words.h"
+
+namespace fusee::linear {
+namespace {
+
+using testing::HasSubstr;
+
+class Concluded : public testing::Test {
+ protected:
+  Evidence evidence = evidence_of(measured({0, 5}, [](const Sample&) { return 0.0; }));
+  Selection selection;
+  Calibration calibration;
+
+  /// A rest of so many squares of the floor that turns its sign from row to row.
+  void leave(double squares) {
+    Fit& fit = selection.best;
+    fit.residual.resize(evidence.theta.size());
+    for (Eigen::Index i = 0; i < fit.residual.size(); ++i)
+      fit.residual[i] = (i % 2 == 0 ? 1 : -1) * std::sqrt(squares) * k_floor;
+    fit.by_run.mean_square = squares * k_floor * k_floor;
+  }
+
+  void find(const std::vector<std::vector<std::string>>& groups) {
+    for (const std::vector<std::string>& group : groups) {
+      FoundEffect effect;
+      effect.name = group.front();
+      effect.group = group;
+      calibration.effects.push_back(effect);
+    }
+  }
+
+  CalibrationVerdict verdict() {
+    conclude(evidence, selection, calibration);
+    return calibration.verdict;
+  }
+};
+
+TEST_F(Concluded, NothingFoundAndNothingLeft) {
+  leave(1);
+  EXPECT_EQ(verdict(), CalibrationVerdict::no_effect);
+  EXPECT_EQ(calibration.unexplained_rms, 0);
+  EXPECT_EQ(calibration.unexplained_where, "");
+}
+
+TEST_F(Concluded, OneCauseAlone) {
+  leave(1.3);
+  find({{"backlash"}});
+  EXPECT_EQ(verdict(), CalibrationVerdict::explained);
+  EXPECT_THAT(calibration.summary, HasSubstr("explained by backlash."));
+}
+
+TEST_F(Concluded, OneOfTwo) {
+  leave(1);
+  find({{"backlash"}, {"zero_offset", "motor_offset"}});
+  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
+}
+
+TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
+  leave(5);
+  find({{"zero_offset", "motor_offset"}});
+  // The largest mean: the last twelfth of the way down.
+  for (std::size_t row = k_rows; row < k_rows + 2; ++row)
+    selection.best.residual[static_cast<Eigen::Index>(row)] = 0.05;
+  EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
+  EXPECT_NEAR(calibration.unexplained_rms, 2 * k_floor, 1e-12);
+  EXPECT_THAT(calibration.unexplained_where, HasSubstr("falling"));
+  EXPECT_THAT(calibration.unexplained_where, HasSubstr("57.3°"));
+  EXPECT_THAT(calibration.next_runs.back(), HasSubstr("quarter turn"));
+}
+
+TEST_F(Concluded, WhatPlayAnswersForIsNoRest) {
+  leave(5);
+  selection.best.price = 4 * k_floor * k_floor;
+  EXPECT_EQ(verdict(), CalibrationVerdict::no_effect);
+}
+
+TEST_F(Concluded, StrokesThatDoNotRepeatComeFirst) {
+  leave(1);
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t row : block.rows)
+      selection.best.residual[static_cast<Eigen::Index>(row)] += block.stroke < 2 ? 3 * k_floor : -3 * k_floor;
+  }
+  selection.best.by_run.mean_square = 10 * k_floor * k_floor;
+  find({{"backlash"}});
+  calibration.next_runs = {"something else"};
+  EXPECT_EQ(verdict(), CalibrationVerdict::not_repeatable);
+  EXPECT_THAT(calibration.next_runs.front(), HasSubstr("tighten"));
+}
+
+TEST(Verdicts, HaveTheContractsWords) {
+  const std::vector<std::pair<CalibrationVerdict, std::string_view>> words = {
+      {CalibrationVerdict::not_testable, "not_testable"}, {CalibrationVerdict::not_repeatable, "not_repeatable"},
+      {CalibrationVerdict::unexplained, "unexplained"},   {CalibrationVerdict::confounded, "confounded"},
+      {CalibrationVerdict::explained, "explained"},       {CalibrationVerdict::no_effect, "no_effect"}};
+  for (const auto& [verdict, expected] : words) EXPECT_EQ(word(verdict), expected);
+}
+
+TEST(Verdicts, ATorqueWhereAForceIsNeededIsSaid) {
+  Measurement measurement = measured({0, 5}, [](const Sample&) { return 0.0; });
+  measurement.load_unit = "Nm";
+  const Mechanism tendons = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/forearm.toml").mechanism;
+  const Calibration found = calibrate(tendons, measurement);
+  EXPECT_EQ(found.verdict, CalibrationVerdict::not_testable);
+  EXPECT_THAT(found.summary, HasSubstr("a torque in Nm"));
+}
+
+TEST(RmsDrop, IsNeverBelowNothing) {
+  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
+  Workers workers(evidence);
+  Selection selection;
+  selection.catalogue = catalogue(joint(), evidence.measurement);
+  const Effect& stretch = named("tendon_stretch");
+  selection.none = workers.one().fit({}, {});
+  selection.best = workers.one().fit({&stretch}, {});
+  selection.best.by_factor.mean_square = 2 * selection.none.by_factor.mean_square;  // held out, it does harm
+  const std::vector<FoundEffect> found = found_effects(evidence, workers, selection);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].rms_drop, 0);
+}
+
+TEST(Selections, MayBeCopiedAndOutlivedByTheirCopy) {
+  Selection copy;
+  {
+    Selection selection;
+    const Measurement measurement = measured({0, 5}, [](const Sample&) { return 0.0; });
+    selection.catalogue = catalogue(joint(), measurement);
+    selection.best.effects = {&named("backlash")};
+    copy = selection;
+  }
+  EXPECT_EQ(copy.best.effects.front()->name, "backlash");
+  EXPECT_TRUE(contains(copy.catalogue, *copy.best.effects.front()));
+}
+
+}  // namespace
+}  // namespace fusee::linear
