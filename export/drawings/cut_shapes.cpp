@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "export/drawings/dxf_writer.h"
@@ -26,16 +25,9 @@ bool edges_keep_direction(const Polygon& before, const Polygon& after) {
   return true;
 }
 
-double squared_distance(const Vec2& a, const Vec2& b, const Vec2& point) {
-  const Vec2 along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (point - a - t * along).squaredNorm();
-}
-
 bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    if (squared_distance(polygon[j], polygon[i], point) < margin * margin) return true;
+    if (distance_to_segment(point, polygon[j], polygon[i]) < margin) return true;
   }
   return false;
 }
@@ -78,14 +70,6 @@ std::optional<Polygon> cut_hole(const Polygon& hole, double kerf) {
   Polygon path = offset_edges(hole, -0.5 * kerf);
   if (!edges_keep_direction(hole, path) || !is_simple(path)) return std::nullopt;
   return path;
-}
-
-double distance_to_edges(const Polygon& polygon, const Vec2& point) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    least = std::min(least, squared_distance(polygon[j], polygon[i], point));
-  }
-  return std::sqrt(least);
 }
 
 bool contains(const Polygon& polygon, const Vec2& p) {

@@ -22,7 +22,6 @@ Polygon offset_edges(const Polygon& polygon, double distance);
 /// somewhere.
 std::optional<Polygon> cut_hole(const Polygon& hole, double kerf);
 
-double distance_to_edges(const Polygon& polygon, const Vec2& point);
 bool contains(const Polygon& polygon, const Vec2& point);
 
 /// The material of a plate: within all of its outlines, outside all of its holes.

@@ -31,12 +31,6 @@ std::vector<DxfLayer> layers() {
           {"CHECK_10MM", 8, false}};
 }
 
-double reach(const Outline& outline) {
-  double radius = 0;
-  for (const OutlinePoint& point : outline.points) radius = std::max(radius, point.position.norm());
-  return radius;
-}
-
 void add_contours(DxfDocument& drawing, const SynthesisResult& synthesis, double d, const BodyLayout& layout) {
   drawing.closed("P1_PITCH", parallel(synthesis.p1, 0));
   drawing.closed("P1_FLOOR", parallel(synthesis.p1, -0.5 * d));
@@ -130,7 +124,7 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
   drawing.layers = layers();
   add_contours(drawing, synthesis, d, layout);
   add_axis_and_home(drawing, layout.bore.radius,
-                    std::max(reach(synthesis.p1), reach(synthesis.p2)) + layout.groove_depth);
+                    std::max(circumradius(parallel(synthesis.p1, 0)), circumradius(parallel(synthesis.p2, 0))) + layout.groove_depth);
   const auto home = std::min_element(
       synthesis.stroke.begin(), synthesis.stroke.end(),
       [](const TransmissionPoint& a, const TransmissionPoint& b) { return std::abs(a.alpha) < std::abs(b.alpha); });

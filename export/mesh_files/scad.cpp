@@ -8,7 +8,6 @@
 #include <cmath>
 #include <set>
 
-#include "export/drawings/cut_shapes.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "solid/body.h"
@@ -82,12 +81,6 @@ std::string floor_array(const char* name, const Outline& outline, double d, cons
             fmt::format("[{}, {}, {}]", decimal(p.x()), decimal(p.y()), decimal(degrees(outline.points[kept[k]].psi)));
   }
   return text + "];\n";
-}
-
-double circumradius(const Polygon& polygon) {
-  double radius = 0;
-  for (const Vec2& p : polygon) radius = std::max(radius, p.norm());
-  return radius;
 }
 
 /// How far the flanges stand outside the lips: body.h chooses it.
