@@ -21,9 +21,6 @@ Vec2 attachment(const Mechanism& mechanism, double theta) {
   return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
 }
 
-Vec2 turned(const Vec2& v, double angle) {
-  return {v.x() * std::cos(angle) - v.y() * std::sin(angle), v.x() * std::sin(angle) + v.y() * std::cos(angle)};
-}
 
 double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_two_pi); }
 
@@ -145,7 +142,6 @@ std::string curve(std::string_view classes, const View& view, const std::vector<
 }
 
 std::string ink(Side side) { return side == Side::left ? "p1" : "p2"; }
-std::string_view pulley_name(Side side) { return side == Side::left ? "P1" : "P2"; }
 
 /// A round length for a scale bar of about `px` pixels.
 double scale_bar_length(double scale, double px) {
