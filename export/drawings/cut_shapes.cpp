@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "export/drawings/dxf_writer.h"
+#include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
 
 namespace fusee {
@@ -84,12 +84,12 @@ bool contains(const Polygon& polygon, const Vec2& p) {
 }
 
 void Material2d::add_outline(const Polygon& outline) {
-  const Box box = bounding_box(outline);
+  const Box2d box = bounding_box(outline);
   outlines_.push_back({outline, box.low, box.high});
 }
 
 void Material2d::add_hole(const Polygon& hole) {
-  const Box box = bounding_box(hole);
+  const Box2d box = bounding_box(hole);
   holes_.push_back({hole, box.low, box.high});
 }
 

@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/export/export.h"
+#include "fusee/base/plane.h"
+#include "fusee/export/product.h"
 
 namespace fusee {
 
