@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "fusee/base/units.h"
+#include "fusee/profile/synthesis.h"
 #include "support/mechanisms.h"
 
 namespace fusee {
