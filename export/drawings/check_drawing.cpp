@@ -17,11 +17,11 @@
 #include <utility>
 
 #include "export/drawings/cut_shapes.h"
-#include "export/drawings/dxf_writer.h"
 #include "export/drawings/end_points.h"
+#include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
 #include "fusee/base/text.h"
-#include "fusee/export/export.h"
+#include "fusee/export/drawings.h"
 
 namespace fusee {
 namespace {
@@ -332,7 +332,7 @@ Check check_smallest_feature(const Paths& contours) {
 
 struct Framed {
   const DrawingPath* path;
-  Box box;
+  Box2d box;
 };
 
 std::vector<Framed> framed(const Drawing& drawing, std::string_view layer) {
@@ -343,7 +343,7 @@ std::vector<Framed> framed(const Drawing& drawing, std::string_view layer) {
   return result;
 }
 
-bool box_within(const Box& inner, const Box& outer) {
+bool box_within(const Box2d& inner, const Box2d& outer) {
   return (inner.low - outer.low).minCoeff() >= -k_drawn && (outer.high - inner.high).minCoeff() >= -k_drawn;
 }
 

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
-#include "export/drawings/dxf_writer.h"
+#include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
 
 namespace fusee {
@@ -26,16 +25,9 @@ bool edges_keep_direction(const Polygon& before, const Polygon& after) {
   return true;
 }
 
-double squared_distance(const Vec2& a, const Vec2& b, const Vec2& point) {
-  const Vec2 along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (point - a - t * along).squaredNorm();
-}
-
 bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    if (squared_distance(polygon[j], polygon[i], point) < margin * margin) return true;
+    if (distance_to_segment(point, polygon[j], polygon[i]) < margin) return true;
   }
   return false;
 }
@@ -80,14 +72,6 @@ std::optional<Polygon> cut_hole(const Polygon& hole, double kerf) {
   return path;
 }
 
-double distance_to_edges(const Polygon& polygon, const Vec2& point) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    least = std::min(least, squared_distance(polygon[j], polygon[i], point));
-  }
-  return std::sqrt(least);
-}
-
 bool contains(const Polygon& polygon, const Vec2& p) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -100,12 +84,12 @@ bool contains(const Polygon& polygon, const Vec2& p) {
 }
 
 void Material2d::add_outline(const Polygon& outline) {
-  const Box box = bounding_box(outline);
+  const Box2d box = bounding_box(outline);
   outlines_.push_back({outline, box.low, box.high});
 }
 
 void Material2d::add_hole(const Polygon& hole) {
-  const Box box = bounding_box(hole);
+  const Box2d box = bounding_box(hole);
   holes_.push_back({hole, box.low, box.high});
 }
 

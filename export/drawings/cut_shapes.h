@@ -5,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "fusee/export/export.h"
+#include "fusee/base/plane.h"
+#include "fusee/export/product.h"
 
 namespace fusee {
 
@@ -22,7 +23,6 @@ Polygon offset_edges(const Polygon& polygon, double distance);
 /// somewhere.
 std::optional<Polygon> cut_hole(const Polygon& hole, double kerf);
 
-double distance_to_edges(const Polygon& polygon, const Vec2& point);
 bool contains(const Polygon& polygon, const Vec2& point);
 
 /// The material of a plate: within all of its outlines, outside all of its holes.

@@ -1,26 +1,11 @@
 #include "export/drawings/dxf_writer.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
-
+#include "export/drawings/dxf_versions.h"
 #include "export/drawings/stroke_font.h"
 #include "fusee/base/diagnostics.h"
-#include "fusee/base/text.h"
-#include "fusee/base/units.h"
 
 namespace fusee {
 namespace {
-
-/// Nine decimals without trailing zeros: a reader gets the point back within 1e-9 mm, and no reader meets an exponent.
-std::string number(double value) {
-  std::string text = fixed(value, 9);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text += '0';
-  return text == "-0.0" ? "0.0" : text;
-}
 
 /// Comments are plain ASCII: the code page of a DXF file differs by version.
 std::string ascii(const std::string& text) {
@@ -29,44 +14,13 @@ std::string ascii(const std::string& text) {
   return plain;
 }
 
-/// The tags of a file, one call a tag.
-class Tags {
- public:
-  void text(int code, std::string_view value) { fmt::format_to(std::back_inserter(out_), "{:>3}\n{}\n", code, value); }
-  void integer(int code, int value) { fmt::format_to(std::back_inserter(out_), "{:>3}\n{:>6}\n", code, value); }
-  void real(int code, double value) { text(code, number(value)); }
-  void handle(int code, int value) { text(code, fmt::format("{:X}", value)); }
-  void point(int code, const Vec2& p) {
-    real(code, p.x());
-    real(code + 10, p.y());
-  }
-  void point3(int code, double x, double y, double z) {
-    real(code, x);
-    real(code + 10, y);
-    real(code + 20, z);
-  }
-  void integers(std::initializer_list<std::pair<int, int>> tags) {
-    for (const auto& [code, value] : tags) integer(code, value);
-  }
-  void reals(std::initializer_list<std::pair<int, double>> tags) {
-    for (const auto& [code, value] : tags) real(code, value);
-  }
-  void begin_section(std::string_view name) {
-    text(0, "SECTION");
-    text(2, name);
-  }
-  void end_section() { text(0, "ENDSEC"); }
-  std::string take() { return std::move(out_); }
+}  // namespace
 
- private:
-  std::string out_;
-};
-
-void write_remarks(Tags& tags, const DxfDocument& document) {
+void write_remarks(DxfTagWriter& tags, const DxfDocument& document) {
   for (const std::string& remark : document.remarks) tags.text(999, ascii(remark));
 }
 
-void write_variables(Tags& tags, std::string_view version, const Box& box) {
+void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& box) {
   const auto variable = [&tags](std::string_view name) { tags.text(9, name); };
   variable("$ACADVER");
   tags.text(1, version);
@@ -84,388 +38,14 @@ void write_variables(Tags& tags, std::string_view version, const Box& box) {
   tags.integer(70, 4);
 }
 
-// R12
-// ------------------------------------------------------------------------------------------------------------------
-
-void write_r12_tables(Tags& tags, const DxfDocument& document) {
-  const auto begin_table = [&tags](std::string_view name, int count) {
-    tags.text(0, "TABLE");
-    tags.text(2, name);
-    tags.integer(70, count);
-  };
-  tags.begin_section("TABLES");
-  begin_table("LTYPE", 1);
-  tags.text(0, "LTYPE");
-  tags.text(2, "CONTINUOUS");
-  tags.integer(70, 0);
-  tags.text(3, "Solid line");
-  tags.integers({{72, 65}, {73, 0}});
-  tags.real(40, 0);
-  tags.text(0, "ENDTAB");
-  begin_table("LAYER", static_cast<int>(document.layers.size()) + 1);
-  const auto layer = [&tags](std::string_view name, int colour) {
-    tags.text(0, "LAYER");
-    tags.text(2, name);
-    tags.integers({{70, 0}, {62, colour}});
-    tags.text(6, "CONTINUOUS");
-  };
-  layer("0", 7);
-  for (const DxfLayer& l : document.layers) layer(l.name, l.colour);
-  tags.text(0, "ENDTAB");
-  begin_table("STYLE", 1);
-  tags.text(0, "STYLE");
-  tags.text(2, "STANDARD");
+void write_style_values(DxfTagWriter& tags) {
   tags.integer(70, 0);
   tags.reals({{40, 0}, {41, 1}, {50, 0}});
   tags.integer(71, 0);
   tags.real(42, 2.5);
   tags.text(3, "txt");
   tags.text(4, "");
-  tags.text(0, "ENDTAB");
-  tags.end_section();
 }
-
-void write_r12_polyline(Tags& tags, const DxfPath& path) {
-  tags.text(0, "POLYLINE");
-  tags.text(8, path.layer);
-  tags.integer(66, 1);
-  tags.point3(10, 0, 0, 0);
-  tags.integer(70, path.closed ? 1 : 0);
-  for (const Vec2& p : path.points) {
-    tags.text(0, "VERTEX");
-    tags.text(8, path.layer);
-    tags.point3(10, p.x(), p.y(), 0);
-  }
-  tags.text(0, "SEQEND");
-  tags.text(8, path.layer);
-}
-
-std::string r12_text(const DxfDocument& document) {
-  Tags tags;
-  write_remarks(tags, document);
-  tags.begin_section("HEADER");
-  write_variables(tags, "AC1009", bounding_box(document.paths));
-  tags.end_section();
-  write_r12_tables(tags, document);
-  tags.begin_section("BLOCKS");
-  tags.end_section();
-  tags.begin_section("ENTITIES");
-  for (const DxfPath& path : document.paths) write_r12_polyline(tags, path);
-  tags.end_section();
-  tags.text(0, "EOF");
-  return tags.take();
-}
-
-// AC1015
-// ---------------------------------------------------------------------------------------------------------------
-
-// Everything in AC1015 has a handle and names its owner's. Those that are named from elsewhere are fixed here; table
-// records and entities count on from k_first_free.
-enum Handle : int {
-  k_layer_table = 0x1,
-  k_ltype_table = 0x2,
-  k_appid_table = 0x3,
-  k_dimstyle_table = 0x4,
-  k_style_table = 0x5,
-  k_ucs_table = 0x6,
-  k_view_table = 0x7,
-  k_vport_table = 0x8,
-  k_block_record_table = 0x9,
-  k_root_dictionary = 0xA,
-  k_group_dictionary = 0xB,
-  k_layout_dictionary = 0xC,
-  k_mline_dictionary = 0xD,
-  k_plot_settings_dictionary = 0xE,
-  k_plot_style_dictionary = 0xF,
-  k_plot_style = 0x10,
-  k_mline_style = 0x11,
-  k_model_record = 0x12,
-  k_paper_record = 0x13,
-  k_model_layout = 0x14,
-  k_paper_layout = 0x15,
-  k_first_free = 0x20,
-};
-
-class Ac1015Writer {
- public:
-  explicit Ac1015Writer(const DxfDocument& document) : document_(document), box_(bounding_box(document.paths)) {}
-
-  std::string write() {
-    write_remarks(tags_, document_);
-    write_header();
-    tags_.begin_section("CLASSES");
-    tags_.end_section();
-    write_tables();
-    write_blocks();
-    tags_.begin_section("ENTITIES");
-    for (const DxfPath& path : document_.paths) write_polyline(path);
-    tags_.end_section();
-    write_objects();
-    tags_.text(0, "EOF");
-    return tags_.take();
-  }
-
- private:
-  void write_header() {
-    tags_.begin_section("HEADER");
-    write_variables(tags_, "AC1015", box_);
-    tags_.text(9, "$DWGCODEPAGE");
-    tags_.text(3, "ANSI_1252");
-    tags_.text(9, "$MEASUREMENT");
-    tags_.integer(70, 1);
-    tags_.text(9, "$HANDSEED");
-    // One for each record and entity written below is less than this.
-    tags_.handle(5, k_first_free + 64 + static_cast<int>(document_.layers.size() + document_.paths.size()));
-    tags_.end_section();
-  }
-
-  void begin_table(std::string_view name, int handle, int count) {
-    tags_.text(0, "TABLE");
-    tags_.text(2, name);
-    tags_.handle(5, handle);
-    tags_.handle(330, 0);
-    tags_.text(100, "AcDbSymbolTable");
-    tags_.integer(70, count);
-  }
-  void end_table() { tags_.text(0, "ENDTAB"); }
-
-  /// `handle_code` is 5 but for DIMSTYLE, whose 5 was taken.
-  void begin_record(std::string_view type, std::string_view subclass, int owner, std::string_view name, int handle,
-                    int handle_code = 5) {
-    tags_.text(0, type);
-    tags_.handle(handle_code, handle);
-    tags_.handle(330, owner);
-    tags_.text(100, "AcDbSymbolTableRecord");
-    tags_.text(100, subclass);
-    tags_.text(2, name);
-  }
-
-  void write_tables() {
-    tags_.begin_section("TABLES");
-    write_vport();
-    write_ltypes();
-    write_layers();
-    write_styles();
-    begin_table("VIEW", k_view_table, 0);
-    end_table();
-    begin_table("UCS", k_ucs_table, 0);
-    end_table();
-    begin_table("APPID", k_appid_table, 1);
-    begin_record("APPID", "AcDbRegAppTableRecord", k_appid_table, "ACAD", next_++);
-    tags_.integer(70, 0);
-    end_table();
-    begin_table("DIMSTYLE", k_dimstyle_table, 1);
-    tags_.text(100, "AcDbDimStyleTable");
-    begin_record("DIMSTYLE", "AcDbDimStyleTableRecord", k_dimstyle_table, "Standard", next_++, 105);
-    tags_.integer(70, 0);
-    end_table();
-    begin_table("BLOCK_RECORD", k_block_record_table, 2);
-    begin_record("BLOCK_RECORD", "AcDbBlockTableRecord", k_block_record_table, "*Model_Space", k_model_record);
-    tags_.handle(340, k_model_layout);
-    begin_record("BLOCK_RECORD", "AcDbBlockTableRecord", k_block_record_table, "*Paper_Space", k_paper_record);
-    tags_.handle(340, k_paper_layout);
-    end_table();
-    tags_.end_section();
-  }
-
-  /// The view that a program opens with: all of the drawing.
-  void write_vport() {
-    const Vec2 middle = 0.5 * (box_.low + box_.high);
-    const double height = std::max({box_.size().y(), box_.size().x() / 1.5, 1.0}) * 1.1;
-    begin_table("VPORT", k_vport_table, 1);
-    begin_record("VPORT", "AcDbViewportTableRecord", k_vport_table, "*Active", next_++);
-    tags_.integer(70, 0);
-    tags_.point(10, {0, 0});
-    tags_.point(11, {1, 1});
-    tags_.point(12, middle);
-    tags_.point(13, {0, 0});
-    tags_.point(14, {10, 10});
-    tags_.point(15, {10, 10});
-    tags_.point3(16, 0, 0, 1);
-    tags_.point3(17, 0, 0, 0);
-    tags_.reals({{40, height}, {41, 1.5}, {42, 50}, {43, 0}, {44, 0}, {50, 0}, {51, 0}});
-    tags_.integers({{71, 0}, {72, 1000}, {73, 1}, {74, 3}, {75, 0}, {76, 0}, {77, 0}, {78, 0}, {281, 0}, {65, 0}});
-    end_table();
-  }
-
-  void write_ltypes() {
-    begin_table("LTYPE", k_ltype_table, 3);
-    for (const std::string_view name : {"ByBlock", "ByLayer", "Continuous"}) {
-      begin_record("LTYPE", "AcDbLinetypeTableRecord", k_ltype_table, name, next_++);
-      tags_.integer(70, 0);
-      tags_.text(3, "");
-      tags_.integers({{72, 65}, {73, 0}});
-      tags_.real(40, 0);
-    }
-    end_table();
-  }
-
-  void write_layer(const DxfLayer& layer) {
-    begin_record("LAYER", "AcDbLayerTableRecord", k_layer_table, layer.name, next_++);
-    tags_.integers({{70, 0}, {62, layer.colour}});
-    tags_.text(6, "Continuous");
-    if (!layer.plotted) tags_.integer(290, 0);
-    tags_.integer(370, -3);
-    tags_.handle(390, k_plot_style);
-  }
-
-  void write_layers() {
-    begin_table("LAYER", k_layer_table, static_cast<int>(document_.layers.size()) + 1);
-    write_layer({"0", 7, true});
-    for (const DxfLayer& layer : document_.layers) write_layer(layer);
-    end_table();
-  }
-
-  void write_styles() {
-    begin_table("STYLE", k_style_table, 1);
-    begin_record("STYLE", "AcDbTextStyleTableRecord", k_style_table, "Standard", next_++);
-    tags_.integer(70, 0);
-    tags_.reals({{40, 0}, {41, 1}, {50, 0}});
-    tags_.integer(71, 0);
-    tags_.real(42, 2.5);
-    tags_.text(3, "txt");
-    tags_.text(4, "");
-    end_table();
-  }
-
-  void write_block(std::string_view name, int record) {
-    tags_.text(0, "BLOCK");
-    tags_.handle(5, next_++);
-    tags_.handle(330, record);
-    tags_.text(100, "AcDbEntity");
-    tags_.text(8, "0");
-    tags_.text(100, "AcDbBlockBegin");
-    tags_.text(2, name);
-    tags_.integer(70, 0);
-    tags_.point3(10, 0, 0, 0);
-    tags_.text(3, name);
-    tags_.text(1, "");
-    tags_.text(0, "ENDBLK");
-    tags_.handle(5, next_++);
-    tags_.handle(330, record);
-    tags_.text(100, "AcDbEntity");
-    tags_.text(8, "0");
-    tags_.text(100, "AcDbBlockEnd");
-  }
-
-  void write_blocks() {
-    tags_.begin_section("BLOCKS");
-    write_block("*Model_Space", k_model_record);
-    write_block("*Paper_Space", k_paper_record);
-    tags_.end_section();
-  }
-
-  void write_polyline(const DxfPath& path) {
-    tags_.text(0, "LWPOLYLINE");
-    tags_.handle(5, next_++);
-    tags_.handle(330, k_model_record);
-    tags_.text(100, "AcDbEntity");
-    tags_.text(8, path.layer);
-    tags_.text(100, "AcDbPolyline");
-    tags_.integer(90, static_cast<int>(path.points.size()));
-    tags_.integer(70, path.closed ? 1 : 0);
-    for (const Vec2& p : path.points) tags_.point(10, p);
-  }
-
-  void write_dictionary(int handle, int owner, std::initializer_list<std::pair<std::string_view, int>> entries) {
-    tags_.text(0, "DICTIONARY");
-    tags_.handle(5, handle);
-    tags_.handle(330, owner);
-    tags_.text(100, "AcDbDictionary");
-    tags_.integer(281, 1);
-    for (const auto& [name, entry] : entries) {
-      tags_.text(3, name);
-      tags_.handle(350, entry);
-    }
-  }
-
-  void write_plot_style() {
-    tags_.text(0, "ACDBDICTIONARYWDFLT");
-    tags_.handle(5, k_plot_style_dictionary);
-    tags_.handle(330, k_root_dictionary);
-    tags_.text(100, "AcDbDictionary");
-    tags_.integer(281, 1);
-    tags_.text(3, "Normal");
-    tags_.handle(350, k_plot_style);
-    tags_.text(100, "AcDbDictionaryWithDefault");
-    tags_.handle(340, k_plot_style);
-    tags_.text(0, "ACDBPLACEHOLDER");
-    tags_.handle(5, k_plot_style);
-    tags_.handle(330, k_plot_style_dictionary);
-  }
-
-  void write_mline_style() {
-    tags_.text(0, "MLINESTYLE");
-    tags_.handle(5, k_mline_style);
-    tags_.handle(330, k_mline_dictionary);
-    tags_.text(100, "AcDbMlineStyle");
-    tags_.text(2, "Standard");
-    tags_.integer(70, 0);
-    tags_.text(3, "");
-    tags_.integer(62, 256);
-    tags_.reals({{51, 90}, {52, 90}});
-    tags_.integer(71, 2);
-    for (const double offset : {0.5, -0.5}) {
-      tags_.real(49, offset);
-      tags_.integer(62, 256);
-      tags_.text(6, "BYLAYER");
-    }
-  }
-
-  void write_layout(int handle, std::string_view name, int tab, int record) {
-    tags_.text(0, "LAYOUT");
-    tags_.handle(5, handle);
-    tags_.handle(330, k_layout_dictionary);
-    tags_.text(100, "AcDbPlotSettings");
-    for (const int code : {1, 2, 4, 6}) tags_.text(code, "");
-    for (int code = 40; code <= 49; ++code) tags_.real(code, 0);
-    tags_.reals({{140, 0}, {141, 0}, {142, 1}, {143, 1}});
-    tags_.integers({{70, tab == 0 ? 1024 : 0}, {72, 1}, {73, 0}, {74, 1}});
-    tags_.text(7, "");
-    tags_.integers({{75, 0}});
-    tags_.reals({{147, 1}, {148, 0}, {149, 0}});
-    tags_.text(100, "AcDbLayout");
-    tags_.text(1, name);
-    tags_.integers({{70, 1}, {71, tab}});
-    tags_.point(10, box_.low);
-    tags_.point(11, box_.high);
-    tags_.point3(12, 0, 0, 0);
-    tags_.point3(14, box_.low.x(), box_.low.y(), 0);
-    tags_.point3(15, box_.high.x(), box_.high.y(), 0);
-    tags_.real(146, 0);
-    tags_.point3(13, 0, 0, 0);
-    tags_.point3(16, 1, 0, 0);
-    tags_.point3(17, 0, 1, 0);
-    tags_.integer(76, 0);
-    tags_.handle(330, record);
-  }
-
-  void write_objects() {
-    tags_.begin_section("OBJECTS");
-    write_dictionary(k_root_dictionary, 0,
-                     {{"ACAD_GROUP", k_group_dictionary},
-                      {"ACAD_LAYOUT", k_layout_dictionary},
-                      {"ACAD_MLINESTYLE", k_mline_dictionary},
-                      {"ACAD_PLOTSETTINGS", k_plot_settings_dictionary},
-                      {"ACAD_PLOTSTYLENAME", k_plot_style_dictionary}});
-    write_dictionary(k_group_dictionary, k_root_dictionary, {});
-    write_dictionary(k_layout_dictionary, k_root_dictionary, {{"Model", k_model_layout}, {"Layout1", k_paper_layout}});
-    write_dictionary(k_mline_dictionary, k_root_dictionary, {{"Standard", k_mline_style}});
-    write_dictionary(k_plot_settings_dictionary, k_root_dictionary, {});
-    write_plot_style();
-    write_mline_style();
-    write_layout(k_model_layout, "Model", 0, k_model_record);
-    write_layout(k_paper_layout, "Layout1", 1, k_paper_record);
-    tags_.end_section();
-  }
-
-  const DxfDocument& document_;
-  Box box_;
-  Tags tags_;
-  int next_ = k_first_free;
-};
-
-}  // namespace
 
 void DxfDocument::text(const std::string& layer, std::string_view line, const Vec2& origin, double height) {
   for (Polygon& stroke : stroke_text(line, origin, height)) open(layer, std::move(stroke));
@@ -476,34 +56,13 @@ std::string dxf_text(const DxfDocument& document, DxfVersion version) {
     demand(path.points.size() >= 2, "a path on layer " + path.layer + " has fewer than two points");
     for (const Vec2& p : path.points) demand(p.allFinite(), "a point on layer " + path.layer + " is not finite");
   }
-  return version == DxfVersion::r12 ? r12_text(document) : Ac1015Writer(document).write();
+  return version == DxfVersion::r12 ? r12_text(document) : ac1015_text(document);
 }
 
-Polygon rectangle(const Vec2& low, const Vec2& high) { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
-
-Polygon circle_polygon(const Vec2& centre, double radius) {
-  constexpr double k_sagitta = 0.002;
-  const double step = 2 * std::acos(std::max(0.0, 1 - k_sagitta / std::max(radius, k_sagitta)));
-  const int corners = std::max(24, static_cast<int>(std::ceil(k_two_pi / step)));
-  Polygon polygon;
-  for (int i = 0; i < corners; ++i) polygon.push_back(centre + radius * unit(k_two_pi * i / corners));
-  return polygon;
-}
-
-Box bounding_box(const Polygon& points) {
-  if (points.empty()) return {};
-  Box box{points.front(), points.front()};
-  for (const Vec2& p : points) {
-    box.low = box.low.cwiseMin(p);
-    box.high = box.high.cwiseMax(p);
-  }
-  return box;
-}
-
-Box bounding_box(const std::vector<DxfPath>& paths) {
+Box2d bounding_box(const std::vector<DxfPath>& paths) {
   Polygon corners;
   for (const DxfPath& path : paths) {
-    const Box box = bounding_box(path.points);
+    const Box2d box = bounding_box(path.points);
     corners.insert(corners.end(), {box.low, box.high});
   }
   return bounding_box(corners);

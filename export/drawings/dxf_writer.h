@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "export/drawings/plane_shapes.h"
 #include "fusee/base/plane.h"
-#include "fusee/export/export.h"
+#include "fusee/export/drawings.h"
 
 namespace fusee {
 
@@ -36,18 +37,7 @@ struct DxfDocument {
 
 std::string dxf_text(const DxfDocument& document, DxfVersion version);
 
-/// The axis-parallel square or rectangle from `low` to `high`, counter-clockwise.
-Polygon rectangle(const Vec2& low, const Vec2& high);
-/// A circle as a regular polygon, counter-clockwise, its corners *on* the circle; sagitta at most 0.002 mm, 24 corners
-/// at least.
-Polygon circle_polygon(const Vec2& centre, double radius);
-/// Smallest box around all points; both corners at the origin when there are none.
-struct Box {
-  Vec2 low = Vec2::Zero();
-  Vec2 high = Vec2::Zero();
-  Vec2 size() const { return high - low; }
-};
-Box bounding_box(const Polygon& points);
-Box bounding_box(const std::vector<DxfPath>& paths);
+/// Around all points of all paths.
+Box2d bounding_box(const std::vector<DxfPath>& paths);
 
 }  // namespace fusee

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fusee/export/export.h"
+#include "fusee/base/plane.h"
+#include "fusee/export/product.h"
 
 namespace fusee {
 

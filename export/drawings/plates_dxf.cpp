@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "export/drawings/dxf_writer.h"
+#include "export/drawings/plane_shapes.h"
 #include "export/drawings/plates.h"
 #include "export/drawings/stroke_font.h"
 #include "fusee/base/text.h"
+#include "fusee/export/drawings.h"
 
 namespace fusee {
 namespace {

@@ -8,8 +8,10 @@
 
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/dxf_writer.h"
+#include "export/drawings/plane_shapes.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/export/drawings.h"
 
 namespace fusee {
 namespace {
@@ -29,12 +31,6 @@ std::vector<DxfLayer> layers() {
           {"MARK_ANCHOR", 9, false},
           {"MARK_TEXT", 8, false},
           {"CHECK_10MM", 8, false}};
-}
-
-double reach(const Outline& outline) {
-  double radius = 0;
-  for (const OutlinePoint& point : outline.points) radius = std::max(radius, point.position.norm());
-  return radius;
 }
 
 void add_contours(DxfDocument& drawing, const SynthesisResult& synthesis, double d, const BodyLayout& layout) {
@@ -105,7 +101,7 @@ void add_anchors(DxfDocument& drawing, const std::vector<Anchor>& anchors, doubl
 }
 
 void add_legend(DxfDocument& drawing, const std::vector<std::string>& lines) {
-  const Box box = bounding_box(drawing.paths);
+  const Box2d box = bounding_box(drawing.paths);
   double top = box.low.y() - 4 - k_text_height;
   const Vec2 square(box.low.x(), top + k_text_height - 10);
   drawing.closed("CHECK_10MM", rectangle(square, square + Vec2(10, 10)));
@@ -129,12 +125,10 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
   drawing.remarks = legend;
   drawing.layers = layers();
   add_contours(drawing, synthesis, d, layout);
-  add_axis_and_home(drawing, layout.bore.radius,
-                    std::max(reach(synthesis.p1), reach(synthesis.p2)) + layout.groove_depth);
-  const auto home = std::min_element(
-      synthesis.stroke.begin(), synthesis.stroke.end(),
-      [](const TransmissionPoint& a, const TransmissionPoint& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
-  if (home != synthesis.stroke.end()) {
+  add_axis_and_home(
+      drawing, layout.bore.radius,
+      std::max(circumradius(parallel(synthesis.p1, 0)), circumradius(parallel(synthesis.p2, 0))) + layout.groove_depth);
+  if (const TransmissionPoint* home = synthesis.home()) {
     add_take_off(drawing, synthesis.p1, home->t1, "1");
     add_take_off(drawing, synthesis.p2, home->t2, "2");
   }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "export/mesh_files/mesh_formats.h"
-#include "fusee/export/export.h"
+#include "fusee/export/mesh_files.h"
 
 namespace fusee {
 namespace {

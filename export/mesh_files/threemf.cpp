@@ -16,7 +16,7 @@
 #include "export/mesh_files/text_scanner.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
-#include "fusee/export/export.h"
+#include "fusee/export/mesh_files.h"
 
 namespace fusee {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
-#include "fusee/export/export.h"
+#include "fusee/export/report.h"
 #include "fusee/transmission/tension.h"
 
 namespace fusee {
@@ -28,7 +28,7 @@ void put_row(std::string& table, std::span<const double> values) {
 }
 
 void put_outline(std::string& table, const Outline& outline) {
-  const std::string pulley = outline.side == Side::left ? "P1," : "P2,";
+  const std::string pulley = std::string(pulley_name(outline.side)) + ",";
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const OutlinePoint& point = outline.points[i];
     const double angle = std::atan2(point.position.y(), point.position.x());

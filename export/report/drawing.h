@@ -3,7 +3,6 @@
 /// → px.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,25 +12,6 @@
 #include "fusee/solid/pulley.h"
 
 namespace fusee {
-
-/// One tendon at one place of the stroke, in the frame of the mechanism: C → pin → pulley → along the groove to
-/// `wound_to`.
-///
-/// Found on the sampled outline by geometry alone (tangents to circles and polygons), not from the transmission's
-/// formulas.
-struct TendonTrace {
-  Vec2 attachment;               ///< C
-  Vec2 onto_pin;                 ///< tangent point of the upper span
-  Vec2 off_pin;                  ///< tangent point of the lower span
-  Vec2 take_off;                 ///< where it leaves the pulley
-  std::vector<Vec2> free_path;   ///< C … take_off, with the arc over the pin
-  std::vector<Vec2> wound_path;  ///< take_off … the anchor's end of the active arc
-  double free_length = 0;        ///< exact on the pin's arc, mm
-  double wound_length = 0;       ///< along the polygon, mm
-};
-
-/// Nothing when there is no such path: C or the pulley within the pin's circle, fewer than three points in the outline.
-std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha, double theta);
 
 /// One place of the stroke to draw.
 struct Pose {

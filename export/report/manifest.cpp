@@ -5,10 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "export/report/derived.h"
+#include "base/output_list.h"
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/units.h"
-#include "fusee/export/export.h"
+#include "fusee/export/report.h"
 #include "fusee/mechanism/fields.h"
 
 namespace fusee {
@@ -107,7 +108,7 @@ Json tendons_json(const Product& product) {
   for (const TendonLength& tendon : tendon_lengths(product)) {
     const bool left = tendon.side == Side::left;
     list.push_back({{"tendon", left ? 1 : 2},
-                    {"pulley", left ? "P1" : "P2"},
+                    {"pulley", pulley_name(tendon.side)},
                     {"between_knots_mm", to_micrometre(tendon.between_knots)},
                     {"cut_length_mm", number(std::ceil(tendon.between_knots + 2 * k_tail))},
                     {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
@@ -115,14 +116,6 @@ Json tendons_json(const Product& product) {
                      {to_micrometre(tendon.pulley_knot.x()), to_micrometre(tendon.pulley_knot.y()),
                       to_micrometre(tendon.pulley_knot.z())}},
                     {"spare_wrap_turns", number(tendon.spare_lap / k_two_pi)}});
-  }
-  return list;
-}
-
-Json outputs_json(const std::vector<OutputFile>& outputs) {
-  Json list = Json::array();
-  for (const OutputFile& output : outputs) {
-    list.push_back({{"file", output.name}, {"bytes", output.bytes.size()}, {"sha256", sha256(output.bytes)}});
   }
   return list;
 }
@@ -153,7 +146,7 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   if (const Json derived = derived_json(product); !derived.empty()) manifest["derived"] = derived;
   manifest["notes"] = notes_json(product);
   manifest["checks"] = checks_json(product.checks);
-  manifest["outputs"] = outputs_json(outputs);
+  manifest["outputs"] = output_list(outputs);
   // A name that is no UTF-8 is written all the same, with U+FFFD in its place.
   return manifest.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -2,7 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/output_list.h"
+#include "export/report/calibration_words.h"
 #include "export/report/plot.h"
+#include "export/tool.h"
 #include "fusee/base/text.h"
 #include "paper/windows.h"
 
@@ -10,14 +13,6 @@ namespace fusee {
 namespace {
 
 std::string two_digits(int number) { return (number < 10 ? "0" : "") + std::to_string(number); }
-
-/// The paper's names for people who read tables: "optimum_of_table_4" → "optimum of table 4".
-std::string spaced(std::string name) {
-  for (char& c : name) {
-    if (c == '_') c = ' ';
-  }
-  return name;
-}
 
 Figure drawn(const PaperFigure& figure) {
   constexpr Ink inks[] = {Ink::main, Ink::p1, Ink::p2, Ink::third};
@@ -135,7 +130,7 @@ std::string claims_section(const Reproduction& all) {
       "which. These windows are found by search: 41 values, then halving at each border.\n\n";
   text += row({"claim", "the paper says", "its equations give", "verdict", "it holds for"}) + "|---|---|---|---|---|\n";
   for (const Claim& claim : all.claims) {
-    text += row({spaced(claim.name), claim.paper_says, claim.equations_give,
+    text += row({open_words(claim.name), claim.paper_says, claim.equations_give,
                  "**" + std::string(verdict_text(claim.verdict)) + "**", claim_windows_text(claim)});
   }
   return text;
@@ -188,10 +183,8 @@ std::string figures_section(const Reproduction& all) {
 
 /// Names and hashes of the files, so that a later run knows them for its own.
 std::string manifest_of(const std::vector<OutputFile>& files) {
-  nlohmann::ordered_json json = {{"schema", 1}, {"tool", "fusee " FUSEE_VERSION}};
-  json["outputs"] = nlohmann::ordered_json::array();
-  for (const OutputFile& file : files)
-    json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  nlohmann::ordered_json json = {{"schema", 1}, {"tool", k_tool}};
+  json["outputs"] = output_list(files);
   return json.dump(2) + "\n";
 }
 

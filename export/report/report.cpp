@@ -1,14 +1,16 @@
 /// report.html: everything a person wants to know of a pulley before printing it, on one page that needs nothing else.
+#include "fusee/export/report.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <map>
-#include <optional>
 
+#include "export/report/calibration_words.h"
 #include "export/report/derived.h"
 #include "export/report/drawing.h"
+#include "export/report/html.h"
 #include "export/report/mesh_code.h"
 #include "export/report/report_parts.h"
 #include "export/report/report_plots.h"
@@ -16,42 +18,13 @@
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
-#include "fusee/export/export.h"
 
 namespace fusee {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
-// Page ----------------------------------------------------------------------------------------------------------------
-
-using Parts = std::map<std::string, std::string, std::less<>>;
-
-/// Replaces every {{name}} of the template once; what is put in is not looked at again, so that no text of a user can
-/// name a part.
-std::string filled(std::string_view page, const Parts& parts) {
-  std::string html;
-  for (std::size_t at = 0;;) {
-    const std::size_t open = page.find("{{", at);
-    if (open == std::string_view::npos) return html + std::string(page.substr(at));
-    const std::size_t close = page.find("}}", open);
-    const std::string_view name = page.substr(open + 2, close - open - 2);
-    const auto part = parts.find(name);
-    demand(part != parts.end(), "report template asks for {{" + std::string(name) + "}}");
-    html += page.substr(at, open - at);
-    html += part->second;
-    at = close + 2;
-  }
-}
-
 std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
-
-std::string list(std::string_view tag, const std::vector<std::string>& items) {
-  if (items.empty()) return "";
-  std::string html = "<" + std::string(tag) + ">";
-  for (const std::string& item : items) html += "<li>" + safe_text(item) + "</li>";
-  return html + "</" + std::string(tag) + ">";
-}
 
 // Verdict -------------------------------------------------------------------------------------------------------------
 
@@ -88,9 +61,8 @@ std::string verdict_words(const Product& product) {
            with_unit(product.as_built.max_slack, "mm") + limit_words(find_check(product, "slack")) +
            (paper ? " (reported, not judged)" : "") + ". All " + count + " checks hold.";
   }
-  std::string words = "Not to be made as it is: " + std::to_string(failed.size()) + " of " + count + " checks failed. ";
-  for (std::size_t i = 0; i < failed.size(); ++i) words += (i ? "; " : "") + failed[i];
-  return words + ".";
+  return "Not to be made as it is: " + std::to_string(failed.size()) + " of " + count + " checks failed. " +
+         joined(failed, "; ") + ".";
 }
 
 struct Verdict {
@@ -112,7 +84,7 @@ std::string warnings(const Product& product) {
     all.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : ": " + diagnostic.hint));
   }
   if (all.empty()) return "";
-  return "<section class=\"warnings\">" + list("ul", all) + "</section>";
+  return "<section class=\"warnings\">" + html_list(all) + "</section>";
 }
 
 // Key numbers ---------------------------------------------------------------------------------------------------------
@@ -136,19 +108,6 @@ std::string range_words(const Range& range, int decimals, const std::string& uni
   const std::string gap = unit == "°" ? "" : "\u00a0";
   return readable(range.low, decimals) + "\u2009…\u2009" + readable(range.high, decimals) + gap + unit;
 }
-
-class KeyNumbers {
- public:
-  void add(const std::string& term, const std::string& value, const std::string& remark = {}) {
-    html_ += "<div><dt>" + safe_text(term) + "</dt><dd>" + safe_text(value);
-    if (!remark.empty()) html_ += " <small>" + safe_text(remark) + "</small>";
-    html_ += "</dd></div>";
-  }
-  std::string html() const { return "<dl class=\"numbers\">" + html_ + "</dl>"; }
-
- private:
-  std::string html_;
-};
 
 std::string_view law_words(Law law) {
   switch (law) {
@@ -372,9 +331,9 @@ std::string files_table() {
 }
 
 std::string making(const Product& product) {
-  std::string html = list("ol", steps(product)) + tendon_table(product) + derived_table(product);
+  std::string html = html_list(steps(product), "ol") + tendon_table(product) + derived_table(product);
   if (!product.pulley.layout.notes.empty())
-    html += "<h3>Sizes chosen automatically</h3>" + list("ul", product.pulley.layout.notes);
+    html += "<h3>Sizes chosen automatically</h3>" + html_list(product.pulley.layout.notes);
   return html + files_table();
 }
 
@@ -406,32 +365,32 @@ std::string profiles(const Product& product) {
 std::string report_html(const Product& product) {
   const Verdict verdict = verdict_of(product);
   const std::string name = product.joint.mechanism.name.empty() ? "unnamed" : safe_text(product.joint.mechanism.name);
-  return filled(embedded::page_html,
-                {
-                    {"tool", std::string(k_tool)},
-                    {"name", name},
-                    {"figure_css", std::string(embedded::figure_css)},
-                    {"page_css", std::string(embedded::page_css)},
-                    {"readout_js", std::string(embedded::readout_js)},
-                    {"viewer_js", std::string(embedded::viewer_js)},
-                    {"source", source_words(product.file)},
-                    {"verdict_class", verdict.style},
-                    {"verdict_sign", verdict.sign},
-                    {"verdict", safe_text(verdict.words)},
-                    {"warnings", warnings(product)},
-                    {"key_numbers", key_numbers(product)},
-                    {"part", part_view(product)},
-                    {"mechanism", mechanism_panels(product)},
-                    {"transmission_plots", all_in_divs(transmission_plots(product))},
-                    {"as_built_words", safe_text(as_built_words(product))},
-                    {"as_built_plots", all_in_divs(as_built_plots(product))},
-                    {"forces", forces_section(product)},
-                    {"profiles", profiles(product)},
-                    {"checks", checks_tables(product.checks)},
-                    {"conditions", conditions(product)},
-                    {"making", making(product)},
-                    {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},
-                });
+  return filled_page(embedded::page_html, {
+                                              {"tool", std::string(k_tool)},
+                                              {"name", name},
+                                              {"figure_css", std::string(embedded::figure_css)},
+                                              {"page_css", std::string(embedded::page_css)},
+                                              {"readout_js", std::string(embedded::readout_js)},
+                                              {"viewer_js", std::string(embedded::viewer_js)},
+                                              {"source", source_words(product.file)},
+                                              {"verdict_class", verdict.style},
+                                              {"verdict_sign", verdict.sign},
+                                              {"verdict", safe_text(verdict.words)},
+                                              {"warnings", warnings(product)},
+                                              {"key_numbers", key_numbers(product)},
+                                              {"part", part_view(product)},
+                                              {"mechanism", mechanism_panels(product)},
+                                              {"transmission_plots", all_in_divs(transmission_plots(product))},
+                                              {"as_built_words", safe_text(as_built_words(product))},
+                                              {"as_built_plots", all_in_divs(as_built_plots(product))},
+                                              {"forces", forces_section(product)},
+                                              {"profiles", profiles(product)},
+                                              {"checks", checks_tables(product.checks)},
+                                              {"conditions", conditions(product)},
+                                              {"making", making(product)},
+                                              {"footer", "Made by " + std::string(k_tool) +
+                                                             ". Lengths in mm, angles in degrees, forces in N."},
+                                          });
 }
 
 }  // namespace fusee

@@ -59,7 +59,8 @@ Plot deviation_plot(const std::vector<Vec2>& theta, const BestLine& line) {
 /// Points of the arc (active or closing), a gap where the other one is.
 PlotSeries curvature_series(const Outline& outline, bool active) {
   const bool left = outline.side == Side::left;
-  PlotSeries series{std::string(left ? "P1" : "P2") + (active ? " active" : ""), left ? Ink::p1 : Ink::p2, {}, !active};
+  PlotSeries series{
+      std::string(pulley_name(outline.side)) + (active ? " active" : ""), left ? Ink::p1 : Ink::p2, {}, !active};
   if (!active) series.name.clear();
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const OutlinePoint& point = outline.points[i];

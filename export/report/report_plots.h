@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "export/report/plot.h"
-#include "fusee/export/export.h"
+#include "fusee/export/product.h"
 
 namespace fusee {
 

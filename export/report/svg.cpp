@@ -67,10 +67,7 @@ std::string safe_text(std::string_view words) {
 
 std::string svg_number(double value) {
   if (!std::isfinite(value)) return "0";
-  std::string text = fixed(std::clamp(value, -1e6, 1e6), 2);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
+  return trimmed_fixed(std::clamp(value, -1e6, 1e6), 2);
 }
 
 std::string path_data(const std::vector<Vec2>& points, bool closed) {

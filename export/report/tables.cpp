@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "export/report/calibration_words.h"
 #include "export/report/svg.h"
 #include "fusee/base/units.h"
 
@@ -155,10 +156,7 @@ std::string plain_name(std::string_view name) {
   for (const PlainName& known : k_plain_names) {
     if (const char side = matched_side(name, known.name)) return with_side(known.words, side);
   }
-  std::string words(name);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
-  return words;
+  return first_upper(open_words(std::string(name)));
 }
 
 std::string shown_unit(std::string_view unit) {

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+
+#include "export/report/tendon_trace.h"
+#include "fusee/base/units.h"
 
 namespace fusee {
 namespace {
-
-const TransmissionPoint& home_of(const std::vector<TransmissionPoint>& stroke) {
-  return *std::min_element(stroke.begin(), stroke.end(),
-                           [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
-}
 
 /// In (−π, π].
 double turn_between(double from, double to) { return std::remainder(to - from, k_two_pi); }
@@ -56,14 +53,13 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   const Mechanism& mechanism = product.joint.mechanism;
   const bool left = anchor.side == Side::left;
   const Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
-  const TransmissionPoint& home = home_of(product.synthesis.stroke);
+  const TransmissionPoint& home = *product.synthesis.home();
   const TendonPoint& tendon = left ? home.t1 : home.t2;
   const BodyLayout& layout = product.pulley.layout;
 
   const double rho = mechanism.pulley.method == Method::paper ? 0.0 : mechanism.guide_pitch_radius();
-  const Vec2 pin =
-      left ? Vec2(-mechanism.guides.EB, -mechanism.guides.OE) : Vec2(mechanism.guides.ED, -mechanism.guides.OE);
-  const Vec2 axis(0.0, -mechanism.guides.OE - mechanism.pulley.EF);
+  const Vec2 pin = pin_centre(mechanism, anchor.side);
+  const Vec2 axis = pulley_axis(mechanism);
   const std::size_t contact = index_at_normal(outline, tendon.lower_normal);
   const double to_pin = (pin - axis - outline.points[contact].position).norm();
   const double lower_span = std::sqrt(std::max(0.0, (to_pin - rho) * (to_pin + rho)));
@@ -73,7 +69,7 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   const double above_pulley = tendon.length - tendon.lower_reach;
   TendonLength result;
   result.side = anchor.side;
-  result.joint_knot = {0.0, mechanism.joint.R};
+  result.joint_knot = attachment(mechanism, 0.0);
   const double z = left ? layout.z_p1 : layout.z_p2;
   result.pulley_knot = layout.scale * Vec3(anchor.pocket.x(), anchor.pocket.y(), z);
   result.between_knots =

@@ -4,7 +4,9 @@
 
 #include <vector>
 
-#include "fusee/export/export.h"
+#include "fusee/base/plane.h"
+#include "fusee/export/product.h"
+#include "fusee/transmission/tendon_path.h"
 
 namespace fusee {
 

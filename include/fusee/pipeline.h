@@ -16,8 +16,13 @@
 #include <variant>
 #include <vector>
 
-#include "fusee/export/export.h"
+#include "fusee/base/check.h"
+#include "fusee/base/files.h"
+#include "fusee/export/drawings.h"
+#include "fusee/export/product.h"
+#include "fusee/mechanism/file.h"
 #include "fusee/pipeline/calibrate.h"
+#include "fusee/solid/mesh.h"
 
 namespace fusee {
 

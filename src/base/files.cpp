@@ -14,6 +14,7 @@
 #include <future>
 #include <nlohmann/json.hpp>
 
+#include "base/output_list.h"
 #include "fusee/base/diagnostics.h"
 
 namespace fusee {
@@ -192,6 +193,13 @@ std::string sha256(std::string_view bytes) {
   std::string text;
   for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
   return text;
+}
+
+nlohmann::ordered_json output_list(const std::vector<OutputFile>& files) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const OutputFile& file : files)
+    list.push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  return list;
 }
 
 // ---- a folder of outputs --------------------------------------------------------------------------------------------

@@ -1,8 +1,14 @@
 #include "fusee/base/plane.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace fusee {
+
+Vec2 turned(const Vec2& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
 
 double signed_area(const Polygon& polygon) {
   double twice = 0;
@@ -14,6 +20,27 @@ double perimeter(const Polygon& polygon) {
   double length = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
   return length;
+}
+
+double circumradius(const Polygon& polygon) {
+  double radius = 0;
+  for (const Vec2& point : polygon) radius = std::max(radius, point.norm());
+  return radius;
+}
+
+double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - a - share * along).norm();
+}
+
+double distance_to_edges(const Polygon& polygon, const Vec2& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    least = std::min(least, distance_to_segment(point, polygon[j], polygon[i]));
+  }
+  return least;
 }
 
 Polygon convex_hull(Polygon points) {

@@ -22,18 +22,22 @@ std::string shortest(double value) { return without_negative_zero(fmt::format("{
 
 std::string fixed(double value, int decimals) { return without_negative_zero(fmt::format("{:.{}f}", value, decimals)); }
 
+std::string trimmed_fixed(double value, int decimals) {
+  std::string text = fixed(value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text;
+}
+
 std::string rounded(double value, int digits) {
   const double size = std::abs(value);
   if (value == 0 || !std::isfinite(value) || size < 1e-4 || size >= 1e7) {
     return without_negative_zero(fmt::format("{:.{}g}", value, digits));
   }
   const int before_point = static_cast<int>(std::floor(std::log10(size))) + 1;
-  std::string text = fixed(value, std::max(0, digits - before_point));
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text;
+  return trimmed_fixed(value, std::max(0, digits - before_point));
 }
 
 std::string escape_html(std::string_view text) {

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "base/output_list.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
@@ -96,10 +97,7 @@ Json product_json(const BuildResult& built, const BuildOptions& options) {
   json["r2_mm"] = range_json(ranges.r2);
   json["as_built"] = to_json(product.as_built);
   json["checks"] = to_json(product.checks);
-  json["outputs"] = Json::array();
-  for (const OutputFile& file : built.outputs) {
-    json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
-  }
+  json["outputs"] = output_list(built.outputs);
   return json;
 }
 

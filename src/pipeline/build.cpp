@@ -2,6 +2,9 @@
 
 #include <cstdlib>
 
+#include "fusee/export/drawings.h"
+#include "fusee/export/mesh_files.h"
+#include "fusee/export/report.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 #include "pipeline/agreement.h"

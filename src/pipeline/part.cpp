@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "fusee/base/text.h"
+#include "fusee/export/drawings.h"
+#include "fusee/export/mesh_files.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 

@@ -1,6 +1,7 @@
 #include "fusee/profile/synthesis.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fusee/base/text.h"
 #include "profile/feasibility.h"
@@ -38,7 +39,7 @@ std::unique_ptr<PitchCurve> pitch_curve(const Mechanism& mechanism, const SideAt
   if (mechanism.pulley.method == Method::exact) return std::make_unique<EnvelopeCurve>(side.take_offs, side.samples, *side.closing);
   auto polar = std::make_unique<PolarCurve>(mechanism, side.take_offs);
   if (polar->deepest_hollow() > 0.01) {
-    warnings.push_back(std::string("the polar drawing of ") + (side.take_offs.side() == Side::left ? "P1" : "P2") + " is hollow by up to " +
+    warnings.push_back("the polar drawing of " + std::string(pulley_name(side.take_offs.side())) + " is hollow by up to " +
                        rounded(polar->deepest_hollow(), 3) + " mm: the tendon bridges it, and the groove is made as the bridge");
   }
   return polar;
@@ -74,6 +75,13 @@ SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& o
   }
   result.conditions = std::move(tried.conditions);
   return result;
+}
+
+const TransmissionPoint* SynthesisResult::home() const {
+  const auto nearest = std::min_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.alpha) < std::abs(b.alpha);
+  });
+  return nearest == stroke.end() ? nullptr : &*nearest;
 }
 
 std::string SynthesisResult::brief() const {

@@ -23,11 +23,6 @@ constexpr double k_floor_gap = 0.05;
 // Pockets are placed against a floor of about this many points: no more are needed to keep a wall.
 constexpr std::size_t k_floor_points = 256;
 
-Vec2 turned(const Vec2& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
 struct Station {
   Vec2 position;
   Vec2 normal;

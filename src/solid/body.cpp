@@ -32,12 +32,6 @@ Polygon circle(double radius) {
   return points;
 }
 
-double circumradius(const Polygon& polygon) {
-  double radius = 0;
-  for (const Vec2& point : polygon) radius = std::max(radius, point.norm());
-  return radius;
-}
-
 // Is each flat quad between two loops of equal normals free of folds?
 bool strictly_outside(const Polygon& outer, const Polygon& inner) {
   const std::size_t n = inner.size();

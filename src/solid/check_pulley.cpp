@@ -8,7 +8,6 @@
 #include "fusee/base/text.h"
 #include "fusee/solid/pulley.h"
 #include "solid/nearest_segment.h"
-#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {

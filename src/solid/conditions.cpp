@@ -22,8 +22,6 @@ constexpr double k_grain = 1e-9;
 
 double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
 
-const char* name_of(Side side) { return side == Side::left ? "P1" : "P2"; }
-
 class Conditions {
  public:
   Conditions(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout,
@@ -86,9 +84,9 @@ class Conditions {
 
   void add_bore_wall(const Outline& outline) {
     const Wall wall = wall_to(floor(outline), layout_.bore);
-    add_least(fmt::format("bore_wall_{}", name_of(outline.side)), wall.thickness, layout_.min_wall,
+    add_least(fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
               fmt::format("the bore leaves a wall of {} mm to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
-                          rounded(wall.thickness, 3), name_of(outline.side), degrees(wall.angle),
+                          rounded(wall.thickness, 3), pulley_name(outline.side), degrees(wall.angle),
                           rounded(layout_.min_wall, 3)));
   }
 
@@ -172,10 +170,10 @@ class Conditions {
   }
 
   void add_anchor(const AnchorRoom& room) {
-    add_least(fmt::format("anchor_{}", name_of(room.side)), 2.0 * room.room, 2.0 * room.least,
+    add_least(fmt::format("anchor_{}", pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
               fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed "
                           "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm)",
-                          name_of(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
+                          pulley_name(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
                           rounded(layout_.min_wall, 3)));
   }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "solid/plane_distance.h"
 
 namespace fusee {
 

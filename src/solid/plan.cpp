@@ -180,7 +180,7 @@ class Planner {
       if (spare && spare->room >= radius) {
         plan.anchors.push_back({outline.side, false, *spare});
       } else {
-        plan.layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", left ? "P1" : "P2"));
+        plan.layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(outline.side)));
       }
     };
     add(synthesis_.p1, *wound.p1);

@@ -13,13 +13,6 @@ bool segments_cross(const Bar& p, const Bar& q) {
 
 }  // namespace
 
-double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double length2 = along.squaredNorm();
-  const double share = length2 > 0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (point - a - share * along).norm();
-}
-
 double gap(const Bar& p, const Bar& q) {
   double apart = 0;
   if (!segments_cross(p, q)) {

@@ -1,5 +1,5 @@
 /// \file
-/// Distances in the plane. mm.
+/// How near bars and walls come to each other in the plane. mm.
 #pragma once
 
 #include "fusee/base/plane.h"
@@ -13,7 +13,6 @@ struct Bar {
   double radius = 0;
 };
 
-double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b);
 /// Between the outsides; negative when they overlap.
 double gap(const Bar& p, const Bar& q);
 /// How deep a point lies inside a convex polygon; negative outside.

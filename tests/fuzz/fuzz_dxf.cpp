@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "fusee/base/diagnostics.h"
-#include "fusee/export/export.h"
+#include "fusee/export/drawings.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

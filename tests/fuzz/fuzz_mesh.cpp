@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "fusee/base/diagnostics.h"
-#include "fusee/export/export.h"
+#include "fusee/export/mesh_files.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

@@ -17,6 +17,15 @@ const std::map<std::string, int> k_flow = {
     {"analysis", 5}, {"optimize", 6},  {"paper", 7},        {"measurement", 8}, {"calibration", 9},
     {"correction", 10}, {"solid", 11}, {"export", 12},      {"pipeline", 13},  {"cli", 14}};
 
+/// What each inner room of export may use of export beside itself. The value Product stands between the meshes, which
+/// know no pulley, and all that is made of one. (tool.h, what fusee calls itself, is everybody's.)
+const std::map<std::string, std::set<std::string>> k_export_uses = {{"product", {}},
+                                                                    {"mesh_files", {}},
+                                                                    {"drawings", {"product"}},
+                                                                    {"report", {"product", "mesh_files", "drawings"}}};
+/// Public headers of report beside report.h.
+const std::set<std::string> k_report_headers = {"calibration", "paper"};
+
 struct Include {
   fs::path file;  ///< relative to the source tree
   int line = 0;
@@ -40,6 +49,15 @@ std::string home_of(const fs::path& file) {
     if (path.rfind(prefix, 0) == 0) return room_of(path.substr(prefix.size()));
   }
   return "";
+}
+
+/// "export/report/svg.h", "fusee/export/report.h", "include/fusee/export/paper.h" → "report"; "" where it is in none.
+std::string inner_room_of(const std::string& path) {
+  static const std::regex pattern("^(?:include/)?(?:fusee/)?export/([a-z_]+)(?:/|\\.h$)");
+  std::smatch match;
+  if (!std::regex_search(path, match, pattern)) return "";
+  const std::string name = k_report_headers.count(match[1]) ? "report" : match[1].str();
+  return k_export_uses.count(name) ? name : "";
 }
 
 std::vector<Include> includes_under(const std::vector<std::string>& folders) {
@@ -82,6 +100,16 @@ TEST(Includes, GoOnlyToTheLeft) {
   }
 }
 
+TEST(Includes, OfExportKeepToTheOrderOfItsInnerRooms) {
+  for (const Include& include : all_includes()) {
+    if (home_of(include.file) != "export") continue;
+    const std::string home = inner_room_of(include.file.generic_string()), room = inner_room_of(include.target);
+    if (room.empty() || room == home) continue;
+    ASSERT_FALSE(home.empty()) << include.file << " stands in no inner room";
+    EXPECT_TRUE(k_export_uses.at(home).count(room)) << include.says();
+  }
+}
+
 TEST(Includes, OfOurOwnAreQuotedAndKnown) {
   for (const Include& include : all_includes()) {
     if (include.quoted) {
@@ -113,12 +141,12 @@ TEST(Includes, OfLibrariesStayInTheirPlaces) {
       {std::regex("^OpenMesh/"), std::regex("^src/solid/")},
       {std::regex("^CLI/"), std::regex("^src/cli/")},
       {std::regex("^toml\\+\\+"), std::regex("^src/mechanism/")},
-      {std::regex("^draco/"), std::regex("^export/draco\\.cpp$")},
-      {std::regex("^zip\\.h"), std::regex("^export/")},
+      {std::regex("^draco/"), std::regex("^export/mesh_files/draco\\.cpp$")},
+      {std::regex("^zip\\.h"), std::regex("^export/mesh_files/")},
       {std::regex("^ceres/"), std::regex("^src/calibration/")},
       {std::regex("^pagmo/"), std::regex("_pagmo\\.cpp$")},
       {std::regex("^boost/"), std::regex("^src/optimize/")},
-      {std::regex("^pugixml"), std::regex("^export/")},
+      {std::regex("^pugixml"), std::regex("^export/mesh_files/")},
       {std::regex("^openssl/"), std::regex("^src/base/")}};
   for (const Include& include : all_includes()) {
     for (const auto& [library, place] : places) {
@@ -133,9 +161,14 @@ TEST(Rooms, AreReadFromPaths) {
   EXPECT_EQ(room_of("fusee/pipeline.h"), "pipeline");
   EXPECT_EQ(room_of("cli/console.h"), "cli");
   EXPECT_EQ(room_of("zip.h"), "");
-  EXPECT_EQ(home_of("export/stl.cpp"), "export");
+  EXPECT_EQ(home_of("export/mesh_files/stl.cpp"), "export");
   EXPECT_EQ(home_of("include/fusee/pipeline.h"), "pipeline");
   EXPECT_EQ(home_of("src/profile/outline_cgal.cpp"), "profile");
+  EXPECT_EQ(inner_room_of("export/mesh_files/stl.cpp"), "mesh_files");
+  EXPECT_EQ(inner_room_of("fusee/export/drawings.h"), "drawings");
+  EXPECT_EQ(inner_room_of("include/fusee/export/calibration.h"), "report");
+  EXPECT_EQ(inner_room_of("fusee/export/product.h"), "product");
+  EXPECT_EQ(inner_room_of("export/tool.h"), "");
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace fusee {
 std::string shortest(double value);
 /// Fixed decimals, negative zero written as zero: fixed(-0.00001, 3) == "0.000".
 std::string fixed(double value, int decimals);
+/// The same without trailing zeros: trimmed_fixed(2.50, 2) == "2.5", trimmed_fixed(3, 2) == "3".
+std::string trimmed_fixed(double value, int decimals);
 /// For messages: `digits` significant digits, no exponent between 1e-4 and 1e7 ("18.9", "0.0123").
 std::string rounded(double value, int digits = 4);
 /// JSON/JavaScript-safe and HTML-safe text.

@@ -43,6 +43,8 @@ struct SynthesisResult {
   std::vector<std::string> warnings;      ///< made all the same: tight bends, slack of method = "paper" …
 
   bool made() const { return status == SynthesisStatus::made; }
+  /// The place of the stroke where α is nearest to 0; null without a stroke.
+  const TransmissionPoint* home() const;
   /// One paragraph: what was made, or why not and what to change.
   std::string brief() const;
 };

@@ -5,6 +5,8 @@
 /// One derivation serves both tendons: tendon 1 is the mirror image of tendon 2 (x → −x, θ → −θ, α → −α).
 #pragma once
 
+#include <string_view>
+
 #include "fusee/base/plane.h"
 #include "fusee/mechanism/mechanism.h"
 
@@ -12,6 +14,8 @@ namespace fusee {
 
 /// left: tendon 1, pin B, pulley P1. right: tendon 2, pin D, pulley P2.
 enum class Side { left, right };
+
+constexpr std::string_view pulley_name(Side side) { return side == Side::left ? "P1" : "P2"; }
 
 /// +1 for the right, −1 for the left: the factor between the mechanism's θ, α, x and those of the right-hand image.
 constexpr double mirror_sign(Side side) { return side == Side::right ? 1.0 : -1.0; }

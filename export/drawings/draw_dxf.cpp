@@ -1,0 +1,177 @@
+#include "export/drawings/draw_dxf.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+
+#include "export/drawings/entity_curves.h"
+#include "export/drawings/join_paths.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_sagitta = 0.001;  // of sampled curves, mm
+constexpr double k_farthest = 1e7;   // mm from the origin
+constexpr std::size_t k_most_inserts = 200'000;
+constexpr std::size_t k_most_tags = 100'000'000;  // gone through while blocks are expanded
+constexpr int k_deepest_block = 16;
+constexpr std::size_t k_most_ignored = 64;
+
+/// Plane affine map: block coordinates → drawing, mm.
+struct DrawingPlacement {
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  Vec2 shift = Vec2::Zero();
+
+  Vec2 operator()(const Vec2& p) const { return linear * p + shift; }
+  /// How much a length can grow at most.
+  double growth() const { return std::max(linear.norm(), 1e-12); }
+};
+
+/// An INSERT: a block's entities, turned, scaled and repeated in columns and rows.
+struct DxfInsert {
+  int columns;
+  int rows;
+  Eigen::Matrix2d turn;
+  Vec2 step;
+  Eigen::Matrix2d scaled;  ///< turn included
+  Vec2 point;
+
+  explicit DxfInsert(const DxfValues& values)
+      : columns(std::max(1, values.integer(70, 1))),
+        rows(std::max(1, values.integer(71, 1))),
+        turn(Eigen::Rotation2D<double>(radians(values.real(50, 0))).toRotationMatrix()),
+        step(values.real(44, 0), values.real(45, 0)),
+        scaled(turn * Vec2(values.real(41, 1), values.real(42, 1)).asDiagonal()),
+        point(values.point(10)) {}
+
+  DrawingPlacement placed(const DrawingPlacement& outer, const Vec2& base, int row, int column) const {
+    DrawingPlacement inner;
+    inner.linear = outer.linear * scaled;
+    inner.shift = outer(point + turn * Vec2(column * step.x(), row * step.y())) - inner.linear * base;
+    return inner;
+  }
+};
+
+class DxfDrawer {
+ public:
+  DxfDrawer(const DxfFile& dxf, const std::string& file) : dxf_(dxf), file_(file) {}
+
+  Drawing draw() {
+    drawing_.version = dxf_.version;
+    drawing_.millimetres = dxf_.units ? *dxf_.units == 4 : dxf_.version == "AC1009";
+    DrawingPlacement whole;
+    whole.linear *= dxf_.unit_in_mm();
+    for (const DxfEntity& entity : dxf_.entities) draw(entity, whole, "0", 0);
+    drawing_.ignored.assign(ignored_.begin(), ignored_.end());
+    return std::move(drawing_);
+  }
+
+ private:
+  void draw(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& block_layer, int depth) {
+    const DxfValues values(file_, entity.tags);
+    if (values.integer(67, 0) == 1) return;  // paper space
+    std::string layer(values.text(8));
+    if (layer.empty() || layer == "0") layer = block_layer;  // layer 0 in a block is the insert's
+    const Vec2 tilt = values.point(210);
+    if (tilt.norm() > 1e-6) {
+      ignore(entity, " out of the plane");
+      return;
+    }
+    // An entity drawn from below has its x mirrored (but for those in world coordinates).
+    DrawingPlacement in_place = placement;
+    const bool has_own_plane = entity.type != "LINE" && entity.type != "ELLIPSE" && entity.type != "SPLINE";
+    if (has_own_plane && values.real(230, 1) < 0) in_place.linear.col(0) *= -1;
+    if (entity.type == "INSERT") {
+      insert(entity, in_place, layer, depth);
+      return;
+    }
+    const EntityCurve drawn = curve_of(entity, file_, k_sagitta / in_place.growth());
+    if (drawn.curve) {
+      add(entity, layer, *drawn.curve, in_place);
+    } else {
+      ignore(entity, drawn.passed_over);
+    }
+  }
+
+  void ignore(const DxfEntity& entity, const std::string& kind) {
+    if (ignored_.size() >= k_most_ignored) return;
+    const std::string name = quoted_bytes(entity.type);
+    ignored_.insert(name.substr(1, name.size() - 2) + kind);
+  }
+
+  const DxfBlock& block_of(const DxfEntity& entity, int depth) const {
+    const std::string name(DxfValues(file_, entity.tags).text(2));
+    const auto block = dxf_.blocks.find(name);
+    if (block == dxf_.blocks.end()) {
+      fail_in_dxf(file_, entity.line,
+                  "this INSERT names the block " + quoted_bytes(name) + ", which the file does not hold");
+    }
+    if (depth >= k_deepest_block) {
+      fail_in_dxf(file_, entity.line,
+                  "blocks are nested more than " + std::to_string(k_deepest_block) + " deep (or in a ring)");
+    }
+    return block->second;
+  }
+
+  void insert(const DxfEntity& entity, const DrawingPlacement& placement, const std::string& layer, int depth) {
+    const DxfBlock& block = block_of(entity, depth);
+    const DxfInsert insert(DxfValues(file_, entity.tags));
+    for (int row = 0; row < insert.rows; ++row) {
+      for (int column = 0; column < insert.columns; ++column) {
+        if (++inserts_ > k_most_inserts) {
+          fail_in_dxf(file_, entity.line,
+                      "the drawing inserts more than " + std::to_string(k_most_inserts) + " blocks");
+        }
+        const DrawingPlacement inner = insert.placed(placement, block.base, row, column);
+        for (const DxfEntity& part : block.entities) {
+          expanded_ += part.size;
+          if (expanded_ > k_most_tags)
+            fail_in_dxf(file_, entity.line, "the blocks of the drawing are inserted too often to be expanded");
+          draw(part, inner, layer, depth + 1);
+        }
+      }
+    }
+  }
+
+  /// Puts a curve in its place in the drawing; repeated points go, and a last point that closes the curve.
+  void add(const DxfEntity& entity, const std::string& layer, const SampledCurve& curve,
+           const DrawingPlacement& placement) {
+    DrawingPath path{layer, std::string(entity.type), entity.line, curve.closed, {}};
+    points_ += curve.points.size();
+    if (points_ > k_most_points) {
+      fail_in_dxf(file_, entity.line, "the drawing has more than " + std::to_string(k_most_points) + " points");
+    }
+    path.points.reserve(curve.points.size());
+    for (const Vec2& p : curve.points) {
+      const Vec2 placed = placement(p);
+      if (!(placed.cwiseAbs().maxCoeff() <= k_farthest)) {
+        fail_in_dxf(file_, entity.line,
+                    "this " + path.entity + " reaches (" + rounded(placed.x()) + ", " + rounded(placed.y()) +
+                        ") mm, further than 10 km");
+      }
+      if (path.points.empty() || placed != path.points.back()) path.points.push_back(placed);
+    }
+    close_where_ends_meet(path);
+    if (path.points.size() < 2) {
+      ignore(entity, " of no length");
+      return;
+    }
+    drawing_.paths.push_back(std::move(path));
+  }
+
+  const DxfFile& dxf_;
+  const std::string& file_;
+  Drawing drawing_;
+  std::set<std::string> ignored_;
+  std::size_t points_ = 0;
+  std::size_t inserts_ = 0;
+  std::size_t expanded_ = 0;  // tags
+};
+
+}  // namespace
+
+Drawing draw_dxf(const DxfFile& dxf, const std::string& file) { return DxfDrawer(dxf, file).draw(); }
+
+}  // namespace fusee

@@ -1,0 +1,73 @@
+// AC1009: what laser shops ask for. No handles, no owners; every polyline with its vertices one by one.
+#include "export/drawings/dxf_versions.h"
+
+namespace fusee {
+namespace {
+
+void write_r12_tables(DxfTagWriter& tags, const DxfDocument& document) {
+  const auto begin_table = [&tags](std::string_view name, int count) {
+    tags.text(0, "TABLE");
+    tags.text(2, name);
+    tags.integer(70, count);
+  };
+  tags.begin_section("TABLES");
+  begin_table("LTYPE", 1);
+  tags.text(0, "LTYPE");
+  tags.text(2, "CONTINUOUS");
+  tags.integer(70, 0);
+  tags.text(3, "Solid line");
+  tags.integers({{72, 65}, {73, 0}});
+  tags.real(40, 0);
+  tags.text(0, "ENDTAB");
+  begin_table("LAYER", static_cast<int>(document.layers.size()) + 1);
+  const auto layer = [&tags](std::string_view name, int colour) {
+    tags.text(0, "LAYER");
+    tags.text(2, name);
+    tags.integers({{70, 0}, {62, colour}});
+    tags.text(6, "CONTINUOUS");
+  };
+  layer("0", 7);
+  for (const DxfLayer& l : document.layers) layer(l.name, l.colour);
+  tags.text(0, "ENDTAB");
+  begin_table("STYLE", 1);
+  tags.text(0, "STYLE");
+  tags.text(2, "STANDARD");
+  write_style_values(tags);
+  tags.text(0, "ENDTAB");
+  tags.end_section();
+}
+
+void write_r12_polyline(DxfTagWriter& tags, const DxfPath& path) {
+  tags.text(0, "POLYLINE");
+  tags.text(8, path.layer);
+  tags.integer(66, 1);
+  tags.point3(10, 0, 0, 0);
+  tags.integer(70, path.closed ? 1 : 0);
+  for (const Vec2& p : path.points) {
+    tags.text(0, "VERTEX");
+    tags.text(8, path.layer);
+    tags.point3(10, p.x(), p.y(), 0);
+  }
+  tags.text(0, "SEQEND");
+  tags.text(8, path.layer);
+}
+
+}  // namespace
+
+std::string r12_text(const DxfDocument& document) {
+  DxfTagWriter tags;
+  write_remarks(tags, document);
+  tags.begin_section("HEADER");
+  write_variables(tags, "AC1009", bounding_box(document.paths));
+  tags.end_section();
+  write_r12_tables(tags, document);
+  tags.begin_section("BLOCKS");
+  tags.end_section();
+  tags.begin_section("ENTITIES");
+  for (const DxfPath& path : document.paths) write_r12_polyline(tags, path);
+  tags.end_section();
+  tags.text(0, "EOF");
+  return tags.take();
+}
+
+}  // namespace fusee

@@ -1,0 +1,66 @@
+/// \file
+/// What DXF is made of: tags, a group code and a value on a line each. Whatever goes wrong names the line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/base/plane.h"
+
+namespace fusee {
+
+struct DxfTag {
+  int code = 0;
+  std::string_view value;  ///< without blanks at its ends; points into the file's bytes
+  int line = 0;            ///< of the value
+};
+
+/// Throws InputError; line 0 is the whole file.
+[[noreturn]] void fail_in_dxf(const std::string& file, int line, std::string message, std::string hint = {});
+/// What a message may show of foreign bytes: 40 of them, in quotes.
+std::string quoted_bytes(std::string_view text);
+
+/// Splits the bytes into tags.
+class DxfTagReader {
+ public:
+  DxfTagReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+
+  /// The next tag; a remark (999) is skipped. Null at the end of the bytes.
+  std::optional<DxfTag> next();
+  /// The next tag, which there must be: a file ends with EOF.
+  DxfTag required();
+
+ private:
+  std::optional<std::string_view> next_line();
+
+  std::string_view bytes_;
+  const std::string& file_;
+  std::size_t position_ = 0;
+  int line_ = 0;
+  int last_line_ = 0;  ///< of the last required tag
+};
+
+/// The value as a finite number.
+double dxf_number(const std::string& file, const DxfTag& tag);
+
+/// The first value of each group code among some tags. Numbers are checked when they are asked for.
+class DxfValues {
+ public:
+  DxfValues(const std::string& file, const std::vector<DxfTag>& tags) : file_(file), tags_(tags) {}
+
+  std::string_view text(int code) const;
+  double real(int code, double fallback) const;
+  int integer(int code, int fallback) const;
+  /// x under `code`, y ten above.
+  Vec2 point(int code) const { return {real(code, 0), real(code + 10, 0)}; }
+
+ private:
+  const DxfTag* find(int code) const;
+
+  const std::string& file_;
+  const std::vector<DxfTag>& tags_;
+};
+
+}  // namespace fusee

@@ -1,0 +1,100 @@
+#include "export/drawings/join_paths.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "export/drawings/end_points.h"
+
+namespace fusee {
+namespace {
+
+/// One end of an open path.
+struct PathEnd {
+  std::size_t path = 0;
+  bool last = false;
+};
+
+class PathJoiner {
+ public:
+  explicit PathJoiner(std::vector<DrawingPath>& paths) : paths_(paths), used_(paths.size(), false) {}
+
+  std::vector<DrawingPath> join() {
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      if (paths_[i].closed) continue;
+      ends_of(i, false).push_back({i, false});
+      ends_of(i, true).push_back({i, true});
+    }
+    std::vector<DrawingPath> chains;
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      if (!used_[i]) chains.push_back(chain_of(i));
+    }
+    return chains;
+  }
+
+ private:
+  std::vector<PathEnd>& ends_of(std::size_t path, bool last) {
+    const Polygon& points = paths_[path].points;
+    Layer& layer = layers_[paths_[path].layer];
+    const std::size_t node = layer.points.number(last ? points.back() : points.front());
+    if (node >= layer.ends.size()) layer.ends.resize(node + 1);
+    return layer.ends[node];
+  }
+
+  /// The end that goes on where `path` ends, if there is exactly one.
+  std::optional<PathEnd> next(std::size_t path, bool last) {
+    const std::vector<PathEnd>& ends = ends_of(path, last);
+    if (ends.size() != 2) return std::nullopt;
+    const PathEnd& other = ends[0].path == path && ends[0].last == last ? ends[1] : ends[0];
+    return used_[other.path] ? std::nullopt : std::optional<PathEnd>(other);
+  }
+
+  /// Lengthens `chain`, which ends with the `last` end of path `i`.
+  void extend(Polygon& chain, std::size_t i, bool last) {
+    while (const auto end = next(i, last)) {
+      const Polygon& points = paths_[end->path].points;
+      if (end->last) {
+        chain.insert(chain.end(), points.rbegin() + 1, points.rend());
+      } else {
+        chain.insert(chain.end(), points.begin() + 1, points.end());
+      }
+      used_[end->path] = true;
+      i = end->path;
+      last = !end->last;
+    }
+  }
+
+  DrawingPath chain_of(std::size_t i) {
+    DrawingPath path = std::move(paths_[i]);
+    paths_[i].points = {path.points.front(), path.points.back()};  // its ends are still looked up
+    paths_[i].layer = path.layer;
+    used_[i] = true;
+    if (path.closed) return path;
+    extend(path.points, i, true);
+    std::reverse(path.points.begin(), path.points.end());
+    extend(path.points, i, false);
+    std::reverse(path.points.begin(), path.points.end());
+    close_where_ends_meet(path);
+    return path;
+  }
+
+  struct Layer {
+    EndPoints points;
+    std::vector<std::vector<PathEnd>> ends;
+  };
+  std::vector<DrawingPath>& paths_;
+  std::vector<bool> used_;
+  std::map<std::string, Layer> layers_;
+};
+
+}  // namespace
+
+void close_where_ends_meet(DrawingPath& path) {
+  if (path.points.size() <= 2 || (path.points.front() - path.points.back()).norm() > k_joined) return;
+  path.closed = true;
+  path.points.pop_back();
+}
+
+std::vector<DrawingPath> joined_paths(std::vector<DrawingPath> paths) { return PathJoiner(paths).join(); }
+
+}  // namespace fusee

@@ -1,0 +1,30 @@
+/// \file
+/// Pieces of a page: a template filled, lists, key numbers. What is handed in as words is escaped here.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fusee {
+
+using PageParts = std::map<std::string, std::string, std::less<>>;
+/// Replaces every {{name}} of the template once; what is put in (HTML, not escaped) is not looked at again, so that no
+/// text of a user can name a part.
+std::string filled_page(std::string_view page, const PageParts& parts);
+
+/// `tag`: "ul" or "ol". "" for no items.
+std::string html_list(const std::vector<std::string>& items, const std::string& tag = "ul");
+
+/// The numbers that a page begins with: term, value, and a remark in small print.
+class KeyNumbers {
+ public:
+  void add(const std::string& term, const std::string& value, const std::string& remark = {});
+  std::string html() const { return "<dl class=\"numbers\">" + html_ + "</dl>"; }
+
+ private:
+  std::string html_;
+};
+
+}  // namespace fusee

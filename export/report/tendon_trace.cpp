@@ -1,0 +1,127 @@
+#include "export/report/tendon_trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+/// Outward normal of the line through `point` that touches the circle and has it on its inner side: the tendon passes
+/// the circle's outer side, away from `point` along the direction of travel. `sign` is mirror_sign of the side; NaN
+/// inside the circle.
+double tangent_normal(const Vec2& centre, double rho, const Vec2& point, bool point_above, double sign) {
+  const Vec2 to_point = point - centre;
+  const double opening = std::acos(rho / to_point.norm());
+  const double direction = std::atan2(to_point.y(), to_point.x());
+  // Right tendon: the outer side is clockwise of a point above, counter-clockwise of a point below.
+  return direction + (point_above ? -sign : sign) * opening;
+}
+
+struct PulleyContact {
+  std::size_t index = 0;  ///< in the outline
+  double normal = 0;      ///< of the lower span, in the world, rad
+};
+
+/// The common outer tangent of the pin and the turned pitch polygon: the outermost of the tangents from the vertices.
+std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Outline& outline, double alpha) {
+  const double sign = mirror_sign(outline.side);
+  const Vec2 pin = pin_centre(mechanism, outline.side);
+  const Vec2 axis = pulley_axis(mechanism);
+  const double rho = mechanism.guide_pitch_radius();
+  // Measured from the tangent towards the axis, so that the comparison never crosses ±π.
+  const double reference = tangent_normal(pin, rho, axis, false, sign);
+  PulleyContact best;
+  double outermost = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.points.size(); ++i) {
+    const Vec2 vertex = axis + turned(outline.points[i].position, -alpha);
+    const double normal = tangent_normal(pin, rho, vertex, false, sign);
+    if (!std::isfinite(normal)) return std::nullopt;
+    const double outward = sign * std::remainder(normal - reference, k_two_pi);
+    if (outward > outermost) {
+      outermost = outward;
+      best = {i, normal};
+    }
+  }
+  if (!std::isfinite(outermost)) return std::nullopt;
+  return best;
+}
+
+/// Vertices from `first` to the anchor's end of the active arc; just `first` when it already lies at or beyond that
+/// end.
+std::vector<std::size_t> wound_indices(const Outline& outline, std::size_t first) {
+  const std::size_t n = outline.points.size();
+  const std::size_t last = outline.anchor_end();
+  const bool forward = outline.side == Side::left;
+  const auto steps_between = [&](std::size_t from, std::size_t to) {
+    return forward ? (to + n - from) % n : (from + n - to) % n;
+  };
+  const std::size_t active_steps = steps_between(forward ? outline.active_first : outline.active_last, last);
+  const std::size_t steps = steps_between(first, last);
+  std::vector<std::size_t> indices{first};
+  // A take-off a vertex beyond the active arc's unwound end still winds all of it.
+  if (steps > active_steps + 2) return indices;
+  for (std::size_t k = 1; k <= steps; ++k) indices.push_back(forward ? (first + k) % n : (first + n - k) % n);
+  return indices;
+}
+
+double length_of(const std::vector<Vec2>& points) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+/// Points of an arc every few degrees, both ends included.
+std::vector<Vec2> arc(const Vec2& centre, double radius, double from, double to) {
+  const int steps = std::clamp(static_cast<int>(std::ceil(std::abs(to - from) / radians(4))), 1, 360);
+  std::vector<Vec2> points;
+  for (int i = 0; i <= steps; ++i) points.push_back(centre + radius * unit(from + (to - from) * i / steps));
+  return points;
+}
+
+}  // namespace
+
+Vec2 pulley_axis(const Mechanism& mechanism) { return {0, -mechanism.guides.OE - mechanism.pulley.EF}; }
+
+Vec2 pin_centre(const Mechanism& mechanism, Side side) {
+  return {side == Side::left ? -mechanism.guides.EB : mechanism.guides.ED, -mechanism.guides.OE};
+}
+
+Vec2 attachment(const Mechanism& mechanism, double theta) {
+  return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
+}
+
+// The tendon as a taut string over what is drawn: first the tangent from C to the pin, then the common tangent of the
+// pin and the pitch polygon, then along the polygon. Only α and θ come from the transmission; that the path's length
+// stays the same over the stroke is therefore a test of synthesis and drawing together.
+std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outline& outline, double alpha,
+                                        double theta) {
+  if (outline.points.size() < 3) return std::nullopt;
+  const double sign = mirror_sign(outline.side);
+  const double rho = mechanism.guide_pitch_radius();
+  const Vec2 pin = pin_centre(mechanism, outline.side);
+  TendonTrace trace;
+  trace.attachment = attachment(mechanism, theta);
+  const double upper = tangent_normal(pin, rho, trace.attachment, true, sign);
+  const auto contact = pulley_contact(mechanism, outline, alpha);
+  if (!std::isfinite(upper) || !contact) return std::nullopt;
+  // Wrap is positive when the tendon lies on the pin: the normal turns clockwise on the right on its way down.
+  const double wrap = -sign * std::remainder(contact->normal - upper, k_two_pi);
+  trace.onto_pin = pin + rho * unit(upper);
+  trace.off_pin = pin + rho * unit(contact->normal);
+  const Vec2 axis = pulley_axis(mechanism);
+  for (const std::size_t i : wound_indices(outline, contact->index)) {
+    trace.wound_path.push_back(axis + turned(outline.points[i].position, -alpha));
+  }
+  trace.take_off = trace.wound_path.front();
+  trace.free_path = arc(pin, rho, upper, upper - sign * wrap);
+  trace.free_path.insert(trace.free_path.begin(), trace.attachment);
+  trace.free_path.push_back(trace.take_off);
+  trace.free_length = (trace.onto_pin - trace.attachment).norm() + rho * wrap + (trace.take_off - trace.off_pin).norm();
+  trace.wound_length = length_of(trace.wound_path);
+  return trace;
+}
+
+}  // namespace fusee

@@ -1,0 +1,45 @@
+/// \file
+/// Drawings out and in, as DXF; and what a shop's machine would stumble over in one. The same input gives the same
+/// bytes.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/base/check.h"
+#include "fusee/base/plane.h"
+#include "fusee/export/product.h"
+
+namespace fusee {
+
+enum class DxfVersion { ac1015, r12 };
+
+/// The pulley's curves at true size about the axis, with marks that say how it sits at home.
+std::string profile_dxf(const Product& product, DxfVersion version);
+/// The part as a stack of plates to cut, nested on sheets.
+std::string plates_dxf(const Product& product, DxfVersion version);
+
+/// One closed or open path of a drawing; arcs and circles come as points within 0.001 mm.
+struct DrawingPath {
+  std::string layer;
+  std::string entity;  ///< "LWPOLYLINE", "CIRCLE" …
+  int line = 0;        ///< in the file
+  bool closed = false;
+  Polygon points;
+};
+
+struct Drawing {
+  std::string version;               ///< "AC1015", "AC1009" …
+  bool millimetres = false;          ///< $INSUNITS = 4, or absent in R12
+  std::vector<DrawingPath> paths;    ///< in mm; what meets on one layer is joined
+  std::vector<std::string> ignored;  ///< kinds of entity that were passed over
+};
+
+/// ASCII DXF, R12 to R2018. InputError with the line.
+Drawing read_dxf(std::string_view bytes, const std::string& file_name);
+
+/// Closed contours, ends that meet, no self-crossing, no duplicate lines, smallest feature: one Check each.
+std::vector<Check> check_drawing(const Drawing& drawing);
+
+}  // namespace fusee

@@ -1,0 +1,26 @@
+/// \file
+/// What drawings and reports are made from.
+#pragma once
+
+#include <vector>
+
+#include "fusee/base/check.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/mechanism/file.h"
+#include "fusee/profile/rewind.h"
+#include "fusee/profile/synthesis.h"
+#include "fusee/solid/pulley.h"
+
+namespace fusee {
+
+/// All that is known of a finished pulley.
+struct Product {
+  MechanismFile file;  ///< as it was read
+  JointAsItIs joint;   ///< what was made, and what for
+  SynthesisResult synthesis;
+  Pulley pulley;
+  RewindResult as_built;
+  std::vector<Check> checks;
+};
+
+}  // namespace fusee

@@ -1,0 +1,25 @@
+// Numbers to text: what a reader gets back, and nothing that he would stumble over.
+#include "fusee/base/text.h"
+
+#include <gmock/gmock.h>
+
+namespace fusee {
+namespace {
+
+TEST(Text, TrimmedFixedLosesZerosAndNothingElse) {
+  EXPECT_EQ(trimmed_fixed(2.5, 3), "2.5");
+  EXPECT_EQ(trimmed_fixed(3, 3), "3");
+  EXPECT_EQ(trimmed_fixed(100, 0), "100");
+  EXPECT_EQ(trimmed_fixed(0.0625, 9), "0.0625");
+  EXPECT_EQ(trimmed_fixed(-1e-9, 3), "0");
+}
+
+TEST(Text, RoundedKeepsItsDigitsAndNoZerosBehindThem) {
+  EXPECT_EQ(rounded(18.9), "18.9");
+  EXPECT_EQ(rounded(0.012345), "0.01235");
+  EXPECT_EQ(rounded(1200), "1200");
+  EXPECT_EQ(rounded(-2.0), "-2");
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,228 @@
+// plates.dxf: kerf, dowels, order, nesting; all measured on the drawing or on the plates it was drawn from.
+#include "export/drawings/plates.h"
+
+#include <gmock/gmock.h>
+
+#include "drawing_tools.h"
+#include "export/drawings/cut_shapes.h"
+#include "export/drawings/dxf_writer.h"
+#include "export/drawings/nesting.h"
+#include "export/drawings/polygon_cgal.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::Contains;
+using testing::egg;
+using testing::failed;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::on_layer;
+using testing::product_of;
+
+/// A knot pocket and a channel that opens at P1's floor.
+Product egg_with_anchor() {
+  Product product = egg();
+  Anchor anchor;
+  anchor.side = Side::left;
+  anchor.exit = Vec2::Zero();
+  anchor.pocket = {-8, -8};
+  anchor.channel = {{-8.7, -8}, {-8.7, -17}, {-7.3, -17}, {-7.3, -8}};
+  product.pulley.anchors = {anchor};
+  return product;
+}
+
+Drawing drawn(const Product& product, DxfVersion version = DxfVersion::ac1015) {
+  return read_dxf(plates_dxf(product, version), "plates.dxf");
+}
+
+const PlateLayer& layer_named(const Plates& plates, const std::string& name) {
+  const auto found =
+      std::find_if(plates.layers.begin(), plates.layers.end(), [&](const PlateLayer& l) { return l.name == name; });
+  if (found == plates.layers.end()) throw std::out_of_range(name);
+  return *found;
+}
+
+TEST(Plates, KerfIsExact) {
+  const Plates plates = make_plates(product_of(testing::circle(16), testing::circle(20)));
+  // Edges, not corners, are what a kerf is measured from: the floor's facets lie at 15.5·cos(π/240).
+  const double facet = 15.5 * std::cos(k_pi / 240);
+  EXPECT_NEAR(distance_to_edges(layer_named(plates, "P1 CORE").cut_outer[0], {0, 0}), facet + 0.1, 1e-9);
+  const Polygon& bore = layer_named(plates, "P1 CORE").cut_holes[0];
+  for (const Vec2& p : bore) EXPECT_NEAR(p.norm(), 2.9, 1e-3);
+  const Polygon& whole = layer_named(plates, "P1 CORE").holes[0];
+  EXPECT_NEAR(distance_to_edges(bore, {0, 0}), distance_to_edges(whole, {0, 0}) - 0.1, 1e-9);
+}
+
+TEST(Plates, NoKerfChangesNothing) {
+  Product product = egg_with_anchor();
+  product.joint.mechanism.cut.kerf = 0;
+  for (const PlateLayer& layer : make_plates(product).layers) {
+    for (std::size_t i = 0; i < layer.holes.size(); ++i)
+      EXPECT_NEAR(signed_area(layer.holes[i]), signed_area(layer.cut_holes[i]), 1e-9);
+    EXPECT_NEAR(signed_area(layer.outer[0]), signed_area(layer.cut_outer[0]), 1e-6);
+  }
+}
+
+TEST(Plates, CountsFollowTheThickness) {
+  EXPECT_EQ(plates_for(3.0, 3.0), 1);
+  EXPECT_EQ(plates_for(3.1, 3.0), 2);
+  EXPECT_EQ(plates_for(0.5, 3.0), 1);
+  Product product = egg();
+  product.joint.mechanism.cut.plate = 0.5;  // d = 1: 1.1 mm take three, flanges of 1.2 mm three
+  const Plates plates = make_plates(product);
+  EXPECT_EQ(layer_named(plates, "P1 CORE").count, 3);
+  EXPECT_EQ(layer_named(plates, "FLANGE 1").count, 3);
+  EXPECT_THAT(plates.notes, Contains(HasSubstr("P1 CORE: plates 4 to 6 - z 1.5 to 3 mm")));
+}
+
+TEST(Plates, DowelsKeepClearAndFitInOneWay) {
+  const Product product = egg_with_anchor();
+  const Plates plates = make_plates(product);
+  ASSERT_EQ(plates.dowels.size(), 2u);
+  const double clear = 0.5 * plates.dowel_diameter + 1.0;
+  for (const PlateLayer& layer : plates.layers) {
+    for (const Vec2& dowel : plates.dowels) {
+      ASSERT_TRUE(contains(layer.outer[0], dowel)) << layer.name;
+      EXPECT_GE(distance_to_edges(layer.outer[0], dowel), clear) << layer.name;
+      EXPECT_GE(distance_to_edges(layer.holes[0], dowel), clear) << layer.name << ": bore";
+    }
+  }
+  EXPECT_GT(std::abs(plates.dowels[0].norm() - plates.dowels[1].norm()), 1.0) << "turned";
+  EXPECT_GT(std::abs(cross(plates.dowels[0].normalized(), plates.dowels[1].normalized())), 0.3) << "flipped";
+}
+
+TEST(Plates, NoRoomForDowelsIsSaid) {
+  Product product = product_of(testing::circle(6), testing::circle(6));
+  product.joint.mechanism.cut.dowel = 6;
+  product.joint.mechanism.body.bore_diameter = 8;
+  const Plates plates = make_plates(product);
+  EXPECT_THAT(plates.dowels, IsEmpty());
+  EXPECT_THAT(plates.notes, Contains(HasSubstr("no room for two of 6 mm")));
+}
+
+TEST(Plates, AChannelIsCutIntoItsCoreAlone) {
+  const Product product = egg_with_anchor();
+  const Plates with = make_plates(product), without = make_plates(egg());
+  const auto area = [](const Plates& plates, const std::string& name) {
+    return signed_area(layer_named(plates, name).outer[0]);
+  };
+  EXPECT_LT(area(with, "P1 CORE"), area(without, "P1 CORE") - 10);
+  EXPECT_DOUBLE_EQ(area(with, "P2 CORE"), area(without, "P2 CORE"));
+  // Half a kerf on every side: the channel is cut narrower by a whole kerf.
+  const Polygon& cut = layer_named(with, "P1 CORE").cut_outer[0];
+  const auto x_near = [&](double x) {
+    return std::count_if(cut.begin(), cut.end(),
+                         [x](const Vec2& p) { return std::abs(p.x() - x) < 1e-9 && p.y() < -9; });
+  };
+  EXPECT_GE(x_near(-8.6), 1);
+  EXPECT_GE(x_near(-7.4), 1);
+}
+
+TEST(Plates, AChannelThroughThePlateIsLeftOutAndSaid) {
+  Product product = egg_with_anchor();
+  product.pulley.anchors[0].channel = {{-8.7, -30}, {-7.3, -30}, {-7.3, 30}, {-8.7, 30}};
+  const Plates plates = make_plates(product);
+  EXPECT_THAT(plates.notes, Contains(HasSubstr("it would cut the plate in two")));
+  EXPECT_DOUBLE_EQ(signed_area(layer_named(plates, "P1 CORE").outer[0]),
+                   signed_area(layer_named(make_plates(egg()), "P1 CORE").outer[0]));
+}
+
+class PlatesDrawing : public ::testing::TestWithParam<DxfVersion> {};
+INSTANTIATE_TEST_SUITE_P(BothVersions, PlatesDrawing, ::testing::Values(DxfVersion::ac1015, DxfVersion::r12));
+
+TEST_P(PlatesDrawing, NothingToComplainOf) {
+  const Drawing drawing = drawn(egg_with_anchor(), GetParam());
+  EXPECT_THAT(failed(check_drawing(drawing)), IsEmpty());
+  EXPECT_EQ(on_layer(drawing, "CUT_OUTER").size(), make_plates(egg_with_anchor()).placed.size());
+}
+
+TEST_P(PlatesDrawing, SameInputSameBytes) { EXPECT_EQ(plates_dxf(egg(), GetParam()), plates_dxf(egg(), GetParam())); }
+
+TEST(PlatesDxf, HolesComeBeforeOutlines) {
+  const Drawing drawing = drawn(egg());
+  int last_inner = 0, first_outer = 1 << 30;
+  for (const DrawingPath& path : drawing.paths) {
+    if (path.layer == "CUT_INNER") last_inner = std::max(last_inner, path.line);
+    if (path.layer == "CUT_OUTER") first_outer = std::min(first_outer, path.line);
+  }
+  EXPECT_GT(last_inner, 0);
+  EXPECT_LT(last_inner, first_outer);
+}
+
+TEST(PlatesDxf, NoPlateLiesOnAnother) {
+  Product product = egg();
+  product.joint.mechanism.cut.sheet_width = 100;
+  product.joint.mechanism.cut.sheet_height = 60;
+  const Drawing drawing = drawn(product);
+  EXPECT_GT(on_layer(drawing, "SHEET").size(), 1u);
+  const auto outlines = on_layer(drawing, "CUT_OUTER");
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    for (std::size_t j = i + 1; j < outlines.size(); ++j) {
+      const auto rest = difference(outlines[i].points, {outlines[j].points});
+      ASSERT_EQ(rest.size(), 1u);
+      EXPECT_NEAR(signed_area(rest[0]), signed_area(outlines[i].points), 1e-6);
+    }
+  }
+}
+
+TEST(PlatesDxf, APlateLargerThanItsSheetIsSaidAndFailsTheCheck) {
+  Product product = egg();
+  product.joint.mechanism.cut.sheet_width = 30;
+  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("larger than a sheet of 30 x 200 mm")));
+  EXPECT_THAT(failed(check_drawing(drawn(product))), Contains("nothing_outside"));
+}
+
+TEST(PlatesDxf, AKerfWiderThanTheHolesIsSaid) {
+  Product product = egg_with_anchor();
+  product.joint.mechanism.cut.kerf = 7;
+  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is left out: a kerf of 7 mm is wider")));
+}
+
+TEST(PlatesDxf, EveryPlateCarriesItsNumber) {
+  const Plates plates = make_plates(egg());
+  for (const PlacedPlate& plate : plates.placed) {
+    EXPECT_GT(plates.layers[plate.layer].label_height, 0);
+    EXPECT_THAT(plate_label(plates, plate),
+                HasSubstr(std::to_string(plate.number) + "/" + std::to_string(plates.placed.size())));
+  }
+}
+
+TEST(PlatesDxf, SmallPlatesCarryWhatFits) {
+  Product product = product_of(testing::circle(6), testing::circle(6));
+  product.joint.mechanism.body.bore_diameter = 2;
+  product.joint.mechanism.body.hub_height = 0;
+  const Plates plates = make_plates(product);
+  for (const PlacedPlate& plate : plates.placed) {
+    const PlateLayer& layer = plates.layers[plate.layer];
+    ASSERT_GT(layer.label_height, 0) << layer.name;
+    EXPECT_THAT(plate_label(plates, plate), HasSubstr(std::to_string(plate.number)));
+  }
+  // A dowel's path is what the cutter must be able to cut.
+  EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
+}
+
+TEST(Nesting, PacksWithoutOverlapAndInOneWay) {
+  std::vector<Vec2> sizes;
+  for (int i = 0; i < 60; ++i) sizes.emplace_back(5 + (i * 7) % 23, 5 + (i * 11) % 19);
+  const Vec2 sheet(100, 60);
+  const auto places = nest(sizes, sheet, 2);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    EXPECT_TRUE(places[i].fits);
+    EXPECT_GE(places[i].corner.minCoeff(), 2);
+    EXPECT_LE(places[i].corner.x() + sizes[i].x(), 98);
+    EXPECT_LE(places[i].corner.y() + sizes[i].y(), 58);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (places[i].sheet != places[j].sheet) continue;
+      const bool apart = places[i].corner.x() + sizes[i].x() + 2 <= places[j].corner.x() ||
+                         places[j].corner.x() + sizes[j].x() + 2 <= places[i].corner.x() ||
+                         places[i].corner.y() + sizes[i].y() + 2 <= places[j].corner.y() ||
+                         places[j].corner.y() + sizes[j].y() + 2 <= places[i].corner.y();
+      EXPECT_TRUE(apart) << i << " and " << j;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fusee

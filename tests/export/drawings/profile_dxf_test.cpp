@@ -1,0 +1,96 @@
+// profile.dxf read back: the curves are where they belong, and a cutter has nothing to complain of.
+#include <gmock/gmock.h>
+
+#include "drawing_tools.h"
+#include "export/drawings/cut_shapes.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using testing::egg;
+using testing::failed;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::on_layer;
+using testing::product_of;
+
+class BothVersions : public ::testing::TestWithParam<DxfVersion> {
+ protected:
+  Drawing drawn(const Product& product) const { return read_dxf(profile_dxf(product, GetParam()), "profile.dxf"); }
+};
+INSTANTIATE_TEST_SUITE_P(ProfileDxf, BothVersions, ::testing::Values(DxfVersion::ac1015, DxfVersion::r12));
+
+TEST_P(BothVersions, CurvesComeBackToTheMicron) {
+  const Product product = egg();
+  const Drawing drawing = drawn(product);
+  EXPECT_TRUE(drawing.millimetres);
+  const std::vector<std::pair<std::string, Polygon>> expected = {{"P1_PITCH", parallel(product.synthesis.p1, 0)},
+                                                                 {"P1_FLOOR", parallel(product.synthesis.p1, -0.5)},
+                                                                 {"P2_PITCH", parallel(product.synthesis.p2, 0)},
+                                                                 {"P2_FLOOR", parallel(product.synthesis.p2, -0.5)}};
+  for (const auto& [layer, points] : expected) {
+    const auto paths = on_layer(drawing, layer);
+    ASSERT_EQ(paths.size(), 1u) << layer;
+    EXPECT_TRUE(paths[0].closed);
+    ASSERT_EQ(paths[0].points.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LE((paths[0].points[i] - points[i]).norm(), 1e-6);
+  }
+}
+
+TEST_P(BothVersions, NothingToComplainOf) {
+  const auto checks = check_drawing(drawn(egg()));
+  EXPECT_THAT(failed(checks), IsEmpty());
+}
+
+TEST_P(BothVersions, SameInputSameBytes) { EXPECT_EQ(profile_dxf(egg(), GetParam()), profile_dxf(egg(), GetParam())); }
+
+TEST(ProfileDxf, TheBoreIsTheShaftAndNoPrintersHole) {
+  Product product = egg();
+  product.joint.mechanism.material.hole_compensation = 0.3;
+  product.joint.mechanism.material.shrinkage = 0.01;
+  const auto bore = on_layer(read_dxf(profile_dxf(product, DxfVersion::ac1015), "profile.dxf"), "BORE");
+  ASSERT_EQ(bore.size(), 1u);
+  for (const Vec2& p : bore[0].points) EXPECT_NEAR(p.norm(), 3, 1e-6);
+}
+
+TEST(ProfileDxf, TheCheckSquareIsTenMillimetresWide) {
+  const auto squares = on_layer(read_dxf(profile_dxf(egg(), DxfVersion::ac1015), "profile.dxf"), "CHECK_10MM");
+  ASSERT_EQ(squares.size(), 1u);
+  EXPECT_NEAR(signed_area(squares[0].points), 100, 1e-6);
+  EXPECT_NEAR(perimeter(squares[0].points), 40, 1e-6);
+}
+
+TEST(ProfileDxf, TheTakeOffIsWhereTheTendonLeaves) {
+  Product product = product_of(testing::circle(16), testing::circle(20));
+  product.synthesis.stroke[1].t1.lower_normal = radians(171.3);
+  product.synthesis.stroke[1].t2.lower_normal = radians(7.9);
+  const auto marks = on_layer(read_dxf(profile_dxf(product, DxfVersion::ac1015), "profile.dxf"), "MARK_TAKE_OFF");
+  // The tendon's line begins at the contact and runs up.
+  const auto begins_at = [&](const Vec2& p) {
+    return std::any_of(marks.begin(), marks.end(), [&](const DrawingPath& m) {
+      return (m.points[0] - p).norm() < 0.01 && m.points.size() == 2 && m.points[1].y() > p.y();
+    });
+  };
+  EXPECT_TRUE(begins_at(16 * unit(radians(171.3))));
+  EXPECT_TRUE(begins_at(20 * unit(radians(7.9))));
+}
+
+TEST(ProfileDxf, SaysUnitsAndExtentsInTheHeader) {
+  const std::string text = profile_dxf(egg(), DxfVersion::ac1015);
+  EXPECT_THAT(text, HasSubstr("$INSUNITS\n 70\n     4\n"));
+  EXPECT_THAT(text, HasSubstr("$EXTMIN"));
+  EXPECT_THAT(text, HasSubstr("not scaled for a print's shrinkage"));
+}
+
+TEST(OffsetEdges, IsExactForWhatHasEdges) {
+  const Polygon square = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+  EXPECT_NEAR(signed_area(offset_edges(square, 0.25)), 4.5 * 4.5, 1e-12);
+  EXPECT_NEAR(signed_area(offset_edges(square, -0.25)), 3.5 * 3.5, 1e-12);
+  // A reflex corner: an L keeps its shape.
+  const Polygon ell = {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};
+  EXPECT_NEAR(signed_area(offset_edges(ell, -1)), 8 * 2 + 2 * 6, 1e-12);
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,287 @@
+// What a drawing from anywhere becomes: points in mm, chains joined, and a line number in every refusal.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <random>
+
+#include "drawing_tools.h"
+#include "export/drawings/dxf_writer.h"
+#include "fusee/base/files.h"
+
+namespace fusee {
+namespace {
+
+using testing::dxf_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::tags;
+
+std::string line(double x1, double y1, double x2, double y2, const std::string& layer = "cut") {
+  const auto text = [](double v) { return std::to_string(v); };
+  return tags({{0, "LINE"}, {8, layer}, {10, text(x1)}, {20, text(y1)}, {11, text(x2)}, {21, text(y2)}});
+}
+
+Drawing read(const std::string& bytes) { return read_dxf(bytes, "test.dxf"); }
+
+/// The one path of a drawing.
+DrawingPath only_path(const std::string& entities, const std::string& blocks = {}, int units = 4) {
+  const Drawing drawing = read(dxf_of(entities, units, blocks));
+  EXPECT_EQ(drawing.paths.size(), 1u);
+  return drawing.paths.empty() ? DrawingPath{} : drawing.paths.front();
+}
+
+double worst_distance_from_circle(const Polygon& points, const Vec2& centre, double radius) {
+  double worst = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    worst = std::max(worst, std::abs((points[i] - centre).norm() - radius));
+    worst = std::max(worst, std::abs((0.5 * (points[i] + points[i + 1]) - centre).norm() - radius));
+  }
+  return worst;
+}
+
+std::string message_of(const std::string& bytes) {
+  try {
+    read(bytes);
+  } catch (const InputError& error) {
+    return to_text(error.diagnostics().front());
+  }
+  return "no error";
+}
+
+TEST(ReadDxf, LinesThatMeetBecomeALoop) {
+  // In any order and direction.
+  const DrawingPath path = only_path(line(0, 0, 10, 0) + line(10, 10, 10, 0) + line(0, 10, 0, 0) + line(0, 10, 10, 10));
+  EXPECT_TRUE(path.closed);
+  EXPECT_EQ(path.points.size(), 4u);
+  EXPECT_DOUBLE_EQ(std::abs(signed_area(path.points)), 100.0);
+}
+
+TEST(ReadDxf, EndsMeetWithinATenThousandthAndNotBeyond) {
+  EXPECT_TRUE(only_path(line(0, 0, 10, 0) + line(10, 0.00005, 5, 5) + line(5, 5, 0, 0)).closed);
+  EXPECT_FALSE(only_path(line(0, 0, 10, 0) + line(10, 0.0003, 5, 5) + line(5, 5, 0, 0)).closed);
+}
+
+TEST(ReadDxf, LinesOfDifferentLayersStayApart) {
+  EXPECT_EQ(read(dxf_of(line(0, 0, 1, 0, "a") + line(1, 0, 2, 0, "b"))).paths.size(), 2u);
+}
+
+TEST(ReadDxf, WhereThreeEndsMeetNothingIsJoined) {
+  EXPECT_EQ(read(dxf_of(line(0, 0, 1, 0) + line(0, 0, 0, 1) + line(0, 0, -1, 0))).paths.size(), 3u);
+}
+
+TEST(ReadDxf, CirclesAndArcsStayWithinAMicron) {
+  const DrawingPath circle = only_path(tags({{0, "CIRCLE"}, {8, "cut"}, {10, "3"}, {20, "4"}, {40, "25"}}));
+  EXPECT_TRUE(circle.closed);
+  EXPECT_LE(worst_distance_from_circle(circle.points, {3, 4}, 25), 0.00101);
+
+  const DrawingPath arc =
+      only_path(tags({{0, "ARC"}, {8, "cut"}, {10, "0"}, {20, "0"}, {40, "10"}, {50, "350"}, {51, "100"}}));
+  EXPECT_FALSE(arc.closed);
+  EXPECT_LE(worst_distance_from_circle(arc.points, {0, 0}, 10), 0.00101);
+  EXPECT_NEAR((arc.points.front() - 10 * unit(radians(350))).norm(), 0, 1e-12);
+  EXPECT_NEAR((arc.points.back() - 10 * unit(radians(100))).norm(), 0, 1e-12);
+  EXPECT_GT(cross(arc.points[0], arc.points[1]), 0) << "arcs run counter-clockwise";
+}
+
+TEST(ReadDxf, AnArcDrawnFromBelowIsMirrored) {
+  const DrawingPath arc = only_path(tags({{0, "ARC"},
+                                          {8, "cut"},
+                                          {10, "1"},
+                                          {20, "0"},
+                                          {40, "1"},
+                                          {50, "0"},
+                                          {51, "90"},
+                                          {210, "0"},
+                                          {220, "0"},
+                                          {230, "-1"}}));
+  EXPECT_NEAR((arc.points.front() - Vec2(-2, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((arc.points.back() - Vec2(-1, 1)).norm(), 0, 1e-12);
+}
+
+TEST(ReadDxf, TwoHalfCirclesByBulgeAreACircle) {
+  const DrawingPath path = only_path(tags({{0, "LWPOLYLINE"},
+                                           {8, "cut"},
+                                           {90, "2"},
+                                           {70, "1"},
+                                           {10, "-5"},
+                                           {20, "0"},
+                                           {42, "1"},
+                                           {10, "5"},
+                                           {20, "0"},
+                                           {42, "1"}}));
+  EXPECT_TRUE(path.closed);
+  EXPECT_LE(worst_distance_from_circle(path.points, {0, 0}, 5), 0.00101);
+  EXPECT_NEAR(signed_area(path.points), k_pi * 25, 0.02) << "a positive bulge turns left";
+}
+
+TEST(ReadDxf, AnOldPolylineHasItsBulgesToo) {
+  const std::string vertex = tags({{0, "VERTEX"}, {8, "cut"}});
+  const DrawingPath path = only_path(tags({{0, "POLYLINE"}, {8, "cut"}, {66, "1"}, {70, "1"}}) + vertex +
+                                     tags({{10, "-5"}, {20, "0"}, {42, "-1"}}) + vertex +
+                                     tags({{10, "5"}, {20, "0"}, {42, "-1"}, {0, "SEQEND"}, {8, "cut"}}));
+  EXPECT_EQ(path.entity, "POLYLINE");
+  EXPECT_NEAR(signed_area(path.points), -k_pi * 25, 0.02);
+}
+
+TEST(ReadDxf, AnEllipseHasItsArea) {
+  const DrawingPath path = only_path(tags({{0, "ELLIPSE"},
+                                           {8, "cut"},
+                                           {10, "0"},
+                                           {20, "0"},
+                                           {11, "0"},
+                                           {21, "10"},
+                                           {40, "0.5"},
+                                           {41, "0"},
+                                           {42, "6.283185307179586"}}));
+  EXPECT_TRUE(path.closed);
+  EXPECT_NEAR(signed_area(path.points), k_pi * 50, 0.05);
+}
+
+TEST(ReadDxf, ARationalSplineDrawsAQuarterCircle) {
+  const std::string root = "0.70710678118654752";
+  const DrawingPath path = only_path(tags({{0, "SPLINE"},
+                                           {8, "cut"},
+                                           {71, "2"},
+                                           {40, "0"},
+                                           {40, "0"},
+                                           {40, "0"},
+                                           {40, "1"},
+                                           {40, "1"},
+                                           {40, "1"},
+                                           {41, "1"},
+                                           {41, root},
+                                           {41, "1"},
+                                           {10, "7"},
+                                           {20, "0"},
+                                           {10, "7"},
+                                           {20, "7"},
+                                           {10, "0"},
+                                           {20, "7"}}));
+  EXPECT_LE(worst_distance_from_circle(path.points, {0, 0}, 7), 0.0011);
+  EXPECT_NEAR((path.points.back() - Vec2(0, 7)).norm(), 0, 1e-12);
+}
+
+TEST(ReadDxf, BlocksArePlacedTurnedAndRepeated) {
+  const std::string block =
+      tags({{0, "BLOCK"}, {8, "0"}, {2, "hole"}, {10, "1"}, {20, "0"}}) + line(1, 0, 3, 0, "0") + tags({{0, "ENDBLK"}});
+  const std::string insert = tags({{0, "INSERT"},
+                                   {8, "cut"},
+                                   {2, "hole"},
+                                   {10, "100"},
+                                   {20, "50"},
+                                   {41, "2"},
+                                   {42, "2"},
+                                   {50, "90"},
+                                   {71, "2"},
+                                   {45, "10"}});
+  const Drawing drawing = read(dxf_of(insert, 4, block));
+  ASSERT_EQ(drawing.paths.size(), 2u);
+  EXPECT_EQ(drawing.paths[0].layer, "cut") << "layer 0 in a block is the insert's";
+  EXPECT_NEAR((drawing.paths[0].points[0] - Vec2(100, 50)).norm(), 0, 1e-12);
+  EXPECT_NEAR((drawing.paths[0].points[1] - Vec2(100, 54)).norm(), 0, 1e-12);
+  EXPECT_NEAR((drawing.paths[1].points[0] - Vec2(90, 50)).norm(), 0, 1e-12);
+}
+
+TEST(ReadDxf, UnitsBecomeMillimetres) {
+  EXPECT_NEAR(only_path(line(0, 0, 1, 0), {}, 1).points[1].x(), 25.4, 1e-12);
+  EXPECT_NEAR(only_path(line(0, 0, 1, 0), {}, 5).points[1].x(), 10, 1e-12);
+  EXPECT_TRUE(read(dxf_of(line(0, 0, 1, 0), 4)).millimetres);
+  EXPECT_FALSE(read(dxf_of(line(0, 0, 1, 0), 0)).millimetres);
+}
+
+TEST(ReadDxf, WhatIsNoLineIsNamed) {
+  const Drawing drawing = read(dxf_of(
+      tags({{0, "TEXT"}, {8, "x"}, {1, "hello"}, {0, "HATCH"}, {8, "x"}, {0, "TEXT"}, {8, "x"}}) + line(0, 0, 1, 0)));
+  EXPECT_THAT(drawing.ignored, ElementsAre("HATCH", "TEXT"));
+}
+
+TEST(ReadDxf, PathsKnowTheirLine) { EXPECT_EQ(read(dxf_of(line(0, 0, 1, 0))).paths.front().line, 26); }
+
+TEST(ReadDxf, WrittenPointsComeBack) {
+  DxfDocument document;
+  document.layers = {{"CUT_OUTER", 1, true}};
+  const Polygon outline = {{0.123456789123, -1e-12}, {1e5 + 1.0 / 3, 2}, {7, 1000.0 / 7}};
+  document.closed("CUT_OUTER", outline);
+  document.open("CUT_OUTER", {{-3, -4}, {-5, -6.5}});
+  for (const DxfVersion version : {DxfVersion::ac1015, DxfVersion::r12}) {
+    const Drawing drawing = read(dxf_text(document, version));
+    EXPECT_EQ(drawing.version, version == DxfVersion::r12 ? "AC1009" : "AC1015");
+    EXPECT_TRUE(drawing.millimetres);
+    ASSERT_EQ(drawing.paths.size(), 2u);
+    EXPECT_TRUE(drawing.paths[0].closed);
+    EXPECT_FALSE(drawing.paths[1].closed);
+    for (std::size_t i = 0; i < outline.size(); ++i) EXPECT_LE((drawing.paths[0].points[i] - outline[i]).norm(), 1e-9);
+  }
+}
+
+// Refusals
+// -------------------------------------------------------------------------------------------------------------
+
+TEST(ReadDxf, RefusesWithTheLine) {
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, "zero"}}))),
+              HasSubstr("test.dxf:30: error: a number should stand here (group 10), not 'zero'"));
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "LINE"}, {8, "cut"}, {10, "nan"}, {20, "inf"}}))), HasSubstr("test.dxf:30"));
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "CIRCLE"}, {8, "cut"}, {40, "-1"}}))),
+              HasSubstr("test.dxf:26: error: the radius of this CIRCLE is -1"));
+  EXPECT_THAT(message_of(dxf_of("LINE\n0\n")), HasSubstr("test.dxf:25: error: a group code"));
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "gone"}}))), HasSubstr("block 'gone'"));
+  EXPECT_THAT(message_of(dxf_of(line(0, 0, 1e9, 0))), HasSubstr("further than 10 km"));
+}
+
+TEST(ReadDxf, RefusesWhatIsNoAsciiDxf) {
+  EXPECT_THAT(message_of("AutoCAD Binary DXF\r\n\x1a"), HasSubstr("binary DXF"));
+  EXPECT_THAT(message_of("AC1015\0\0\0"), HasSubstr("DWG"));
+  EXPECT_THAT(message_of(""), HasSubstr("empty"));
+  EXPECT_THAT(message_of("solid cube\n facet normal 0 0 1\n"), HasSubstr("test.dxf:1: error"));
+  EXPECT_THAT(message_of(tags({{0, "EOF"}})), HasSubstr("no ENTITIES"));
+}
+
+TEST(ReadDxf, RefusesAFileThatWasCutShort) {
+  const std::string whole = dxf_of(line(0, 0, 1, 0));
+  for (std::size_t size = 0; size + 4 < whole.size(); ++size)
+    EXPECT_NE(message_of(whole.substr(0, size)), "no error") << size;
+}
+
+TEST(ReadDxf, BlocksThatHoldThemselvesEnd) {
+  const std::string block =
+      tags({{0, "BLOCK"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "INSERT"}, {2, "a"}, {0, "ENDBLK"}});
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "a"}}), 4, block)), HasSubstr("nested"));
+}
+
+TEST(ReadDxf, BlocksThatMultiplyWithoutEndAreRefused) {
+  std::string blocks = tags({{0, "BLOCK"}, {2, "0"}}) + line(0, 0, 1, 0) + tags({{0, "ENDBLK"}});
+  for (int k = 1; k < 10; ++k) {
+    blocks += tags({{0, "BLOCK"},
+                    {2, std::to_string(k)},
+                    {0, "INSERT"},
+                    {2, std::to_string(k - 1)},
+                    {70, "100"},
+                    {71, "100"},
+                    {0, "ENDBLK"}});
+  }
+  EXPECT_THAT(message_of(dxf_of(tags({{0, "INSERT"}, {2, "9"}}), 4, blocks)), HasSubstr("inserts more than"));
+}
+
+/// Everything that the fuzzer once fell over, and a few hundred damaged drawings: an answer or an InputError, nothing
+/// else.
+TEST(ReadDxf, AnyBytesAreSafe) {
+  std::vector<std::string> seeds;
+  for (const auto& entry : std::filesystem::directory_iterator(FUSEE_SOURCE_DIR "/tests/fuzz/corpus/dxf"))
+    seeds.push_back(read_file(entry.path(), 1 << 20));
+  ASSERT_GE(seeds.size(), 3u);
+  std::mt19937 random(1);
+  for (const std::string& seed : seeds) {
+    for (int round = 0; round < 100; ++round) {
+      std::string bytes = seed;
+      for (int k = 0; k < round && !bytes.empty(); ++k)
+        bytes[random() % bytes.size()] = "0123456789.-\nEA"[random() % 15];
+      try {
+        check_drawing(read(bytes));
+      } catch (const InputError&) {
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh_samples.h"
+
+namespace fusee {
+namespace {
+
+using testing::error_of;
+using ::testing::HasSubstr;
+
+double distance_to_nearest(const Vec3& place, const TriangleMesh& mesh) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3& vertex : mesh.vertices) nearest = std::min(nearest, (vertex - place).norm());
+  return nearest;
+}
+
+TEST(Draco, NoVertexMovesByMoreThanTheTolerance) {
+  const TriangleMesh mesh = testing::torus();
+  std::size_t larger = std::numeric_limits<std::size_t>::max();
+  for (const double tolerance : {0.001, 0.01, 0.1}) {
+    const std::string bytes = draco_bytes(mesh, tolerance);
+    EXPECT_LT(bytes.size(), larger) << "a coarser tolerance gives a smaller file";
+    larger = bytes.size();
+    const TriangleMesh read = read_mesh(bytes, "torus.drc");
+    ASSERT_EQ(read.vertices.size(), mesh.vertices.size());
+    ASSERT_EQ(read.triangles.size(), mesh.triangles.size());
+    for (const Vec3& vertex : mesh.vertices) EXPECT_LE(distance_to_nearest(vertex, read), tolerance);
+    EXPECT_NEAR(enclosed_volume(read), enclosed_volume(mesh), 3000 * tolerance);
+  }
+}
+
+TEST(Draco, ThinFacesKeepTheirShapeBelowTheTolerance) {
+  // A needle of a prism, 0.001 mm thick: at 0.01 mm its sides would fall together.
+  TriangleMesh needle = testing::tetrahedron();
+  for (Vec3& vertex : needle.vertices) vertex.y() *= 0.00025;
+  const TriangleMesh read = read_mesh(draco_bytes(rounded_to_float(needle), 0.01), "needle.drc");
+  EXPECT_EQ(read.vertices.size(), 4U);
+  EXPECT_NEAR(enclosed_volume(read) / enclosed_volume(needle), 1.0, 0.5);
+}
+
+TEST(Draco, TheSameMeshGivesTheSameBytes) {
+  EXPECT_EQ(draco_bytes(testing::torus(), 0.01), draco_bytes(testing::torus(), 0.01));
+}
+
+TEST(DracoReader, SaysWhatIsWrong) {
+  std::string bytes = draco_bytes(testing::tetrahedron(), 0.01);
+  EXPECT_THAT(error_of("DRACO", "x.drc"), HasSubstr("x.drc: error: at byte 0: expected a Draco header"));
+  std::string other = bytes;
+  other[6] = 9;
+  EXPECT_THAT(error_of(other, "x.drc"), HasSubstr("at byte 5: expected Draco's bitstream 2.2, found 2.9"));
+  other = bytes;
+  other[7] = 0;
+  EXPECT_THAT(error_of(other, "x.drc"), HasSubstr("at byte 7: expected a mesh, found a cloud of points"));
+  other = bytes;
+  other[8] = 5;
+  EXPECT_THAT(error_of(other, "x.drc"), HasSubstr("at byte 8: expected Draco's method 0 or 1, found 5"));
+  EXPECT_THAT(error_of(bytes.substr(0, bytes.size() / 2), "x.drc"), HasSubstr("Draco cannot decode this"));
+}
+
+TEST(DracoReader, AllocatesNoMoreThanTheFileCanHold) {
+  // Header 2.2, mesh, method 0 (sequential); 350 million faces and points; entropy-coded indices.
+  const std::string bomb("DRACO\x02\x02\x01\x00\x00\x00\xA6\xF2\xC9\x80\x00\xA6\xF2\xC9\x80\x00\x00\x01", 23);
+  EXPECT_THAT(error_of(bomb, "x.drc"), HasSubstr("Draco cannot decode this"));
+}
+
+TEST(DracoReader, NoTruncationIsTakenForTheWholeFile) {
+  EXPECT_EQ(testing::meshes_among_truncations(draco_bytes(testing::tetrahedron(), 0.01), "x.drc"), 0);
+}
+
+}  // namespace
+}  // namespace fusee

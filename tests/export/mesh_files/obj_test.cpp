@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <locale>
+
+#include "mesh_samples.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::error_of;
+using testing::facets;
+using ::testing::HasSubstr;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr std::string_view k_square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST(Obj, RoundTripIsExactInFloats) {
+  const TriangleMesh mesh = testing::torus();
+  const TriangleMesh read = rounded_to_float(read_mesh(obj_text(mesh, "torus"), "torus.obj"));
+  EXPECT_EQ(read.vertices, mesh.vertices);
+  EXPECT_EQ(read.triangles, mesh.triangles);
+}
+
+TEST(Obj, NamesItsObjectAndWritesShortNumbers) {
+  const TriangleMesh mesh{{{0.1, -0.0, 1e-7}, {16777216, 0, 0}, {0, 1.0 / 3.0, 0}}, {{0, 1, 2}}};
+  const std::string text = obj_text(mesh, "a\nname");
+  EXPECT_THAT(text, HasSubstr("\no a\\x0aname\nv 0.1 0 1e-07\nv 16777216 0 0\nv 0 0.33333334 0\nf 1 2 3\n"));
+  EXPECT_THAT(text, HasSubstr("unit mm"));
+}
+
+TEST(ObjReader, FansPolygonsAndCountsNegativeIndicesFromTheEnd) {
+  EXPECT_THAT(read_mesh(std::string(k_square) + "f 1 2 3 4\n", "x.obj").triangles,
+              ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+  EXPECT_THAT(read_mesh(std::string(k_square) + "f -4 -3 -2\n", "x.obj").triangles, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_THAT(read_mesh(std::string(k_square) + "f -1//-1 +1/7 -2/1/1\n", "x.obj").triangles,
+              ElementsAre(Triangle{3, 0, 2}));
+}
+
+TEST(ObjReader, PassesOverWhatIsNoShape) {
+  const std::string text =
+      "\xEF\xBB\xBF# made by hand\r\nmtllib a.mtl\r\n\r\ng all\r\nvn 0 0 1\r\nvt 0 0\r\nv 0 0 0 1 0.5 0.5 0.5 # "
+      "coloured\r\nv 1 0 0\r\n"
+      "usemtl red\r\ns off\r\nf 1/1/1 2/1/1 \\\r\n 3/1/1\r\nv 1 1 nan\r\nl 1 2\r\n";
+  const TriangleMesh mesh = read_mesh(text, "x");
+  EXPECT_THAT(mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_TRUE(std::isnan(mesh.vertices[2].z()));
+}
+
+TEST(ObjReader, SaysWhereItIsWrong) {
+  EXPECT_EQ(error_of("v 0 0\n", "x.obj"), "x.obj:1:6: error: expected a coordinate of a vertex, the file ends here");
+  EXPECT_EQ(error_of("v 0 0\nv 1 1 1\n", "x.obj"),
+            "x.obj:1:6: error: expected a coordinate of a vertex, the line ends here");
+  EXPECT_EQ(error_of("v 0 0,5 1\n", "x.obj"), "x.obj:1:5: error: expected a coordinate of a vertex, found '0,5'");
+  const std::string square(k_square);
+  EXPECT_EQ(error_of(square + "f 1 2 9\nf 1 2 5\n", "x.obj"),
+            "x.obj:5:7: error: a face refers to vertex 9, but the file has 4");
+  EXPECT_THAT(error_of(square + "f 1 2 0\n", "x.obj"), HasSubstr("x.obj:5:7: error: expected a vertex number"));
+  EXPECT_THAT(error_of(square + "f 1 2 -5\n", "x.obj"), HasSubstr("with 4 vertices before it, found '-5'"));
+  EXPECT_THAT(error_of(square + "f 1 2 99999999999\n", "x.obj"),
+              HasSubstr("x.obj:5:7: error: expected a vertex number"));
+  EXPECT_THAT(error_of(square + "f 1 2\n", "x.obj"),
+              HasSubstr("x.obj:5:6: error: expected a face of at least 3 corners"));
+  EXPECT_THAT(error_of(square + "face 1 2 3\n", "x.obj"), HasSubstr("x.obj:5:1: error: expected an OBJ statement"));
+  EXPECT_THAT(error_of(std::string("v 0 0 0\nv \x01\xFF 0 0\n"), "x.obj"), HasSubstr("found '\\x01\\xff'"));
+}
+
+TEST(ObjReader, EveryTruncationIsReadOrRefused) {
+  testing::meshes_among_truncations(std::string(k_square) + "f 1 2 \\\n 3 4\n", "x.obj");
+}
+
+/// A decimal comma, as half the world's locales have it.
+struct CommaPoint : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+};
+
+TEST(Obj, NoLocaleChangesIt) {
+  const std::string before = obj_text(testing::torus(), "x");
+  const std::locale old = std::locale::global(std::locale(std::locale::classic(), new CommaPoint));
+  const std::string after = obj_text(testing::torus(), "x");
+  const TriangleMesh read = read_mesh(after, "x.obj");
+  std::locale::global(old);
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(facets(read), facets(testing::torus()));
+}
+
+}  // namespace
+}  // namespace fusee

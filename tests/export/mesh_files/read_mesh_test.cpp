@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "fusee/base/files.h"
+#include "mesh_samples.h"
+
+namespace fusee {
+namespace {
+
+using testing::error_of;
+using testing::facets;
+using ::testing::HasSubstr;
+
+TEST(ReadMesh, ContentTellsTheFormatWhateverTheName) {
+  const TriangleMesh mesh = testing::tetrahedron();
+  for (const std::string& bytes :
+       {stl_bytes(mesh, "x"), obj_text(mesh, "x"), threemf_bytes(mesh, "x"), draco_bytes(mesh, 0.01)}) {
+    EXPECT_EQ(read_mesh(bytes, "no.ending").triangles.size(), 4U);
+    EXPECT_EQ(read_mesh(bytes, "liar.ply").triangles.size(), 4U);
+  }
+}
+
+TEST(ReadMesh, SaysWhatItWouldHaveRead) {
+  EXPECT_EQ(error_of("", "x.stl"), "x.stl: error: the file is empty, expected a mesh");
+  EXPECT_EQ(error_of("hello", "letter.txt"),
+            "letter.txt: error: expected a mesh, and neither its first bytes nor its name say of which format\n"
+            "  hint: fusee reads .stl, .obj, .3mf, .off, .ply and .drc");
+}
+
+/// What the fuzzer starts from and what it once broke: each is a mesh or an InputError.
+TEST(ReadMesh, TheFuzzersCorpusIsReadOrRefused) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(FUSEE_SOURCE_DIR "/tests/fuzz/corpus/mesh")) {
+    const std::string bytes = read_file(entry.path(), 1 << 20);
+    const std::string name = entry.path().filename().string();
+    const std::string error = error_of(bytes, name);
+    // A file named good_… is one.
+    if (name.starts_with("good_")) {
+      EXPECT_EQ(error, "");
+    }
+    if (name.starts_with("bad_")) {
+      EXPECT_NE(error, "") << name;
+    }
+    ++files;
+  }
+  EXPECT_GT(files, 10);
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "mesh_samples.h"
+
+namespace fusee {
+namespace {
+
+using testing::error_of;
+using testing::facets;
+using ::testing::HasSubstr;
+
+constexpr std::string_view k_ascii_facet =
+    "facet normal 0 0 -1\n outer loop\n vertex 0 0 0\n vertex 0 4 0\n vertex 3 0 0\n endloop\nendfacet\n";
+
+std::string ascii(std::string_view facets_text) {
+  return "solid part\n" + std::string(facets_text) + "endsolid part\n";
+}
+
+float float_at(const std::string& bytes, std::size_t offset) {
+  float value = 0;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+TEST(StlWriter, LaysOutHeaderCountAndFacetsAsTheFormatSays) {
+  const std::string bytes = stl_bytes(testing::tetrahedron(), "finger");
+  ASSERT_EQ(bytes.size(), 84U + 4 * 50U);
+  EXPECT_TRUE(bytes.starts_with("fusee "));
+  EXPECT_THAT(bytes.substr(0, 80), HasSubstr("finger, unit mm"));
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, 4);
+  EXPECT_EQ(count, 4U);
+  // The first face is the bottom: its normal, then its corners (0 0 0) (0 4 0) (3 0 0), then no attribute.
+  EXPECT_EQ(float_at(bytes, 84 + 8), -1.0F);
+  EXPECT_EQ(float_at(bytes, 84 + 24 + 4), 4.0F);
+  EXPECT_EQ(float_at(bytes, 84 + 36), 3.0F);
+  EXPECT_EQ(bytes[84 + 48], 0);
+  EXPECT_EQ(bytes[84 + 49], 0);
+}
+
+TEST(StlWriter, NormalsAreTrue) {
+  const TriangleMesh mesh = testing::torus();
+  const std::string bytes = stl_bytes(mesh, "torus");
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    const Vec3 normal(float_at(bytes, 84 + 50 * i), float_at(bytes, 88 + 50 * i), float_at(bytes, 92 + 50 * i));
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-6);
+    EXPECT_NEAR(normal.dot(b - a), 0.0, 1e-5);
+    EXPECT_NEAR(normal.dot(c - a), 0.0, 1e-5);
+    EXPECT_GT(normal.dot((b - a).cross(c - a)), 0.0);
+  }
+}
+
+TEST(StlWriter, ADegenerateFaceHasNoNormal) {
+  const TriangleMesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
+  const std::string bytes = stl_bytes(line, "line");
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(float_at(bytes, 84 + 4 * k), 0.0F);
+}
+
+bool has_high_byte(std::string_view bytes) {
+  return std::any_of(bytes.begin(), bytes.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
+}
+
+TEST(StlWriter, NoReaderTakesItForText) {
+  // Up-looking facets on numbers whose bytes are all below 128 (0, 2, 0.5), and at last one that looks down.
+  const TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 2, 1}}};
+  const TriangleMesh flat{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 0.5}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 2, 1}}};
+  for (const TriangleMesh& m : {mesh, flat, testing::tetrahedron(), testing::torus()}) {
+    const std::string bytes = stl_bytes(m, "x");
+    EXPECT_TRUE(has_high_byte(bytes.substr(84, 128)));
+    std::vector<std::array<std::array<float, 3>, 3>> written = facets(read_mesh(bytes, "x.stl")), given = facets(m);
+    std::sort(written.begin(), written.end());
+    std::sort(given.begin(), given.end());
+    EXPECT_EQ(written, given);
+  }
+}
+
+TEST(StlWriter, NeverStartsWithSolidAndCutsLongNames) {
+  const std::string bytes = stl_bytes(testing::tetrahedron(), std::string(500, 's') + "\n\xFF");
+  EXPECT_TRUE(bytes.starts_with("fusee "));
+  EXPECT_EQ(bytes.size(), 84U + 4 * 50U);
+}
+
+TEST(Stl, RoundTrip) {
+  const TriangleMesh mesh = testing::torus();
+  const TriangleMesh read = read_mesh(stl_bytes(mesh, "torus"), "torus.stl");
+  EXPECT_EQ(read.vertices.size(), mesh.vertices.size());
+  EXPECT_EQ(facets(read), facets(mesh));
+}
+
+TEST(Stl, ABinaryFileThatStartsWithSolidIsBinary) {
+  std::string bytes = stl_bytes(testing::tetrahedron(), "x");
+  bytes.replace(0, 12, "solid part\nf");
+  EXPECT_EQ(facets(read_mesh(bytes, "x.stl")), facets(testing::tetrahedron()));
+}
+
+TEST(Stl, NotANumberAndInfinityAreReadAsTheyAre) {
+  TriangleMesh mesh = testing::tetrahedron();
+  mesh.vertices[3].z() = std::numeric_limits<double>::infinity();
+  mesh.vertices[2].x() = std::numeric_limits<double>::quiet_NaN();
+  const TriangleMesh read = read_mesh(stl_bytes(mesh, "x"), "x.stl");
+  EXPECT_EQ(read.triangles.size(), 4U);
+  EXPECT_TRUE(std::any_of(read.vertices.begin(), read.vertices.end(), [](const Vec3& v) { return std::isinf(v.z()); }));
+  EXPECT_TRUE(std::any_of(read.vertices.begin(), read.vertices.end(), [](const Vec3& v) { return std::isnan(v.x()); }));
+}
+
+TEST(StlAscii, ReadsEveryWayOfWritingIt) {
+  const TriangleMesh plain = read_mesh(ascii(k_ascii_facet), "x.stl");
+  ASSERT_EQ(plain.triangles.size(), 1U);
+  EXPECT_EQ(plain.vertices[plain.triangles[0][1]], Vec3(0, 4, 0));
+  const std::string shouted =
+      "\xEF\xBB\xBFSOLID\r\nFACET NORMAL +0.0 0 -1E0\r\nOUTER LOOP\r\nVERTEX 0 0 0 VERTEX\r\n0 4. 0\r\nVERTEX 3e0 0 "
+      "0\r\nENDLOOP ENDFACET\r\nENDSOLID";
+  EXPECT_EQ(facets(read_mesh(shouted, "x")), facets(plain));
+  // Several solids are one mesh, and their corners are welded.
+  const TriangleMesh twice = read_mesh(ascii(k_ascii_facet) + ascii(k_ascii_facet), "x.stl");
+  EXPECT_EQ(twice.triangles.size(), 2U);
+  EXPECT_EQ(twice.vertices.size(), 3U);
+  EXPECT_EQ(read_mesh("solid nothing\nendsolid nothing\n", "x.stl").triangles.size(), 0U);
+}
+
+TEST(StlAscii, SaysWhereItIsWrong) {
+  std::string text = ascii(k_ascii_facet);
+  text.replace(text.find("0 4 0"), 5, "0 4x 0");
+  EXPECT_EQ(error_of(text, "x.stl"), "x.stl:5:11: error: expected a coordinate, found '4x'");
+  EXPECT_EQ(error_of("solid x\nfacet normal 0 0\nouter loop", "x.stl"),
+            "x.stl:3:1: error: expected a number of the normal, found 'outer'");
+  EXPECT_EQ(error_of("solid x\nfaced", "x.stl"), "x.stl:2:1: error: expected 'facet' or 'endsolid', found 'faced'");
+  EXPECT_THAT(error_of("solid x\nfacet normal 0 0 1\n", "x.stl"), HasSubstr("expected 'outer', the file ends here"));
+  const std::string quad =
+      ascii("facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0 vertex 0 1 0 endloop endfacet\n");
+  EXPECT_THAT(error_of(quad, "x.stl"), HasSubstr("x.stl:2:70: error: expected 'endloop', found 'vertex'"));
+}
+
+TEST(Stl, ABinaryFileOfAnotherLengthThanItAnnouncesIsRefused) {
+  const std::string bytes = stl_bytes(testing::tetrahedron(), "x");
+  EXPECT_THAT(error_of(bytes.substr(0, 200), "x.stl"),
+              HasSubstr("at byte 80: the header announces 4 facets, so expected a file of 284 bytes, found 200"));
+  EXPECT_THAT(error_of(bytes + "tail", "x.stl"), HasSubstr("found 288"));
+  EXPECT_THAT(error_of("fusee", "x.stl"), HasSubstr("at byte 5: expected a binary STL of at least 84 bytes"));
+}
+
+TEST(Stl, NoTruncationIsTakenForTheWholeFile) {
+  EXPECT_EQ(testing::meshes_among_truncations(stl_bytes(testing::tetrahedron(), "x"), "x.stl"), 0);
+  // Only where the last word is already "endsolid" is it whole: with it and with what follows on its line.
+  EXPECT_EQ(testing::meshes_among_truncations("solid x\n" + std::string(k_ascii_facet) + "endsolid\n", "x.stl"), 1);
+}
+
+TEST(Stl, TheSameMeshGivesTheSameBytes) {
+  EXPECT_EQ(stl_bytes(testing::torus(), "x"), stl_bytes(testing::torus(), "x"));
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+#include <zip.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <pugixml.hpp>
+#include <utility>
+
+#include "mesh_samples.h"
+
+namespace fusee {
+namespace {
+
+using testing::error_of;
+using testing::facets;
+using ::testing::HasSubstr;
+using Parts = std::vector<std::pair<std::string, std::string>>;
+
+std::string zip_of(const Parts& parts) {
+  zip_source_t* bytes = zip_source_buffer_create(nullptr, 0, 0, nullptr);
+  zip_source_keep(bytes);
+  zip_t* archive = zip_open_from_source(bytes, ZIP_TRUNCATE, nullptr);
+  for (const auto& [path, text] : parts) {
+    zip_file_add(archive, path.c_str(), zip_source_buffer(archive, text.data(), text.size(), 0), ZIP_FL_ENC_UTF_8);
+  }
+  zip_close(archive);
+  zip_stat_t stat;
+  zip_source_stat(bytes, &stat);
+  std::string all(stat.size, '\0');
+  zip_source_open(bytes);
+  zip_source_read(bytes, all.data(), all.size());
+  zip_source_close(bytes);
+  zip_source_free(bytes);
+  return all;
+}
+
+std::string part_of(const std::string& archive_bytes, const char* path) {
+  zip_source_t* bytes = zip_source_buffer_create(archive_bytes.data(), archive_bytes.size(), 0, nullptr);
+  zip_t* archive = zip_open_from_source(bytes, ZIP_RDONLY, nullptr);
+  zip_stat_t stat;
+  std::string text;
+  if (zip_stat(archive, path, 0, &stat) == 0) {
+    text.resize(stat.size);
+    zip_file_t* file = zip_fopen(archive, path, 0);
+    zip_fread(file, text.data(), text.size());
+    zip_fclose(file);
+  }
+  zip_discard(archive);
+  return text;
+}
+
+const std::string k_rels =
+    R"(<Relationships><Relationship Target="/3D/part.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
+
+const std::string k_triangle =
+    R"(<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices>)"
+    R"(<triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh>)";
+
+std::string package(const std::string& model) { return zip_of({{"_rels/.rels", k_rels}, {"3D/part.model", model}}); }
+
+std::string model(const std::string& resources, const std::string& items, const std::string& attributes = "") {
+  return "<model " + attributes + "><resources>" + resources + "</resources><build>" + items + "</build></model>";
+}
+
+Vec3 corner(const TriangleMesh& mesh, std::size_t triangle, std::size_t k) {
+  return mesh.vertices.at(mesh.triangles.at(triangle)[k]);
+}
+
+TEST(ThreemfWriter, IsAPackageWithANamedObjectInMillimetres) {
+  const std::string bytes = threemf_bytes(testing::tetrahedron(), "a <finger> & more");
+  EXPECT_THAT(part_of(bytes, "[Content_Types].xml"), HasSubstr("3dmanufacturing-3dmodel+xml"));
+  EXPECT_THAT(part_of(bytes, "_rels/.rels"), HasSubstr("/3D/3dmodel.model"));
+  pugi::xml_document xml;
+  const std::string text = part_of(bytes, "3D/3dmodel.model");
+  ASSERT_TRUE(xml.load_string(text.c_str()));
+  const pugi::xml_node root = xml.child("model");
+  EXPECT_STREQ(root.attribute("unit").value(), "millimeter");
+  EXPECT_STREQ(root.find_child_by_attribute("metadata", "name", "Title").text().get(), "a <finger> & more");
+  EXPECT_THAT(root.find_child_by_attribute("metadata", "name", "Application").text().get(), HasSubstr("fusee "));
+  const pugi::xml_node object = root.child("resources").child("object");
+  EXPECT_STREQ(object.attribute("name").value(), "a <finger> & more");
+  EXPECT_STREQ(root.child("build").child("item").attribute("objectid").value(), object.attribute("id").value());
+  const auto vertices = object.child("mesh").child("vertices").children("vertex");
+  EXPECT_EQ(std::distance(vertices.begin(), vertices.end()), 4);
+}
+
+TEST(Threemf, RoundTripIsExactInFloats) {
+  const TriangleMesh mesh = testing::torus();
+  const TriangleMesh read = rounded_to_float(read_mesh(threemf_bytes(mesh, "torus"), "torus.3mf"));
+  EXPECT_EQ(read.vertices, mesh.vertices);
+  EXPECT_EQ(read.triangles, mesh.triangles);
+}
+
+TEST(Threemf, NeitherTimeNorPlaceChangesTheBytes) {
+  const std::string before = threemf_bytes(testing::tetrahedron(), "x");
+  setenv("TZ", "Pacific/Auckland", 1);
+  tzset();
+  const std::string after = threemf_bytes(testing::tetrahedron(), "x");
+  unsetenv("TZ");
+  tzset();
+  EXPECT_EQ(before, after);
+}
+
+TEST(ThreemfReader, ConvertsEveryUnit) {
+  const std::string object = "<object id='1'>" + k_triangle + "</object>";
+  for (const auto& [unit, size] : {std::pair{"micron", 0.001},
+                                   {"millimeter", 1.0},
+                                   {"centimeter", 10.0},
+                                   {"inch", 25.4},
+                                   {"foot", 304.8},
+                                   {"meter", 1000.0}}) {
+    const TriangleMesh mesh =
+        read_mesh(package(model(object, "<item objectid='1'/>", "unit='" + std::string(unit) + "'")), "x");
+    EXPECT_EQ(corner(mesh, 0, 1), Vec3(size, 0, 0)) << unit;
+  }
+  EXPECT_THAT(error_of(package(model(object, "", "unit='parsec'")), "x.3mf"), HasSubstr("found 'parsec'"));
+}
+
+TEST(ThreemfReader, PlacesItemsAndComponents) {
+  const std::string resources =
+      "<object id='1'>" + k_triangle +
+      "</object><object id='2'><components><component objectid='1' transform='1 0 0 0 1 0 0 0 1 10 0 0'/>"
+      "<component objectid='1'/></components></object>";
+  // A quarter turn about z carries x to y; then up by 5.
+  const std::string items =
+      "<item objectid='2' transform='0 1 0 -1 0 0 0 0 1 0 0 5'/><item objectid='1' transform='-1 0 0 0 1 0 0 0 1 0 0 "
+      "0'/>";
+  const TriangleMesh mesh = read_mesh(package(model(resources, items)), "x.3mf");
+  ASSERT_EQ(mesh.triangles.size(), 3U);
+  EXPECT_EQ(corner(mesh, 0, 0), Vec3(0, 10, 5));
+  EXPECT_EQ(corner(mesh, 0, 1), Vec3(0, 11, 5));
+  EXPECT_EQ(corner(mesh, 0, 2), Vec3(-1, 10, 5));
+  EXPECT_EQ(corner(mesh, 1, 1), Vec3(0, 1, 5));
+  // The mirrored one still looks up.
+  const Vec3 up = (corner(mesh, 2, 1) - corner(mesh, 2, 0)).cross(corner(mesh, 2, 2) - corner(mesh, 2, 0));
+  EXPECT_EQ(up, Vec3(0, 0, 1));
+}
+
+TEST(ThreemfReader, FollowsPathsToOtherParts) {
+  const std::string other = model("<object id='7'>" + k_triangle + "</object>", "", "unit='centimeter'");
+  const std::string root =
+      model("<object id='1'><components><component p:path='/3D/other.model' objectid='7'/></components></object>",
+            "<item objectid='1'/>");
+  const TriangleMesh mesh =
+      read_mesh(zip_of({{"_rels/.rels", k_rels}, {"3D/part.model", root}, {"3D/other.model", other}}), "x.3mf");
+  EXPECT_EQ(corner(mesh, 0, 1), Vec3(10, 0, 0));
+}
+
+TEST(ThreemfReader, ReadsPrefixedNames) {
+  const std::string text =
+      R"(<m:model xmlns:m="core"><m:resources><m:object id="1"><m:mesh><m:vertices><m:vertex x="+1" y="0" z="inf"/></m:vertices></m:mesh></m:object>)"
+      R"(</m:resources><m:build><m:item objectid="1"/></m:build></m:model>)";
+  const TriangleMesh mesh = read_mesh(package(text), "x.3mf");
+  ASSERT_EQ(mesh.vertices.size(), 1U);
+  EXPECT_TRUE(std::isinf(mesh.vertices[0].z()));
+}
+
+TEST(ThreemfReader, SaysWhereItIsWrong) {
+  EXPECT_THAT(error_of("PK\x03\x04 not a zip", "x.3mf"),
+              HasSubstr("x.3mf: error: expected a zip archive with a 3MF model"));
+  EXPECT_THAT(error_of(zip_of({{"a", "b"}}), "x.3mf"), HasSubstr("_rels/.rels: expected this part in the archive"));
+  EXPECT_THAT(error_of(zip_of({{"_rels/.rels", "<Relationships/>"}}), "x.3mf"),
+              HasSubstr("expected a relationship of type …/3dmodel"));
+  EXPECT_THAT(error_of(zip_of({{"_rels/.rels", k_rels}}), "x.3mf"), HasSubstr("3D/part.model: expected this part"));
+  EXPECT_THAT(error_of(package("<model><resources></model>"), "x.3mf"),
+              HasSubstr("3D/part.model at byte 20: expected XML"));
+  EXPECT_THAT(error_of(package("<robot/>"), "x.3mf"), HasSubstr("expected the element 'model'"));
+  const std::string object = "<object id='1'>" + k_triangle + "</object>";
+  EXPECT_THAT(error_of(package(model(object, "<item objectid='2'/>")), "x.3mf"),
+              HasSubstr("expected an object of the id 2"));
+  EXPECT_THAT(error_of(package(model(object, "<item objectid='1' transform='1 0 0'/>")), "x.3mf"),
+              HasSubstr("expected 12 numbers"));
+  std::string wrong = object;
+  wrong.replace(wrong.find("v3=\"2\""), 6, "v3=\"3\"");
+  EXPECT_THAT(error_of(package(model(wrong, "<item objectid='1'/>")), "x.3mf"),
+              HasSubstr("expected v3 from 0 to 2, found 3"));
+  wrong = object;
+  wrong.replace(wrong.find("x=\"1\""), 5, "x=\"l\"");
+  EXPECT_THAT(error_of(package(model(wrong, "<item objectid='1'/>")), "x.3mf"),
+              HasSubstr("expected a number x, found 'l'"));
+}
+
+TEST(ThreemfReader, BombsAreRefused) {
+  // 100 MB of blanks in 100 kB.
+  EXPECT_THAT(error_of(package("<model>" + std::string(100'000'000, ' ') + "</model>"), "x.3mf"),
+              HasSubstr("unpacks to too much"));
+  // An object of itself, and objects of ten objects of ten objects …
+  const std::string snake = "<object id='1'><components><component objectid='1'/></components></object>";
+  EXPECT_THAT(error_of(package(model(snake, "<item objectid='1'/>")), "x.3mf"), HasSubstr("deeper than 32"));
+  std::string tree = "<object id='0'>" + k_triangle + "</object>";
+  for (int level = 1; level <= 12; ++level) {
+    tree += "<object id='" + std::to_string(level) + "'><components>";
+    for (int i = 0; i < 10; ++i) tree += "<component objectid='" + std::to_string(level - 1) + "'/>";
+    tree += "</components></object>";
+  }
+  EXPECT_THAT(error_of(package(model(tree, "<item objectid='12'/>")), "x.3mf"),
+              HasSubstr("places its objects too often"));
+}
+
+TEST(ThreemfReader, NoTruncationIsTakenForTheWholeFile) {
+  EXPECT_EQ(testing::meshes_among_truncations(threemf_bytes(testing::tetrahedron(), "x"), "x.3mf"), 0);
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,53 @@
+// The drawn mechanism: to scale, and in groups that a page can move.
+#include <gmock/gmock.h>
+
+#include <cstdio>
+#include <pugixml.hpp>
+
+#include "export/report/drawing.h"
+#include "fusee/base/units.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+TEST(MechanismFigures, AreToScale) {
+  const Mechanism mechanism = testing::forearm();
+  const auto figures = mechanism_figures(mechanism, synthesise(mechanism), {{0, 0}});
+  ASSERT_EQ(figures.size(), 1u);
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(inline_svg(figures[0]).c_str()));
+  const auto ends = [](const pugi::xml_node& path) {
+    Vec2 from, to;
+    EXPECT_EQ(std::sscanf(path.attribute("d").as_string(), "M%lf %lfL%lf %lf", &from.x(), &from.y(), &to.x(), &to.y()),
+              4);
+    return (to - from).norm();
+  };
+  const double link = ends(document.select_node("//g[@class='joint-link']/path").node());
+  const double bar = ends(document.select_node("/svg/path[@class='dimension']").node());
+  const double bar_length = document.select_node("/svg/text[contains(., ' mm')]").node().text().as_double();
+  EXPECT_NEAR(link / bar * bar_length, mechanism.joint.R, 0.1);
+}
+
+TEST(MechanismFigures, MoveInGroupsOfTheirOwn) {
+  const Mechanism mechanism = testing::forearm();
+  const auto figures = mechanism_figures(mechanism, synthesise(mechanism), {{radians(90), radians(20)}});
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(inline_svg(figures[0]).c_str()));
+  EXPECT_EQ(document.select_nodes("/svg/g[@class='tendon']").size(), 2u);
+  const std::string turn = document.select_node("/svg/g[@class='pulley']").node().attribute("transform").as_string();
+  EXPECT_EQ(turn.rfind("rotate(90 ", 0), 0u) << "α > 0 is clockwise, as SVG turns: " << turn;
+}
+
+TEST(Thinned, StaysWithinItsTolerance) {
+  std::vector<Vec2> circle;
+  for (int i = 0; i <= 2000; ++i) circle.push_back(100 * unit(k_two_pi * i / 2000));
+  const auto few = thinned(circle, 0.1);
+  EXPECT_LT(few.size(), 200u);
+  EXPECT_EQ(few.front(), circle.front());
+  EXPECT_EQ(few.back(), circle.back());
+  for (std::size_t i = 1; i < few.size(); ++i) EXPECT_GT((0.5 * (few[i] + few[i - 1])).norm(), 99.85);
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,309 @@
+// report.html: one well-formed page that asks for nothing from outside, says everything, and survives any text and any
+// number.
+#include "fusee/export/report.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <pugixml.hpp>
+#include <regex>
+
+#include "export/report/mesh_code.h"
+#include "export/report/tables.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A closed tube of `count` × `rings` vertices about z: as regular as the meshes of pulleys.
+TriangleMesh tube(std::uint32_t count, std::uint32_t rings) {
+  TriangleMesh mesh;
+  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Vec2 place = (15 + 3 * std::sin(0.7 * ring)) * unit(k_two_pi * i / count);
+      mesh.vertices.emplace_back(place.x(), place.y(), 0.5 * ring);
+    }
+  }
+  for (std::uint32_t ring = 0; ring < rings; ++ring) {
+    const std::uint32_t low = ring * count, high = (ring + 1) % rings * count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t next = (i + 1) % count;
+      mesh.triangles.push_back({low + i, low + next, high + next});
+      mesh.triangles.push_back({low + i, high + next, high + i});
+    }
+  }
+  return mesh;
+}
+
+Product sample(Mechanism mechanism = testing::forearm()) {
+  Product product;
+  product.joint.mechanism = std::move(mechanism);
+  product.file.path = "profiles/forearm.toml";
+  product.file.sha256 = std::string(64, 'a');
+  product.synthesis = synthesise(product.joint.mechanism);
+  product.pulley.status = PulleyStatus::made;
+  product.pulley.layout.groove_depth = 2;
+  product.pulley.layout.bore.radius = 2.5;
+  product.pulley.mesh = tube(60, 5);
+  const Outline& p1 = product.synthesis.p1;
+  const Vec2 exit = p1.points[p1.anchor_end()].position;
+  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit}};
+  product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
+  for (const TransmissionPoint& point : product.synthesis.stroke) {
+    product.as_built.points.push_back(
+        {point.alpha, point.theta, point.theta + radians(0.004) * std::sin(point.alpha), 0.002});
+  }
+  product.as_built.max_theta_error = radians(0.004);
+  product.as_built.max_slack = 0.002;
+  product.checks = {exactly("open_edges", 0, 0, "1"), at_most("theta_error", 0.004, 0.05, "deg"),
+                    at_most("slack", 0.002, 0.05, "mm"), at_least("wall", 1.9, 1.2, "mm"),
+                    at_most("obj_deviation", 0, 0.01, "mm")};
+  return product;
+}
+
+pugi::xml_document parsed(const std::string& html) {
+  pugi::xml_document document;
+  const pugi::xml_parse_result result = document.load_string(html.c_str());
+  EXPECT_TRUE(result) << result.description() << " at: " << html.substr(static_cast<std::size_t>(result.offset), 120);
+  return document;
+}
+
+std::string words_of(const pugi::xml_node& node) {
+  std::string words;
+  for (const auto& text : node.select_nodes(".//text()")) words += std::string(text.node().value()) + " ";
+  return words;
+}
+
+/// Everything but scripts and styles, in which "nan" and "//" are no fault.
+std::string shown(const std::string& html) {
+  static const std::regex hidden("<(script|style)[^]*?</(script|style)>");
+  return std::regex_replace(html, hidden, "");
+}
+
+TEST(Report, IsAWellFormedPage) {
+  const auto document = parsed(report_html(sample()));
+  EXPECT_STREQ(document.child("html").child("body").child("header").child("h1").text().as_string(), "forearm");
+  for (const char* id :
+       {"numbers", "part", "mechanism", "curves", "built", "profiles", "checks", "feasibility", "making"}) {
+    EXPECT_EQ(document.select_nodes(("//section[@id='" + std::string(id) + "']").c_str()).size(), 1u) << id;
+  }
+  EXPECT_GE(document.select_nodes("//svg").size(), 12u);
+}
+
+TEST(Report, AsksForNothingFromOutside) {
+  const std::string html = report_html(sample());
+  for (const char* reference : {"://", "src=", "href=", "url(", "@import", "fetch(", "XMLHttpRequest"}) {
+    EXPECT_THAT(html, Not(HasSubstr(reference)));
+  }
+  EXPECT_THAT(html, HasSubstr("default-src 'none'"));
+}
+
+TEST(Report, IsLight) {
+  Product product = sample();
+  product.pulley.mesh = tube(400, 30);  // 24 000 triangles: more than a pulley has
+  const std::size_t without = report_html(sample()).size();
+  const std::size_t with = report_html(product).size();
+  EXPECT_LT(without, 150'000u);
+  EXPECT_LT(with - without, 10u * 24'000u) << "bytes a triangle";
+}
+
+TEST(Report, SameInputSameBytes) { EXPECT_EQ(report_html(sample()), report_html(sample())); }
+
+TEST(Report, NamesEveryCheckAndCondition) {
+  const Product product = sample();
+  const auto document = parsed(report_html(product));
+  const std::string checks = words_of(document.select_node("//section[@id='checks']").node());
+  for (const Check& check : product.checks) {
+    const bool in_other_file = check.name == "obj_deviation";
+    EXPECT_THAT(checks, HasSubstr(in_other_file ? "Distance to pulley.stl" : plain_name(check.name)));
+  }
+  EXPECT_THAT(checks, HasSubstr("pulley.obj"));
+  const std::string conditions = words_of(document.select_node("//section[@id='feasibility']").node());
+  for (const Condition& condition : product.synthesis.conditions)
+    EXPECT_THAT(conditions, HasSubstr(plain_name(condition.name)));
+  EXPECT_THAT(conditions, HasSubstr("Wall to bore"));
+}
+
+TEST(Report, SaysThatAllIsWell) {
+  const auto document = parsed(report_html(sample()));
+  const auto verdict = document.select_node("//section[contains(@class, 'verdict')]").node();
+  EXPECT_STREQ(verdict.attribute("class").as_string(), "verdict good");
+  EXPECT_THAT(words_of(verdict), HasSubstr("within 0.004° (limit 0.05°)"));
+  EXPECT_THAT(words_of(verdict), HasSubstr("All 5 checks hold"));
+}
+
+TEST(Report, SaysWhatFailed) {
+  Product product = sample();
+  product.checks.push_back(at_most("theta_error", 0.31, 0.05, "deg", "α = 12°"));
+  product.checks.push_back(at_least("drc_wall", 0.4, 1.2, "mm"));
+  const auto document = parsed(report_html(product));
+  const auto verdict = document.select_node("//section[contains(@class, 'verdict')]").node();
+  EXPECT_STREQ(verdict.attribute("class").as_string(), "verdict bad");
+  EXPECT_THAT(words_of(verdict), HasSubstr("2 of 7 checks failed"));
+  EXPECT_THAT(words_of(verdict), HasSubstr("0.31°, limit 0.05°"));
+  const auto failed = document.select_nodes("//section[@id='checks']//tr[@class='failed']");
+  ASSERT_EQ(failed.size(), 2u);
+  EXPECT_THAT(words_of(failed[0].node()), HasSubstr("α = 12°"));
+  EXPECT_THAT(words_of(failed[1].node()), HasSubstr("pulley.drc: Wall"));
+  EXPECT_THAT(words_of(failed[1].node()), HasSubstr("≥ 1.2"));
+  EXPECT_STREQ(document.select_node("//section[@id='checks']//h3").node().text().as_string(), "Failed");
+}
+
+TEST(Report, SaysHowLongToCutTheTendon) {
+  const std::string words = words_of(parsed(report_html(sample())).select_node("//section[@id='making']").node());
+  EXPECT_THAT(words, HasSubstr("Tendon 1"));
+  EXPECT_THAT(words, Not(HasSubstr("Tendon 2 "))) << "it has no anchor here";
+  EXPECT_THAT(words, HasSubstr("Left on the pulley at full pay-out"));
+}
+
+TEST(Report, ShowsForcesOnlyUnderLoad) {
+  Mechanism mechanism = testing::forearm();
+  EXPECT_TRUE(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']").empty());
+  mechanism.load.tip_force = 20;
+  EXPECT_EQ(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']//svg").size(), 2u);
+}
+
+TEST(Report, EscapesWhatPeopleWrite) {
+  const std::string nasty = "<script>alert('x')</script>{{tool}}</style>]]>&\"\x01";
+  const std::size_t scripts = parsed(report_html(sample())).select_nodes("//script").size();
+  Product product = sample();
+  product.joint.mechanism.name = nasty;
+  product.joint.mechanism.material = {nasty, 0.002, 0.2, 0.4};
+  product.pulley.layout.scale = 1.002;
+  product.file.path = nasty;
+  product.file.sha256 = nasty;
+  Diagnostic warning;
+  warning.message = nasty;
+  product.file.warnings.push_back(warning);
+  product.synthesis.warnings = {nasty};
+  product.pulley.layout.notes = {nasty};
+  product.checks.push_back(at_most(nasty, 2, 1, nasty, nasty));
+  product.synthesis.conditions.push_back({nasty, false, 0, 0, 0, nasty, nasty});
+  const auto document = parsed(report_html(product));
+  EXPECT_EQ(document.select_nodes("//script").size(), scripts);
+  EXPECT_STREQ(document.child("html").child("body").child("header").child("h1").text().as_string(),
+               "<script>alert('x')</script>{{tool}}</style>]]>&\"\uFFFD");
+}
+
+TEST(Report, NumbersThatAreNoneBreakNothing) {
+  Product product = sample();
+  product.checks.push_back(at_most("deviation", k_nan, 0.01, "mm"));
+  product.as_built.max_theta_error = k_nan;
+  product.as_built.max_slack = std::numeric_limits<double>::infinity();
+  for (RewindPoint& point : product.as_built.points) point.slack = k_nan;
+  product.synthesis.stroke[3].t2.p = k_nan;
+  product.synthesis.stroke[4].theta = -std::numeric_limits<double>::infinity();
+  product.synthesis.p2.points[7].position.x() = k_nan;
+  product.synthesis.p2.points[9].curvature_radius = k_nan;
+  product.pulley.mesh.vertices[5].y() = k_nan;
+  const std::string html = report_html(product);
+  parsed(html);
+  EXPECT_THAT(shown(html), Not(ContainsRegex("[^a-z](nan|inf)[^a-z]")));
+}
+
+TEST(Report, APartThatWasNotMadeHasAReportToo) {
+  Product product;
+  const std::string html = report_html(product);
+  const auto document = parsed(html);
+  EXPECT_THAT(shown(html), Not(ContainsRegex("[^a-z](nan|inf)[^a-z]")));
+  EXPECT_STREQ(document.select_node("//section[contains(@class, 'verdict')]").node().attribute("class").as_string(),
+               "verdict bad");
+}
+
+TEST(PlainNames, SidesAreFilledIn) {
+  EXPECT_THAT(plain_name("tendon_on_pin_D"), HasSubstr("Tendon 2 stays on pin D"));
+  EXPECT_THAT(plain_name("convex_floor_P1"), HasSubstr("P1’s"));
+  EXPECT_EQ(plain_name("3mf_deviation"), "pulley.3mf: Distance to pulley.stl");
+  EXPECT_EQ(plain_name("something_new_P3"), "Something new P3");
+  EXPECT_EQ(plain_name(""), "");
+}
+
+// The mesh inside the page -------------------------------------------------------------------------------------------
+
+std::vector<std::uint32_t> bytes_of(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint32_t> bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : base64) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+    count += 6;
+    if (count >= 8) bytes.push_back(bits >> (count -= 8) & 255);
+  }
+  return bytes;
+}
+
+/// The reader of viewer.js, once more.
+TriangleMesh decoded(const MeshCode& code) {
+  const auto bytes = bytes_of(code.base64);
+  std::size_t at = 0;
+  const auto varint = [&] {
+    std::uint32_t value = 0;
+    for (int shift = 0;; shift += 7) {
+      const std::uint32_t byte = bytes.at(at++);
+      value |= (byte & 127) << shift;
+      if (byte < 128) return value;
+    }
+  };
+  TriangleMesh mesh;
+  std::array<int, 3> level{0, 0, 0};
+  for (std::size_t t = 0; t < code.triangles; ++t) {
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::uint32_t& index : triangle) {
+      const std::uint32_t back = varint();
+      index = static_cast<std::uint32_t>(mesh.vertices.size()) - back;
+      if (back != 0) continue;
+      Vec3 place;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::uint32_t z = varint();
+        level[axis] += z & 1 ? -static_cast<int>((z + 1) / 2) : static_cast<int>(z / 2);
+        place[axis] = code.low[axis] + code.step * level[axis];
+      }
+      mesh.vertices.push_back(place);
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  EXPECT_EQ(at, bytes.size());
+  return mesh;
+}
+
+TEST(MeshCodes, EveryTriangleComesBackWithinHalfAStep) {
+  for (const TriangleMesh& mesh : {tube(7, 3), tube(100, 11), tube(301, 4)}) {
+    const auto code = encode_mesh(mesh);
+    ASSERT_TRUE(code.has_value());
+    const TriangleMesh back = decoded(*code);
+    ASSERT_EQ(back.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(back.vertices.size(), mesh.vertices.size());
+    EXPECT_LT(code->step, 0.001);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 off = back.vertices[back.triangles[t][k]] - mesh.vertices[mesh.triangles[t][k]];
+        EXPECT_LE(off.cwiseAbs().maxCoeff(), 0.5000001 * code->step);
+      }
+    }
+  }
+}
+
+TEST(MeshCodes, ABrokenMeshHasNone) {
+  EXPECT_FALSE(encode_mesh({}).has_value());
+  TriangleMesh mesh = tube(7, 3);
+  mesh.triangles[2][1] = 1000;
+  EXPECT_FALSE(encode_mesh(mesh).has_value());
+  mesh = tube(7, 3);
+  mesh.vertices[0].z() = k_nan;
+  EXPECT_FALSE(encode_mesh(mesh).has_value());
+  mesh.vertices.assign(3, Vec3(1, 2, 3));
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_FALSE(encode_mesh(mesh).has_value());
+}
+
+}  // namespace
+}  // namespace fusee

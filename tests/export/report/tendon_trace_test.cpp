@@ -1,0 +1,133 @@
+// The drawn tendon is a taut string: tangent to the pin and to the pulley, and as long at one end of the stroke as at
+// the other.
+#include "export/report/tendon_trace.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "fusee/base/units.h"
+#include "fusee/profile/synthesis.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+struct Case {
+  Mechanism mechanism;
+  SynthesisResult synthesis;
+};
+
+Case made(const Mechanism& mechanism, double tolerance = 0.002) {
+  SynthesisOptions options;
+  options.tolerance = tolerance;
+  options.advice = false;
+  Case result{mechanism, synthesise(mechanism, options)};
+  EXPECT_TRUE(result.synthesis.made()) << result.synthesis.brief();
+  return result;
+}
+
+std::vector<Case> cases() {
+  return {made(testing::forearm()), made(testing::linear_wrist()), made(testing::unsymmetric()),
+          made(testing::mirrored(testing::unsymmetric()))};
+}
+
+const Outline& outline_of(const Case& c, Side side) { return side == Side::left ? c.synthesis.p1 : c.synthesis.p2; }
+
+Vec2 pin_of(const Mechanism& mechanism, Side side) {
+  return {side == Side::left ? -mechanism.guides.EB : mechanism.guides.ED, -mechanism.guides.OE};
+}
+
+double distance_to_line(const Vec2& point, const Vec2& from, const Vec2& to) {
+  return std::abs(cross(to - from, point - from)) / (to - from).norm();
+}
+
+template <typename Look>
+void for_each_trace(const Case& c, Look look) {
+  for (const Side side : {Side::left, Side::right}) {
+    for (const TransmissionPoint& point : c.synthesis.stroke) {
+      const auto trace = trace_tendon(c.mechanism, outline_of(c, side), point.alpha, point.theta);
+      ASSERT_TRUE(trace.has_value());
+      look(side, point, *trace);
+    }
+  }
+}
+
+TEST(TendonTrace, TouchesThePinAtItsPitchRadius) {
+  for (const Case& c : cases()) {
+    const double rho = c.mechanism.guide_pitch_radius();
+    for_each_trace(c, [&](Side side, const TransmissionPoint&, const TendonTrace& trace) {
+      const Vec2 pin = pin_of(c.mechanism, side);
+      EXPECT_NEAR(distance_to_line(pin, trace.attachment, trace.onto_pin), rho, 1e-9);
+      EXPECT_NEAR(distance_to_line(pin, trace.off_pin, trace.take_off), rho, 1e-9);
+      EXPECT_NEAR((trace.onto_pin - pin).norm(), rho, 1e-9);
+      EXPECT_NEAR((trace.off_pin - pin).norm(), rho, 1e-9);
+      for (std::size_t i = 1; i + 1 < trace.free_path.size(); ++i)
+        EXPECT_NEAR((trace.free_path[i] - pin).norm(), rho, 1e-9);
+      EXPECT_GT(mirror_sign(side) * (trace.onto_pin - pin).x(), 0) << "it passes the outer side";
+    });
+  }
+}
+
+TEST(TendonTrace, HasThePulleyOnItsInnerSide) {
+  for (const Case& c : cases()) {
+    const Vec2 axis(0, -c.mechanism.guides.OE - c.mechanism.pulley.EF);
+    for_each_trace(c, [&](Side side, const TransmissionPoint& point, const TendonTrace& trace) {
+      const Vec2 down = (trace.take_off - trace.off_pin).normalized();
+      for (const OutlinePoint& vertex : outline_of(c, side).points) {
+        const Vec2 place = axis + Eigen::Rotation2Dd(-point.alpha) * vertex.position;
+        EXPECT_LE(mirror_sign(side) * cross(down, place - trace.take_off), 1e-9);
+      }
+    });
+  }
+}
+
+/// Largest less smallest length of the whole string over the stroke.
+double length_change(const Case& c, Side wanted) {
+  double least = 1e9, most = 0;
+  for_each_trace(c, [&](Side side, const TransmissionPoint&, const TendonTrace& trace) {
+    if (side != wanted) return;
+    least = std::min(least, trace.free_length + trace.wound_length);
+    most = std::max(most, trace.free_length + trace.wound_length);
+  });
+  return most - least;
+}
+
+TEST(TendonTrace, KeepsItsLengthOverTheStroke) {
+  for (const Case& c : cases()) {
+    EXPECT_LT(length_change(c, Side::left), 0.005);
+    EXPECT_LT(length_change(c, Side::right), 0.005);
+  }
+}
+
+TEST(TendonTrace, AWrongPulleyDoesNotKeepTheLength) {
+  Case c = made(testing::forearm());
+  for (OutlinePoint& point : c.synthesis.p2.points) point.position *= 1.01;
+  EXPECT_GT(length_change(c, Side::right), 0.05);
+}
+
+TEST(TendonTrace, AgreesWithTheTransmissionOnARoundPulley) {
+  const Case c = made(testing::forearm());
+  // On a round P1 the take-off point is the foot of the perpendicular: what is free and what is wound can be told
+  // apart.
+  const auto first =
+      trace_tendon(c.mechanism, c.synthesis.p1, c.synthesis.stroke.front().alpha, c.synthesis.stroke.front().theta);
+  ASSERT_TRUE(first.has_value());
+  const double start = first->free_length + first->wound_length - c.synthesis.stroke.front().t1.length;
+  for_each_trace(c, [&](Side side, const TransmissionPoint& point, const TendonTrace& trace) {
+    if (side == Side::right) return;
+    const double wound = trace.free_length + trace.wound_length - point.t1.length;
+    EXPECT_NEAR(start - wound, c.mechanism.pulley.r1 * (point.alpha - c.synthesis.stroke.front().alpha), 0.005);
+  });
+}
+
+TEST(TendonTrace, ThereIsNoneFromInsideThePin) {
+  Case c = made(testing::forearm());
+  c.mechanism.guides.radius = 80;
+  EXPECT_FALSE(trace_tendon(c.mechanism, c.synthesis.p1, 0, 0).has_value());
+  EXPECT_FALSE(trace_tendon(testing::forearm(), Outline{}, 0, 0).has_value());
+}
+
+}  // namespace
+}  // namespace fusee
