@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct PinnedRun {
   std::string name;
   std::function<std::vector<OutputFile>()> outputs;
 };
+/// For the names of tests.
+inline void PrintTo(const PinnedRun& run, std::ostream* stream) { *stream << run.name; }
 
 /// build/NAME and build_r12/NAME for each of profiles/*.toml, calibrate/NAME for each folder of tests/data/rig and for
 /// the forearm's measured runs, build_corrected/NAME for the corrected.toml of some of these, reproduce/paper,
