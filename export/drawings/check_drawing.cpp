@@ -332,7 +332,7 @@ Check check_smallest_feature(const Paths& contours) {
 
 struct Framed {
   const DrawingPath* path;
-  BoundingBox box;
+  Box box;
 };
 
 std::vector<Framed> framed(const Drawing& drawing, std::string_view layer) {
@@ -343,7 +343,7 @@ std::vector<Framed> framed(const Drawing& drawing, std::string_view layer) {
   return result;
 }
 
-bool box_within(const BoundingBox& inner, const BoundingBox& outer) {
+bool box_within(const Box& inner, const Box& outer) {
   return (inner.low - outer.low).minCoeff() >= -k_drawn && (outer.high - inner.high).minCoeff() >= -k_drawn;
 }
 

@@ -100,12 +100,12 @@ bool contains(const Polygon& polygon, const Vec2& p) {
 }
 
 void Material2d::add_outline(const Polygon& outline) {
-  const BoundingBox box = bounding_box(outline);
+  const Box box = bounding_box(outline);
   outlines_.push_back({outline, box.low, box.high});
 }
 
 void Material2d::add_hole(const Polygon& hole) {
-  const BoundingBox box = bounding_box(hole);
+  const Box box = bounding_box(hole);
   holes_.push_back({hole, box.low, box.high});
 }
 

@@ -66,7 +66,7 @@ void write_remarks(Tags& tags, const DxfDocument& document) {
   for (const std::string& remark : document.remarks) tags.text(999, ascii(remark));
 }
 
-void write_variables(Tags& tags, std::string_view version, const BoundingBox& box) {
+void write_variables(Tags& tags, std::string_view version, const Box& box) {
   const auto variable = [&tags](std::string_view name) { tags.text(9, name); };
   variable("$ACADVER");
   tags.text(1, version);
@@ -460,7 +460,7 @@ class Ac1015Writer {
   }
 
   const DxfDocument& document_;
-  BoundingBox box_;
+  Box box_;
   Tags tags_;
   int next_ = k_first_free;
 };
@@ -490,9 +490,9 @@ Polygon circle_polygon(const Vec2& centre, double radius) {
   return polygon;
 }
 
-BoundingBox bounding_box(const Polygon& points) {
+Box bounding_box(const Polygon& points) {
   if (points.empty()) return {};
-  BoundingBox box{points.front(), points.front()};
+  Box box{points.front(), points.front()};
   for (const Vec2& p : points) {
     box.low = box.low.cwiseMin(p);
     box.high = box.high.cwiseMax(p);
@@ -500,10 +500,10 @@ BoundingBox bounding_box(const Polygon& points) {
   return box;
 }
 
-BoundingBox bounding_box(const std::vector<DxfPath>& paths) {
+Box bounding_box(const std::vector<DxfPath>& paths) {
   Polygon corners;
   for (const DxfPath& path : paths) {
-    const BoundingBox box = bounding_box(path.points);
+    const Box box = bounding_box(path.points);
     corners.insert(corners.end(), {box.low, box.high});
   }
   return bounding_box(corners);

@@ -42,12 +42,12 @@ Polygon rectangle(const Vec2& low, const Vec2& high);
 /// at least.
 Polygon circle_polygon(const Vec2& centre, double radius);
 /// Smallest box around all points; both corners at the origin when there are none.
-struct BoundingBox {
+struct Box {
   Vec2 low = Vec2::Zero();
   Vec2 high = Vec2::Zero();
   Vec2 size() const { return high - low; }
 };
-BoundingBox bounding_box(const Polygon& points);
-BoundingBox bounding_box(const std::vector<DxfPath>& paths);
+Box bounding_box(const Polygon& points);
+Box bounding_box(const std::vector<DxfPath>& paths);
 
 }  // namespace fusee

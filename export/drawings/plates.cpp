@@ -245,7 +245,7 @@ void engrave_home(PlateLayer& layer, const Material2d& material) {
 
 /// The first free place for a label of this size, from below the axis upward.
 std::optional<Vec2> label_place(const PlateLayer& layer, const Material2d& material, const Vec2& size) {
-  const BoundingBox box = bounding_box(layer.outer.front());
+  const Box box = bounding_box(layer.outer.front());
   for (double y = box.low.y(); y + size.y() < box.high.y(); y += 1.0) {
     for (int side = 0; side < 40; ++side) {
       // From the middle outward, left and right in turn.
@@ -334,7 +334,7 @@ void lay_on_sheets(Plates& plates, const Cut& cut) {
   std::vector<Vec2> sizes;
   std::vector<Vec2> axes;  // from the box's lower left corner
   for (std::size_t l = 0; l < plates.layers.size(); ++l) {
-    const BoundingBox box = bounding_box(plates.layers[l].cut_outer.front());
+    const Box box = bounding_box(plates.layers[l].cut_outer.front());
     for (int k = 0; k < plates.layers[l].count; ++k) {
       plates.placed.push_back({l, static_cast<int>(plates.placed.size()) + 1, Vec2::Zero()});
       sizes.push_back(box.size());

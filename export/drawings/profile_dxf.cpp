@@ -105,7 +105,7 @@ void add_anchors(DxfDocument& drawing, const std::vector<Anchor>& anchors, doubl
 }
 
 void add_legend(DxfDocument& drawing, const std::vector<std::string>& lines) {
-  const BoundingBox box = bounding_box(drawing.paths);
+  const Box box = bounding_box(drawing.paths);
   double top = box.low.y() - 4 - k_text_height;
   const Vec2 square(box.low.x(), top + k_text_height - 10);
   drawing.closed("CHECK_10MM", rectangle(square, square + Vec2(10, 10)));

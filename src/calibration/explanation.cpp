@@ -15,7 +15,7 @@ constexpr double k_detectable = 2.8;
 constexpr double k_least = 0.5;
 
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit,
-                                               const std::vector<ConfidenceInterval>& ranges, const Effect& effect) {
+                                               const std::vector<Interval>& ranges, const Effect& effect) {
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, fit.effects);
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
@@ -46,7 +46,7 @@ std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect&
 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& workers, const Selection& selection) {
   const Fit& best = selection.best;
-  const std::vector<ConfidenceInterval> ranges = intervals(evidence, best);
+  const std::vector<Interval> ranges = intervals(evidence, best);
   std::vector<FoundEffect> all;
   for (const Effect* effect : best.effects) {
     FoundEffect found;
@@ -107,7 +107,7 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& work
   workers.each(others.size(), [&](Forward& forward, std::size_t i) {
     const Fit wider = with_direction(evidence, forward, selection.best, *others[i]);
     if (!wider.usable) return;
-    const std::vector<ConfidenceInterval> ranges = intervals(evidence, wider);
+    const std::vector<Interval> ranges = intervals(evidence, wider);
     sizes[i] = k_least * evidence.floor;
     for (Eigen::Index k = selection.best.x.size(); k < wider.x.size(); ++k) {
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));

@@ -677,7 +677,7 @@ Eigen::VectorXd scatter_between_runs(const Evidence& evidence, const Fit& fit, c
 
 }  // namespace
 
-std::vector<ConfidenceInterval> intervals(const Evidence& evidence, const Fit& fit) {
+std::vector<Interval> intervals(const Evidence& evidence, const Fit& fit) {
   const auto count = static_cast<std::size_t>(fit.x.size());
   std::vector<std::vector<double>> values(count);
   Dice dice;
@@ -698,7 +698,7 @@ std::vector<ConfidenceInterval> intervals(const Evidence& evidence, const Fit& f
   for (const BlockSums& sums : fit.sums) information += sums.JJ;
   const Eigen::VectorXd between = scatter_between_runs(
       evidence, fit, information.ldlt().solve(Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size())));
-  std::vector<ConfidenceInterval> found(count);
+  std::vector<Interval> found(count);
   for (std::size_t k = 0; k < count; ++k) {
     std::sort(values[k].begin(), values[k].end());
     const double centre = fit.x[static_cast<Eigen::Index>(k)];

@@ -85,13 +85,13 @@ struct StrokeScatter {
 };
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit);
 
-struct ConfidenceInterval {
+struct Interval {
   double low = 0;
   double high = 0;
   double deviation = 0;
 };
 /// 95 % of every fitted x: by resampling strokes, or by the scatter between runs where that is wider.
-std::vector<ConfidenceInterval> intervals(const Evidence& evidence, const Fit& fit);
+std::vector<Interval> intervals(const Evidence& evidence, const Fit& fit);
 
 /// The parameters that a fit varies, in the order of x.
 std::vector<const EffectParameter*> varied(const Mechanism& declared, const EffectSet& effects);

@@ -40,7 +40,7 @@ constexpr double k_near = 2.0;
 
 bool excludes_zero(const Evidence& evidence, const Fit& fit, const Effect& effect) {
   const std::vector<const EffectParameter*> parameters = varied(*evidence.declared, fit.effects);
-  const std::vector<ConfidenceInterval> ranges = intervals(evidence, fit);
+  const std::vector<Interval> ranges = intervals(evidence, fit);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     for (const EffectParameter& own : effect.parameters) {
       if (&own == parameters[k] && (ranges[k].low > 0 || ranges[k].high < 0)) return true;
