@@ -50,8 +50,8 @@ Outputs built(const MechanismFile& file, DxfVersion dxf) {
 CalibrationProduct calibrated(const fs::path& spec, const std::vector<fs::path>& measured) {
   CalibrationProduct product;
   product.file = read_mechanism(spec);
-  const Mechanism& declared = product.file.mechanism;
-  const Mechanism expected = expected_joint(declared);
+  const auto& declared = product.file.mechanism;
+  const auto expected = expected_joint(declared);
   product.measurement = read_measurement(measured);
   compare_with_declared(expected, product.measurement);
   product.calibration = calibrate(expected, product.measurement);
