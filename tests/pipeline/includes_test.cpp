@@ -8,14 +8,15 @@
 #include <regex>
 #include <set>
 
+#include "pipeline/cmake_rooms.h"
+#include "pipeline/source_text.h"
+
 namespace {
 
+namespace house = fusee::house;
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> k_flow = {
-    {"base", 0},     {"mechanism", 1}, {"transmission", 2}, {"profile", 3},    {"joint", 4},
-    {"analysis", 5}, {"optimize", 6},  {"paper", 7},        {"measurement", 8}, {"calibration", 9},
-    {"correction", 10}, {"solid", 11}, {"export", 12},      {"pipeline", 13},  {"cli", 14}};
+const std::map<std::string, int> k_flow = house::flow();
 
 /// What each inner room of export may use of export beside itself. The value Product stands between the meshes, which
 /// know no pulley, and all that is made of one. (tool.h, what fusee calls itself, is everybody's.)
@@ -83,6 +84,45 @@ std::vector<Include> includes_under(const std::vector<std::string>& folders) {
 const std::vector<Include>& all_includes() {
   static const std::vector<Include> includes = includes_under({"include", "src", "export"});
   return includes;
+}
+
+/// Rooms whose headers the files of each room include.
+std::map<std::string, std::set<std::string>> rooms_included() {
+  std::map<std::string, std::set<std::string>> rooms;
+  for (const Include& include : all_includes()) {
+    const std::string home = home_of(include.file), room = include.quoted ? room_of(include.target) : "";
+    if (!room.empty() && room != home) rooms[home].insert(room);
+  }
+  return rooms;
+}
+
+/// The inner rooms of export count each by itself.
+std::string room_or_inner_room(const fs::path& file) {
+  const std::string inner = file.parent_path().generic_string();
+  return inner.rfind("export/", 0) == 0 ? inner : home_of(file);
+}
+
+TEST(Rooms, AreLinkedAsTheyInclude) {
+  const auto links = house::links();
+  for (const auto& [home, rooms] : rooms_included()) {
+    const std::set<std::string> reached = house::reached_from(home, links);
+    for (const std::string& room : rooms)
+      EXPECT_TRUE(reached.count(room)) << home << " includes " << room << " and is not linked with it";
+    for (const std::string& room : links.at(home))
+      EXPECT_TRUE(rooms.count(room)) << home << " is linked with " << room << " and includes nothing of it";
+  }
+}
+
+TEST(Rooms, HoldAFifthOfAllLinesAtMost) {
+  std::map<std::string, long> lines;
+  long all = 0;
+  for (const house::Source& source : house::sources_under({"include", "src", "export"})) {
+    const long count = house::line_at(source.text, source.text.size()) - 1;
+    lines[room_or_inner_room(source.path)] += count;
+    all += count;
+  }
+  for (const auto& [room, count] : lines)
+    EXPECT_LE(5 * count, all) << room << " has " << count << " of " << all << " lines";
 }
 
 TEST(Includes, AreFoundInEveryRoom) {

@@ -1,0 +1,28 @@
+/// \file
+/// Hashes of outputs as sha256sum writes them: "<64 digits>  build/forearm/pulley.stl", one file of them a verb.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/base/files.h"
+
+namespace fusee::pins {
+
+/// Path → hash.
+using Hashes = std::map<std::string, std::string>;
+
+/// "build/forearm" → "build.sha256".
+std::string hash_file_of(const std::string& run_name);
+Hashes hashes_of(const std::string& run_name, const std::vector<OutputFile>& outputs);
+
+std::string text_of(const Hashes& hashes);
+Hashes parse_hashes(std::string_view text);
+
+/// What differs, a line each, in words: changed, gone, new. Empty when nothing does.
+std::vector<std::string> differences(const Hashes& pinned, const Hashes& found);
+
+}  // namespace fusee::pins

@@ -1,0 +1,50 @@
+// Every pinned output, to be looked at, and the hashes of all: pins FOLDER [RUN...]
+//
+// The hashes are accepted with: build/release/tests/pins/pins now && cp now/*.sha256 tests/pins/
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "pins/hashes.h"
+#include "pins/runs.h"
+
+namespace fusee::pins {
+namespace {
+
+namespace fs = std::filesystem;
+
+void leave(const std::vector<OutputFile>& outputs, const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const OutputFile& file : outputs) write_file(folder / file.name, file.bytes, true);
+}
+
+/// Hashes are left only of whole verbs: those of a few runs are no file to accept.
+int run(const fs::path& folder, const std::vector<std::string>& wanted) {
+  std::map<std::string, Hashes> lists;
+  for (const PinnedRun& one : runs()) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), one.name) == wanted.end()) continue;
+    const std::vector<OutputFile> outputs = one.outputs();
+    leave(outputs, folder / one.name);
+    lists[hash_file_of(one.name)].merge(hashes_of(one.name, outputs));
+    std::printf("%s: %zu files\n", one.name.c_str(), outputs.size());
+  }
+  if (!wanted.empty()) return 0;
+  for (const auto& [name, hashes] : lists) write_file(folder / name, text_of(hashes), true);
+  return 0;
+}
+
+}  // namespace
+}  // namespace fusee::pins
+
+int main(int count, char** words) {
+  if (count < 2) {
+    std::fputs("usage: pins FOLDER [RUN...]\n", stderr);
+    return 2;
+  }
+  try {
+    return fusee::pins::run(words[1], std::vector<std::string>(words + 2, words + count));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pins: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,91 @@
+// Same input, same bytes: of every output, on every machine, with every compiler. tests/pins/*.sha256 hold what the
+// bytes were.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pins/hashes.h"
+#include "pins/runs.h"
+
+namespace fusee::pins {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+namespace fs = std::filesystem;
+
+const fs::path k_pins = fs::path(FUSEE_SOURCE_DIR) / "tests/pins";
+constexpr std::size_t k_largest_list = 1 << 20;
+constexpr const char* k_what_now =
+    "\nTo look: `build/release/tests/pins/pins now` here, the same with `before` at the last commit that passed, then"
+    " `diff -r before now`."
+    "\nWhere the change is meant: `build/release/tests/pins/pins now && cp now/*.sha256 tests/pins/`, and the commit"
+    " says why the bytes moved.";
+
+Hashes pinned_in(const fs::path& hash_file) {
+  return fs::exists(hash_file) ? parse_hashes(read_file(hash_file, k_largest_list)) : Hashes();
+}
+
+/// Those of one run.
+Hashes pinned_of(const std::string& run_name) {
+  Hashes hashes;
+  for (const auto& [path, hash] : pinned_in(k_pins / hash_file_of(run_name))) {
+    if (path.rfind(run_name + "/", 0) == 0) hashes[path] = hash;
+  }
+  return hashes;
+}
+
+std::string list(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += "\n  " + word;
+  return text;
+}
+
+class Outputs : public ::testing::TestWithParam<PinnedRun> {};
+
+TEST_P(Outputs, AreThePinnedBytes) {
+  const PinnedRun& run = GetParam();
+  const std::vector<OutputFile> outputs = run.outputs();
+  const std::vector<std::string> words = differences(pinned_of(run.name), hashes_of(run.name, outputs));
+  EXPECT_TRUE(words.empty()) << list(words) << k_what_now;
+  for (const OutputFile& file : outputs)
+    EXPECT_EQ(file.bytes.find(FUSEE_SOURCE_DIR), std::string::npos) << file.name << " says where the tree lies";
+}
+
+std::string test_name(const ::testing::TestParamInfo<PinnedRun>& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Outputs, ::testing::ValuesIn(runs()), test_name);
+
+TEST(Pins, AreOfRunsThatThereAre) {
+  std::vector<std::string> names;
+  for (const PinnedRun& run : runs()) names.push_back(run.name);
+  for (const auto& entry : fs::directory_iterator(k_pins)) {
+    if (entry.path().extension() != ".sha256") continue;
+    for (const auto& [path, hash] : pinned_in(entry.path()))
+      EXPECT_THAT(names, Contains(path.substr(0, path.rfind('/')))) << path << " is pinned, and no run makes it";
+  }
+}
+
+TEST(Pins, SayWhichFileChanged) {
+  const std::vector<OutputFile> before = {{"a.txt", "as it was"}, {"b.txt", "b"}, {"c.txt", "c"}};
+  const std::vector<OutputFile> after = {{"a.txt", "as it is"}, {"b.txt", "b"}, {"d.txt", "d"}};
+  EXPECT_THAT(differences(hashes_of("verb/run", before), hashes_of("verb/run", after)),
+              ElementsAre("verb/run/a.txt changed", "verb/run/d.txt is new", "verb/run/c.txt is gone"));
+}
+
+TEST(Pins, ReadWhatTheyWrite) {
+  const Hashes hashes = hashes_of("verb/run", {{"a.txt", ""}, {"b.txt", "b"}});
+  EXPECT_EQ(parse_hashes(text_of(hashes)), hashes);
+  EXPECT_THAT(differences(parse_hashes(text_of(hashes)), hashes), IsEmpty());
+  // As sha256sum has it for an empty file.
+  EXPECT_EQ(hashes.at("verb/run/a.txt"), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+}  // namespace
+}  // namespace fusee::pins

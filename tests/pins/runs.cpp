@@ -1,0 +1,144 @@
+#include "pins/runs.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/export/calibration.h"
+#include "fusee/export/paper.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/mechanism/edit.h"
+#include "fusee/optimize/certified.h"
+#include "fusee/pipeline.h"
+
+namespace fusee::pins {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t k_largest_spec = 1 << 20;
+const fs::path k_root = FUSEE_SOURCE_DIR;
+
+using Outputs = std::vector<OutputFile>;
+
+std::vector<fs::path> paths_in(const fs::path& folder, const std::function<bool(const fs::path&)>& wanted) {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (wanted(entry.path())) paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, const std::string& beginning, const std::string& ending) {
+  return paths_in(folder, [&](const fs::path& path) {
+    return path.extension() == ending && path.filename().string().rfind(beginning, 0) == 0;
+  });
+}
+
+// ---- one function a verb --------------------------------------------------------------------------------------------
+
+Outputs built(const MechanismFile& file, DxfVersion dxf) {
+  BuildOptions options;
+  options.dxf = dxf;
+  options.folder = fs::temp_directory_path() / "fusee-pins";
+  options.dry_run = true;
+  return build(file, options).outputs;
+}
+
+CalibrationProduct calibrated(const fs::path& spec, const std::vector<fs::path>& measured) {
+  CalibrationProduct product;
+  product.file = read_mechanism(spec);
+  const auto& declared = product.file.mechanism;
+  const auto expected = expected_joint(declared);
+  product.measurement = read_measurement(measured);
+  compare_with_declared(expected, product.measurement);
+  product.calibration = calibrate(expected, product.measurement);
+  product.correction.identified = declared.identified;
+  if (product.calibration.verdict != "not_testable")
+    product.correction = correct(declared, product.measurement, product.calibration);
+  return product;
+}
+
+Outputs calibration_outputs(const fs::path& spec, const std::vector<fs::path>& measured) {
+  const CalibrationProduct product = calibrated(spec, measured);
+  Outputs outputs;
+  outputs.push_back({"calibration.json", calibration_json(product)});
+  outputs.push_back({"corrected.toml", corrected_toml(read_file(spec, k_largest_spec), product.file.mechanism,
+                                                      product.calibration, product.correction)});
+  outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
+  outputs.push_back({"report.html", calibration_report_html(product)});
+  outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});
+  return outputs;
+}
+
+/// The pulley that a calibration asks for.
+Outputs built_corrected(const fs::path& spec, const std::vector<fs::path>& measured) {
+  const Outputs outputs = calibration_outputs(spec, measured);
+  const auto corrected = std::find_if(outputs.begin(), outputs.end(),
+                                      [](const OutputFile& file) { return file.name == "corrected.toml"; });
+  MechanismFile file;
+  file.path = corrected->name;
+  file.sha256 = sha256(corrected->bytes);
+  file.mechanism = parse_mechanism(corrected->bytes, file.path, k_root, {}, &file.warnings);
+  return built(file, DxfVersion::ac1015);
+}
+
+/// The new file, and what `fusee optimize` says, to as many digits.
+Outputs optimum_outputs(const fs::path& spec) {
+  const Problem problem = make_problem(read_mechanism(spec));
+  const CertifiedResult result = certified_optimum(problem, problem.objectives.front());
+  const std::string said = "value " + rounded(result.value, 7) + "\ntheta_deg " + rounded(degrees(result.theta), 4) +
+                           "\nlower_bound " + rounded(result.lower_bound, 8) + "\nboxes " +
+                           std::to_string(result.boxes) + "\nevaluations " + std::to_string(result.evaluations) + "\n";
+  return {{"new.toml", edit_values(read_file(spec, k_largest_spec), edits_of(problem, result.best))},
+          {"said.txt", said}};
+}
+
+// ---- what they are run on -------------------------------------------------------------------------------------------
+
+void add_builds(std::vector<PinnedRun>& all) {
+  for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
+    const std::string name = spec.stem().string();
+    all.push_back({"build/" + name, [spec] { return built(read_mechanism(spec), DxfVersion::ac1015); }});
+    all.push_back({"build_r12/" + name, [spec] { return built(read_mechanism(spec), DxfVersion::r12); }});
+  }
+}
+
+void add_calibrations(std::vector<PinnedRun>& all) {
+  const auto add = [&all](const std::string& name, const fs::path& spec, const std::vector<fs::path>& measured) {
+    all.push_back({"calibrate/" + name, [spec, measured] { return calibration_outputs(spec, measured); }});
+  };
+  for (const fs::path& folder :
+       paths_in(k_root / "tests/data/rig", [](const fs::path& path) { return fs::is_directory(path); }))
+    add(folder.filename().string(), folder / "spec.toml", files_in(folder, "run_", ".csv"));
+  add("forearm", k_root / "profiles/forearm.toml", files_in(k_root / "profiles/measured", "forearm_", ".csv"));
+}
+
+/// Between them these have identified a tendon, a pin, and more than one of them at once.
+void add_corrected_builds(std::vector<PinnedRun>& all) {
+  for (const std::string name : {"b_stretch", "d_guide_radius"}) {
+    const fs::path folder = k_root / "tests/data/rig" / name;
+    all.push_back({"build_corrected/" + name,
+                   [folder] { return built_corrected(folder / "spec.toml", files_in(folder, "run_", ".csv")); }});
+  }
+  all.push_back({"build_corrected/forearm", [] {
+                   return built_corrected(k_root / "profiles/forearm.toml",
+                                          files_in(k_root / "profiles/measured", "forearm_", ".csv"));
+                 }});
+}
+
+}  // namespace
+
+std::vector<PinnedRun> runs() {
+  std::vector<PinnedRun> all;
+  add_builds(all);
+  add_calibrations(all);
+  add_corrected_builds(all);
+  all.push_back({"reproduce/paper", [] { return paper_files(reproduce_paper()); }});
+  all.push_back({"optimize/paper_optimum", [] { return optimum_outputs(k_root / "profiles/paper_optimum.toml"); }});
+  return all;
+}
+
+}  // namespace fusee::pins

@@ -1,0 +1,110 @@
+#include "pipeline/cmake_rooms.h"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "pipeline/source_text.h"
+
+namespace fusee::house {
+namespace {
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+/// All words that a pattern finds, by its first group.
+std::vector<std::string> found(std::string_view text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> words;
+  const std::string copy(text);
+  for (std::sregex_iterator i(copy.begin(), copy.end(), regex), end; i != end; ++i) words.push_back((*i)[1]);
+  return words;
+}
+
+std::string without_comments(std::string_view text) {
+  return std::regex_replace(std::string(text), std::regex("#.*"), "");
+}
+
+std::string folder_of(const std::string& room) { return room == "export" ? "export" : "src/" + room; }
+
+/// The words after ROOMS up to the next keyword.
+std::set<std::string> rooms_named(const std::string& call) {
+  std::set<std::string> rooms;
+  bool listed = false;
+  for (const std::string& word : words_of(call)) {
+    const bool keyword = std::regex_match(word, std::regex("SOURCES|ROOMS|LIBS"));
+    if (keyword) listed = word == "ROOMS";
+    if (!keyword && listed) rooms.insert(word);
+  }
+  return rooms;
+}
+
+/// The program is no library: it names its rooms as targets, "fusee_pipeline".
+std::set<std::string> rooms_linked(const std::string& call, const std::vector<std::string>& rooms) {
+  std::set<std::string> linked;
+  const std::vector<std::string> words = words_of(call);
+  for (const std::string& room : rooms) {
+    if (std::find(words.begin() + 1, words.end(), "fusee_" + room) != words.end()) linked.insert(room);
+  }
+  return linked;
+}
+
+}  // namespace
+
+std::vector<std::string> rooms_in_flow() {
+  std::vector<std::string> rooms;
+  for (const std::string& line : found(text_of("CMakeLists.txt"), "#([^\n]*<-[^\n]*)")) {
+    for (const std::string& room : found(line, "([a-z]+)")) rooms.push_back(room);
+  }
+  return rooms;
+}
+
+std::map<std::string, int> flow() {
+  std::map<std::string, int> places;
+  for (const std::string& room : rooms_in_flow()) places.emplace(room, static_cast<int>(places.size()));
+  return places;
+}
+
+std::vector<std::string> arguments_of(std::string_view text, const std::string& command) {
+  return found(without_comments(text), "\\b" + command + "\\(([^)]*)\\)");
+}
+
+std::vector<std::string> list_in(std::string_view text, const std::string& command, const std::string& name) {
+  for (const std::string& arguments : arguments_of(text, command)) {
+    std::vector<std::string> words = words_of(arguments);
+    if (words.empty() || words.front() != name) continue;
+    words.erase(words.begin());
+    return words;
+  }
+  return {};
+}
+
+std::map<std::string, std::set<std::string>> links() {
+  const std::vector<std::string> rooms = rooms_in_flow();
+  std::map<std::string, std::set<std::string>> links;
+  for (const std::string& room : rooms) {
+    const std::string text = text_of(folder_of(room) + "/CMakeLists.txt");
+    std::set<std::string>& linked = links[room];
+    for (const std::string& call : arguments_of(text, "fusee_room")) linked.merge(rooms_named(call));
+    for (const std::string& call : arguments_of(text, "target_link_libraries")) linked.merge(rooms_linked(call, rooms));
+  }
+  return links;
+}
+
+std::set<std::string> reached_from(const std::string& room, const std::map<std::string, std::set<std::string>>& links) {
+  std::set<std::string> reached = {room};
+  for (std::vector<std::string> ways = {room}; !ways.empty();) {
+    const std::string from = ways.back();
+    ways.pop_back();
+    for (const std::string& next : links.at(from)) {
+      if (reached.insert(next).second) ways.push_back(next);
+    }
+  }
+  return reached;
+}
+
+}  // namespace fusee::house

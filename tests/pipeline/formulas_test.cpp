@@ -1,0 +1,71 @@
+// One formula once: what is written twice is mended once. Oracles of the tests write their own on purpose, so that only
+// the house is searched.
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "pipeline/source_text.h"
+
+namespace fusee::house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// What is written once, and the file or room that has it.
+struct Formula {
+  std::string name;
+  std::string pattern;
+  std::string home;  ///< the beginning of its path; "": any
+};
+void PrintTo(const Formula& formula, std::ostream* stream) { *stream << formula.name; }
+
+const std::vector<Formula> k_formulas = {
+    // tan(π/4 − …) is another matter.
+    {"section_stiffness", R"((0\.25\s*\*\s*k_pi|k_pi\s*/\s*4(\.0)?)\b(?!\s*-))", "include/fusee/mechanism/mechanism.h"},
+    {"standard_gravity", R"(\b9\.8\d*)", "include/fusee/transmission/load.h"},
+    {"weight_moment", R"(\bmass\s*\*\s*k_gravity\b|\bk_gravity\s*\*\s*[\w.]*mass\b)", "src/transmission/load.cpp"},
+    {"golden_section", R"(\b(0\.618|0\.38196|1\.618)\d*)", "src/base/"},
+    {"declared_law", R"(\bclass\s+DeclaredLaw\b)", ""},
+    {"median", R"(\bmedian\w*\(std::vector<double>\s+\w+\)\s*\{)", ""},
+    // The character itself stands in quotes, which are blank here.
+    {"progress_bar", R"(std::string\(20 - )", "src/cli/"},
+};
+
+/// "src/transmission/load.cpp:15", each place where the code has it.
+std::vector<std::string> places_of(const std::string& pattern, const std::vector<Source>& sources) {
+  const std::regex regex(pattern);
+  std::vector<std::string> places;
+  for (const Source& source : sources) {
+    const std::string code = code_of(source.text);
+    for (std::sregex_iterator i(code.begin(), code.end(), regex), end; i != end; ++i)
+      places.push_back(source.path + ":" + std::to_string(line_at(code, static_cast<std::size_t>(i->position()))));
+  }
+  return places;
+}
+
+const std::vector<Source>& house() {
+  static const std::vector<Source> sources = sources_under({"include", "src", "export"});
+  return sources;
+}
+
+class Formulas : public ::testing::TestWithParam<Formula> {};
+
+TEST_P(Formulas, StandOnce) {
+  const std::vector<std::string> places = places_of(GetParam().pattern, house());
+  ASSERT_THAT(places, ::testing::SizeIs(1));
+  EXPECT_THAT(places.front(), ::testing::StartsWith(GetParam().home));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Formulas, ::testing::ValuesIn(k_formulas),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(FormulaText, IsFoundInCodeAlone) {
+  const std::vector<Source> sources = {{"a.cpp", "// 0.25 * k_pi * d * d\ndouble EA = E * 0.25 * k_pi * d * d;\n"},
+                                       {"b.cpp", "double tangent = std::tan(0.25 * k_pi - 0.5 * lean);\n"}};
+  EXPECT_THAT(places_of(k_formulas.front().pattern, sources), ElementsAre("a.cpp:2"));
+  EXPECT_THAT(places_of(k_formulas.front().pattern, {sources[1]}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace fusee::house

@@ -1,0 +1,115 @@
+// src/README.md, the page of the code, is held against the code.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "pipeline/cmake_rooms.h"
+#include "pipeline/source_text.h"
+
+namespace fusee::house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+namespace fs = std::filesystem;
+
+const fs::path k_root = FUSEE_SOURCE_DIR;
+
+const std::vector<Source>& house() {
+  static const std::vector<Source> sources = sources_under({"include", "src", "export"});
+  return sources;
+}
+
+/// A row of a table, or a paragraph: what is named together.
+std::vector<std::string> passages_of(const std::string& page) {
+  std::vector<std::string> passages = {""};
+  std::istringstream lines(page);
+  bool fenced = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool fence = line.rfind("```", 0) == 0;
+    fenced = fenced != fence;
+    if (fence || fenced) continue;
+    if (line.empty() || line.front() == '|') passages.emplace_back();
+    passages.back() += line + "\n";
+  }
+  return passages;
+}
+
+/// What stands in `backticks`.
+std::vector<std::string> named_in(const std::string& passage) {
+  static const std::regex pattern("`([^`]+)`");
+  std::vector<std::string> names;
+  for (std::sregex_iterator i(passage.begin(), passage.end(), pattern), end; i != end; ++i) names.push_back((*i)[1]);
+  return names;
+}
+
+bool is_command(const std::string& name) { return name.rfind("fusee ", 0) == 0; }
+bool is_function(const std::string& name) { return name.size() > 2 && name.substr(name.size() - 2) == "()"; }
+bool is_path(const std::string& name) { return name.find('/') != std::string::npos; }
+
+/// Functions of the house begin their definition or declaration in the first column; calls do not.
+bool has_function(const std::string& path, const std::string& name) {
+  const std::string words = name.substr(0, name.size() - 2);
+  const std::regex pattern("(^|\n)[A-Za-z][^\n;={]*\\b" + words + "\\(");
+  return std::regex_search(code_of(text_of(path)), pattern);
+}
+
+/// A type, a key, a name that outputs have: it stands somewhere in the house, or a file ends so.
+bool is_word_of_the_house(const std::string& name) {
+  const std::string word = std::regex_replace(name, std::regex("^\\[|\\]$"), "");
+  return fs::exists(k_root / name) || std::any_of(house().begin(), house().end(), [&](const Source& source) {
+           const bool ends_so = source.path.size() >= word.size() &&
+                                source.path.compare(source.path.size() - word.size(), word.size(), word) == 0;
+           return ends_so || source.text.find(word) != std::string::npos;
+         });
+}
+
+std::string why_untrue(const std::string& name, const std::vector<std::string>& beside) {
+  if (is_command(name)) return "";
+  if (is_path(name)) return fs::exists(k_root / name) ? "" : "there is no " + name;
+  if (!is_function(name)) return is_word_of_the_house(name) ? "" : "nothing is called " + name;
+  const bool found = std::any_of(beside.begin(), beside.end(), [&](const std::string& path) {
+    return is_path(path) && fs::is_regular_file(k_root / path) && has_function(path, name);
+  });
+  return found ? "" : "no file named beside " + name + " has it";
+}
+
+std::vector<std::string> untrue_in(const std::string& page) {
+  std::vector<std::string> words;
+  for (const std::string& passage : passages_of(page)) {
+    const std::vector<std::string> names = named_in(passage);
+    for (const std::string& name : names) {
+      const std::string why = why_untrue(name, names);
+      if (!why.empty()) words.push_back(why);
+    }
+  }
+  return words;
+}
+
+TEST(Page, NamesOnlyWhatThereIs) { EXPECT_THAT(untrue_in(text_of("src/README.md")), IsEmpty()); }
+
+TEST(Page, HasEveryRoomInTheOrderOfTheFlow) {
+  static const std::regex row("^\\| `([a-z]+)` \\|");
+  std::vector<std::string> rooms;
+  for (const std::string& passage : passages_of(text_of("src/README.md"))) {
+    std::smatch match;
+    if (std::regex_search(passage, match, row)) rooms.push_back(match[1]);
+  }
+  EXPECT_EQ(rooms, rooms_in_flow());
+}
+
+TEST(Page, IsSeenToBeUntrue) {
+  EXPECT_THAT(untrue_in("`read_file()` in `src/base/files.cpp`; `fusee build`\n"), IsEmpty());
+  EXPECT_THAT(untrue_in("| `read_file()` | `src/base/text.cpp` |\n| `src/base/files.cpp` |\n"),
+              ElementsAre("no file named beside read_file() has it"));
+  EXPECT_THAT(untrue_in("`src/base/nowhere.cpp`\n\n`Mechanism`, `Mechanizm`\n```\n`fenced`\n```\n"),
+              ElementsAre("there is no src/base/nowhere.cpp", "nothing is called Mechanizm"));
+  // It calls it, and that is not where a reader finds it.
+  EXPECT_THAT(untrue_in("`synthesise()` in `src/pipeline/build.cpp`"),
+              ElementsAre("no file named beside synthesise() has it"));
+}
+
+}  // namespace
+}  // namespace fusee::house

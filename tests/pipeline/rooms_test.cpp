@@ -1,0 +1,81 @@
+// The flow is drawn once, in the top CMakeLists.txt. These tests hold every other list of rooms against it, so that
+// none can leave one out.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pipeline/cmake_rooms.h"
+#include "pipeline/source_text.h"
+
+namespace fusee::house {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+namespace fs = std::filesystem;
+
+const fs::path k_root = FUSEE_SOURCE_DIR;
+
+std::vector<std::string> flow_without(const std::string& room) {
+  std::vector<std::string> rooms = rooms_in_flow();
+  EXPECT_THAT(rooms, Contains(room));
+  std::erase(rooms, room);
+  return rooms;
+}
+
+std::vector<std::string> folders_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(k_root / folder)) {
+    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  }
+  return names;
+}
+
+TEST(Flow, HasARoomOnce) {
+  EXPECT_EQ(flow().size(), rooms_in_flow().size());
+  EXPECT_EQ(rooms_in_flow().front(), "base");
+  EXPECT_EQ(rooms_in_flow().back(), "cli");
+}
+
+TEST(Flow, KnowsEveryFolder) {
+  for (const std::string& folder : folders_in("src")) EXPECT_THAT(rooms_in_flow(), Contains(folder));
+  for (const std::string& folder : folders_in("include/fusee")) EXPECT_THAT(rooms_in_flow(), Contains(folder));
+}
+
+TEST(Flow, IsTheOrderInWhichRoomsAreBuilt) {
+  EXPECT_EQ(arguments_of(text_of("src/CMakeLists.txt"), "add_subdirectory"), flow_without("export"));
+}
+
+TEST(Flow, IsInstalledWhole) {
+  EXPECT_EQ(list_in(text_of("src/install.cmake"), "set", "FUSEE_ROOMS"), flow_without("cli"));
+}
+
+TEST(Flow, IsLinkedFromRightToLeft) {
+  const std::map<std::string, int> place = flow();
+  for (const auto& [room, linked] : links()) {
+    for (const std::string& other : linked) EXPECT_LT(place.at(other), place.at(room)) << room << " ← " << other;
+  }
+}
+
+/// A folder that the list leaves out is a folder of tests that nobody runs.
+TEST(Flow, HasAllItsTestsRun) {
+  const std::vector<std::string> listed = list_in(text_of("tests/CMakeLists.txt"), "foreach", "folder");
+  for (const std::string& folder : folders_in("tests")) {
+    if (!fs::exists(k_root / "tests" / folder / "CMakeLists.txt")) continue;
+    EXPECT_THAT(listed, Contains(folder));
+  }
+}
+
+TEST(Flow, IsReadFromCMake) {
+  const std::string text = "add_subdirectory(a)  # add_subdirectory(b)\nset(ROOMS a b\n  c)\nset(OTHER d)\n";
+  EXPECT_THAT(arguments_of(text, "add_subdirectory"), ElementsAre("a"));
+  EXPECT_THAT(list_in(text, "set", "ROOMS"), ElementsAre("a", "b", "c"));
+  EXPECT_THAT(list_in(text, "set", "NONE"), IsEmpty());
+  const std::map<std::string, std::set<std::string>> chain = {{"c", {"b"}}, {"b", {"a"}}, {"a", {}}, {"d", {}}};
+  EXPECT_THAT(reached_from("c", chain), ElementsAre("a", "b", "c"));
+}
+
+}  // namespace
+}  // namespace fusee::house
