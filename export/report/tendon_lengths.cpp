@@ -60,7 +60,7 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   const TendonPoint& tendon = left ? home.t1 : home.t2;
   const BodyLayout& layout = product.pulley.layout;
 
-  const double rho = mechanism.pulley.method == Method::paper ? 0.0 : mechanism.guide_pitch_radius();
+  const double rho = mechanism.seen_pitch_radius();
   const Vec2 pin =
       left ? Vec2(-mechanism.guides.EB, -mechanism.guides.OE) : Vec2(mechanism.guides.ED, -mechanism.guides.OE);
   const Vec2 axis(0.0, -mechanism.guides.OE - mechanism.pulley.EF);

@@ -250,18 +250,11 @@ void publish(OutputFolder& folder, const std::vector<OutputFile>& outputs) {
   folder.publish();
 }
 
-/// A bar of 20 places on the progress line.
-std::string bar(const std::string& what, double share) {
-  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  const auto full = static_cast<std::size_t>(percent / 5);
-  return "[" + std::string(full, '#') + std::string(20 - full, '.') + "] " + std::to_string(percent) + " %, " + what;
-}
-
 Calibration calibration_of(const Mechanism& mechanism, const Measurement& measurement, std::size_t fitted,
                            Console& console) {
   CalibrationOptions options;
   for (std::size_t i = fitted; i < measurement.runs.size(); ++i) options.hold_out.push_back(measurement.runs[i].name);
-  options.progress = [&console](const std::string& what, double share) { console.progress(bar(what, share)); };
+  options.progress = [&console](const std::string& what, double share) { console.progress(progress_bar(share) + ", " + what); };
   return calibrate(mechanism, measurement, options);
 }
 

@@ -102,7 +102,7 @@ std::array<LowerPath, 2> MadePulleys::paths(const std::array<PinPlace, 2>& mount
 JointModel joint_model(const Mechanism& mechanism) { return joint_model(MadePulleys(mechanism), mechanism); }
 
 JointModel joint_model(const MadePulleys& made, const Mechanism& mounted) {
-  const double rho = mounted.pulley.method == Method::paper ? 0.0 : mounted.guide_pitch_radius();
+  const double rho = mounted.seen_pitch_radius();
   JointModel model;
   model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };

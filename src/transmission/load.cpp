@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "transmission/equations.h"
+
 namespace fusee {
 
 double weight_moment(const Load& load) { return load.mass * k_gravity * load.lever; }
@@ -11,8 +13,6 @@ double load_torque(const Mechanism& mechanism, double theta) {
   return load.tip_force * mechanism.joint.R + load.torque + weight_moment(load) * std::sin(load.tilt - theta);
 }
 
-double section_stiffness(const Tendon& tendon) {
-  return tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter;
-}
+double section_stiffness(const Tendon& tendon) { return stiffness_of_section(tendon.modulus, tendon.diameter); }
 
 }  // namespace fusee

@@ -23,6 +23,7 @@ friction = 0.2      # measured
 [pulley]
 EF_mm = 60.0
 r1_mm = 20.0
+method = "paper"
 [tendon]
 diameter_mm = 1.0
 [optimize]

@@ -179,6 +179,11 @@ struct Mechanism {
 
   /// Pin radius to the tendon's centre line: ρp of mechanics, mm.
   double guide_pitch_radius() const { return guides.radius + 0.5 * tendon.diameter; }
+  /// The same as equations and drawings see it. method = "paper" takes pins for points and tendons for lines: 0. In every other method
+  /// the tendon runs at half its thickness round a pin of radius 0 too.
+  double seen_pitch_radius() const { return pulley.method == Method::paper ? 0.0 : guide_pitch_radius(); }
+  /// Whether a pin is a point, for everything that asks.
+  bool has_point_pins() const { return seen_pitch_radius() == 0; }
   /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
   double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
 };

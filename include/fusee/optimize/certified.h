@@ -45,8 +45,11 @@ struct CertifiedResult {
   std::string reason;    ///< when nothing was found: the commonest cause
 };
 
-/// Needs an objective that is certifiable, law compensate or linear, no `feasible`: else InputError, naming what can be
-/// certified.
+/// Why no optimum of this can be certified; empty when one can.
+std::string cannot_certify(const Problem& problem, Objective objective);
+
+/// Needs an objective that is certifiable, law compensate or linear, no `feasible`, a joint as declared: else InputError, naming what can
+/// be certified.
 CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options = {});
 
 }  // namespace fusee
