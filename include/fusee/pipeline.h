@@ -66,8 +66,8 @@ const std::vector<std::string>& output_names();
 /// Forces over the range of the joint as it is. InputError: a joint with [transmission] has none.
 AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options = {});
 
-/// The search that [optimize] asks for, of the joint as it is and in the numbers that the file declares. A box without a possible design
-/// and a search that was stopped are values; InputError and OutputError as their names say.
+/// The search that [optimize] asks for, of the joint as it is and in the numbers that the file declares. A box without
+/// a possible design and a search that was stopped are values; InputError and OutputError as their names say.
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {});
 
 // Parts from anywhere --------------------------------------------------------------------------------------------------

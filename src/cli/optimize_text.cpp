@@ -72,8 +72,9 @@ void add_value(const OptimizeResult& result, Reply& reply) {
   if (now.possible) reply.fields["value_before"] = now.value;
   reply.fields["design"] = design_json(result.problem, result.design);
   const std::string before = now.possible ? "; the file as it is: " + value_text(objective, now.value) : "";
-  reply.text += line(std::string(info(objective).name),
-                     value_text(objective, result.value) + " at theta = " + rounded(degrees(result.theta), 4) + " deg" + before);
+  reply.text +=
+      line(std::string(info(objective).name),
+           value_text(objective, result.value) + " at theta = " + rounded(degrees(result.theta), 4) + " deg" + before);
   add_joint(result, reply);
   reply.text += design_text(result.problem, result.design);
 }
@@ -143,7 +144,8 @@ void add_then(Objective objective, const CertifiedResult& second, Reply& reply) 
 }
 
 /// `then` is unknown to the search that was stopped before it.
-void add_certified(const OptimizeOptions& options, const OptimizeResult& result, const CertifiedResult& search, Reply& reply) {
+void add_certified(const OptimizeOptions& options, const OptimizeResult& result, const CertifiedResult& search,
+                   Reply& reply) {
   const Objective objective = result.problem.objectives.front();
   if (result.then) add_then(*options.then, *result.then, reply);
   reply.fields["boxes"] = search.boxes;
@@ -154,9 +156,10 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
   reply.fields["lower_bound"] = search.lower_bound;
   reply.fields["relative_gap"] = search.relative_gap;
   reply.fields["proven"] = search.proven;
-  reply.text += line("proven", "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
-  reply.text += line("searched",
-                     std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
+  reply.text +=
+      line("proven", "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
+  reply.text +=
+      line("searched", std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
   if (result.then) reply.text += then_line(*options.then, *result.then);
   add_ties(result.problem, search.ties, options.then.has_value(), reply);
   if (search.proven || options.then || result.stopped) return;
@@ -166,14 +169,15 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
       "narrow the bounds, or take fewer variables"));
 }
 
-void add_genetic(const GeneticOptions& options, const OptimizeResult& result, const GeneticResult& search, Reply& reply) {
+void add_genetic(const GeneticOptions& options, const OptimizeResult& result, const GeneticResult& search,
+                 Reply& reply) {
   reply.fields["evaluations"] = search.evaluations;
   reply.text = std::string(info(result.problem.objectives.front()).name) + " of " + result.problem.base.name +
                ", by the genetic algorithm (not proven)\n";
   add_value(result, reply);
-  reply.text += line("searched", std::to_string(options.generations) + " generations of " + std::to_string(options.population) +
-                                     ", seed " + std::to_string(options.seed) + ", " + std::to_string(search.evaluations) +
-                                     " evaluations");
+  reply.text += line("searched", std::to_string(options.generations) + " generations of " +
+                                     std::to_string(options.population) + ", seed " + std::to_string(options.seed) +
+                                     ", " + std::to_string(search.evaluations) + " evaluations");
   reply.fields["found"] = true;
   reply.fields["seed"] = options.seed;
   reply.fields["generations"] = Json::array();

@@ -158,15 +158,15 @@ double constrained_least(const Problem& problem, const Box& box, const Line& lin
   return constrained_least(problem, box, line);
 }
 
-/// In the link's frame the pin lies `a` beside OC and `b` below C: tan γ = a/b over a point pin, and at one joint angle both are linear
-/// in the variables.
+/// In the link's frame the pin lies `a` beside OC and `b` below C: tan γ = a/b over a point pin, and at one joint angle
+/// both are linear in the variables.
 struct Legs {
   Jet a, b;
 };
 
 Legs legs(const DesignNumbers<Jet>& d, bool of_tendon_1, const StrokeNumbers<Jet>& n) {
-  const FromPin<Jet> to_C = of_tendon_1 ? from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored())
-                                        : from_pin_in_link(d.R, d.ED, d.OE, n.theta);
+  const FromPin<Jet> to_C =
+      of_tendon_1 ? from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored()) : from_pin_in_link(d.R, d.ED, d.OE, n.theta);
   return {-to_C.x, to_C.y};
 }
 

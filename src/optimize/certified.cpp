@@ -26,9 +26,10 @@ void demand_certifiable(const Problem& problem, Objective objective) {
   for (const ObjectiveInfo& candidate : objectives()) {
     if (candidate.certifiable) names += (names.empty() ? "" : ", ") + std::string(candidate.name);
   }
-  throw InputError("", obstacle,
-                   "certified: " + names +
-                       ", with law compensate or linear, without feasible = true and of a joint as declared; else --method ga");
+  throw InputError(
+      "", obstacle,
+      "certified: " + names +
+          ", with law compensate or linear, without feasible = true and of a joint as declared; else --method ga");
 }
 
 class Search {
@@ -304,9 +305,11 @@ class Search {
 std::string cannot_certify(const Problem& problem, Objective objective) {
   if (!info(objective).certifiable)
     return std::string(info(objective).name) + " has no interval form: its optimum cannot be certified";
-  if (problem.base.pulley.law == Law::table) return "law = \"table\" has no interval form: its optimum cannot be certified";
+  if (problem.base.pulley.law == Law::table)
+    return "law = \"table\" has no interval form: its optimum cannot be certified";
   if (problem.feasible) return "feasible = true has no interval form: the optimum cannot be certified";
-  if (problem.as_it_is) return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
+  if (problem.as_it_is)
+    return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
   return "";
 }
 

@@ -114,7 +114,8 @@ GeneticResult genetic_optimum(const Problem& problem, Objective objective, const
     if (number > 0) population = algorithm.evolve(population);
     result.generations.push_back(described(number, population, objective, best));
     best = result.generations.back().best;
-    result.stopped = !goes_on(options, number, std::abs(best) < k_none ? std::optional(best) : std::nullopt, static_cast<long>(population.get_problem().get_fevals()));
+    result.stopped = !goes_on(options, number, std::abs(best) < k_none ? std::optional(best) : std::nullopt,
+                              static_cast<long>(population.get_problem().get_fevals()));
   }
   result.evaluations = static_cast<long>(population.get_problem().get_fevals());
   result.best = population.champion_x();

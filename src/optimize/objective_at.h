@@ -1,6 +1,6 @@
 /// \file
-/// Internal: objectives at one place of the stroke, by the paper's equations (transmission/equations.h), for numbers and for intervals
-/// with derivatives: what is evaluated and what is proven are the same.
+/// Internal: objectives at one place of the stroke, by the paper's equations (transmission/equations.h), for numbers
+/// and for intervals with derivatives: what is evaluated and what is proven are the same.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
@@ -65,8 +65,8 @@ struct StrokeNumbers {
 template <typename S>
 void demand_on_pin_B(const DesignNumbers<S>& d, const S& normal1, const S& r1, Domain& domain) {
   Domain its_own;
-  const LowerLine<S> lower1 = lower_line(without_slopes(r1), without_slopes(d.rho), without_slopes(d.to_B),
-                                         without_slopes(d.angle_B), its_own);
+  const LowerLine<S> lower1 =
+      lower_line(without_slopes(r1), without_slopes(d.rho), without_slopes(d.to_B), without_slopes(d.angle_B), its_own);
   domain.possible = domain.possible && its_own.possible;
   demand_not_negative(without_slopes(normal1) - lower1.normal, domain);
 }
@@ -118,8 +118,7 @@ S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, D
   const S below = tension_below_pin(above, d.mu, n.phi);
   if (objective == Objective::max_tension) return below;
   if (objective == Objective::motor_torque) return below * n.r2;
-  const S elongation =
-      elongation_of_tendon(above, below, n.upper.free, S(d.rho * n.phi), n.reach, d.stiffness);
+  const S elongation = elongation_of_tendon(above, below, n.upper.free, S(d.rho * n.phi), n.reach, d.stiffness);
   return (180.0 / k_pi) * angle_of_elongation(elongation, S(d.R * n.upper.sine));  // max_error, in degrees
 }
 

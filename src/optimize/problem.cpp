@@ -101,8 +101,7 @@ bool has_effect(const Problem& problem, std::size_t variable) {
     b[variable] = problem.variables[variable].upper;
     const Mechanism at_a = judged(problem, mechanism_at(problem, a)), at_b = judged(problem, mechanism_at(problem, b));
     for (const Objective objective : problem.objectives) {
-      const Evaluation value_a = evaluate(objective, at_a),
-                       value_b = evaluate(objective, at_b);
+      const Evaluation value_a = evaluate(objective, at_a), value_b = evaluate(objective, at_b);
       if (value_a.possible != value_b.possible || value_a.value != value_b.value) return true;
       if (value_a.possible) nothing_is_possible = false;
     }

@@ -13,6 +13,7 @@ struct DesignFile {
 };
 
 /// `file` with the design's numbers where their keys stand. What `settings` gave and is a number goes in too.
-DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design, const std::vector<Setting>& settings);
+DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design,
+                       const std::vector<Setting>& settings);
 
 }  // namespace fusee

@@ -14,8 +14,8 @@ bool joint_differs(Mechanism declared) {
   return !(as_it_is(declared) == declared);
 }
 
-/// The one place where a design as declared becomes the joint that is judged. What was identified is an addition to the declared number:
-/// the design's declared numbers come first, then what is added to them.
+/// The one place where a design as declared becomes the joint that is judged. What was identified is an addition to the
+/// declared number: the design's declared numbers come first, then what is added to them.
 JointGate joint_gate(const Mechanism& declared) {
   if (declared.transmission || !joint_differs(declared)) return {};
   return [](const Mechanism& design) { return as_it_is(design); };
@@ -31,8 +31,9 @@ Problem problem_of(const MechanismFile& file) { return make_problem(file, joint_
 void demand_one_objective(const MechanismFile& file, const Problem& problem) {
   const std::size_t count = problem.objectives.size();
   if (count == 1) return;
-  throw InputError(file.path, "optimize.objective names " + std::to_string(count) + " objectives, and this method takes one",
-                   "--method pareto, or --set optimize.objective=" + std::string(info(problem.objectives.front()).name));
+  throw InputError(
+      file.path, "optimize.objective names " + std::to_string(count) + " objectives, and this method takes one",
+      "--method pareto, or --set optimize.objective=" + std::string(info(problem.objectives.front()).name));
 }
 
 /// Notes in `stopped` that it said so.
@@ -113,9 +114,12 @@ void search(SearchMethod method, const OptimizeOptions& options, OptimizeResult&
   GeneticOptions genetic = options.genetic;
   genetic.keep_going = watched(options.keep_going, result.stopped);
   switch (method) {
-    case SearchMethod::certified: return search_certified(options, result);
-    case SearchMethod::genetic: return search_genetic(genetic, result);
-    case SearchMethod::pareto: return search_front(genetic, result);
+    case SearchMethod::certified:
+      return search_certified(options, result);
+    case SearchMethod::genetic:
+      return search_genetic(genetic, result);
+    case SearchMethod::pareto:
+      return search_front(genetic, result);
   }
 }
 

@@ -1,9 +1,10 @@
 /// \file
-/// Internal: the paper's equations [1]-[11] over pins of any radius, each written once: for numbers (tendon_path.cpp, transmission.cpp,
-/// tension.cpp) and for intervals with derivatives (room optimize). What is evaluated and what is proven are the same.
+/// Internal: the paper's equations [1]-[11] over pins of any radius, each written once: for numbers (tendon_path.cpp,
+/// transmission.cpp, tension.cpp) and for intervals with derivatives (room optimize). What is evaluated and what is
+/// proven are the same.
 ///
-/// S is double or Jet (interval.h). The order of operations is part of what is written: outputs are pinned by their bytes. A number
-/// outside of a formula's domain gives NaN and says so in `domain`.
+/// S is double or Jet (interval.h). The order of operations is part of what is written: outputs are pinned by their
+/// bytes. A number outside of a formula's domain gives NaN and says so in `domain`.
 #pragma once
 
 #include "transmission/scalar.h"
@@ -34,8 +35,8 @@ FromPin<S> from_pin(const S& R, const S& e, const S& oe, const TurnedBy<S>& thet
   return {R * theta.sine - e, R * theta.cosine + oe};
 }
 
-/// The same in the frame of the link, in which OC points along y. Intervals over the lengths keep the sign of the moment arm there: R
-/// has no part in x.
+/// The same in the frame of the link, in which OC points along y. Intervals over the lengths keep the sign of the
+/// moment arm there: R has no part in x.
 template <typename S>
 FromPin<S> from_pin_in_link(const S& R, const S& e, const S& oe, const TurnedBy<S>& theta) {
   return {-(e * theta.cosine + oe * theta.sine), R + oe * theta.cosine - e * theta.sine};
@@ -48,8 +49,8 @@ struct UpperLine {
   S free;    ///< C to the tangent point [2],[3], mm
 };
 
-/// The line {x : x·n = m} through C touches the circle of radius ρ about the pin P on its outer side, (C − P)·n = ρ: with β the direction
-/// of C − P and D its length, n stands at β − acos(ρ/D).
+/// The line {x : x·n = m} through C touches the circle of radius ρ about the pin P on its outer side, (C − P)·n = ρ:
+/// with β the direction of C − P and D its length, n stands at β − acos(ρ/D).
 template <typename S>
 UpperLine<S> upper_line(const FromPin<S>& to_C, const S& rho, Domain& domain) {
   const S distance = sqrt(squared(to_C.x) + squared(to_C.y));
@@ -63,7 +64,8 @@ struct LowerLine {
   S reach;   ///< from the foot of the pulley axis' perpendicular to the pin's tangent point, mm
 };
 
-/// The line at the distance `p` from the pulley's axis, from which the pin is seen at the distance `c` in the direction `phi`.
+/// The line at the distance `p` from the pulley's axis, from which the pin is seen at the distance `c` in the direction
+/// `phi`.
 template <typename S>
 LowerLine<S> lower_line(const S& p, const S& rho, const S& c, const S& phi, Domain& domain) {
   const S beyond_pin = p - rho;
@@ -101,7 +103,8 @@ S stiffness_of_section(const S& modulus, const S& diameter) {
 
 /// [9] each span stretches under its own tension, what lies on the pin under the mean of both.
 template <typename S>
-S elongation_of_tendon(const S& above, const S& below, const S& free, const S& on_pin, const S& reach, const S& stiffness) {
+S elongation_of_tendon(const S& above, const S& below, const S& free, const S& on_pin, const S& reach,
+                       const S& stiffness) {
   return (above * free + 0.5 * (above + below) * on_pin + below * reach) / stiffness;
 }
 

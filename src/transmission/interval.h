@@ -42,9 +42,6 @@ inline Interval exp(const Interval& x) {
 inline Interval atan(const Interval& x) {
   return grown(x, [](double v) { return std::atan(v); });
 }
-inline Interval asin(const Interval& x) {
-  return grown(x, [](double v) { return std::asin(v); });
-}
 inline Interval acos(const Interval& x) { return {below(std::acos(x.upper())), above(std::acos(x.lower()))}; }
 inline Interval sqrt(const Interval& x) {
   return grown(x, [](double v) { return std::sqrt(std::max(v, 0.0)); });
@@ -148,7 +145,6 @@ inline Jet exp(const Jet& a) {
 inline Jet sin(const Jet& a) { return chained(a, sin(a.value), cos(a.value)); }
 inline Jet cos(const Jet& a) { return chained(a, cos(a.value), -sin(a.value)); }
 inline Jet atan(const Jet& a) { return chained(a, atan(a.value), 1.0 / (1.0 + squared(a.value))); }
-inline Jet asin(const Jet& a) { return chained(a, asin(a.value), 1.0 / sqrt(1.0 - squared(a.value))); }
 inline Jet acos(const Jet& a) { return chained(a, acos(a.value), -1.0 / sqrt(1.0 - squared(a.value))); }
 inline Jet larger(const Jet& a, const Jet& b) {
   if (a.value.lower() >= b.value.upper()) return a;

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: the words in which equations.h is written, for plain numbers. interval.h has the same words for intervals with
-/// derivatives.
+/// Internal: the words in which equations.h is written, for plain numbers. interval.h has the same words for intervals
+/// with derivatives.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Domain {
   bool whole = true;     ///< false: a part was cut off; derivatives are worth nothing
 };
 
-using std::acos, std::asin, std::atan, std::cos, std::exp, std::hypot, std::sin, std::sqrt;
+using std::acos, std::cos, std::exp, std::hypot, std::sin, std::sqrt;
 inline double squared(double x) { return x * x; }
 inline double larger(double a, double b) { return std::max(a, b); }
 inline double positive_part(double x, Domain& domain) {
@@ -39,8 +39,8 @@ inline double cathetus(double hypotenuse, double other, Domain& domain) {
   return std::sqrt(positive_part((hypotenuse - other) * (hypotenuse + other), domain));
 }
 
-/// Of (x, y), within −90° … 270°. C seen from its pin lies anywhere but straight below it: there the angle is cut, so that wraps of
-/// more than 90° stay continuous.
+/// Of (x, y), within −90° … 270°. C seen from its pin lies anywhere but straight below it: there the angle is cut, so
+/// that wraps of more than 90° stay continuous.
 inline double direction(double x, double y, Domain&) {
   const double angle = std::atan2(y, x);
   return angle < -0.5 * k_pi ? angle + k_two_pi : angle;

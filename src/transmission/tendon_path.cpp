@@ -11,8 +11,8 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
   return {side == Side::right ? guides.ED : guides.EB, guides.OE, mechanism.pulley.EF, rho, mechanism.joint.R};
 }
 
-// Differentiating (C − P)·n = ρ (upper_line) with C = R (sin θ, cos θ), C' = R (cos θ, −sin θ) gives, with ψ the direction of n and f
-// the free length,
+// Differentiating (C − P)·n = ρ (upper_line) with C = R (sin θ, cos θ), C' = R (cos θ, −sin θ) gives, with ψ the
+// direction of n and f the free length,
 //
 //   m   = R sin(θ + ψ)        f = (C − P)·t = sqrt(D² − ρ²)          a = R cos(θ + ψ)
 //   ψ'  = −a/f                f' = −m − ρψ'                          ω = 1 + ψ'

@@ -9,8 +9,8 @@
 namespace fusee {
 namespace {
 
-/// [10],[11]: the angle of the triangle O-pin-C at O, before and after its side pin–C grew by the elongation. Where the sides no
-/// longer meet, the joint has turned until they lie in one line.
+/// [10],[11]: the angle of the triangle O-pin-C at O, before and after its side pin–C grew by the elongation. Where the
+/// sides no longer meet, the joint has turned until they lie in one line.
 double turned_by_law_of_cosines(const PinPlace& place, double span, double elongation) {
   const double to_pin = place.pin().norm();
   const auto angle_at_joint = [&](double opposite) {
@@ -23,8 +23,8 @@ double turned_by_law_of_cosines(const PinPlace& place, double span, double elong
 }  // namespace
 
 // [6] the tip force acts across OC, tendon 2 at γ2 to it: F_c R = T2 m2 with m2 = R sin γ2.
-// [10],[11] the elongation turns the joint: by the law of cosines over point pins, for which alone it holds, and over others by its own
-// first order.
+// [10],[11] the elongation turns the joint: by the law of cosines over point pins, for which alone it holds, and over
+// others by its own first order.
 PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& point) {
   const bool by_first = load_torque(mechanism, point.theta) < 0;
   const Side side = by_first ? Side::left : Side::right;
@@ -40,9 +40,9 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   forces.Tb = tension_below_pin(T, mechanism.guides.mu, std::max(0.0, tendon.wrap));
   const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach;
   forces.elongation = elongation_of_tendon(T, forces.Tb, tendon.free_upper, on_pin, tendon.lower_reach, stiffness);
-  const double turned = mechanism.has_point_pins()
-                            ? turned_by_law_of_cosines(pin_place(mechanism, side, 0.0), tendon.free_upper, forces.elongation)
-                            : angle_of_elongation(forces.elongation, tendon.m);
+  const double turned = mechanism.has_point_pins() ? turned_by_law_of_cosines(pin_place(mechanism, side, 0.0),
+                                                                              tendon.free_upper, forces.elongation)
+                                                   : angle_of_elongation(forces.elongation, tendon.m);
   forces.theta_error = by_first ? -turned : turned;
   forces.motor_torque = (by_first ? -1.0 : 1.0) * forces.Tb * tendon.p;
   forces.stiffness = stiffness * tendon.m * tendon.m / tendon.length;

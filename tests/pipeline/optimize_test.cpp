@@ -25,7 +25,8 @@ double tension_of_build(const Mechanism& mechanism) {
   Mechanism loaded = mechanism;
   loaded.load.tip_force = 1.0;
   double most = 0;
-  for (const TransmissionPoint& point : synthesise(mechanism).stroke) most = std::max(most, paper_forces(loaded, point).Tb);
+  for (const TransmissionPoint& point : synthesise(mechanism).stroke)
+    most = std::max(most, paper_forces(loaded, point).Tb);
   return most;
 }
 
@@ -104,8 +105,9 @@ TEST_F(Optimize, WritesDeclaredNumbers) {
 TEST_F(Optimize, CertifiesOnlyWhatHasAnIntervalForm) {
   EXPECT_EQ(optimize(file_with(k_identified), options_).method(), SearchMethod::genetic);
   // How a pulley comes out when it is made is no objective's business.
-  EXPECT_EQ(optimize(file_with("[identified]\nradius_offset_mm = 0.1\npulley_scale_percent = 1.0\n"), options_).method(),
-            SearchMethod::certified);
+  EXPECT_EQ(
+      optimize(file_with("[identified]\nradius_offset_mm = 0.1\npulley_scale_percent = 1.0\n"), options_).method(),
+      SearchMethod::certified);
   options_.method = SearchMethod::certified;
   EXPECT_THROW(optimize(file_with(k_identified), options_), InputError);
 }
@@ -116,9 +118,12 @@ class Front : public Optimize {
  protected:
   Front() { options_.front_folder = scratch_ / "front"; }
 
-  OptimizeResult front() const { return optimize(file_with("", {{"optimize.objective", R"(["max_tension", "footprint"])"}}), options_); }
+  OptimizeResult front() const {
+    return optimize(file_with("", {{"optimize.objective", R"(["max_tension", "footprint"])"}}), options_);
+  }
   std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(options_.front_folder), fs::directory_iterator()));
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(options_.front_folder), fs::directory_iterator()));
   }
 };
 
@@ -133,7 +138,8 @@ TEST_F(Front, IsAValueAndItsFiles) {
     EXPECT_EQ(read_file(path, 1 << 20), result.front_files[i].bytes);
     EXPECT_NEAR(read_mechanism(path).mechanism.joint.R, points[i].design[0], 1e-9);
   }
-  EXPECT_TRUE(std::any_of(points.begin(), points.end(), [&](const FrontPoint& point) { return point.design == result.design; }));
+  EXPECT_TRUE(std::any_of(points.begin(), points.end(),
+                          [&](const FrontPoint& point) { return point.design == result.design; }));
 }
 
 /// The second name is taken: the first must not be left behind either.

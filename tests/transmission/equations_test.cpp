@@ -70,7 +70,8 @@ TEST(Equations, AsIntervalsHoldThePlainPath) {
       };
       Domain domain;
       const TurnedBy<Jet> turned = turned_by(Jet(theta));
-      const UpperLine<Jet> upper = upper_line(from_pin(Jet(pin.R), Jet(pin.e), Jet(pin.oe), turned), Jet(pin.rho), domain);
+      const UpperLine<Jet> upper =
+          upper_line(from_pin(Jet(pin.R), Jet(pin.e), Jet(pin.oe), turned), Jet(pin.rho), domain);
       const UpperLine<Jet> in_link =
           upper_line(from_pin_in_link(Jet(pin.R), Jet(pin.e), Jet(pin.oe), turned), Jet(pin.rho), domain);
       const LowerLine<Jet> lower = lower_line(Jet(at.t2.p), Jet(pin.rho), Jet(c), Jet(phi), domain);

@@ -179,8 +179,8 @@ struct Mechanism {
 
   /// Pin radius to the tendon's centre line: ρp of mechanics, mm.
   double guide_pitch_radius() const { return guides.radius + 0.5 * tendon.diameter; }
-  /// The same as equations and drawings see it. method = "paper" takes pins for points and tendons for lines: 0. In every other method
-  /// the tendon runs at half its thickness round a pin of radius 0 too.
+  /// The same as equations and drawings see it: 0 where method = "paper" takes pins for points and tendons for lines.
+  /// In every other method the tendon runs at half its thickness round a pin of radius 0 too.
   double seen_pitch_radius() const { return pulley.method == Method::paper ? 0.0 : guide_pitch_radius(); }
   /// Whether a pin is a point, for everything that asks.
   bool has_point_pins() const { return seen_pitch_radius() == 0; }

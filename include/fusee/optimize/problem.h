@@ -54,8 +54,8 @@ struct ObjectiveCap {
 using JointGate = std::function<Mechanism(const Mechanism& declared)>;
 
 struct Problem {
-  Mechanism base;        ///< as declared
-  JointGate as_it_is;    ///< empty: the joint is as declared
+  Mechanism base;      ///< as declared
+  JointGate as_it_is;  ///< empty: the joint is as declared
   std::vector<Objective> objectives;
   std::vector<Variable> variables;
   std::vector<MovingKey> moving;  ///< variables in their order, then what is tied
@@ -64,8 +64,8 @@ struct Problem {
   std::optional<ObjectiveCap> cap;
 };
 
-/// Variables, ties and constraints are of declared numbers; objectives are of the joint that comes of them through `as_it_is`.
-/// InputError: nothing to optimise, a variable that no objective depends on.
+/// Variables, ties and constraints are of declared numbers; objectives are of the joint that comes of them through
+/// `as_it_is`. InputError: nothing to optimise, a variable that no objective depends on.
 Problem make_problem(const MechanismFile& file, JointGate as_it_is = {});
 
 /// The mechanism of a design as declared, ties followed; without its [optimize].
