@@ -57,7 +57,7 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   const TendonPoint& tendon = left ? home.t1 : home.t2;
   const BodyLayout& layout = product.pulley.layout;
 
-  const double rho = mechanism.pulley.method == Method::paper ? 0.0 : mechanism.guide_pitch_radius();
+  const double rho = mechanism.seen_pitch_radius();
   const Vec2 pin = pin_centre(mechanism, anchor.side);
   const Vec2 axis = pulley_axis(mechanism);
   const std::size_t contact = index_at_normal(outline, tendon.lower_normal);

@@ -1,5 +1,12 @@
 /// \file
-/// fusee in six functions: the first thing to read.
+/// fusee as verbs, files in and values out: the first thing to read.
+///
+///     BuildResult     build(file, options)            the pulley, in every format, checked
+///     AnalysisResult  analyze(file, options)          the transmission and the forces over the range
+///     OptimizeResult  optimize(file, options)         better numbers for the mechanism
+///     CalibrateResult calibrate(file, runs, options)  measured runs: what is off, and a better file
+///
+/// and in the steps that build() takes:
 ///
 ///     MechanismFile   file      = read_mechanism("forearm.toml");             // mechanism/file.h    what the joint is
 ///     SynthesisResult synthesis = synthesise(file.mechanism);                 // profile/synthesis.h θ(α) → both pitch curves
@@ -16,12 +23,14 @@
 #include <variant>
 #include <vector>
 
+#include "fusee/analysis/analysis.h"
 #include "fusee/base/check.h"
 #include "fusee/base/files.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/product.h"
 #include "fusee/mechanism/file.h"
 #include "fusee/pipeline/calibrate.h"
+#include "fusee/pipeline/optimize.h"
 #include "fusee/solid/mesh.h"
 
 namespace fusee {
@@ -61,6 +70,13 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options);
 
 /// The files that build() leaves, in the order in which they are written.
 const std::vector<std::string>& output_names();
+
+/// Forces over the range of the joint as it is. InputError: a joint with [transmission] has none.
+AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options = {});
+
+/// The search that [optimize] asks for, of the joint as it is and in the numbers that the file declares. A box without
+/// a possible design and a search that was stopped are values; InputError and OutputError as their names say.
+OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options = {});
 
 // Parts from anywhere --------------------------------------------------------------------------------------------------
 

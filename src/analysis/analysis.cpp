@@ -6,6 +6,7 @@
 #include "analysis/stroke.h"
 #include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"
+#include "transmission/alpha_range.h"
 
 namespace fusee {
 namespace {
@@ -104,9 +105,7 @@ bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double
 
 /// To one part in a hundred, on the safe side.
 std::optional<double> taut_pretension(const Mechanism& mechanism) {
-  const Transmission transmission(mechanism);
-  std::vector<double> alphas;
-  for (int i = 0; i <= 12; ++i) alphas.push_back(transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / 12);
+  const std::vector<double> alphas = alphas_over_range(Transmission(mechanism), 12);
   double slack = mechanism.tendon.pretension;
   double taut = std::max(1.0, slack);
   while (!stays_taut(mechanism, taut, alphas)) {

@@ -6,19 +6,14 @@
 #include "analysis/rigid_joint.h"
 #include "analysis/stroke.h"
 #include "fusee/analysis/analysis.h"
+#include "transmission/alpha_range.h"
 
 namespace fusee {
 namespace {
 
 constexpr int k_places = 8;  ///< steps of the range at which deviations are looked at
 
-std::vector<double> places_of(const Transmission& transmission) {
-  std::vector<double> alphas;
-  for (int i = 0; i <= k_places; ++i) {
-    alphas.push_back(transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / k_places);
-  }
-  return alphas;
-}
+std::vector<double> places_of(const Transmission& transmission) { return alphas_over_range(transmission, k_places); }
 
 // ---- what is ignored ------------------------------------------------------------------------------------------------
 

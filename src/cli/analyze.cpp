@@ -2,11 +2,11 @@
 
 #include "cli/analysis_table.h"
 #include "cli/command.h"
+#include "cli/pins.h"
 #include "cli/table.h"
-#include "fusee/analysis/analysis.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
-#include "fusee/correction/correction.h"
+#include "fusee/pipeline.h"
 
 namespace fusee::cli {
 namespace {
@@ -191,11 +191,8 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
   Reply reply;
   reply.diagnostics = file.warnings;
-  if (file.mechanism.transmission) {
-    throw InputError(file.path, "a joint with [transmission] has no tendons to analyze", "[transmission] is for 'fusee calibrate'");
-  }
   console.progress("moving the joint through its range");
-  const AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options);
+  const AnalysisResult result = analyze(file, options);
   if (!result.exists) {
     reply.exit = Exit::infeasible;
     add_obstacles(file.path, result.obstacles, reply);
@@ -204,6 +201,7 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
     reply.fields["advice"] = to_json(result.advice);
     return reply;
   }
+  add_pins_note(file, reply);
   add_findings(result, file.path, reply);
   write_table(arguments, result, reply);
   const bool csv = arguments.has("--csv");

@@ -4,6 +4,7 @@
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/pins.h"
 #include "cli/table.h"
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
@@ -163,6 +164,7 @@ Reply run_build(const Arguments& arguments, Console& console) {
   const BuildResult built = build(file, options);
   Reply reply;
   add_warnings(built.product, reply);
+  add_pins_note(file, reply);
   if (built.status == BuildStatus::infeasible) {
     explain_infeasible(built, reply);
     return reply;

@@ -51,12 +51,6 @@ std::vector<std::filesystem::path> runs_from(const Arguments& arguments) {
 
 // ---- the whole ------------------------------------------------------------------------------------------------------
 
-/// A bar of 20 places on the progress line.
-std::string bar(const std::string& what, double share) {
-  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  const auto full = static_cast<std::size_t>(percent / 5);
-  return "[" + std::string(full, '#') + std::string(20 - full, '.') + "] " + std::to_string(percent) + " %, " + what;
-}
 
 std::string files_text(const std::vector<OutputFile>& outputs, const std::string& folder, bool published) {
   std::vector<std::vector<std::string>> rows;
@@ -92,7 +86,7 @@ CalibrateOptions options_from(const Arguments& arguments, const std::filesystem:
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   options.progress = [&console](const std::string& what, std::optional<double> share) {
-    console.progress(share ? bar(what, *share) : what);
+    console.progress(share ? progress_bar(*share) + ", " + what : what);
   };
   return options;
 }

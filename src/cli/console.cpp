@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -77,6 +78,13 @@ void Console::progress(std::string_view step) {
 void Console::end_progress() {
   if (progress_shown_) write_all(STDERR_FILENO, "\r\x1b[K");
   progress_shown_ = false;
+}
+
+std::string progress_bar(double share) {
+  constexpr std::size_t k_places = 20;
+  const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
+  const auto full = static_cast<std::size_t>(percent) * k_places / 100;
+  return "[" + std::string(full, '#') + std::string(k_places - full, '.') + "] " + std::to_string(percent) + " %";
 }
 
 bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, text); }

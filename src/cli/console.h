@@ -39,6 +39,9 @@ class Console {
   bool progress_shown_ = false;
 };
 
+/// "[########............] 40 %" of a share 0 … 1.
+std::string progress_bar(double share);
+
 /// All of `text` to stdout. False when it could not be delivered (a full disk, a closed or broken pipe); errno says
 /// why.
 bool write_result(std::string_view text);

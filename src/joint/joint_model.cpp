@@ -105,7 +105,7 @@ JointModel joint_model(const Mechanism& mechanism) {
 
 JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   const Mechanism& mounted = in.mechanism;
-  const double rho = mounted.pulley.method == Method::paper ? 0.0 : mounted.guide_pitch_radius();
+  const double rho = mounted.seen_pitch_radius();
   JointModel model;
   model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };

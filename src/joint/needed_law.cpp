@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/golden_section.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/transmission/load.h"
 
@@ -202,18 +203,8 @@ RoundChoice round_choice(const DeclaredMechanism& declared, const NeededLaw& nee
     joint.pulley.r1 = r1;
     return worst_miss(joint, needed);
   };
-  // The worst miss has one minimum over r1: golden section.
-  double low = 0.8 * choice.r1, high = 1.25 * choice.r1;
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 40; ++i) {
-    const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (miss(a) < miss(b)) {
-      high = b;
-    } else {
-      low = a;
-    }
-  }
-  choice.r1 = 0.5 * (low + high);
+  // The worst miss has one minimum over r1.
+  choice.r1 = golden_section({0.8 * choice.r1, 1.25 * choice.r1}, 40, miss).middle();
   choice.max_error = miss(choice.r1);
   choice.suffices = choice.max_error <= k_round_suffices;
   return choice;

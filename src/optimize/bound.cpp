@@ -4,7 +4,7 @@
 #include <queue>
 #include <utility>
 
-#include "optimize/formulas.h"
+#include "optimize/objective_at.h"
 
 // A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s: so few,
 // well chosen places do. At one place there are three bounds, each rigorous; the best counts:
@@ -68,7 +68,7 @@ DesignNumbers<Jet> numbers_over(const Problem& problem, const std::vector<Jet>& 
     }
     numbers.*(slot->member) = slot->angle ? value * Jet(pi_interval() / 180.0) : value;
   }
-  return design_numbers(numbers, problem.base.pulley.law, problem.point_pins);
+  return design_numbers(numbers, problem.base.pulley.law, problem.base.has_point_pins());
 }
 
 std::vector<Jet> variables_over(const Problem& problem, const Box& box) {
@@ -158,15 +158,16 @@ double constrained_least(const Problem& problem, const Box& box, const Line& lin
   return constrained_least(problem, box, line);
 }
 
-/// a and b of one tendon (see span_numbers) at one joint angle: linear in the variables.
+/// In the link's frame the pin lies `a` beside OC and `b` below C: tan γ = a/b over a point pin, and at one joint angle
+/// both are linear in the variables.
 struct Legs {
   Jet a, b;
 };
 
 Legs legs(const DesignNumbers<Jet>& d, bool of_tendon_1, const StrokeNumbers<Jet>& n) {
-  const Jet sine = of_tendon_1 ? -n.sine : n.sine;
-  const Jet& e = of_tendon_1 ? d.EB : d.ED;
-  return {e * n.cosine + d.OE * sine, d.R + d.OE * n.cosine - e * sine};
+  const FromPin<Jet> to_C =
+      of_tendon_1 ? from_pin_in_link(d.R, d.EB, d.OE, n.theta.mirrored()) : from_pin_in_link(d.R, d.ED, d.OE, n.theta);
+  return {-to_C.x, to_C.y};
 }
 
 /// Least of b − q a over the box and the constraints.
@@ -186,7 +187,7 @@ double least_difference(const Problem& problem, const Box& box, const Legs& over
   const RoundingUp rounding;
   const bool torque = objective == Objective::motor_torque;
   constexpr double none = -std::numeric_limits<double>::infinity();
-  if (!problem.point_pins ||
+  if (!problem.base.has_point_pins() ||
       !(torque ? problem.base.pulley.law == Law::compensate : objective == Objective::max_tension))
     return none;
   const DesignNumbers<Jet> d = numbers_over(problem, variables_over(problem, box));
@@ -194,7 +195,7 @@ double least_difference(const Problem& problem, const Box& box, const Legs& over
   const StrokeNumbers<Jet> n = stroke_numbers(d, Jet(place), domain);
   const Legs over = legs(d, torque, n);
   // Linear in the variables only where the angle is a number.
-  if (!domain.possible || n.theta.count != 0 || !(over.a.value.lower() > 0)) return none;
+  if (!domain.possible || n.theta.angle.count != 0 || !(over.a.value.lower() > 0)) return none;
   Box lower_corner = box;
   lower_corner.upper = box.lower;
   const Legs at_lower = legs(numbers_over(problem, variables_over(problem, lower_corner)), torque, n);
@@ -274,7 +275,7 @@ bool Bounder::contract(Box& box) const {
 std::vector<double> Bounder::worst_places(const Box& box) const {
   constexpr int places = 25;
   const Mechanism middle = mechanism_at(problem_, centre_of(box, problem_.variables.size()));
-  const auto numbers = design_numbers(file_numbers(middle), middle.pulley.law, problem_.point_pins);
+  const auto numbers = design_numbers(file_numbers(middle), middle.pulley.law, middle.has_point_pins());
   std::array<double, places> values{};
   for (int i = 0; i < places; ++i) {
     Domain domain;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fusee/optimize/problem.h"
-#include "optimize/interval.h"
+#include "transmission/interval.h"
 
 namespace fusee {
 

@@ -20,19 +20,16 @@ struct HigherBound {
 constexpr double k_none = 1e300;
 
 void demand_certifiable(const Problem& problem, Objective objective) {
+  const std::string obstacle = cannot_certify(problem, objective);
+  if (obstacle.empty()) return;
   std::string names;
   for (const ObjectiveInfo& candidate : objectives()) {
     if (candidate.certifiable) names += (names.empty() ? "" : ", ") + std::string(candidate.name);
   }
-  const std::string hint =
-      "certified: " + names + ", with law compensate or linear and without feasible = true; else --method ga";
-  if (!info(objective).certifiable)
-    throw InputError("", std::string(info(objective).name) + " has no interval form: its optimum cannot be certified",
-                     hint);
-  if (problem.base.pulley.law == Law::table)
-    throw InputError("", "law = \"table\" has no interval form: its optimum cannot be certified", hint);
-  if (problem.feasible)
-    throw InputError("", "feasible = true has no interval form: the optimum cannot be certified", hint);
+  throw InputError(
+      "", obstacle,
+      "certified: " + names +
+          ", with law compensate or linear, without feasible = true and of a joint as declared; else --method ga");
 }
 
 class Search {
@@ -106,7 +103,7 @@ class Search {
     if (!options_.keep_going || boxes_ < next_report_) return false;
     next_report_ = boxes_ + 200;
     SearchProgress progress;
-    progress.best = best_value_;
+    if (!best_.empty()) progress.best = best_value_;
     progress.lower_bound = bound;
     progress.evaluations = bounder_.evaluations();
     const double gap = (best_value_ - bound) / std::abs(best_value_);
@@ -304,6 +301,17 @@ class Search {
 };
 
 }  // namespace
+
+std::string cannot_certify(const Problem& problem, Objective objective) {
+  if (!info(objective).certifiable)
+    return std::string(info(objective).name) + " has no interval form: its optimum cannot be certified";
+  if (problem.base.pulley.law == Law::table)
+    return "law = \"table\" has no interval form: its optimum cannot be certified";
+  if (problem.feasible) return "feasible = true has no interval form: the optimum cannot be certified";
+  if (problem.as_it_is)
+    return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
+  return "";
+}
 
 CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options) {
   demand_certifiable(problem, objective);

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
 #include <pagmo/algorithms/sga.hpp>
@@ -17,6 +19,8 @@ namespace {
 
 /// What a design that breaks a constraint costs: more than any possible one, and more the further off it is.
 constexpr double k_penalty = 1e12;
+/// The best so far where nothing was possible so far.
+constexpr double k_none = 1e300;
 
 /// What pagmo copies about; the counts are shared.
 struct PagmoProblem {
@@ -88,7 +92,7 @@ Generation described(unsigned number, const pagmo::population& population, Objec
   return generation;
 }
 
-bool goes_on(const GeneticOptions& options, unsigned generation, double best, long evaluations) {
+bool goes_on(const GeneticOptions& options, unsigned generation, std::optional<double> best, long evaluations) {
   if (!options.keep_going) return true;
   SearchProgress progress;
   progress.done = static_cast<double>(generation) / options.generations;
@@ -105,12 +109,13 @@ GeneticResult genetic_optimum(const Problem& problem, Objective objective, const
   // One generation a call, so that each can be looked at.
   pagmo::algorithm algorithm{pagmo::sga(1u, 0.9, 1.0, 0.1, 1.0, 2u, "sbx", "polynomial", "tournament", options.seed)};
   GeneticResult result;
-  double best = info(objective).largest ? -1e300 : 1e300;
+  double best = info(objective).largest ? -k_none : k_none;
   for (unsigned number = 0; number <= options.generations && !result.stopped; ++number) {
     if (number > 0) population = algorithm.evolve(population);
     result.generations.push_back(described(number, population, objective, best));
     best = result.generations.back().best;
-    result.stopped = !goes_on(options, number, best, static_cast<long>(population.get_problem().get_fevals()));
+    result.stopped = !goes_on(options, number, std::abs(best) < k_none ? std::optional(best) : std::nullopt,
+                              static_cast<long>(population.get_problem().get_fevals()));
   }
   result.evaluations = static_cast<long>(population.get_problem().get_fevals());
   result.best = population.champion_x();
@@ -133,7 +138,7 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
   ParetoResult result;
   for (unsigned number = 1; number <= options.generations && !result.stopped; ++number) {
     population = algorithm.evolve(population);
-    result.stopped = !goes_on(options, number, 0.0, static_cast<long>(population.get_problem().get_fevals()));
+    result.stopped = !goes_on(options, number, std::nullopt, static_cast<long>(population.get_problem().get_fevals()));
   }
   result.evaluations = static_cast<long>(population.get_problem().get_fevals());
   const auto costs = population.get_f();

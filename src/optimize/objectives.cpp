@@ -2,10 +2,11 @@
 
 #include <array>
 
+#include "base/golden_section.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/transmission/tension.h"
-#include "optimize/formulas.h"
+#include "optimize/objective_at.h"
 #include "profile/take_off.h"
 
 namespace fusee {
@@ -24,7 +25,7 @@ constexpr std::array<ObjectiveInfo, 5> k_objectives{{
      false},
 }};
 
-/// Places of the stroke that are looked at; where the worst lies between two, it is found by golden section.
+/// Places of the stroke that are looked at; where the worst lies between two, it is searched for.
 constexpr int k_places = 61;
 constexpr double k_impossible = 1e300;
 /// A value beyond this is no design: a moment arm is as good as gone.
@@ -34,27 +35,6 @@ Evaluation impossible(std::string reason) {
   Evaluation evaluation;
   evaluation.reason = std::move(reason);
   return evaluation;
-}
-
-/// The place of [low, high] where `value` is largest, to about 1e-7 of its width; the value itself is much better
-/// known.
-template <typename Value>
-double largest_place(double low, double high, Value value) {
-  constexpr double golden = 0.61803398874989485;
-  double a = high - golden * (high - low), b = low + golden * (high - low);
-  double at_a = value(a), at_b = value(b);
-  for (int i = 0; i < 24; ++i) {
-    if (at_a > at_b) {
-      high = b, b = a, at_b = at_a;
-      a = high - golden * (high - low);
-      at_a = value(a);
-    } else {
-      low = a, a = b, at_a = at_b;
-      b = low + golden * (high - low);
-      at_b = value(b);
-    }
-  }
-  return at_a > at_b ? a : b;
 }
 
 /// Largest of `value(place)` over places 0 … 1; not finite where it has none.
@@ -69,7 +49,8 @@ Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   }
   double place = static_cast<double>(worst) / (k_places - 1);
   if (worst > 0 && worst < k_places - 1) {
-    const double refined = largest_place((worst - 1.0) / (k_places - 1), (worst + 1.0) / (k_places - 1), value);
+    const Bracket neighbours = {(worst - 1.0) / (k_places - 1), (worst + 1.0) / (k_places - 1)};
+    const double refined = golden_section(neighbours, 24, [&](double at) { return -value(at); }).middle();
     const double there = value(refined);
     if (there > largest) largest = there, place = refined;
   }
@@ -80,10 +61,9 @@ Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   return evaluation;
 }
 
-/// The same chain through Transmission and paper_forces(): law = "table", and the words for why there is no value.
-Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism, bool point_pins) {
-  const double rho = point_pins ? 0.0 : mechanism.guide_pitch_radius();
-  const Transmission transmission(mechanism, rho);
+/// The same equations through Transmission and paper_forces(): law = "table", and the words for why there is no value.
+Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism) {
+  const Transmission transmission(mechanism);
   if (const auto theta = transmission.dead_centre()) {
     return impossible("a tendon loses its moment arm at θ = " + rounded(degrees(*theta), 4) + "°");
   }
@@ -109,7 +89,7 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
     if (objective == Objective::motor_torque) return forces.Tb * point.t2.p;
     if (objective == Objective::max_error) return degrees(forces.elongation / point.t2.m);
     Domain domain;
-    const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, point_pins);
+    const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
     return objective_at(objective, numbers, place, domain);
   };
   Evaluation evaluation = largest_over_range(mechanism, value);
@@ -119,9 +99,9 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
 }
 
 /// Smallest radius of curvature of both pitch curves; the envelope's own condition is that it is positive.
-Evaluation smallest_bend(const Mechanism& mechanism, bool point_pins) {
-  const Transmission transmission(mechanism, point_pins ? 0.0 : mechanism.guide_pitch_radius());
-  if (transmission.dead_centre()) return evaluate_by_transmission(Objective::max_tension, mechanism, point_pins);
+Evaluation smallest_bend(const Mechanism& mechanism) {
+  const Transmission transmission(mechanism);
+  if (transmission.dead_centre()) return evaluate_by_transmission(Objective::max_tension, mechanism);
   const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
   const TakeOffs left(transmission, Side::left), right(transmission, Side::right);
   const auto tightness = [&](double place) {
@@ -147,10 +127,6 @@ Objective find_objective(std::string_view name) {
   throw Bug("objective " + std::string(name));
 }
 
-bool has_point_pins(const Mechanism& mechanism) {
-  return mechanism.pulley.method == Method::paper || mechanism.guides.radius == 0;
-}
-
 double Evaluation::cost(Objective objective) const {
   if (!possible) return k_impossible;
   return info(objective).largest ? -value : value;
@@ -163,20 +139,16 @@ FileNumbers<double> file_numbers(const Mechanism& m) {
 }
 
 Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
-  return evaluate(objective, mechanism, has_point_pins(mechanism));
-}
-
-Evaluation evaluate(Objective objective, const Mechanism& mechanism, bool point_pins) {
-  if (objective == Objective::min_bend) return smallest_bend(mechanism, point_pins);
-  if (mechanism.pulley.law == Law::table) return evaluate_by_transmission(objective, mechanism, point_pins);
-  const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, point_pins);
+  if (objective == Objective::min_bend) return smallest_bend(mechanism);
+  if (mechanism.pulley.law == Law::table) return evaluate_by_transmission(objective, mechanism);
+  const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
   Evaluation evaluation = largest_over_range(mechanism, [&](double place) {
     Domain domain;
     const double value = objective_at(objective, numbers, place, domain);
     return domain.possible ? value : 2.0 * k_impossible;
   });
   // The slow way knows why.
-  if (!evaluation.possible) evaluation.reason = evaluate_by_transmission(objective, mechanism, point_pins).reason;
+  if (!evaluation.possible) evaluation.reason = evaluate_by_transmission(objective, mechanism).reason;
   return evaluation;
 }
 

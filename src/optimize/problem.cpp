@@ -99,10 +99,9 @@ bool has_effect(const Problem& problem, std::size_t variable) {
     Design b = a;
     a[variable] = problem.variables[variable].lower;
     b[variable] = problem.variables[variable].upper;
-    const Mechanism at_a = mechanism_at(problem, a), at_b = mechanism_at(problem, b);
+    const Mechanism at_a = judged(problem, mechanism_at(problem, a)), at_b = judged(problem, mechanism_at(problem, b));
     for (const Objective objective : problem.objectives) {
-      const Evaluation value_a = evaluate(objective, at_a, problem.point_pins),
-                       value_b = evaluate(objective, at_b, problem.point_pins);
+      const Evaluation value_a = evaluate(objective, at_a), value_b = evaluate(objective, at_b);
       if (value_a.possible != value_b.possible || value_a.value != value_b.value) return true;
       if (value_a.possible) nothing_is_possible = false;
     }
@@ -145,6 +144,10 @@ DeclaredMechanism mechanism_at(const Problem& problem, const Design& design) {
   return mechanism;
 }
 
+Mechanism judged(const Problem& problem, const DeclaredMechanism& declared) {
+  return problem.as_it_is ? problem.as_it_is(declared) : declared;
+}
+
 std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design) {
   std::vector<ValueEdit> edits;
   for (const MovingKey& moving : problem.moving) edits.push_back({moving.key, moving.value(design)});
@@ -171,16 +174,16 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
     none.reason = "a constraint is not kept";
     return none;
   }
-  const Mechanism mechanism = mechanism_at(problem, design);
+  const Mechanism mechanism = judged(problem, mechanism_at(problem, design));
   if (problem.cap) {
-    const Evaluation first = evaluate(problem.cap->objective, mechanism, problem.point_pins);
+    const Evaluation first = evaluate(problem.cap->objective, mechanism);
     if (!first.possible) return first;
     if (!(first.cost(problem.cap->objective) <= problem.cap->limit)) {
       none.reason = std::string(info(problem.cap->objective).name) + " is beyond its limit";
       return none;
     }
   }
-  Evaluation evaluation = evaluate(objective, mechanism, problem.point_pins);
+  Evaluation evaluation = evaluate(objective, mechanism);
   if (evaluation.possible && problem.feasible) {
     SynthesisOptions options;
     options.advice = false;
@@ -193,7 +196,7 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
   return evaluation;
 }
 
-Problem make_problem(const MechanismFile& file) {
+Problem make_problem(const MechanismFile& file, JointGate as_it_is) {
   const Optimization& table = file.mechanism.optimize;
   if (file.mechanism.transmission)
     throw InputError(file.path, "declares [transmission] in place of a mechanism",
@@ -208,15 +211,12 @@ Problem make_problem(const MechanismFile& file) {
   Problem problem;
   problem.base = file.mechanism;
   problem.base.optimize = {};  // designs are copied by the thousand
+  problem.as_it_is = std::move(as_it_is);
   for (const std::string& name : table.objectives) problem.objectives.push_back(find_objective(name));
   problem.variables = variables_of(table);
   add_moving_keys(problem, table);
   add_constraints(problem, table);
   problem.feasible = table.feasible;
-  const bool pins_vary = std::any_of(problem.moving.begin(), problem.moving.end(),
-                                     [](const MovingKey& m) { return m.key == "guides.radius_mm"; });
-  problem.point_pins =
-      file.mechanism.pulley.method == Method::paper || (file.mechanism.guides.radius == 0 && !pins_vary);
   demand_effects(problem, file.path);
   return problem;
 }

@@ -8,6 +8,7 @@
 #include "paper/steps.h"
 #include "paper/windows.h"
 #include "profile/take_off.h"
+#include "transmission/alpha_range.h"
 
 namespace fusee {
 namespace {
@@ -117,8 +118,7 @@ std::vector<StrokePlace> paper_stroke(const Mechanism& mechanism, int steps) {
   std::vector<StrokePlace> stroke;
   const Transmission transmission(mechanism);
   if (transmission.dead_centre()) return stroke;
-  for (int i = 0; i <= steps; ++i) {
-    const double alpha = transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / steps;
+  for (const double alpha : alphas_over_range(transmission, steps)) {
     const TransmissionPoint point = transmission.at_alpha(alpha);
     stroke.push_back({point, paper_forces(mechanism, point)});
   }

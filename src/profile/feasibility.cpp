@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/golden_section.h"
 #include "fusee/base/text.h"
 #include "profile/pitch_curve.h"
 
@@ -27,7 +28,7 @@ struct Probe {
   std::function<std::string(const std::string& where, double value)> failure;
 };
 
-/// The joint angle of the image at which the probe is smallest: the smallest sample, refined by golden section between its neighbours.
+/// The joint angle of the image at which the probe is smallest: the smallest sample, refined between its neighbours.
 TakeOff tightest(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const Probe& probe) {
   std::size_t smallest = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -37,19 +38,10 @@ TakeOff tightest(const TakeOffs& take_offs, const std::vector<TakeOff>& samples,
     if (value < probe.value(samples[smallest])) smallest = i;
   }
   const double sign = mirror_sign(take_offs.side());
-  double low = sign * samples[smallest == 0 ? 0 : smallest - 1].stroke.theta;
-  double high = sign * samples[std::min(smallest + 1, samples.size() - 1)].stroke.theta;
-  constexpr double golden = 0.61803398874989485;
-  for (int i = 0; i < 24; ++i) {
-    const double a = high - golden * (high - low);
-    const double b = low + golden * (high - low);
-    if (probe.value(take_offs.at(a)) < probe.value(take_offs.at(b))) {
-      high = b;
-    } else {
-      low = a;
-    }
-  }
-  const TakeOff refined = take_offs.at(0.5 * (low + high));
+  const Bracket neighbours = {sign * samples[smallest == 0 ? 0 : smallest - 1].stroke.theta,
+                              sign * samples[std::min(smallest + 1, samples.size() - 1)].stroke.theta};
+  const auto value_at = [&](double theta) { return probe.value(take_offs.at(theta)); };
+  const TakeOff refined = take_offs.at(golden_section(neighbours, 24, value_at).middle());
   return probe.value(refined) < probe.value(samples[smallest]) ? refined : samples[smallest];
 }
 

@@ -7,6 +7,7 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/transmission/transmission.h"
+#include "transmission/alpha_range.h"
 
 // The second route. Nothing here knows a support function, a derivative or an envelope: a string is laid round the corners of a
 // polygon, over a disc and to a point, its length is added up piece by piece, and the joint angle at which that length
@@ -169,9 +170,7 @@ RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Pol
     string1.turn_to(declared.alpha_min() * i / steps);
     string2.turn_to(declared.alpha_min() * i / steps);
   }
-  for (int i = 0; i <= steps; ++i) {
-    wind_to(declared.alpha_min() + (declared.alpha_max() - declared.alpha_min()) * i / steps, home1, home2);
-  }
+  for (const double alpha : alphas_over_range(declared, steps)) wind_to(alpha, home1, home2);
   for (const RewindPoint& point : result.points) {
     const double error = std::abs(point.theta - point.theta_declared);
     if (error >= result.max_theta_error) {

@@ -7,6 +7,7 @@
 #include "profile/feasibility.h"
 #include "profile/polar_curve.h"
 #include "profile/sampling.h"
+#include "transmission/alpha_range.h"
 
 namespace fusee {
 namespace {
@@ -17,10 +18,7 @@ double flange_reach(const Mechanism& mechanism) {
 }
 
 std::vector<TransmissionPoint> stroke_table(const Transmission& transmission, int steps) {
-  std::vector<double> alphas;
-  for (int i = 0; i <= steps; ++i) {
-    alphas.push_back(transmission.alpha_min() + (transmission.alpha_max() - transmission.alpha_min()) * i / steps);
-  }
+  std::vector<double> alphas = alphas_over_range(transmission, steps);
   // Home is a row of its own, in place of the nearest one when that is home but for rounding.
   const auto after = std::lower_bound(alphas.begin(), alphas.end(), -1e-9);
   if (after != alphas.end() && *after < 1e-9) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "transmission/equations.h"
+
 namespace fusee {
 
 double weight_moment(const Load& load) { return load.mass * k_gravity * load.lever; }

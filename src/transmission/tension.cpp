@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "fusee/transmission/load.h"
+#include "transmission/equations.h"
 
 namespace fusee {
 namespace {
 
-/// [10],[11]: the angle of the triangle O-pin-C at O, before and after its side pin–C grew by the elongation. Where the sides no
-/// longer meet, the joint has turned until they lie in one line.
+/// [10],[11]: the angle of the triangle O-pin-C at O, before and after its side pin–C grew by the elongation. Where the
+/// sides no longer meet, the joint has turned until they lie in one line.
 double turned_by_law_of_cosines(const PinPlace& place, double span, double elongation) {
   const double to_pin = place.pin().norm();
   const auto angle_at_joint = [&](double opposite) {
@@ -22,9 +23,8 @@ double turned_by_law_of_cosines(const PinPlace& place, double span, double elong
 }  // namespace
 
 // [6] the tip force acts across OC, tendon 2 at γ2 to it: F_c R = T2 m2 with m2 = R sin γ2.
-// [7],[8] the pin takes e^{μφ}. [9] each span stretches under its own tension; the wrap on the pin under the mean of both.
-// [10],[11] the elongation turns the joint: by the law of cosines over point pins, for which alone it holds, and to first order
-// (Δ/m, which is the law of cosines' own first order) over pins of any size.
+// [10],[11] the elongation turns the joint: by the law of cosines over point pins, for which alone it holds, and over
+// others by its own first order.
 PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& point) {
   const bool by_first = load_torque(mechanism, point.theta) < 0;
   const Side side = by_first ? Side::left : Side::right;
@@ -34,15 +34,15 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   // C lies at 90° − θ from O, the tendon's line at its normal: in the image γ = θ + ψ, beyond 90° too.
   forces.gamma1 = k_pi - point.t1.upper_normal - point.theta;
   forces.gamma2 = point.t2.upper_normal + point.theta;
-  const double T = std::abs(load_torque(mechanism, point.theta)) / tendon.m;
+  const double T = tension_above_pin(std::abs(load_torque(mechanism, point.theta)), tendon.m);
   (by_first ? forces.T1 : forces.T2) = T;
   forces.phi = point.t2.wrap;
-  forces.Tb = T * std::exp(mechanism.guides.mu * std::max(0.0, tendon.wrap));
+  forces.Tb = tension_below_pin(T, mechanism.guides.mu, std::max(0.0, tendon.wrap));
   const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach;
-  forces.elongation = (T * tendon.free_upper + 0.5 * (T + forces.Tb) * on_pin + forces.Tb * tendon.lower_reach) / stiffness;
-  const bool point_pins = mechanism.pulley.method == Method::paper || mechanism.guide_pitch_radius() == 0;
-  const PinPlace place = pin_place(mechanism, side, 0.0);
-  const double turned = point_pins ? turned_by_law_of_cosines(place, tendon.free_upper, forces.elongation) : forces.elongation / tendon.m;
+  forces.elongation = elongation_of_tendon(T, forces.Tb, tendon.free_upper, on_pin, tendon.lower_reach, stiffness);
+  const double turned = mechanism.has_point_pins() ? turned_by_law_of_cosines(pin_place(mechanism, side, 0.0),
+                                                                              tendon.free_upper, forces.elongation)
+                                                   : angle_of_elongation(forces.elongation, tendon.m);
   forces.theta_error = by_first ? -turned : turned;
   forces.motor_torque = (by_first ? -1.0 : 1.0) * forces.Tb * tendon.p;
   forces.stiffness = stiffness * tendon.m * tendon.m / tendon.length;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "fusee/base/diagnostics.h"
+#include "transmission/equations.h"
 #include "transmission/table_law.h"
 
 namespace fusee {
@@ -28,17 +29,16 @@ double to_world(Side side, double image_angle) { return side == Side::right ? im
 TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, double g, double dg, double d2g) {
   TendonPoint point;
   point.m = arm.m;
-  point.p = arm.m * g;
+  point.p = pulley_radius(arm.m, g);
   point.dp = arm.dm * g * g + arm.m * dg;
   point.d2p = arm.d2m * g * g * g + 3.0 * arm.dm * g * dg + arm.m * d2g;
-  const double c = place.c();
-  const double beyond_pin = point.p - place.rho;
-  const double lower_image = place.phi() - std::acos(beyond_pin / c);
+  Domain unasked;  // where a pin stands in a pulley the numbers are NaN
+  const LowerLine<double> lower = lower_line(point.p, place.rho, place.c(), place.phi(), unasked);
   point.upper_normal = to_world(side, arm.span.normal);
-  point.lower_normal = to_world(side, lower_image);
-  point.wrap = arm.span.normal - lower_image;
+  point.lower_normal = to_world(side, lower.normal);
+  point.wrap = arm.span.normal - lower.normal;
   point.free_upper = arm.span.free;
-  point.lower_reach = std::sqrt((c - beyond_pin) * (c + beyond_pin));
+  point.lower_reach = lower.reach;
   point.length = point.free_upper + place.rho * point.wrap + point.lower_reach;
   return point;
 }
@@ -76,7 +76,7 @@ constexpr double k_margin = 0.02;
 }  // namespace
 
 Transmission::Transmission(const Mechanism& mechanism)
-    : Transmission(mechanism, mechanism.pulley.method == Method::paper ? 0.0 : mechanism.guide_pitch_radius()) {}
+    : Transmission(mechanism, mechanism.seen_pitch_radius()) {}
 
 Transmission::Transmission(const Mechanism& mechanism, double rho)
     : law_(mechanism.pulley.law),
@@ -150,7 +150,7 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
   switch (law_) {
     case Law::compensate:
       // p1 = m1 g = r1 for all α: its derivatives vanish, which gives those of g.
-      point.g = r1_ / arm1.m;
+      point.g = slope_over_round_pulley(r1_, arm1.m);
       point.dg = -arm1.dm * point.g * point.g / arm1.m;
       point.d2g = -(arm1.d2m * point.g * point.g * point.g + 3.0 * arm1.dm * point.g * point.dg) / arm1.m;
       break;

@@ -7,7 +7,7 @@
 
 #include "fusee/optimize/certified.h"
 #include "fusee/optimize/genetic.h"
-#include "optimize/formulas.h"
+#include "optimize/objective_at.h"
 #include "optimize/problem_text.h"
 
 namespace fusee {
@@ -31,8 +31,6 @@ Lanes sqrt(const Lanes& a) { return {a.v.sqrt()}; }
 Lanes exp(const Lanes& a) { return {a.v.exp()}; }
 Lanes sin(const Lanes& a) { return {a.v.sin()}; }
 Lanes cos(const Lanes& a) { return {a.v.cos()}; }
-Lanes atan(const Lanes& a) { return {a.v.atan()}; }
-Lanes asin(const Lanes& a) { return {a.v.asin()}; }
 Lanes acos(const Lanes& a) { return {a.v.acos()}; }
 Lanes larger(const Lanes& a, const Lanes& b) { return {a.v.max(b.v)}; }
 Lanes positive_part(const Lanes& a, Domain& domain) {
@@ -44,7 +42,16 @@ Lanes unit_part(const Lanes& a, Domain& domain) {
   return a;
 }
 void demand_not_negative(const Lanes& a, Domain& domain) { domain.possible = domain.possible && (a.v >= 0).all(); }
-const Lanes& value_of(const Lanes& a) { return a; }
+const Lanes& without_slopes(const Lanes& a) { return a; }
+Lanes hypot(const Lanes& a, const Lanes& b) { return sqrt(squared(a) + squared(b)); }
+Lanes cathetus(const Lanes& hypotenuse, const Lanes& other, Domain& domain) {
+  return sqrt(positive_part((hypotenuse - other) * (hypotenuse + other), domain));
+}
+/// Of points above: pins below C, and the pulley below its pins.
+Lanes direction(const Lanes& x, const Lanes& y, Domain& domain) {
+  domain.whole = domain.whole && (y.v > 0).all();
+  return 0.5 * k_pi - Lanes((x.v / y.v).atan());
+}
 
 double scalar_value(const FileNumbers<double>& n) {
   const auto design = design_numbers(n, Law::compensate, true);

@@ -23,6 +23,7 @@ friction = 0.2      # measured
 [pulley]
 EF_mm = 60.0
 r1_mm = 20.0
+method = "paper"
 [tendon]
 diameter_mm = 1.0
 [optimize]
@@ -89,6 +90,38 @@ class Optimize(harness.Scratch):
         files = sorted((self.folder / "points").iterdir())
         self.assertEqual(len(files), len(answer["front"]))
         self.assertIn("# my joint", files[0].read_text())
+
+    def test_a_front_appears_whole_or_not_at_all(self):
+        objectives = """'optimize.objective=["max_tension", "footprint"]'"""
+        (self.folder / "points").mkdir()
+        (self.folder / "points" / "point_002.toml").write_text("mine")
+        words = f"optimize problem.toml --set {objectives} --front points --generations 20"
+        self.assertEqual(self.fusee(words).returncode, 6)
+        self.assertEqual([path.name for path in (self.folder / "points").iterdir()], ["point_002.toml"])
+        self.assertEqual(self.fusee(words + " --force").returncode, 0)
+        self.assertIn("# my joint", (self.folder / "points" / "point_002.toml").read_text())
+
+    def test_it_says_what_a_pin_is(self):
+        self.assertEqual(self.answer("")["pins"], {"points": True, "pitch_radius_mm": 0})
+        self.assertEqual(self.answer("--set pulley.method=exact")["pins"], {"points": False, "pitch_radius_mm": 0.5})
+        for command in ["analyze", "build --dry-run"]:
+            said = self.fusee(f"{command} problem.toml").stderr.decode()
+            self.assertIn("pins are seen as points", said)
+            said = self.fusee(f"{command} problem.toml --set pulley.method=exact").stderr.decode()
+            self.assertIn("centre line runs 0.5 mm from a pin's centre", said)
+
+    def test_identified_numbers_are_added_to_the_designs(self):
+        (self.folder / "problem.toml").write_text(PROBLEM + "[identified]\nfriction = 0.1\nlength_mm = 2.0\n")
+        answer = self.answer("--generations 3 --population 12 -o new.toml")
+        self.assertEqual((answer["method"], answer["joint"]), ("ga", "as_it_is"))
+        new = (self.folder / "new.toml").read_text()
+        self.assertIn("[identified]\nfriction = 0.1\nlength_mm = 2.0\n", new)
+        self.assertGreaterEqual(answer["design"]["joint.length_mm"], 100)
+        again = self.answer("--generations 1 --population 8")  # of the file as it was written
+        self.assertNotEqual(again["value_before"], answer["value"])
+        (self.folder / "problem.toml").write_text(new)
+        self.assertAlmostEqual(self.answer("--generations 1 --population 8")["value_before"], answer["value"], 9)
+        self.assertEqual(self.fusee("optimize problem.toml --method certified").returncode, 3)
 
     def test_ties_are_reported_and_broken(self):
         answer = self.answer("--set guides.friction=0")

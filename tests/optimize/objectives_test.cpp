@@ -5,9 +5,10 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/transmission/tension.h"
-#include "optimize/formulas.h"
+#include "optimize/objective_at.h"
 #include "optimize/problem_text.h"
 #include "support/mechanisms.h"
+#include "transmission/interval.h"
 
 namespace fusee {
 namespace {
@@ -94,18 +95,6 @@ TEST(Formulas, DerivativesAreThoseOfDifferences) {
       }
     }
   }
-}
-
-TEST(Interval, HoldsTheTrueValue) {
-  const RoundingUp rounding;
-  const Interval third = Interval(1.0) / 3.0;
-  EXPECT_LT(third.lower(), third.upper());
-  EXPECT_LE(std::nextafter(third.lower(), 1.0), third.upper() + 1e-300);
-  // sin over its top, where neither end is the largest.
-  EXPECT_EQ(sin(Interval(1.0, 2.0)).upper() >= 1.0, true);
-  EXPECT_LE(sin(Interval(1.0, 2.0)).lower(), 0.8414709848078965);
-  EXPECT_LE(cos(Interval(-0.5, 0.25)).lower(), 0.8775825618903728);
-  EXPECT_GE(cos(Interval(-0.5, 0.25)).upper(), 1.0);
 }
 
 TEST(Objectives, HaveTheNamesOfTheFile) {

@@ -22,6 +22,7 @@ friction = 0.2
 [pulley]
 EF_mm = 60
 r1_mm = 20
+method = "paper"
 [tendon]
 diameter_mm = 1
 [optimize]

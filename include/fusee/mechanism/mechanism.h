@@ -72,10 +72,12 @@ struct Tendon {
   bool operator==(const Tendon&) const = default;
 };
 
-/// Tension per strain of a tendon: modulus · πd²/4, N.
-inline double section_stiffness(const Tendon& tendon) {
-  return tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter;
+/// Tension per strain of a round tendon, E · πd²/4, N; of numbers of any kind.
+template <typename S>
+S stiffness_of_section(const S& modulus, const S& diameter) {
+  return modulus * 0.25 * k_pi * diameter * diameter;
 }
+inline double section_stiffness(const Tendon& tendon) { return stiffness_of_section(tendon.modulus, tendon.diameter); }
 
 /// What the joint carries. Forces and torques are positive against +θ: they load tendon 2.
 struct Load {
@@ -183,6 +185,11 @@ struct Mechanism {
 
   /// Pin radius to the tendon's centre line: ρp of mechanics, mm.
   double guide_pitch_radius() const { return guides.radius + 0.5 * tendon.diameter; }
+  /// The same as equations and drawings see it: 0 where method = "paper" takes pins for points and tendons for lines.
+  /// In every other method the tendon runs at half its thickness round a pin of radius 0 too.
+  double seen_pitch_radius() const { return pulley.method == Method::paper ? 0.0 : guide_pitch_radius(); }
+  /// Whether a pin is a point, for everything that asks.
+  bool has_point_pins() const { return seen_pitch_radius() == 0; }
   /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
   double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
 };

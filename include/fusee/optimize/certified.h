@@ -1,6 +1,6 @@
 /// \file
-/// The global optimum, proven: branch and bound with outward-rounded intervals over the variables and the stroke. Constraints are kept to
-/// 1e-12 of their largest term, in the bound and in the designs.
+/// The global optimum, proven: branch and bound with outward-rounded intervals over the variables and the stroke.
+/// Constraints are kept to 1e-12 of their largest term, in the bound and in the designs.
 #pragma once
 
 #include "fusee/optimize/problem.h"
@@ -45,8 +45,11 @@ struct CertifiedResult {
   std::string reason;    ///< when nothing was found: the commonest cause
 };
 
-/// Needs an objective that is certifiable, law compensate or linear, no `feasible`: else InputError, naming what can be
-/// certified.
+/// Why no optimum of this can be certified; empty when one can.
+std::string cannot_certify(const Problem& problem, Objective objective);
+
+/// Needs an objective that is certifiable, law compensate or linear, no `feasible`, a joint as declared: else
+/// InputError, naming what can be certified.
 CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options = {});
 
 }  // namespace fusee

@@ -26,10 +26,6 @@ std::span<const ObjectiveInfo> objectives();
 const ObjectiveInfo& info(Objective objective);
 Objective find_objective(std::string_view name);  ///< a name that the mechanism file accepts
 
-/// Pins of radius 0 and method = "paper" are the paper's: points, the tendon without thickness. Else ρp = radius +
-/// diameter/2.
-bool has_point_pins(const Mechanism& mechanism);
-
 /// The value of an objective, or why there is none. Never NaN, never infinite where possible.
 struct Evaluation {
   bool possible = false;
@@ -41,8 +37,7 @@ struct Evaluation {
   double cost(Objective objective) const;
 };
 
-/// law = "table" is evaluated like any other; `point_pins` as above where it is not given.
+/// law = "table" is evaluated like any other. Pins are points where the mechanism says so (has_point_pins).
 Evaluation evaluate(Objective objective, const Mechanism& mechanism);
-Evaluation evaluate(Objective objective, const Mechanism& mechanism, bool point_pins);
 
 }  // namespace fusee

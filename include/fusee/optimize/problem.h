@@ -50,33 +50,40 @@ struct ObjectiveCap {
   double limit = 0;
 };
 
+/// From a mechanism as declared to the joint that is judged.
+using JointGate = std::function<Mechanism(const DeclaredMechanism& declared)>;
+
 struct Problem {
   DeclaredMechanism base;
+  JointGate as_it_is;  ///< empty: the joint is as declared
   std::vector<Objective> objectives;
   std::vector<Variable> variables;
   std::vector<MovingKey> moving;  ///< variables in their order, then what is tied
   std::vector<LinearConstraint> constraints;
   bool feasible = false;
-  bool point_pins = false;  ///< of all designs
   std::optional<ObjectiveCap> cap;
 };
 
-/// InputError: nothing to optimise, a variable that no objective depends on.
-Problem make_problem(const MechanismFile& file);
+/// Variables, ties and constraints are of declared numbers; objectives are of the joint that comes of them through
+/// `as_it_is`. InputError: nothing to optimise, a variable that no objective depends on.
+Problem make_problem(const MechanismFile& file, JointGate as_it_is = {});
 
-/// The mechanism of a design, ties followed; without its [optimize].
+/// The mechanism of a design as declared, ties followed; without its [optimize].
 DeclaredMechanism mechanism_at(const Problem& problem, const Design& design);
+/// The joint that a declared one is judged as.
+Mechanism judged(const Problem& problem, const DeclaredMechanism& declared);
 /// What a design changes in the person's file.
 std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design);
 /// How far beyond its constraints a design lies, each in units of its own size; 0 when it keeps them all.
 double constraint_violation(const Problem& problem, const Design& design);
 /// Objective, constraints, ties within their bounds, cap, and (when demanded) whether a pulley can be made.
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design);
+
 /// How far a search has come; returning false stops it, and it answers with what it has.
 struct SearchProgress {
-  double done = 0;         ///< 0 … 1, a guess
-  double best = 0;         ///< value of the best design, in the objective's unit
-  double lower_bound = 0;  ///< certified only
+  double done = 0;             ///< 0 … 1, a guess
+  std::optional<double> best;  ///< value of the best design so far, in the objective's unit; none of a front
+  double lower_bound = 0;      ///< certified only
   long evaluations = 0;
 };
 using KeepGoing = std::function<bool(const SearchProgress&)>;

@@ -40,9 +40,9 @@ struct TransmissionPoint {
 /// table: a quintic spline through the rows.  In every law p_i = m_i dθ/dα: virtual work.
 class Transmission {
  public:
-  /// `rho`: the pin radius to the centre line that the equations see; method = "paper" sees 0.
+  /// `rho`: the pin radius to the centre line that the equations see.
   Transmission(const Mechanism& mechanism, double rho);
-  /// With the pins as the mechanism's method sees them.
+  /// With the pins as the mechanism's method sees them (seen_pitch_radius).
   explicit Transmission(const Mechanism& mechanism);
 
   /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, or a formula has no value; null when

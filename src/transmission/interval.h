@@ -9,10 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <boost/numeric/interval.hpp>
-#include <cmath>
 #include <limits>
 
-#include "fusee/base/units.h"
+#include "transmission/scalar.h"
 
 namespace fusee {
 
@@ -24,12 +23,6 @@ using Interval = boost::numeric::interval_lib::unprotect<RoundedInterval>::type;
 /// Rounds upward while it lives. Keep it and the arithmetic in functions of their own: the compiler may move arithmetic
 /// over its ends.
 using RoundingUp = RoundedInterval::traits_type::rounding;
-
-/// What a formula's domain does to an interval: a part of it may have to be cut off, or all of it.
-struct Domain {
-  bool possible = true;  ///< false: the formula has no value anywhere in the box
-  bool whole = true;     ///< false: a part was cut off; derivatives are worth nothing
-};
 
 inline double stretch_of(double value) {
   return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(value) + std::numeric_limits<double>::min();
@@ -49,25 +42,22 @@ inline Interval exp(const Interval& x) {
 inline Interval atan(const Interval& x) {
   return grown(x, [](double v) { return std::atan(v); });
 }
-inline Interval asin(const Interval& x) {
-  return grown(x, [](double v) { return std::asin(v); });
-}
 inline Interval acos(const Interval& x) { return {below(std::acos(x.upper())), above(std::acos(x.lower()))}; }
 inline Interval sqrt(const Interval& x) {
   return grown(x, [](double v) { return std::sqrt(std::max(v, 0.0)); });
 }
 inline Interval pi_interval() { return {below(k_pi), above(k_pi)}; }
 
-/// Angles of the joint lie within ±π, and a little more by rounding.
+/// Of angles within ±2.5 π: those of the joint lie within ±π, those of lines within 1.5 π, and both are added.
 inline Interval sin(const Interval& x) {
   const Interval low = {below(std::sin(x.lower())), above(std::sin(x.lower()))};
   const Interval high = {below(std::sin(x.upper())), above(std::sin(x.upper()))};
   Interval hull = boost::numeric::hull(low, high);
   const double slack = 1e-9;
-  for (const double top : {-1.5 * k_pi, 0.5 * k_pi}) {
+  for (const double top : {-1.5 * k_pi, 0.5 * k_pi, 2.5 * k_pi}) {
     if (x.lower() <= top + slack && x.upper() >= top - slack) hull = boost::numeric::hull(hull, Interval(1.0));
   }
-  for (const double bottom : {-0.5 * k_pi, 1.5 * k_pi}) {
+  for (const double bottom : {-2.5 * k_pi, -0.5 * k_pi, 1.5 * k_pi}) {
     if (x.lower() <= bottom + slack && x.upper() >= bottom - slack) hull = boost::numeric::hull(hull, Interval(-1.0));
   }
   return hull;
@@ -98,29 +88,7 @@ inline void demand_not_negative(const Interval& x, Domain& domain) {
   if (x.upper() < 0) domain.possible = false;
 }
 
-// The same words for plain numbers, so that one formula serves both
-// ----------------------------------------------------
-
-using std::acos, std::asin, std::atan, std::cos, std::exp, std::sin, std::sqrt;
-inline double squared(double x) { return x * x; }
-inline double larger(double a, double b) { return std::max(a, b); }
-inline double positive_part(double x, Domain& domain) {
-  if (!(x > 0)) domain.possible = false;
-  return x;
-}
-inline double unit_part(double x, Domain& domain) {
-  if (!(x >= -1 && x <= 1)) domain.possible = false;
-  return x;
-}
-inline void demand_not_negative(double x, Domain& domain) {
-  if (!(x >= 0)) domain.possible = false;
-}
-
-inline double value_of(double x) { return x; }
-inline const Interval& value_of(const Interval& x) { return x; }
-
-// First derivatives
-// ----------------------------------------------------------------------------------------------------
+// First derivatives ---------------------------------------------------------------------------------------------------
 
 /// A value over a box and its derivatives by the box's variables, all as intervals.
 struct Jet {
@@ -177,7 +145,6 @@ inline Jet exp(const Jet& a) {
 inline Jet sin(const Jet& a) { return chained(a, sin(a.value), cos(a.value)); }
 inline Jet cos(const Jet& a) { return chained(a, cos(a.value), -sin(a.value)); }
 inline Jet atan(const Jet& a) { return chained(a, atan(a.value), 1.0 / (1.0 + squared(a.value))); }
-inline Jet asin(const Jet& a) { return chained(a, asin(a.value), 1.0 / sqrt(1.0 - squared(a.value))); }
 inline Jet acos(const Jet& a) { return chained(a, acos(a.value), -1.0 / sqrt(1.0 - squared(a.value))); }
 inline Jet larger(const Jet& a, const Jet& b) {
   if (a.value.lower() >= b.value.upper()) return a;
@@ -195,7 +162,21 @@ inline Jet unit_part(const Jet& a, Domain& domain) {
   jet.value = unit_part(a.value, domain);
   return jet;
 }
-inline const Interval& value_of(const Jet& a) { return a.value; }
+inline Jet without_slopes(const Jet& a) { return a.value; }
 inline void demand_not_negative(const Jet& a, Domain& domain) { demand_not_negative(a.value, domain); }
+
+inline Jet hypot(const Jet& a, const Jet& b) { return sqrt(squared(a) + squared(b)); }
+/// Squared before they are subtracted: an interval is the sharper the less often a number stands in a formula.
+inline Jet cathetus(const Jet& hypotenuse, const Jet& other, Domain& domain) {
+  return sqrt(positive_part(squared(hypotenuse) - squared(other), domain));
+}
+inline Jet direction(const Jet& x, const Jet& y, Domain& domain) {
+  const Interval pi = pi_interval();
+  if (y.value.lower() > 0) return Jet(0.5 * pi) - atan(x / y);
+  if (x.value.lower() > 0) return atan(y / x);
+  if (x.value.upper() < 0) return Jet(pi) + atan(y / x);
+  domain.whole = false;
+  return boost::numeric::hull(-0.5 * pi, 1.5 * pi);
+}
 
 }  // namespace fusee

@@ -1,0 +1,254 @@
+#include "cli/optimize_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/pins.h"
+#include "cli/table.h"
+#include "fusee/base/text.h"
+
+namespace fusee::cli {
+namespace {
+
+std::string unit_text(std::string_view unit) { return unit.empty() ? "" : " " + std::string(unit); }
+std::string value_text(Objective objective, double value) {
+  return rounded(value, 7) + unit_text(info(objective).unit);
+}
+
+std::string line(std::string title, const std::string& text) {
+  title.resize(std::max<std::size_t>(12, title.size() + 1), ' ');
+  return "  " + title + text + "\n";
+}
+
+// ---- a design -------------------------------------------------------------------------------------------------------
+
+Json design_json(const Problem& problem, const Design& design) {
+  Json json = Json::object();
+  for (const ValueEdit& edit : edits_of(problem, design)) json[edit.key] = edit.value;
+  return json;
+}
+
+bool is_near(double a, double b, double range) { return std::abs(a - b) <= 1e-6 * range; }
+
+std::string design_text(const Problem& problem, const Design& design) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < problem.moving.size(); ++i) {
+    const MovingKey& moving = problem.moving[i];
+    const Field& field = *moving.number.field;
+    const double value = moving.value(design);
+    std::string where = i < design.size() ? "" : "tied";
+    if (i < design.size()) {
+      const Variable& variable = problem.variables[i];
+      const double range = variable.upper - variable.lower;
+      if (is_near(value, variable.lower, range))
+        where = "at its lower bound";
+      else if (is_near(value, variable.upper, range))
+        where = "at its upper bound";
+    }
+    rows.push_back({"  " + moving.key, rounded(value, 7), std::string(field.unit),
+                    "was " + rounded(moving.number.get(problem.base), 7), where});
+  }
+  return table({{"  key"}, {"value", Align::right}, {"unit"}, {"in the file"}, {""}}, rows);
+}
+
+/// How the joint of a design is seen.
+void add_joint(const OptimizeResult& result, Reply& reply) {
+  const Problem& problem = result.problem;
+  const Mechanism joint = judged(problem, mechanism_at(problem, result.design));
+  reply.fields["pins"] = pins_json(joint);
+  reply.text += line("pins", pins_text(joint));
+  if (!problem.as_it_is) return;
+  reply.fields["joint"] = "as_it_is";
+  reply.text += line("joint", "as it is: [identified] is added to these numbers");
+}
+
+void add_value(const OptimizeResult& result, Reply& reply) {
+  const Objective objective = result.problem.objectives.front();
+  const Evaluation& now = result.before;
+  reply.fields["objective"] = info(objective).name;
+  reply.fields["unit"] = info(objective).unit;
+  reply.fields["value"] = result.value;
+  reply.fields["theta_deg"] = degrees(result.theta);
+  if (now.possible) reply.fields["value_before"] = now.value;
+  reply.fields["design"] = design_json(result.problem, result.design);
+  const std::string before = now.possible ? "; the file as it is: " + value_text(objective, now.value) : "";
+  reply.text +=
+      line(std::string(info(objective).name),
+           value_text(objective, result.value) + " at theta = " + rounded(degrees(result.theta), 4) + " deg" + before);
+  add_joint(result, reply);
+  reply.text += design_text(result.problem, result.design);
+}
+
+// ---- the three methods ----------------------------------------------------------------------------------------------
+
+void say_none(const std::string& path, const OptimizeResult& result, bool proven, Reply& reply) {
+  reply.exit = Exit::infeasible;
+  Diagnostic error = about_file(
+      Severity::error, path,
+      std::string(proven ? "no design of the box is possible (proven)" : "no possible design was found in the box") +
+          "; most often: " + result.reason);
+  error.hint = "widen lower and upper, or drop a constraint";
+  if (result.problem.feasible) error.hint += ", or leave out feasible";
+  reply.diagnostics.push_back(error);
+  reply.fields["found"] = false;
+  reply.fields["reason"] = result.reason;
+}
+
+void say_stopped(Reply& reply) {
+  reply.exit = Exit::interrupted;
+  reply.diagnostics.push_back(note(Severity::warning, "interrupted: this is the best so far"));
+  reply.fields["stopped"] = true;
+}
+
+std::string box_text(const Problem& problem, const TieSet& ties) {
+  std::string text;
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const Variable& variable = problem.variables[i];
+    text += (text.empty() ? "" : ", ") + variable.symbol + " " + rounded(ties.known.lower[i], 5) + " to " +
+            rounded(ties.known.upper[i], 5) + unit_text(variable.unit);
+  }
+  return text;
+}
+
+Json ties_json(const TieSet& ties) {
+  Json json;
+  json["wide"] = ties.wide;
+  json["known"] = {ties.known.lower, ties.known.upper};
+  json["hull"] = {ties.hull.lower, ties.hull.upper};
+  json["share"] = ties.share;
+  json["boxes"] = Json::array();
+  for (const DesignBox& box : ties.boxes) json["boxes"].push_back({box.lower, box.upper});
+  return json;
+}
+
+void add_ties(const Problem& problem, const TieSet& ties, bool broken, Reply& reply) {
+  reply.fields["ties"] = ties_json(ties);
+  if (!ties.wide || broken) return;
+  reply.text += line("ties", "within 0.1 %: " + box_text(problem, ties));
+  const char* other = problem.objectives.front() == Objective::footprint ? "max_tension" : "footprint";
+  reply.diagnostics.push_back(
+      note(Severity::note, "many designs tie within 0.1 %: " + box_text(problem, ties),
+           std::string("--then ") + other + " takes the one of them that is best by a second measure"));
+}
+
+std::string then_line(Objective objective, const CertifiedResult& second) {
+  return line("then", std::string(info(objective).name) + " " + value_text(objective, second.value) +
+                          " among the designs within 0.1 % (gap " + rounded(second.relative_gap, 2) + ")");
+}
+
+void add_then(Objective objective, const CertifiedResult& second, Reply& reply) {
+  reply.fields["then"] = {{"objective", info(objective).name},
+                          {"value", second.value},
+                          {"lower_bound", second.lower_bound},
+                          {"relative_gap", second.relative_gap}};
+}
+
+/// `then` is unknown to the search that was stopped before it.
+void add_certified(const OptimizeOptions& options, const OptimizeResult& result, const CertifiedResult& search,
+                   Reply& reply) {
+  const Objective objective = result.problem.objectives.front();
+  if (result.then) add_then(*options.then, *result.then, reply);
+  reply.fields["boxes"] = search.boxes;
+  reply.fields["evaluations"] = search.evaluations;
+  reply.text = std::string(info(objective).name) + " of " + result.problem.base.name + ", proven by branch and bound\n";
+  add_value(result, reply);
+  reply.fields["found"] = true;
+  reply.fields["lower_bound"] = search.lower_bound;
+  reply.fields["relative_gap"] = search.relative_gap;
+  reply.fields["proven"] = search.proven;
+  reply.text +=
+      line("proven", "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
+  reply.text +=
+      line("searched", std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
+  if (result.then) reply.text += then_line(*options.then, *result.then);
+  add_ties(result.problem, search.ties, options.then.has_value(), reply);
+  if (search.proven || options.then || result.stopped) return;
+  reply.exit = Exit::check_failed;
+  reply.diagnostics.push_back(note(
+      Severity::error, "the proof is not finished: relative gap " + rounded(search.relative_gap, 2) + ", wanted 1e-6",
+      "narrow the bounds, or take fewer variables"));
+}
+
+void add_genetic(const GeneticOptions& options, const OptimizeResult& result, const GeneticResult& search,
+                 Reply& reply) {
+  reply.fields["evaluations"] = search.evaluations;
+  reply.text = std::string(info(result.problem.objectives.front()).name) + " of " + result.problem.base.name +
+               ", by the genetic algorithm (not proven)\n";
+  add_value(result, reply);
+  reply.text += line("searched", std::to_string(options.generations) + " generations of " +
+                                     std::to_string(options.population) + ", seed " + std::to_string(options.seed) +
+                                     ", " + std::to_string(search.evaluations) + " evaluations");
+  reply.fields["found"] = true;
+  reply.fields["seed"] = options.seed;
+  reply.fields["generations"] = Json::array();
+  for (const Generation& generation : search.generations) {
+    reply.fields["generations"].push_back(
+        {{"number", generation.number}, {"best", generation.best}, {"mean", generation.mean}});
+  }
+}
+
+std::string front_table(const Problem& problem, const std::vector<FrontPoint>& front) {
+  std::vector<Column> columns{{"  point"}};
+  for (const Objective objective : problem.objectives) columns.push_back({info(objective).name, Align::right});
+  for (const Variable& variable : problem.variables) columns.push_back({variable.symbol, Align::right});
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    std::vector<std::string> row{"  " + std::to_string(i + 1)};
+    for (const double value : front[i].values) row.push_back(rounded(value, 5));
+    for (const double value : front[i].design) row.push_back(rounded(value, 5));
+    rows.push_back(std::move(row));
+  }
+  return table(columns, rows);
+}
+
+void add_front(const GeneticOptions& options, const OptimizeResult& result, const ParetoResult& search, Reply& reply) {
+  const Problem& problem = result.problem;
+  reply.fields["evaluations"] = search.evaluations;
+  reply.text = "front of " + problem.base.name + ", " + std::to_string(search.front.size()) +
+               " points by NSGA-II (not proven)\n" + front_table(problem, search.front);
+  add_joint(result, reply);
+  reply.fields["found"] = true;
+  reply.fields["seed"] = options.seed;
+  reply.fields["front"] = Json::array();
+  for (const FrontPoint& point : search.front) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < point.values.size(); ++k)
+      values[std::string(info(problem.objectives[k]).name)] = point.values[k];
+    reply.fields["front"].push_back({{"values", values}, {"design", design_json(problem, point.design)}});
+  }
+  reply.fields["design"] = design_json(problem, result.design);
+}
+
+void add_nothing(const std::string& path, const OptimizeResult& result, Reply& reply) {
+  const auto* certified = std::get_if<CertifiedResult>(&result.search);
+  if (certified) reply.fields["boxes"] = certified->boxes;
+  reply.fields["evaluations"] = std::visit([](const auto& search) { return search.evaluations; }, result.search);
+  if (certified && result.stopped) return;
+  say_none(path, result, certified && certified->proven, reply);
+}
+
+}  // namespace
+
+void add_answer(const std::string& path, const OptimizeOptions& options, const OptimizeResult& result, Reply& reply) {
+  if (!result.found)
+    add_nothing(path, result, reply);
+  else if (const auto* certified = std::get_if<CertifiedResult>(&result.search))
+    add_certified(options, result, *certified, reply);
+  else if (const auto* genetic = std::get_if<GeneticResult>(&result.search))
+    add_genetic(options.genetic, result, *genetic, reply);
+  else
+    add_front(options.genetic, result, std::get<ParetoResult>(result.search), reply);
+  if (result.stopped && reply.exit != Exit::infeasible) say_stopped(reply);
+}
+
+void add_files(const OptimizeOptions& options, const OptimizeResult& result, Reply& reply) {
+  reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
+  if (!result.published) return;
+  if (!result.front_files.empty())
+    reply.text += line("files", std::to_string(result.front_files.size()) + " in " + options.front_folder.string());
+  if (options.new_file.empty()) return;
+  reply.text += line("file", options.new_file.string());
+  reply.fields["file"] = options.new_file.string();
+}
+
+}  // namespace fusee::cli

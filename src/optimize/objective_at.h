@@ -1,0 +1,125 @@
+/// \file
+/// Internal: objectives at one place of the stroke, by the paper's equations (transmission/equations.h), for numbers
+/// and for intervals with derivatives: what is evaluated and what is proven are the same.
+#pragma once
+
+#include "fusee/mechanism/mechanism.h"
+#include "fusee/optimize/objectives.h"
+#include "transmission/equations.h"
+
+namespace fusee {
+
+/// The numbers of a mechanism that [1]-[11] use.
+template <typename S>
+struct DesignNumbers {
+  S R, EB, ED, OE, EF, r1, ratio, mu;
+  S rho;        ///< ρp
+  S stiffness;  ///< A E of the tendon, N
+  S theta_min, theta_max;
+  S to_B, to_D;         ///< c: from the pulley's axis to the pins, mm
+  S angle_B, angle_D;   ///< their directions in the right-hand image, rad
+  bool linear = false;  ///< law = linear: θ = α/ratio; else compensate
+};
+
+/// The same as they stand in the file, but for angles, which are rad.
+template <typename S>
+struct FileNumbers {
+  S R, EB, ED, OE, EF, r1, ratio, mu, radius, diameter, modulus, theta_min, theta_max;
+};
+
+FileNumbers<double> file_numbers(const Mechanism& mechanism);
+
+template <typename S>
+DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_pins) {
+  DesignNumbers<S> d{file.R, file.EB, file.ED,        file.OE,        file.EF, file.r1, file.ratio, file.mu,
+                     0.0,    0.0,     file.theta_min, file.theta_max, 0.0,     0.0,     0.0,        0.0};
+  Domain whole;  // EF > 0
+  d.to_B = hypot(d.EB, d.EF);
+  d.to_D = hypot(d.ED, d.EF);
+  d.angle_B = direction(d.EB, d.EF, whole);
+  d.angle_D = direction(d.ED, d.EF, whole);
+  if (!point_pins) d.rho = file.radius + 0.5 * file.diameter;
+  d.stiffness = stiffness_of_section(file.modulus, file.diameter);
+  d.linear = law == Law::linear;
+  return d;
+}
+
+/// One tendon above its pin.
+template <typename S>
+struct UpperNumbers {
+  S gamma;  ///< between OC and the tendon, rad
+  S sine;   ///< of gamma: the moment arm is R sin γ
+  S free;   ///< C to the pin, mm
+};
+
+template <typename S>
+struct StrokeNumbers {
+  TurnedBy<S> theta;
+  UpperNumbers<S> upper;  ///< of tendon 2
+  S r1, r2;
+  S reach;  ///< pin D to the foot of G's perpendicular, mm
+  S phi;    ///< wrap over pin D [8]
+};
+
+/// Tendon 1 is wanted on its pin too, or the law θ(α) ends. No objective uses its wrap: no derivatives.
+template <typename S>
+void demand_on_pin_B(const DesignNumbers<S>& d, const S& normal1, const S& r1, Domain& domain) {
+  Domain its_own;
+  const LowerLine<S> lower1 =
+      lower_line(without_slopes(r1), without_slopes(d.rho), without_slopes(d.to_B), without_slopes(d.angle_B), its_own);
+  domain.possible = domain.possible && its_own.possible;
+  demand_not_negative(without_slopes(normal1) - lower1.normal, domain);
+}
+
+/// Of a tendon that has a moment arm.
+template <typename S>
+UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
+  const UpperLine<S> line = upper_line(from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
+  return {line.normal, positive_part(sin(line.normal), domain), line.free};
+}
+
+/// `place`: 0 at the lowest, 1 at the highest joint angle.
+template <typename S>
+StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domain& domain) {
+  StrokeNumbers<S> n;
+  n.theta = turned_by(d.theta_min + place * (d.theta_max - d.theta_min));
+  n.upper = upper_numbers(d, d.ED, n.theta, domain);
+  const UpperNumbers<S> upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), domain);
+  // Arms in units of R, which cancels: an interval is the sharper the less often a number stands in a formula.
+  const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, upper1.sine);
+  n.r1 = d.linear ? pulley_radius(upper1.sine, slope) : d.r1;
+  n.r2 = pulley_radius(n.upper.sine, slope);
+  const LowerLine<S> lower = lower_line(n.r2, d.rho, d.to_D, d.angle_D, domain);
+  n.reach = lower.reach;
+  n.phi = n.upper.gamma - n.theta.angle - lower.normal;
+  demand_not_negative(n.phi, domain);
+  demand_on_pin_B(d, S(upper1.gamma + n.theta.angle), n.r1, domain);
+  return n;
+}
+
+/// The rectangle around link, pins and pulley in this pose. mm²
+template <typename S>
+S footprint_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n) {
+  const S x = d.R * n.theta.sine, y = d.R * n.theta.cosine;
+  const S right = larger(larger(d.ED + d.rho, n.r2), x), left = larger(larger(d.EB + d.rho, n.r1), -x);
+  const S top = larger(larger(y, d.rho - d.OE), S(0.0));
+  const S bottom = larger(larger(d.OE + d.EF + larger(n.r1, n.r2), d.OE + d.rho), S(0.0));
+  return (left + right) * (top + bottom);
+}
+
+/// What of the objective this place of the stroke alone would give: the objective is the largest over the range. Per
+/// newton of tip force.
+template <typename S>
+S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, Domain& domain) {
+  const StrokeNumbers<S> n = stroke_numbers(d, place, domain);
+  if (objective == Objective::footprint) return footprint_at(d, n);
+  // A newton across OC turns by R, and the arm is R sin γ: R cancels here too.
+  const S above = tension_above_pin(S(1.0), n.upper.sine);
+  const S below = tension_below_pin(above, d.mu, n.phi);
+  if (objective == Objective::max_tension) return below;
+  if (objective == Objective::motor_torque) return below * n.r2;
+  const S elongation = elongation_of_tendon(above, below, n.upper.free, S(d.rho * n.phi), n.reach, d.stiffness);
+  return (180.0 / k_pi) * angle_of_elongation(elongation, S(d.R * n.upper.sine));  // max_error, in degrees
+}
+
+}  // namespace fusee

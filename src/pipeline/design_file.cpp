@@ -1,0 +1,67 @@
+#include "pipeline/design_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "fusee/base/files.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_largest_file = 1 << 20;
+
+Diagnostic warning(std::string message) {
+  Diagnostic diagnostic;
+  diagnostic.severity = Severity::warning;
+  diagnostic.message = std::move(message);
+  return diagnostic;
+}
+
+/// Whether an edited file is one, and has the numbers that were meant.
+bool holds(const std::string& text, const std::vector<ValueEdit>& edits, const std::string& path) {
+  try {
+    const DeclaredMechanism read = parse_mechanism(text, path, std::filesystem::path(path).parent_path());
+    return std::all_of(edits.begin(), edits.end(), [&read](const ValueEdit& edit) {
+      return std::abs(find_number_key(edit.key)->get(read) - edit.value) <= 1e-12 * std::abs(edit.value);
+    });
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Of the settings and of the design, which comes last.
+std::vector<ValueEdit> all_edits(const Problem& problem, const Design& design, const std::vector<Setting>& settings,
+                                 std::vector<Diagnostic>& warnings) {
+  std::vector<ValueEdit> edits;
+  for (const Setting& setting : settings) {
+    const auto key = find_number_key(setting.key);
+    if (key)
+      edits.push_back({setting.key, key->get(problem.base)});
+    else
+      warnings.push_back(warning("the new file does not hold --set " + setting.key + "=" + setting.value));
+  }
+  for (const ValueEdit& edit : edits_of(problem, design)) {
+    std::erase_if(edits, [&edit](const ValueEdit& earlier) { return earlier.key == edit.key; });
+    edits.push_back(edit);
+  }
+  return edits;
+}
+
+}  // namespace
+
+DesignFile design_file(const MechanismFile& file, const Problem& problem, const Design& design,
+                       const std::vector<Setting>& settings) {
+  DesignFile result;
+  const std::vector<ValueEdit> edits = all_edits(problem, design, settings, result.warnings);
+  result.text = edit_values(read_file(file.path, k_largest_file), edits);
+  if (holds(result.text, edits, file.path)) return result;
+  // Tables written as dotted keys have no place for a new key.
+  result.warnings.push_back(warning("the layout of " + file.path + " could not be kept: the new file has every key"));
+  DeclaredMechanism whole = mechanism_at(problem, design);
+  whole.optimize = file.mechanism.optimize;
+  result.text = write_mechanism(whole);
+  return result;
+}
+
+}  // namespace fusee

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/joint/as_it_is.h"
+#include "fusee/pipeline.h"
+#include "pipeline/design_file.h"
+
+namespace fusee {
+namespace {
+
+/// Whether what was identified changes anything that an objective sees: all but how a pulley comes out when it is made.
+bool joint_differs(DeclaredMechanism declared) {
+  declared.identified.pulley.scale = 0;
+  return !(as_it_is(declared).mechanism == static_cast<const Mechanism&>(declared));
+}
+
+/// The one place where a design as declared becomes the joint that is judged. What was identified is an addition to the
+/// declared number: the design's declared numbers come first, then what is added to them.
+JointGate joint_gate(const DeclaredMechanism& declared) {
+  if (declared.transmission || !joint_differs(declared)) return {};
+  return [](const DeclaredMechanism& design) { return as_it_is(design).mechanism; };
+}
+
+SearchMethod strongest_method(const Problem& problem) {
+  if (problem.objectives.size() > 1) return SearchMethod::pareto;
+  return cannot_certify(problem, problem.objectives.front()).empty() ? SearchMethod::certified : SearchMethod::genetic;
+}
+
+Problem problem_of(const MechanismFile& file) { return make_problem(file, joint_gate(file.mechanism)); }
+
+void demand_one_objective(const MechanismFile& file, const Problem& problem) {
+  const std::size_t count = problem.objectives.size();
+  if (count == 1) return;
+  throw InputError(
+      file.path, "optimize.objective names " + std::to_string(count) + " objectives, and this method takes one",
+      "--method pareto, or --set optimize.objective=" + std::string(info(problem.objectives.front()).name));
+}
+
+/// Notes in `stopped` that it said so.
+KeepGoing watched(const KeepGoing& keep_going, bool& stopped) {
+  return [&keep_going, &stopped](const SearchProgress& progress) {
+    if (keep_going && !keep_going(progress)) stopped = true;
+    return !stopped;
+  };
+}
+
+template <typename Found>
+void take_best(const Found& found, OptimizeResult& result) {
+  result.found = found.found;
+  result.reason = found.reason;
+  result.design = found.best;
+  result.value = found.value;
+  result.theta = found.theta;
+}
+
+/// Among the designs that tie with the first optimum, the best by another measure.
+void break_ties(Objective second, CertifiedOptions options, const CertifiedResult& first, OptimizeResult& result) {
+  const Objective objective = result.problem.objectives.front();
+  Problem among = result.problem;
+  among.cap = ObjectiveCap{objective, first.value + options.tie * std::abs(first.value)};
+  options.first_tries = {first.best};
+  // Among ties of 0.1 % nobody asks for a millionth, and the edge of a thin set of designs is costly to follow.
+  options.gap = options.tie;
+  options.most_boxes = 300000;
+  result.then = certified_optimum(among, second, options);
+  result.design = result.then->best;
+  const Evaluation value = evaluate_design(result.problem, objective, result.design);
+  result.value = value.value;
+  result.theta = value.theta;
+}
+
+void search_certified(const OptimizeOptions& asked, OptimizeResult& result) {
+  CertifiedOptions options;
+  options.keep_going = watched(asked.keep_going, result.stopped);
+  const CertifiedResult found = certified_optimum(result.problem, result.problem.objectives.front(), options);
+  take_best(found, result);
+  result.search = found;
+  if (found.found && asked.then && !result.stopped) break_ties(*asked.then, options, found, result);
+}
+
+void search_genetic(const GeneticOptions& options, OptimizeResult& result) {
+  const GeneticResult found = genetic_optimum(result.problem, result.problem.objectives.front(), options);
+  take_best(found, result);
+  result.search = found;
+}
+
+/// The point of the front that is nearest to the best of everything, each objective measured by its span on the front.
+const FrontPoint& balanced_point(const std::vector<FrontPoint>& front, const std::vector<Objective>& objectives) {
+  std::vector<double> distances(front.size(), 0.0);
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    const double sign = info(objectives[k]).largest ? -1.0 : 1.0;
+    double low = 1e300, high = -1e300;
+    for (const FrontPoint& point : front)
+      low = std::min(low, sign * point.values[k]), high = std::max(high, sign * point.values[k]);
+    if (!(high > low)) continue;
+    for (std::size_t i = 0; i < distances.size(); ++i)
+      distances[i] += std::pow((sign * front[i].values[k] - low) / (high - low), 2);
+  }
+  return front.at(static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin()));
+}
+
+void search_front(const GeneticOptions& options, OptimizeResult& result) {
+  const ParetoResult found = pareto_front(result.problem, options);
+  result.found = !found.front.empty();
+  result.reason = found.reason;
+  result.search = found;
+  if (!result.found) return;
+  const FrontPoint& best = balanced_point(found.front, result.problem.objectives);
+  result.design = best.design;
+  result.value = best.values.front();
+}
+
+void search(SearchMethod method, const OptimizeOptions& options, OptimizeResult& result) {
+  GeneticOptions genetic = options.genetic;
+  genetic.keep_going = watched(options.keep_going, result.stopped);
+  switch (method) {
+    case SearchMethod::certified:
+      return search_certified(options, result);
+    case SearchMethod::genetic:
+      return search_genetic(genetic, result);
+    case SearchMethod::pareto:
+      return search_front(genetic, result);
+  }
+}
+
+/// point_001.toml …
+std::string point_name(std::size_t number) {
+  const std::string digits = std::to_string(number);
+  return "point_" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits + ".toml";
+}
+
+void write_texts(const MechanismFile& file, const OptimizeOptions& options, OptimizeResult& result) {
+  const auto text_of = [&](const Design& design, std::vector<Diagnostic>& warnings) {
+    DesignFile written = design_file(file, result.problem, design, options.settings);
+    warnings = std::move(written.warnings);
+    return std::move(written.text);
+  };
+  std::vector<Diagnostic> warnings;  // of every point the same
+  if (const auto* pareto = std::get_if<ParetoResult>(&result.search); pareto && !options.front_folder.empty()) {
+    for (const FrontPoint& point : pareto->front)
+      result.front_files.push_back({point_name(result.front_files.size() + 1), text_of(point.design, warnings)});
+  }
+  if (!options.new_file.empty()) result.new_text = text_of(result.design, warnings);
+  result.warnings = std::move(warnings);
+}
+
+void publish(const OptimizeOptions& options, OutputFolder& front_folder, OptimizeResult& result) {
+  for (const OutputFile& file : result.front_files) front_folder.stage(file);
+  front_folder.publish();
+  if (!options.new_file.empty()) write_file(options.new_file, result.new_text, options.force);
+  result.published = true;
+}
+
+}  // namespace
+
+SearchMethod strongest_method(const MechanismFile& file) { return strongest_method(problem_of(file)); }
+
+OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options) {
+  OptimizeResult result;
+  result.problem = problem_of(file);
+  const SearchMethod method = options.method ? *options.method : strongest_method(result.problem);
+  if (method != SearchMethod::pareto) demand_one_objective(file, result.problem);
+  OutputFolder front_folder(options.front_folder, options.force);
+  if (!options.front_folder.empty()) front_folder.claim({point_name(1)});  // a refusal should not cost a wait
+  search(method, options, result);
+  result.before = evaluate(result.problem.objectives.front(), judged(result.problem, result.problem.base));
+  if (!result.found) return result;
+  write_texts(file, options, result);
+  if (!options.dry_run) publish(options, front_folder, result);
+  return result;
+}
+
+}  // namespace fusee

@@ -1,0 +1,31 @@
+#include "base/golden_section.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+TEST(GoldenSection, FindsTheOnlyMinimum) {
+  for (const double least : {-0.9, 0.0, 0.31, 1.9}) {
+    const auto kinked = [least](double x) { return std::abs(x - least); };
+    const Bracket left = golden_section({-1.0, 2.0}, 40, kinked);
+    EXPECT_NEAR(left.middle(), least, 1e-7);
+    EXPECT_NEAR(left.high - left.low, 3.0 * std::pow(0.61803398874989485, 40), 1e-12);
+  }
+}
+
+TEST(GoldenSection, GoesToTheEndWhereTheFunctionFalls) {
+  EXPECT_NEAR(golden_section({0.0, 1.0}, 40, [](double x) { return -x; }).middle(), 1.0, 1e-7);
+  EXPECT_NEAR(golden_section({0.0, 1.0}, 40, [](double x) { return x; }).middle(), 0.0, 1e-7);
+}
+
+TEST(GoldenSection, AsksOnceAStep) {
+  int asked = 0;
+  golden_section({0.0, 1.0}, 20, [&asked](double x) { return ++asked, x * x; });
+  EXPECT_EQ(asked, 22);
+}
+
+}  // namespace
+}  // namespace fusee

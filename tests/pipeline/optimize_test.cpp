@@ -1,0 +1,179 @@
+// The verbs `optimize` and `analyze`: what they look at, and what they leave behind.
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+
+#include "fusee/base/files.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/pipeline.h"
+#include "fusee/transmission/tension.h"
+#include "optimize/problem_text.h"
+#include "support/mechanisms.h"
+
+namespace {
+
+using namespace fusee;
+using ::testing::HasSubstr;
+namespace joints = fusee::testing;
+namespace fs = std::filesystem;
+
+// ---- one answer to "is the pin a point?" ----------------------------------------------------------------------------
+
+/// Largest T_b that the stroke from which a pulley is built gives, per newton.
+double tension_of_build(const Mechanism& mechanism) {
+  Mechanism loaded = mechanism;
+  loaded.load.tip_force = 1.0;
+  double most = 0;
+  for (const TransmissionPoint& point : synthesise(mechanism).stroke)
+    most = std::max(most, paper_forces(loaded, point).Tb);
+  return most;
+}
+
+double tension_of_analyze(const Mechanism& mechanism) {
+  MechanismFile file;
+  file.mechanism = mechanism;
+  file.mechanism.load.tip_force = 1.0;
+  AnalysisOptions options;
+  options.samples = 10;
+  return analyze(file, options).largest_paper_tension.value;
+}
+
+/// A pin of radius 0 is no point: its tendon runs at half the tendon's thickness. Only method = "paper" sees points.
+TEST(Pins, AreTheSameToOptimizeAnalyzeAndBuild) {
+  for (const double radius : {0.0, 2.0}) {
+    for (const Method method : {Method::exact, Method::paper}) {
+      Mechanism mechanism = joints::forearm();
+      mechanism.guides.radius = radius;
+      mechanism.pulley.method = method;
+      EXPECT_EQ(mechanism.has_point_pins(), method == Method::paper);
+      const double optimized = evaluate(Objective::max_tension, mechanism).value;
+      EXPECT_NEAR(optimized, tension_of_build(mechanism), 1e-9) << radius;
+      EXPECT_NEAR(optimized, tension_of_analyze(mechanism), 1e-9) << radius;
+      EXPECT_DOUBLE_EQ(Transmission(mechanism).place(Side::right).rho, mechanism.seen_pitch_radius());
+    }
+  }
+}
+
+// ---- the joint as it is ---------------------------------------------------------------------------------------------
+
+class Optimize : public ::testing::Test {
+ protected:
+  Optimize() {
+    std::string name = (fs::temp_directory_path() / "fusee-optimize-test-XXXXXX").string();
+    scratch_ = ::mkdtemp(name.data());
+    options_.genetic.population = 12;
+    options_.genetic.generations = 3;
+  }
+  ~Optimize() override { fs::remove_all(scratch_); }
+
+  MechanismFile file_with(const std::string& more, const std::vector<Setting>& settings = {}) const {
+    const fs::path path = scratch_ / "joint.toml";
+    write_file(path, joints::k_paper_problem + more, /*force=*/true);
+    return read_mechanism(path, settings);
+  }
+
+  fs::path scratch_;
+  OptimizeOptions options_;
+};
+
+const std::string k_identified = "[identified]\nfriction = 0.1\nlength_mm = 4.0\n";
+
+TEST_F(Optimize, LooksAtTheJointAsItIs) {
+  const MechanismFile file = file_with(k_identified);
+  const OptimizeResult result = optimize(file, options_);
+  ASSERT_TRUE(result.found) << result.reason;
+  const auto value = [](const Mechanism& mechanism) { return evaluate(Objective::max_tension, mechanism).value; };
+  Mechanism declared = mechanism_at(result.problem, result.design);
+  EXPECT_DOUBLE_EQ(result.value, value(as_it_is(declared)));
+  EXPECT_DOUBLE_EQ(result.before.value, value(as_it_is(file.mechanism)));
+  EXPECT_GT(result.value, 1.02 * value(declared));
+}
+
+/// The bounds and what is written are of the declared numbers: what was identified is added to them afterwards.
+TEST_F(Optimize, WritesDeclaredNumbers) {
+  options_.new_file = scratch_ / "new.toml";
+  const OptimizeResult result = optimize(file_with(k_identified), options_);
+  const Mechanism written = read_mechanism(options_.new_file).mechanism;
+  EXPECT_EQ(written.joint.R, result.design[0]);
+  EXPECT_GE(written.joint.R, 100.0);
+  EXPECT_EQ(written.identified.friction, 0.1);
+  EXPECT_EQ(written.guides.mu, 0.2);
+  EXPECT_THAT(result.new_text, HasSubstr(k_identified));
+}
+
+TEST_F(Optimize, CertifiesOnlyWhatHasAnIntervalForm) {
+  EXPECT_EQ(optimize(file_with(k_identified), options_).method(), SearchMethod::genetic);
+  // How a pulley comes out when it is made is no objective's business.
+  EXPECT_EQ(
+      optimize(file_with("[identified]\nradius_offset_mm = 0.1\npulley_scale_percent = 1.0\n"), options_).method(),
+      SearchMethod::certified);
+  options_.method = SearchMethod::certified;
+  EXPECT_THROW(optimize(file_with(k_identified), options_), InputError);
+}
+
+// ---- a front is published whole or not at all -----------------------------------------------------------------------
+
+class Front : public Optimize {
+ protected:
+  Front() { options_.front_folder = scratch_ / "front"; }
+
+  OptimizeResult front() const {
+    return optimize(file_with("", {{"optimize.objective", R"(["max_tension", "footprint"])"}}), options_);
+  }
+  std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(options_.front_folder), fs::directory_iterator()));
+  }
+};
+
+TEST_F(Front, IsAValueAndItsFiles) {
+  const OptimizeResult result = front();
+  const auto& points = std::get<ParetoResult>(result.search).front;
+  ASSERT_GT(points.size(), 1u);
+  ASSERT_EQ(result.front_files.size(), points.size());
+  EXPECT_EQ(files(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const fs::path path = options_.front_folder / result.front_files[i].name;
+    EXPECT_EQ(read_file(path, 1 << 20), result.front_files[i].bytes);
+    EXPECT_NEAR(read_mechanism(path).mechanism.joint.R, points[i].design[0], 1e-9);
+  }
+  EXPECT_TRUE(std::any_of(points.begin(), points.end(),
+                          [&](const FrontPoint& point) { return point.design == result.design; }));
+}
+
+/// The second name is taken: the first must not be left behind either.
+TEST_F(Front, LeavesNothingWhereOneFileCannotBe) {
+  fs::create_directories(options_.front_folder);
+  write_file(options_.front_folder / "point_002.toml", "mine", false);
+  EXPECT_THROW(front(), OutputError);
+  EXPECT_EQ(files(), 1u);
+  EXPECT_EQ(read_file(options_.front_folder / "point_002.toml", 100), "mine");
+}
+
+TEST_F(Front, IsNotPublishedInADryRun) {
+  options_.dry_run = true;
+  EXPECT_FALSE(front().published);
+  EXPECT_FALSE(fs::exists(options_.front_folder));
+}
+
+// ---- analyze --------------------------------------------------------------------------------------------------------
+
+TEST(Analyze, RefusesAJointWithoutTendons) {
+  MechanismFile file;
+  file.mechanism.transmission = RatioTransmission{2.0};
+  EXPECT_THROW(analyze(file), InputError);
+}
+
+TEST(Analyze, LooksAtTheJointAsItIs) {
+  MechanismFile file;
+  file.mechanism = joints::forearm();
+  file.mechanism.load.tip_force = 10.0;
+  AnalysisOptions options;
+  options.samples = 10;
+  const double declared = analyze(file, options).largest_paper_tension.value;
+  file.mechanism.identified.friction = 0.2;
+  EXPECT_GT(analyze(file, options).largest_paper_tension.value, 1.02 * declared);
+}
+
+}  // namespace
