@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "measurement/seen_span.h"
+
 namespace fusee {
 namespace {
 
@@ -11,25 +13,6 @@ namespace {
 constexpr double k_least_warming = 1.0;  // K
 /// Less than this of a turn, and what comes back once a turn looks like a slope.
 constexpr double k_full_turn = radians(150.0);
-
-struct Span {
-  double least = 1e300;
-  double most = -1e300;
-
-  void take(double value) {
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  double size() const { return most - least; }
-};
-
-Span span_of(const Measurement& measurement, double Sample::*member) {
-  Span span;
-  for (const Run& run : measurement.runs) {
-    for (const Sample& sample : run.samples) span.take(sample.*member);
-  }
-  return span;
-}
 
 bool all(const Measurement& measurement, bool Run::*has) {
   return std::all_of(measurement.runs.begin(), measurement.runs.end(), [&](const Run& run) { return run.*has; });
@@ -44,13 +27,14 @@ bool has_load(const Mechanism& declared, const Measurement& measurement) {
 }
 
 bool has_warming(const Measurement& measurement) {
-  return all(measurement, &Run::has_temperature) && span_of(measurement, &Sample::temperature).size() > k_least_warming;
+  return all(measurement, &Run::has_temperature) &&
+         seen_span(measurement, &Sample::temperature).size() > k_least_warming;
 }
 
 bool can_be_seen(const Needs& needs, const Mechanism& declared, const Measurement& measurement) {
   return !(needs.time && !all(measurement, &Run::has_time)) && !(needs.load && !has_load(declared, measurement)) &&
          !(needs.temperature && !has_warming(measurement)) &&
-         !(needs.full_turn && !(span_of(measurement, &Sample::alpha).size() > k_full_turn)) &&
+         !(needs.full_turn && !(seen_span(measurement, &Sample::alpha).size() > k_full_turn)) &&
          !(needs.tendons && declared.transmission);
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fusee/base/text.h"
+#include "measurement/seen_span.h"
 
 namespace fusee {
 namespace {
@@ -13,10 +14,10 @@ constexpr int k_bins = 12;
 
 std::string in_degrees(double angle) { return rounded(degrees(angle), 3) + "°"; }
 
-struct Bin {
+struct Mean {
   double sum = 0;
   double count = 0;
-  double mean() const { return count > 0 ? sum / count : 0; }
+  double value() const { return count > 0 ? sum / count : 0; }
 };
 
 std::string list(const std::vector<std::string>& names) {
@@ -28,39 +29,35 @@ std::string list(const std::vector<std::string>& names) {
 /// Means of a residual by place and direction, over all runs.
 class Places {
  public:
-  explicit Places(const Measurement& measurement) {
+  explicit Places(const Measurement& measurement) : bins_{seen_span(measurement, &Sample::alpha), k_bins} {
     for (const Run& run : measurement.runs) {
       for (const Sample& sample : run.samples) alpha_.push_back(sample.alpha);
     }
-    const auto [least, most] = std::minmax_element(alpha_.begin(), alpha_.end());
-    least_ = *least;
-    span_ = *most - *least;
   }
 
   void add(std::size_t row, int direction, double residual) {
-    const int place = std::clamp(static_cast<int>(k_bins * (alpha_[row] - least_) / span_), 0, k_bins - 1);
-    Bin& bin = bins_[{place, direction}];
-    bin.sum += residual;
-    bin.count += 1;
+    Mean& mean = means_[{bins_.bin(alpha_[row]), direction}];
+    mean.sum += residual;
+    mean.count += 1;
   }
 
   /// Where the mean is largest, in words; "" without a row.
   std::string largest() const {
-    const auto found = std::max_element(bins_.begin(), bins_.end(), [](const auto& a, const auto& b) {
-      return std::abs(a.second.mean()) < std::abs(b.second.mean());
+    const auto found = std::max_element(means_.begin(), means_.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.second.value()) < std::abs(b.second.value());
     });
-    if (found == bins_.end()) return "";
-    const auto& [place, bin] = *found;
-    const double from = least_ + span_ * place.first / k_bins;
-    return "largest at alpha " + rounded(degrees(from), 3) + " … " + rounded(degrees(from + span_ / k_bins), 3) +
-           "°, " + (place.second > 0 ? "rising" : "falling") + ": " + in_degrees(bin.mean()) + " on average";
+    if (found == means_.end()) return "";
+    const auto& [place, mean] = *found;
+    const double from = bins_.edge(place.first);
+    return "largest at alpha " + rounded(degrees(from), 3) + " … " +
+           rounded(degrees(from + bins_.span.size() / k_bins), 3) + "°, " + (place.second > 0 ? "rising" : "falling") +
+           ": " + in_degrees(mean.value()) + " on average";
   }
 
  private:
   std::vector<double> alpha_;  ///< of every row
-  double least_ = 0;
-  double span_ = 0;
-  std::map<std::pair<int, int>, Bin> bins_;  ///< by place and direction
+  Bins bins_;
+  std::map<std::pair<int, int>, Mean> means_;  ///< by place and direction
 };
 
 std::string group_words(const FoundEffect& effect) {

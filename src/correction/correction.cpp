@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "fusee/joint/simulate.h"
 #include "fusee/mechanism/effect.h"
-#include "fusee/transmission/transmission.h"
+#include "measurement/seen_span.h"
+#include "transmission/declared_law.h"
 
 // Everything here is re-simulated with predict(): the joint as it was found with the pulley it has, and the same joint
 // with the pulley that corrected.toml makes. What either misses of the declared θ(α) is its error; what the second
@@ -58,41 +57,6 @@ std::string why_infeasible(const DeclaredMechanism& corrected) {
 
 // ---- errors ---------------------------------------------------------------------------------------------------------
 
-/// θ(α) as the file declares it.
-class DeclaredLaw {
- public:
-  explicit DeclaredLaw(const Mechanism& declared) {
-    if (declared.transmission) {
-      ratio_ = declared.transmission->ratio;
-    } else {
-      law_.emplace(declared);
-    }
-  }
-  bool exists() const { return !law_ || !law_->dead_centre(); }
-  double theta(double alpha) const { return law_ ? law_->theta(alpha) : alpha / ratio_; }
-
- private:
-  double ratio_ = 1;
-  std::optional<Transmission> law_;
-};
-
-struct Seen {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  bool any() const { return high > low; }
-};
-
-Seen range_seen(const Measurement& measurement) {
-  Seen seen;
-  for (const Run& run : measurement.runs) {
-    for (const Sample& sample : run.samples) {
-      seen.low = std::min(seen.low, sample.alpha);
-      seen.high = std::max(seen.high, sample.alpha);
-    }
-  }
-  return seen;
-}
-
 /// By how much simulated angles miss the declared law.
 Angles errors(const Measurement& measurement, const DeclaredLaw& law, Angles theta) {
   for (std::size_t r = 0; r < theta.size(); ++r) {
@@ -129,14 +93,13 @@ double gone(double all, double rest) { return std::sqrt(std::max(0.0, all * all 
 
 /// A function of α by straight pieces between evenly spaced places; flat beyond them.
 struct Curve {
-  double low = 0, high = 0;
+  SeenSpan seen;
   std::vector<double> values;
 
   double at(double alpha) const {
-    const double last = static_cast<double>(values.size() - 1);
-    const double place = std::clamp((alpha - low) / (high - low) * last, 0.0, last);
-    const std::size_t i = std::min(static_cast<std::size_t>(place), values.size() - 2);
-    const double share = place - static_cast<double>(i);
+    const Bins pieces{seen, static_cast<int>(values.size()) - 1};
+    const auto i = static_cast<std::size_t>(pieces.bin(alpha));
+    const double share = pieces.place(alpha) - static_cast<double>(i);
     return values[i] + share * (values[i + 1] - values[i]);
   }
 };
@@ -144,14 +107,13 @@ struct Curve {
 /// Mean over places of α, empty places filled from their neighbours.
 class BinnedMean {
  public:
-  explicit BinnedMean(const Seen& seen) : seen_(seen), sums_(k_places + 1, 0), weights_(k_places + 1, 0) {}
+  explicit BinnedMean(const SeenSpan& seen)
+      : bins_{seen, k_places}, sums_(k_places + 1, 0), weights_(k_places + 1, 0) {}
 
   /// Shared between the two places around `alpha`.
   void add(double alpha, double value) {
-    const double place =
-        std::clamp((alpha - seen_.low) / (seen_.high - seen_.low) * k_places, 0.0, static_cast<double>(k_places));
-    const std::size_t i = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(k_places - 1));
-    const double share = place - static_cast<double>(i);
+    const auto i = static_cast<std::size_t>(bins_.bin(alpha));
+    const double share = bins_.place(alpha) - static_cast<double>(i);
     sums_[i] += (1 - share) * value;
     weights_[i] += 1 - share;
     sums_[i + 1] += share * value;
@@ -159,7 +121,7 @@ class BinnedMean {
   }
 
   Curve curve() const {
-    Curve curve{seen_.low, seen_.high, std::vector<double>(k_places + 1, 0)};
+    Curve curve{bins_.span, std::vector<double>(k_places + 1, 0)};
     for (int i = 0; i <= k_places; ++i) {
       int nearest = -1;
       for (int step = 0; step <= k_places && nearest < 0; ++step) {
@@ -175,7 +137,7 @@ class BinnedMean {
 
  private:
   static constexpr int k_places = 40;
-  Seen seen_;
+  Bins bins_;
   std::vector<double> sums_, weights_;
 };
 
@@ -186,7 +148,7 @@ struct BothWays {
 };
 
 BothWays both_ways(const Measurement& measurement, const Angles& error, double play) {
-  const Seen seen = range_seen(measurement);
+  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
   BinnedMean up(seen), down(seen);
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke& stroke) {
     const std::vector<Sample>& samples = measurement.runs[r].samples;
@@ -218,7 +180,7 @@ std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Curve& beyond) {
   constexpr int places = 800;
   std::vector<LawRow> rows;
   for (int i = 0; i <= places; ++i) {
-    const double alpha = beyond.low + (beyond.high - beyond.low) * i / places;
+    const double alpha = beyond.seen.least + beyond.seen.size() * i / places;
     rows.push_back({alpha, law.theta(alpha) + beyond.at(alpha)});
   }
   if (rows.back().theta < rows.front().theta) std::reverse(rows.begin(), rows.end());
@@ -253,7 +215,7 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   if (gives_way && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const DeclaredLaw law(declared);
-  if (!range_seen(measurement).any() || !law.exists()) return correction;
+  if (!seen_span(measurement, &Sample::alpha).any() || !law.exists()) return correction;
 
   DeclaredMechanism corrected = declared;
   corrected.identified = correction.identified;
@@ -267,7 +229,8 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   const Angles now = errors(measurement, law, predict(expected_joint(declared), found, log));
   Angles then = now;
   if (correction.has_pulley)
-    then = errors(measurement, law, predict(expected_joint(corrected), beyond_mechanism(found, kind_of(declared)), log));
+    then =
+        errors(measurement, law, predict(expected_joint(corrected), beyond_mechanism(found, kind_of(declared)), log));
   const BothWays table = both_ways(measurement, then, 2 * found.shaft.backlash);
   correction.error_now = rms(measurement, now);
   correction.error_with_pulley = rms(measurement, then);

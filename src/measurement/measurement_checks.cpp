@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "measurement/strokes.h"
+#include "transmission/declared_law.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/measurement/measurement.h"
@@ -10,45 +11,6 @@
 
 namespace fusee {
 namespace {
-
-/// What θ should be at α, as far as it is declared.
-class DeclaredLaw {
- public:
-  explicit DeclaredLaw(const Mechanism& declared) {
-    if (declared.transmission) {
-      slope_ = 1.0 / declared.transmission->ratio;
-      return;
-    }
-    const Transmission transmission(declared);
-    if (transmission.dead_centre()) return;
-    law_ = transmission;
-    slope_ =
-        (declared.joint.theta_max - declared.joint.theta_min) / (transmission.alpha_max() - transmission.alpha_min());
-  }
-
-  bool known() const { return std::isfinite(slope_) && slope_ != 0; }
-  /// Of a ratio the zero is free.
-  bool has_zero() const { return law_.has_value(); }
-  /// dθ/dα from end to end.
-  double slope() const { return slope_; }
-  /// rad; 0 for a ratio, which has no range.
-  double alpha_range() const { return law_ ? law_->alpha_max() - law_->alpha_min() : 0; }
-  /// Whether most of a run may lie there.
-  bool reaches(double alpha) const {
-    return !law_ ||
-           (alpha > law_->alpha_min() - 0.1 * alpha_range() && alpha < law_->alpha_max() + 0.1 * alpha_range());
-  }
-  /// Beyond the range the mean slope goes on.
-  double theta(double alpha) const {
-    if (!law_) return slope_ * alpha;
-    const double within = std::clamp(alpha, law_->alpha_min(), law_->alpha_max());
-    return law_->theta(within) + slope_ * (alpha - within);
-  }
-
- private:
-  std::optional<Transmission> law_;
-  double slope_ = 0;
-};
 
 /// Enough of a long run to see where it lies.
 std::vector<Sample> some_of(const Run& run) {
@@ -64,7 +26,7 @@ std::vector<Sample> some_of(const Run& run) {
 /// Median of what is measured beyond what is declared, with α moved by `turn`; rad.
 double beyond(const std::vector<Sample>& samples, const DeclaredLaw& law, double turn) {
   std::vector<double> values;
-  for (const Sample& sample : samples) values.push_back(sample.theta - law.theta(sample.alpha + turn));
+  for (const Sample& sample : samples) values.push_back(sample.theta - law.theta_straight_on(sample.alpha + turn));
   return median_of(std::move(values));
 }
 
@@ -162,7 +124,7 @@ Slopes slopes_of(const DeclaredLaw& law, const Measurement& measurement) {
     }
     for (const Sample& sample : samples) {
       products += (sample.alpha - alpha) * (sample.theta - theta);
-      declared_products += (sample.alpha - alpha) * law.theta(sample.alpha);
+      declared_products += (sample.alpha - alpha) * law.theta_straight_on(sample.alpha);
       squares += (sample.alpha - alpha) * (sample.alpha - alpha);
       theta_squares += (sample.theta - theta) * (sample.theta - theta);
     }
@@ -226,7 +188,7 @@ void suspect_radians(const DeclaredLaw& law, const Slopes& slopes, Measurement& 
 void hold_against_law(const Mechanism& declared, Measurement& measurement) {
   if (!measurement.not_testable.empty() || measurement.runs.empty()) return;
   const DeclaredLaw law(declared);
-  if (!law.known()) return;
+  if (!std::isfinite(law.slope()) || law.slope() == 0) return;
   take_back_turns(law, measurement);
   const Slopes slopes = slopes_of(law, measurement);
   suspect_radians(law, slopes, measurement);

@@ -408,12 +408,28 @@ Field mean_load() {
   return identified(load);
 }
 
+/// An effect's numbers: first those that are added to a declared one.
+std::vector<EffectParameter> in_file_order(const Effect& effect) {
+  std::vector<EffectParameter> parameters = effect.parameters;
+  std::stable_partition(parameters.begin(), parameters.end(),
+                        [](const EffectParameter& p) { return p.again != WhenFoundAgain::anew; });
+  return parameters;
+}
+
+/// What shows at once stands before what takes time.
+std::vector<Effect> in_file_order(std::span<const Effect> all) {
+  std::vector<Effect> ordered(all.begin(), all.end());
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const Effect& effect) { return !effect.needs.time && !effect.needs.temperature; });
+  return ordered;
+}
+
 /// Of every effect, whichever kind of joint can have it: a file may change its kind and keep its findings. In the order
-/// of the chain.
+/// of the chain, with what only a joint declared by a ratio has before the joint's sensor.
 void add_identified(std::vector<Field>& table) {
   std::vector<Field> rows, of_sensors;
   const auto add = [&](const Effect& effect) {
-    for (const EffectParameter& parameter : effect.parameters) {
+    for (const EffectParameter& parameter : in_file_order(effect)) {
       const auto same = [&](const Field& field) { return field.key == parameter.key.name; };
       if (std::any_of(rows.begin(), rows.end(), same) || std::any_of(of_sensors.begin(), of_sensors.end(), same))
         continue;
@@ -422,7 +438,7 @@ void add_identified(std::vector<Field>& table) {
   };
   for (const Effect& effect : effects(JointKind::tendons)) add(effect);
   rows.push_back(mean_load());
-  for (const Effect& effect : effects(JointKind::ratio)) add(effect);
+  for (const Effect& effect : in_file_order(effects(JointKind::ratio))) add(effect);
   table.insert(table.end(), rows.begin(), rows.end());
   table.insert(table.end(), of_sensors.begin(), of_sensors.end());
 }

@@ -145,7 +145,7 @@ DeclaredMechanism mechanism_at(const Problem& problem, const Design& design) {
 }
 
 Mechanism judged(const Problem& problem, const DeclaredMechanism& declared) {
-  return problem.as_it_is ? problem.as_it_is(declared) : declared;
+  return problem.as_it_is ? problem.as_it_is(declared) : static_cast<const Mechanism&>(declared);
 }
 
 std::vector<ValueEdit> edits_of(const Problem& problem, const Design& design) {

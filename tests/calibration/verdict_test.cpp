@@ -107,7 +107,7 @@ TEST(Verdicts, HaveTheContractsWords) {
 TEST(Verdicts, ATorqueWhereAForceIsNeededIsSaid) {
   Measurement measurement = measured({0, 5}, [](const Sample&) { return 0.0; });
   measurement.load_unit = "Nm";
-  const Mechanism tendons = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/forearm.toml").mechanism;
+  const DeclaredMechanism tendons = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/forearm.toml").mechanism;
   const Calibration found = calibrate(tendons, measurement);
   EXPECT_EQ(found.verdict, CalibrationVerdict::not_testable);
   EXPECT_THAT(found.summary, HasSubstr("a torque in Nm"));

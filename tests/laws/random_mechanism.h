@@ -60,7 +60,7 @@ void expect_law(int usual_cases, Property property) {
   const auto result = rc::detail::checkTestable(
       [&] {
         const Mechanism mechanism = random_mechanism();
-        RC_LOG() << write_mechanism(mechanism);
+        RC_LOG() << write_mechanism(DeclaredMechanism(mechanism));
         ++cases;
         if (property(mechanism)) ++possible;
       },

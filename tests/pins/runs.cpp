@@ -5,9 +5,7 @@
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
-#include "fusee/export/calibration.h"
 #include "fusee/export/paper.h"
-#include "fusee/joint/as_it_is.h"
 #include "fusee/mechanism/edit.h"
 #include "fusee/optimize/certified.h"
 #include "fusee/pipeline.h"
@@ -47,30 +45,11 @@ Outputs built(const MechanismFile& file, DxfVersion dxf) {
   return build(file, options).outputs;
 }
 
-CalibrationProduct calibrated(const fs::path& spec, const std::vector<fs::path>& measured) {
-  CalibrationProduct product;
-  product.file = read_mechanism(spec);
-  const auto& declared = product.file.mechanism;
-  const auto expected = expected_joint(declared);
-  product.measurement = read_measurement(measured);
-  compare_with_declared(expected, product.measurement);
-  product.calibration = calibrate(expected, product.measurement);
-  product.correction.identified = declared.identified;
-  if (product.calibration.verdict != "not_testable")
-    product.correction = correct(declared, product.measurement, product.calibration);
-  return product;
-}
-
 Outputs calibration_outputs(const fs::path& spec, const std::vector<fs::path>& measured) {
-  const CalibrationProduct product = calibrated(spec, measured);
-  Outputs outputs;
-  outputs.push_back({"calibration.json", calibration_json(product)});
-  outputs.push_back({"corrected.toml", corrected_toml(read_file(spec, k_largest_spec), product.file.mechanism,
-                                                      product.calibration, product.correction)});
-  outputs.push_back({"compensation.csv", compensation_csv(product.correction)});
-  outputs.push_back({"report.html", calibration_report_html(product)});
-  outputs.push_back({"manifest.json", calibration_manifest_json(product, outputs)});
-  return outputs;
+  CalibrateOptions options;
+  options.folder = fs::temp_directory_path() / "fusee-pins";
+  options.dry_run = true;
+  return calibrate(read_mechanism(spec), measured, options).outputs;
 }
 
 /// The pulley that a calibration asks for.

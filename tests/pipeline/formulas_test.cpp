@@ -26,10 +26,11 @@ const std::vector<Formula> k_formulas = {
     {"standard_gravity", R"(\b9\.8\d*)", "include/fusee/transmission/load.h"},
     {"weight_moment", R"(\bmass\s*\*\s*k_gravity\b|\bk_gravity\s*\*\s*[\w.]*mass\b)", "src/transmission/load.cpp"},
     {"golden_section", R"(\b(0\.618|0\.38196|1\.618)\d*)", "src/base/"},
-    {"declared_law", R"(\bclass\s+DeclaredLaw\b)", ""},
+    {"declared_law", R"(\bclass\s+DeclaredLaw\b)", "src/transmission/declared_law.h"},
+    {"binning", R"(\bstruct\s+Bins\b)", "src/measurement/seen_span.h"},
     {"median", R"(\bmedian\w*\(std::vector<double>\s+\w+\)\s*\{)", ""},
     // The character itself stands in quotes, which are blank here.
-    {"progress_bar", R"(std::string\(20 - )", "src/cli/"},
+    {"progress_bar", R"(std::string\(k_places - full)", "src/cli/"},
 };
 
 /// "src/transmission/load.cpp:15", each place where the code has it.

@@ -32,7 +32,7 @@ double tension_of_build(const Mechanism& mechanism) {
 
 double tension_of_analyze(const Mechanism& mechanism) {
   MechanismFile file;
-  file.mechanism = mechanism;
+  file.mechanism = DeclaredMechanism(mechanism);
   file.mechanism.load.tip_force = 1.0;
   AnalysisOptions options;
   options.samples = 10;
@@ -84,9 +84,9 @@ TEST_F(Optimize, LooksAtTheJointAsItIs) {
   const OptimizeResult result = optimize(file, options_);
   ASSERT_TRUE(result.found) << result.reason;
   const auto value = [](const Mechanism& mechanism) { return evaluate(Objective::max_tension, mechanism).value; };
-  Mechanism declared = mechanism_at(result.problem, result.design);
-  EXPECT_DOUBLE_EQ(result.value, value(as_it_is(declared)));
-  EXPECT_DOUBLE_EQ(result.before.value, value(as_it_is(file.mechanism)));
+  const DeclaredMechanism declared = mechanism_at(result.problem, result.design);
+  EXPECT_DOUBLE_EQ(result.value, value(as_it_is(declared).mechanism));
+  EXPECT_DOUBLE_EQ(result.before.value, value(as_it_is(file.mechanism).mechanism));
   EXPECT_GT(result.value, 1.02 * value(declared));
 }
 
@@ -94,10 +94,10 @@ TEST_F(Optimize, LooksAtTheJointAsItIs) {
 TEST_F(Optimize, WritesDeclaredNumbers) {
   options_.new_file = scratch_ / "new.toml";
   const OptimizeResult result = optimize(file_with(k_identified), options_);
-  const Mechanism written = read_mechanism(options_.new_file).mechanism;
+  const DeclaredMechanism written = read_mechanism(options_.new_file).mechanism;
   EXPECT_EQ(written.joint.R, result.design[0]);
   EXPECT_GE(written.joint.R, 100.0);
-  EXPECT_EQ(written.identified.friction, 0.1);
+  EXPECT_EQ(written.identified.pins.friction, 0.1);
   EXPECT_EQ(written.guides.mu, 0.2);
   EXPECT_THAT(result.new_text, HasSubstr(k_identified));
 }
@@ -172,7 +172,7 @@ TEST(Analyze, LooksAtTheJointAsItIs) {
   AnalysisOptions options;
   options.samples = 10;
   const double declared = analyze(file, options).largest_paper_tension.value;
-  file.mechanism.identified.friction = 0.2;
+  file.mechanism.identified.pins.friction = 0.2;
   EXPECT_GT(analyze(file, options).largest_paper_tension.value, 1.02 * declared);
 }
 

@@ -28,7 +28,7 @@ Mechanism with(Mechanism mechanism, const Change& change) {
   } else if (change.key == "joint.range_deg[1]") {
     mechanism.joint.theta_max = radians(change.to);
   } else {
-    find_field(change.key)->set(mechanism, 0, change.to);
+    set_number(mechanism, *find_field(change.key), 0, change.to);
   }
   return mechanism;
 }

@@ -90,7 +90,7 @@ void lay(std::vector<LaidTendon>& laid, double before, double wound, double dens
 // ---- at home --------------------------------------------------------------------------------------------------------
 
 Bench::Bench(const MadeJoint& joint, const Hidden& hidden) : hidden_(hidden) {
-  const Mechanism& declared = joint.declared;
+  const DeclaredMechanism& declared = joint.declared;
   R_ = declared.joint.R + hidden.joint_length;
   friction_ = std::max(0.0, declared.guides.mu + hidden.friction);
   const double modulus = hidden.modulus > 0 ? hidden.modulus : declared.tendon.modulus;

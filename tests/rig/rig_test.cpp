@@ -123,15 +123,15 @@ TEST(String, says_when_the_pin_is_within_the_pulley) {
 // ---- the joint as declared ------------------------------------------------------------------------------------------
 
 /// Stiff and without friction.
-Mechanism ideal(Mechanism mechanism) {
+DeclaredMechanism ideal(DeclaredMechanism mechanism) {
   mechanism.guides.mu = 0;
   mechanism.tendon.modulus = 1e8;
   return mechanism;
 }
 
 TEST(Rig, follows_the_declared_law_to_six_digits) {
-  for (const Mechanism& mechanism : {testing::forearm(), testing::unsymmetric(), testing::linear_wrist()}) {
-    const Mechanism stiff = ideal(mechanism);
+  for (const DeclaredMechanism& mechanism : {testing::forearm(), testing::unsymmetric(), testing::linear_wrist()}) {
+    const DeclaredMechanism stiff = ideal(mechanism);
     const Transmission law(stiff);
     for (const Row& row : run_of(make_joint(stiff), {})) {
       ASSERT_NEAR(row.theta, law.theta(row.alpha), 2e-6) << mechanism.name << " at " << degrees(row.alpha) << " deg";
@@ -140,7 +140,7 @@ TEST(Rig, follows_the_declared_law_to_six_digits) {
 }
 
 TEST(Rig, sees_a_wrong_outline) {
-  const Mechanism stiff = ideal(testing::forearm());
+  const DeclaredMechanism stiff = ideal(testing::forearm());
   MadeJoint joint = make_joint(stiff);
   for (OutlinePoint& point : joint.p1.points) point.position *= 1.001;
   const Transmission law(stiff);
@@ -294,7 +294,7 @@ TEST(Fault, a_larger_pulley_turns_the_joint_further) {
 struct Twin {
   const char* name;
   Hidden hidden;
-  Mechanism mechanism;
+  DeclaredMechanism mechanism;
   std::function<Vec2(const OutlinePoint&)> floor;
 };
 
@@ -362,15 +362,15 @@ TEST(Fault, a_wrong_geometry_does_what_rewinding_it_does) {
 }
 
 /// At home, both tendons taut, no friction.
-Mechanism elastic() {
-  Mechanism mechanism = testing::forearm();
+DeclaredMechanism elastic() {
+  DeclaredMechanism mechanism = testing::forearm();
   mechanism.guides.mu = 0;
   mechanism.tendon.pretension = 20;
   return mechanism;
 }
 
 /// Torque per angle of both tendons at home, but for what the arms change. N·mm/rad
-double stiffness_by_hand(const Mechanism& mechanism, double modulus) {
+double stiffness_by_hand(const DeclaredMechanism& mechanism, double modulus) {
   const TransmissionPoint home = Transmission(mechanism).at_alpha(0.0);
   const double EA = modulus * 0.25 * k_pi * mechanism.tendon.diameter * mechanism.tendon.diameter;
   return EA * (home.t1.m * home.t1.m / home.t1.length + home.t2.m * home.t2.m / home.t2.length);

@@ -248,7 +248,7 @@ std::vector<Truth> all_truths() {
 
 MadeJoint random_joint(Random& random) {
   for (;;) {
-    Mechanism joint = default_mechanism();
+    DeclaredMechanism joint = default_mechanism();
     joint.name = "measured joint";
     const double R = std::round(std::exp(random.between(std::log(40.0), std::log(160.0))));
     const auto part = [&](double low, double high) { return std::round(10.0 * R * random.between(low, high)) / 10.0; };

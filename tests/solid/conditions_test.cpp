@@ -120,9 +120,9 @@ TEST(BodyAdvice, EachChangeAloneMakesItPossible) {
       if (field == nullptr || field->kind != FieldKind::number) continue;
       EXPECT_GE(change.to, field->least) << change.text;
       Mechanism changed = mechanism;
-      field->set(changed, 0, change.to);
+      set_number(changed, *field, 0, change.to);
       EXPECT_TRUE(body_possible(changed)) << change.text;
-      field->set(changed, 0, change.to + 0.02 * (change.from - change.to));
+      set_number(changed, *field, 0, change.to + 0.02 * (change.from - change.to));
       if (change.to != 0) {
         EXPECT_FALSE(body_possible(changed)) << change.text;
       }

@@ -50,7 +50,7 @@ inline DeclaredMechanism unsymmetric() {
 }
 
 /// The mirror image of a joint: what was left is right.
-inline DeclaredMechanism mirrored(DeclaredMechanism mechanism) {
+inline Mechanism mirrored(Mechanism mechanism) {
   std::swap(mechanism.guides.EB, mechanism.guides.ED);
   std::swap(mechanism.joint.theta_min, mechanism.joint.theta_max);
   mechanism.joint.theta_min *= -1.0;
@@ -59,7 +59,7 @@ inline DeclaredMechanism mirrored(DeclaredMechanism mechanism) {
 }
 
 /// Every length times `factor`.
-inline DeclaredMechanism scaled(DeclaredMechanism mechanism, double factor) {
+inline Mechanism scaled(Mechanism mechanism, double factor) {
   for (double* length : {&mechanism.joint.R, &mechanism.guides.EB, &mechanism.guides.ED, &mechanism.guides.OE, &mechanism.guides.radius,
                          &mechanism.pulley.EF, &mechanism.pulley.r1, &mechanism.tendon.diameter}) {
     *length *= factor;

@@ -73,8 +73,8 @@ inline SynthesisResult pulley_of(const SupportShape& p1, const SupportShape& p2,
 }
 
 /// A mechanism with the file's default body, whose pins are far away.
-inline Mechanism plain_mechanism() {
-  Mechanism mechanism;
+inline DeclaredMechanism plain_mechanism() {
+  DeclaredMechanism mechanism;
   mechanism.name = "test";
   mechanism.joint = {100, radians(-30), radians(30)};
   mechanism.guides = {50, 50, -40, 2, 0.12};

@@ -1,0 +1,27 @@
+#include "transmission/declared_law.h"
+
+#include <algorithm>
+
+namespace fusee {
+
+DeclaredLaw::DeclaredLaw(const Mechanism& declared) {
+  if (declared.transmission) {
+    ratio_ = declared.transmission->ratio;
+    slope_ = 1.0 / ratio_;
+    return;
+  }
+  law_.emplace(declared);
+  if (exists()) slope_ = (declared.joint.theta_max - declared.joint.theta_min) / alpha_range();
+}
+
+bool DeclaredLaw::reaches(double alpha) const {
+  return !law_ || (alpha > law_->alpha_min() - 0.1 * alpha_range() && alpha < law_->alpha_max() + 0.1 * alpha_range());
+}
+
+double DeclaredLaw::theta_straight_on(double alpha) const {
+  if (!law_) return slope_ * alpha;
+  const double within = std::clamp(alpha, law_->alpha_min(), law_->alpha_max());
+  return law_->theta(within) + slope_ * (alpha - within);
+}
+
+}  // namespace fusee
