@@ -16,7 +16,11 @@ namespace {
 namespace house = fusee::house;
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> k_flow = house::flow();
+/// Room → its place in the flow. Read on first use: other files' constants need not be there before.
+const std::map<std::string, int>& flow() {
+  static const std::map<std::string, int> read = house::flow();
+  return read;
+}
 
 /// What each inner room of export may use of export beside itself. The value Product stands between the meshes, which
 /// know no pulley, and all that is made of one. (tool.h, what fusee calls itself, is everybody's.)
@@ -40,7 +44,7 @@ struct Include {
 std::string room_of(const std::string& target) {
   static const std::regex pattern("^(?:fusee/)?([a-z]+)(?:/|\\.h$)");
   std::smatch match;
-  return std::regex_search(target, match, pattern) && k_flow.count(match[1]) ? match[1].str() : "";
+  return std::regex_search(target, match, pattern) && flow().count(match[1]) ? match[1].str() : "";
 }
 
 /// include/fusee/solid/mesh.h, src/solid/mesh.cpp → "solid"; export/stl.cpp → "export".
@@ -128,7 +132,7 @@ TEST(Rooms, HoldAFifthOfAllLinesAtMost) {
 TEST(Includes, AreFoundInEveryRoom) {
   std::set<std::string> homes;
   for (const Include& include : all_includes()) homes.insert(home_of(include.file));
-  for (const auto& [room, place] : k_flow) EXPECT_TRUE(homes.count(room)) << room;
+  for (const auto& [room, place] : flow()) EXPECT_TRUE(homes.count(room)) << room;
 }
 
 TEST(Includes, GoOnlyToTheLeft) {
@@ -136,7 +140,7 @@ TEST(Includes, GoOnlyToTheLeft) {
     const std::string home = home_of(include.file), room = room_of(include.target);
     if (!include.quoted || room.empty()) continue;
     ASSERT_FALSE(home.empty()) << include.file << " stands in no room";
-    EXPECT_LE(k_flow.at(room), k_flow.at(home)) << include.says();
+    EXPECT_LE(flow().at(room), flow().at(home)) << include.says();
   }
 }
 
