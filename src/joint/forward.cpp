@@ -47,17 +47,6 @@ void look_paths_up(JointModel& model, double least, double most) {
 
 }  // namespace
 
-std::vector<double> bench_clock(const BenchLog& log) {
-  std::vector<double> added;
-  double end = -std::numeric_limits<double>::infinity();
-  for (const BenchRun& run : log) {
-    const double start = run.rows.empty() ? 0.0 : run.rows.front().time;
-    added.push_back(start <= end ? end - start : 0.0);
-    if (!run.rows.empty()) end = added.back() + run.rows.back().time;
-  }
-  return added;
-}
-
 Forward::Forward(const Mechanism& declared, const BenchLog& log)
     : declared_(declared), log_(log), clock_(bench_clock(log)), first_temperature_(first_temperature(log)) {
   if (!declared.transmission) made_.emplace(declared);

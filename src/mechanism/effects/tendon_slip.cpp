@@ -1,6 +1,43 @@
 #include "fusee/mechanism/effect.h"
 
 namespace fusee {
+namespace {
+
+EffectParameter when() {
+  return {.name = "time_s",
+          .number = [](Imperfections& at) -> double& { return at.tendon.slip_time; },
+          .least = -1e12,
+          .most = 1e12,
+          .step = 1,
+          .shown = shown::as_is,
+          .key = key::plain("slip_time_s", "s", -1e+12, 1e+12, "when it slipped, the runs one after another"),
+          .searched = true};
+}
+
+/// Released tendon 1 lets the joint go up, released tendon 2 down.
+EffectParameter released() {
+  return {
+      .name = "released_mm",
+      .number = [](Imperfections& at) -> double& { return at.tendon.slip; },
+      .least = -20,
+      .most = 20,
+      .step = 1e-2,
+      .shown = shown::as_is,
+      .key = key::plain("slip_mm", "mm", -1000, 1000, "let go by the anchor of tendon 1, of tendon 2 where negative")};
+}
+
+/// Of a joint whose tendons are not known.
+EffectParameter turned() {
+  return {.name = "step_deg",
+          .number = [](Imperfections& at) -> double& { return at.ratio_joint.step; },
+          .least = -0.5,
+          .most = 0.5,
+          .step = 1e-3,
+          .shown = shown::in_degrees,
+          .key = key::in_degrees("step_deg", -360, 360, "of a joint declared by a ratio: turned at slip_time_s")};
+}
+
+}  // namespace
 
 Effect tendon_slip(JointKind kind) {
   Effect effect;
@@ -12,42 +49,7 @@ Effect tendon_slip(JointKind kind) {
   effect.correctable_by = CorrectableBy::nothing;
   effect.needs = {.time = true};
   effect.starts_in_time = true;
-  if (kind == JointKind::ratio) {
-    effect.parameters = {
-        {.name = "step_deg",
-         .number = [](Imperfections& at) -> double& { return at.ratio_joint.step; },
-         .least = -0.5,
-         .most = 0.5,
-         .step = 1e-3,
-         .shown = shown::in_degrees,
-         .key = key::in_degrees("step_deg", -360, 360, "of a joint declared by a ratio: turned at slip_time_s")},
-        {.name = "time_s",
-         .number = [](Imperfections& at) -> double& { return at.tendon.slip_time; },
-         .least = -1e12,
-         .most = 1e12,
-         .step = 1,
-         .shown = shown::as_is,
-         .key = key::plain("slip_time_s", "s", -1e+12, 1e+12, "when it slipped, the runs one after another"),
-         .searched = true}};
-    return effect;
-  }
-  // Released tendon 1 lets the joint go up, released tendon 2 down.
-  effect.parameters = {
-      {.name = "released_mm",
-       .number = [](Imperfections& at) -> double& { return at.tendon.slip; },
-       .least = -20,
-       .most = 20,
-       .step = 1e-2,
-       .shown = shown::as_is,
-       .key = key::plain("slip_mm", "mm", -1000, 1000, "let go by the anchor of tendon 1, of tendon 2 where negative")},
-      {.name = "time_s",
-       .number = [](Imperfections& at) -> double& { return at.tendon.slip_time; },
-       .least = -1e12,
-       .most = 1e12,
-       .step = 1,
-       .shown = shown::as_is,
-       .key = key::plain("slip_time_s", "s", -1e+12, 1e+12, "when it slipped, the runs one after another"),
-       .searched = true}};
+  effect.parameters = {kind == JointKind::ratio ? turned() : released(), when()};
   return effect;
 }
 

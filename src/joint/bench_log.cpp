@@ -1,0 +1,18 @@
+#include "fusee/joint/bench_log.h"
+
+#include <limits>
+
+namespace fusee {
+
+std::vector<double> bench_clock(const BenchLog& log) {
+  std::vector<double> added;
+  double end = -std::numeric_limits<double>::infinity();
+  for (const BenchRun& run : log) {
+    const double start = run.rows.empty() ? 0.0 : run.rows.front().time;
+    added.push_back(start <= end ? end - start : 0.0);
+    if (!run.rows.empty()) end = added.back() + run.rows.back().time;
+  }
+  return added;
+}
+
+}  // namespace fusee
