@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "fusee/export/mesh_files.h"
 #include "fusee/pipeline.h"
 
 namespace {
