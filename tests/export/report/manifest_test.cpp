@@ -121,4 +121,18 @@ TEST(TendonLengths, ARoundPulleyIsWoundAsACircleIs) {
 TEST(TendonLengths, APulleyWithoutAnchorsHasNone) { EXPECT_TRUE(tendon_lengths(made_product()).empty()); }
 
 }  // namespace
+TEST(Manifest, SaysWhatWasMadeOtherwiseThanDeclared) {
+  Product product = made_product();
+  EXPECT_FALSE(Json::parse(manifest_json(product, {})).contains("derived"));
+  product.file.mechanism.identified.pins.place.radius = 1.5;
+  product.joint.mechanism.guides.radius += 1.5;
+  product.joint.mechanism.pulley.law = Law::table;
+  const Json manifest = Json::parse(manifest_json(product, {}));
+  EXPECT_EQ(manifest["mechanism"]["guides"]["radius_mm"], 2.0);
+  EXPECT_EQ(manifest["mechanism"]["identified"]["guide_radius_mm"], 1.5);
+  EXPECT_EQ(manifest["derived"]["guides.radius_mm"], Json({{"declared", 2.0}, {"made", 3.5}}));
+  EXPECT_EQ(manifest["derived"]["pulley.law"], Json({{"declared", "compensate"}, {"made", "table"}}));
+  EXPECT_EQ(manifest["derived"].size(), 2u);
+}
+
 }  // namespace fusee
