@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/output_list.h"
 #include "export/tool.h"
 #include "fusee/base/units.h"
 #include "fusee/calibration/words.h"
@@ -127,9 +128,7 @@ std::string calibration_manifest_json(const CalibrationProduct& product, const s
   json["runs"] = Json::array();
   for (const Run& run : product.measurement.runs) json["runs"].push_back(run.name);
   json["verdict"] = word(product.calibration.verdict);
-  json["outputs"] = Json::array();
-  for (const OutputFile& file : outputs)
-    json["outputs"].push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
+  json["outputs"] = output_list(outputs);
   return text_of(json);
 }
 

@@ -6,15 +6,16 @@
 #include <filesystem>
 #include <map>
 
-#include "fusee/mechanism/effect.h"
 #include "export/report/calibration_plots.h"
 #include "export/report/calibration_words.h"
+#include "export/report/html.h"
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/calibration/words.h"
+#include "fusee/mechanism/effect.h"
 
 namespace fusee {
 namespace {
@@ -34,12 +35,6 @@ std::string html_table(const std::vector<std::string>& titles, const std::string
     html += (numbers ? "<th class=\"number\">" : "<th>") + safe_text(numbers ? title.substr(1) : title) + "</th>";
   }
   return html + "</tr></thead><tbody>" + rows + "</tbody></table></div>";
-}
-
-std::string html_list(const std::vector<std::string>& items, const std::string& tag = "ul") {
-  std::string html;
-  for (const std::string& item : items) html += "<li>" + safe_text(item) + "</li>";
-  return html.empty() ? "" : "<" + tag + (tag == "ol" ? " class=\"next\">" : ">") + html + "</" + tag + ">";
 }
 
 std::string section(const std::string& id, const std::string& title, const std::string& body) {
@@ -71,30 +66,24 @@ Sign sign_of(CalibrationVerdict verdict) {
 std::string verdict_section(const Calibration& calibration) {
   const Sign sign = sign_of(calibration.verdict);
   return "<section class=\"verdict " + sign.style + "\"><span class=\"sign\">" + sign.sign + "</span><p><b>" +
-         safe_text(first_upper(open_words(std::string(word(calibration.verdict))))) + ".</b> " + safe_text(calibration.summary) +
-         "</p></section>\n";
-}
-
-std::string key_number(const std::string& name, const std::string& value, const std::string& beside = "") {
-  return "<div><dt>" + safe_text(name) + "</dt><dd>" + safe_text(value) +
-         (beside.empty() ? "" : " <small>" + safe_text(beside) + "</small>") + "</dd></div>";
+         safe_text(first_upper(open_words(std::string(word(calibration.verdict))))) + ".</b> " +
+         safe_text(calibration.summary) + "</p></section>\n";
 }
 
 std::string key_numbers(const CalibrationProduct& product) {
   const Calibration& c = product.calibration;
-  std::string html = key_number("Error on data not fitted, RMS",
-                                degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
-  html += key_number("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
-  html += key_number("Noise floor", degree_words(c.noise.rms),
-                     c.noise.from_repeats ? "from repeats" : "at least: no repeats");
-  if (c.noise.rms > 0) html += key_number("What is left, per noise floor", readable(c.after.rms / c.noise.rms, 2));
-  html += key_number("Unexplained, RMS", degree_words(c.unexplained_rms));
-  html +=
-      key_number("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
+  KeyNumbers numbers;
+  numbers.add("Error on data not fitted, RMS",
+              degree_words(c.before.held_out_rms) + " → " + degree_words(c.after.held_out_rms));
+  numbers.add("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
+  numbers.add("Noise floor", degree_words(c.noise.rms), c.noise.from_repeats ? "from repeats" : "at least: no repeats");
+  if (c.noise.rms > 0) numbers.add("What is left, per noise floor", readable(c.after.rms / c.noise.rms, 2));
+  numbers.add("Unexplained, RMS", degree_words(c.unexplained_rms));
+  numbers.add("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
   if (product.correction.has_pulley)
-    html += key_number("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
-  html += key_number("Taken out by the table, RMS", degree_words(product.correction.by_table));
-  return section("numbers", "Key numbers", "<dl class=\"numbers\">" + html + "</dl>");
+    numbers.add("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
+  numbers.add("Taken out by the table, RMS", degree_words(product.correction.by_table));
+  return section("numbers", "Key numbers", numbers.html());
 }
 
 std::string figures_row(const std::string& name, double before, double after) {
@@ -170,7 +159,7 @@ std::string action_section(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   std::string html;
   if (!calibration.next_runs.empty())
-    html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol");
+    html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol", "next");
   html += "<h3>Correction</h3>" + html_list(correction_items(product.correction)) + compensation_html(product) +
           compensation_table(product.correction);
   return section("actions", "What to do", html);
@@ -187,8 +176,7 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     html += (i > 0 ? "<br/>" : "") + safe_text(parameter_words(effect.parameters[i], load_unit));
   html += "</p><p>Takes " + safe_text(degree_words(effect.rms_drop)) +
-          " rms off the error on data that were not fitted. " +
-          std::string(remedy_words(effect)) + "</p>";
+          " rms off the error on data that were not fitted. " + std::string(remedy_words(effect)) + "</p>";
   if (const auto found = known.find(effect.name); found != known.end())
     html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   const std::vector<std::string> rivals = rivals_of(effect);
@@ -395,7 +383,7 @@ std::string calibration_report_html(const CalibrationProduct& product) {
             rest_section(product) + figures_section(product) + evidence_section(calibration) +
             detectable_section(calibration);
   } else if (!calibration.next_runs.empty()) {
-    html += section("actions", "Measure next", html_list(calibration.next_runs, "ol"));
+    html += section("actions", "Measure next", html_list(calibration.next_runs, "ol", "next"));
   }
   html += data_section(product.measurement);
   return html + "</main>\n<footer><p>Made by " + std::string(k_tool) +

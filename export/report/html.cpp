@@ -20,9 +20,9 @@ std::string filled_page(std::string_view page, const PageParts& parts) {
   }
 }
 
-std::string html_list(const std::vector<std::string>& items, const std::string& tag) {
+std::string html_list(const std::vector<std::string>& items, const std::string& tag, const std::string& style) {
   if (items.empty()) return "";
-  std::string html = "<" + tag + ">";
+  std::string html = "<" + tag + (style.empty() ? ">" : " class=\"" + style + "\">");
   for (const std::string& item : items) html += "<li>" + safe_text(item) + "</li>";
   return html + "</" + tag + ">";
 }

@@ -14,8 +14,9 @@ using PageParts = std::map<std::string, std::string, std::less<>>;
 /// text of a user can name a part.
 std::string filled_page(std::string_view page, const PageParts& parts);
 
-/// `tag`: "ul" or "ol". "" for no items.
-std::string html_list(const std::vector<std::string>& items, const std::string& tag = "ul");
+/// `tag`: "ul" or "ol"; `style`: a class of the page's. "" for no items.
+std::string html_list(const std::vector<std::string>& items, const std::string& tag = "ul",
+                      const std::string& style = "");
 
 /// The numbers that a page begins with: term, value, and a remark in small print.
 class KeyNumbers {

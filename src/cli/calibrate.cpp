@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 
+#include "base/output_list.h"
 #include "cli/calibration_summary.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
@@ -51,19 +52,11 @@ std::vector<std::filesystem::path> runs_from(const Arguments& arguments) {
 
 // ---- the whole ------------------------------------------------------------------------------------------------------
 
-
 std::string files_text(const std::vector<OutputFile>& outputs, const std::string& folder, bool published) {
   std::vector<std::vector<std::string>> rows;
   for (const OutputFile& file : outputs) rows.push_back({"  " + file.name, std::to_string(file.bytes.size()) + " B"});
   return "\n" + table({{published ? "Files" : "Would be written (--dry-run)"}, {"", Align::right}}, rows) + "  in " +
          folder + "\n";
-}
-
-Json outputs_json(const std::vector<OutputFile>& outputs) {
-  Json list = Json::array();
-  for (const OutputFile& file : outputs)
-    list.push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
-  return list;
 }
 
 void add_notes(const CalibrateResult& result, bool verbose, Reply& reply) {
@@ -110,7 +103,7 @@ Reply run_calibrate(const Arguments& arguments, Console& console) {
   reply.fields = Json::parse(calibration_json(result.product));
   reply.fields["folder"] = options.folder.string();
   reply.fields["published"] = result.published;
-  reply.fields["outputs"] = outputs_json(result.outputs);
+  reply.fields["outputs"] = output_list(result.outputs);
   return reply;
 }
 

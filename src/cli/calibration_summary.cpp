@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/table.h"
+#include "export/report/calibration_words.h"
 #include "fusee/base/text.h"
 #include "fusee/calibration/words.h"
 
@@ -45,12 +46,6 @@ std::string items(const std::string& title, const std::vector<std::string>& all)
   return text;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 std::string deg(double value) { return fixed(degrees(value), 4); }
 
 std::string figures_table(const Calibration& c) {
@@ -79,7 +74,7 @@ std::string effect_text(const FoundEffect& effect, const std::string& load_unit)
     words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
   const std::vector<std::string> rivals = rivals_of(effect);
-  return words + (rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals));
+  return words + (rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals, ", "));
 }
 
 std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {
@@ -110,7 +105,7 @@ std::vector<std::string> correction_texts(const Correction& correction) {
 
 std::vector<std::string> detectable_texts(const Calibration& c) {
   std::vector<std::string> texts;
-  for (const auto& [size, names] : detectable_groups(c)) texts.push_back(deg(size) + " deg: " + joined(names));
+  for (const auto& [size, names] : detectable_groups(c)) texts.push_back(deg(size) + " deg: " + joined(names, ", "));
   return texts;
 }
 
