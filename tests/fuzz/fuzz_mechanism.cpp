@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    const fusee::Mechanism mechanism = fusee::parse_mechanism(text, "fuzz");
+    const fusee::DeclaredMechanism mechanism = fusee::parse_mechanism(text, "fuzz");
     if (!(fusee::parse_mechanism(fusee::write_mechanism(mechanism), "written") == mechanism)) std::abort();
   } catch (const fusee::InputError&) {
   }
