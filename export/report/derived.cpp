@@ -24,13 +24,12 @@ bool is_same(const Field& field, const DeclaredMechanism& a, const DeclaredMecha
 
 }  // namespace
 
-std::vector<DerivedNumber> derived_numbers(const DeclaredMechanism& declared, const JointAsItIs& joint) {
-  DeclaredMechanism made = declared;
-  static_cast<Mechanism&>(made) = joint.mechanism;
-  std::vector<DerivedNumber> derived;
+DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const JointAsItIs& joint) {
+  DerivedNumbers derived{declared, {}};
+  static_cast<Mechanism&>(derived.made) = joint.mechanism;
   if (declared.transmission) return derived;
   for (const Field& field : fields()) {
-    if (field.table != "transmission" && !is_same(field, declared, made)) derived.push_back({&field, made});
+    if (field.table != "transmission" && !is_same(field, declared, derived.made)) derived.fields.push_back(&field);
   }
   return derived;
 }

@@ -9,14 +9,14 @@
 
 namespace fusee {
 
-/// A declared key and what it became in the joint as it is.
-struct DerivedNumber {
-  const Field* field = nullptr;
-  DeclaredMechanism made;  ///< whose value of the field is what was made for
+/// What was made for, key by key of the file.
+struct DerivedNumbers {
+  DeclaredMechanism made;            ///< the file with the numbers of the joint as it is
+  std::vector<const Field*> fields;  ///< whose value there is not the declared one, in the order of the file
 };
 
-/// In the order of the file; none where nothing was identified that moves a number.
-std::vector<DerivedNumber> derived_numbers(const DeclaredMechanism& declared, const JointAsItIs& joint);
+/// No fields where nothing was identified that moves a number.
+DerivedNumbers derived_numbers(const DeclaredMechanism& declared, const JointAsItIs& joint);
 
 /// "-30 to 30 deg", "table".
 std::string field_words(const Field& field, const DeclaredMechanism& mechanism);

@@ -67,11 +67,12 @@ Json mechanism_json(const DeclaredMechanism& mechanism) {
 
 /// What of these numbers was made otherwise, the joint having been identified to be another.
 Json derived_json(const Product& product) {
-  Json derived = Json::object();
-  for (const DerivedNumber& number : derived_numbers(product.file.mechanism, product.joint))
-    derived[number.field->name()] = {{"declared", field_value(*number.field, product.file.mechanism)},
-                                     {"made", field_value(*number.field, number.made)}};
-  return derived;
+  const DerivedNumbers derived = derived_numbers(product.file.mechanism, product.joint);
+  Json keys = Json::object();
+  for (const Field* field : derived.fields)
+    keys[field->name()] = {{"declared", field_value(*field, product.file.mechanism)},
+                           {"made", field_value(*field, derived.made)}};
+  return keys;
 }
 
 Json checks_json(const std::vector<Check>& checks) {

@@ -299,11 +299,12 @@ std::vector<std::string> steps(const Product& product) {
 
 /// The joint was identified to be another than declared: what of the file is not what was made.
 std::string derived_table(const Product& product) {
+  const DerivedNumbers derived = derived_numbers(product.file.mechanism, product.joint);
   std::string rows;
-  for (const DerivedNumber& number : derived_numbers(product.file.mechanism, product.joint)) {
-    rows += "<tr><td>" + safe_text(number.field->name()) + "</td><td class=\"number\">" +
-            safe_text(field_words(*number.field, product.file.mechanism)) + "</td><td class=\"number\">" +
-            safe_text(field_words(*number.field, number.made)) + "</td></tr>";
+  for (const Field* field : derived.fields) {
+    rows += "<tr><td>" + safe_text(field->name()) + "</td><td class=\"number\">" +
+            safe_text(field_words(*field, product.file.mechanism)) + "</td><td class=\"number\">" +
+            safe_text(field_words(*field, derived.made)) + "</td></tr>";
   }
   if (rows.empty()) return "";
   return "<h3>Declared and made</h3><div class=\"scroll\"><table><thead><tr><th>Key</th><th "

@@ -80,6 +80,13 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
   return model;
 }
 
+Weight with_error(const Weight& declared, const WeightError& error) {
+  if (error == WeightError{}) return declared;
+  const double cos_part = declared.moment * std::sin(declared.tilt) + error.cos;
+  const double sin_part = error.sin - declared.moment * std::cos(declared.tilt);
+  return {std::hypot(cos_part, sin_part), std::atan2(cos_part, -sin_part)};
+}
+
 // What is wound holds home's strain. With the strain of the moment the same numbers give a joint that yields under load
 // by 15 % more where much is wound; six joints measured on a rig with other numerics (tests/data/rig) decide for this
 // one, with residuals at the sensors' noise for both loads, directions and all places.
@@ -88,19 +95,9 @@ void set_imperfect_statics(JointModel& model, const Mechanism& declared, const I
   model.wound = WoundTendon::at_home;
   model.last_step = k_last_step;
   model.slack = 0.5 * at.tendon.slack;
-  if (at.joint.weight.cos != 0 || at.joint.weight.sin != 0) {
-    // weight · sin(tilt − θ) is added to what is declared.
-    const double cos_part = model.weight * std::sin(model.tilt) + at.joint.weight.cos;
-    const double sin_part = -model.weight * std::cos(model.tilt) + at.joint.weight.sin;
-    model.weight = std::hypot(cos_part, sin_part);
-    model.tilt = std::atan2(cos_part, -sin_part);
-  }
-}
-
-JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
-  JointModel model = imperfect_geometry(made, declared, at);
-  set_imperfect_statics(model, declared, at);
-  return model;
+  const Weight weight = with_error({model.weight, model.tilt}, at.joint.weight);
+  model.weight = weight.moment;
+  model.tilt = weight.tilt;
 }
 
 }  // namespace fusee

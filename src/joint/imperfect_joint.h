@@ -20,10 +20,15 @@ GeometryError geometry_of(const Imperfections& imperfections);
 
 /// Both tendons' paths. Of the imperfections only geometry_of() acts.
 JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared, const Imperfections& imperfections);
+/// A weight that turns the joint against +θ with moment · sin(tilt − θ).
+struct Weight {
+  double moment = 0;  ///< N·mm
+  double tilt = 0;    ///< rad
+};
+/// What the joint weighs when it was declared so and found to weigh `error` more.
+Weight with_error(const Weight& declared, const WeightError& error);
+
 /// Stiffness, friction, pretension, slack and weight, in a model of that geometry.
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& imperfections);
-
-/// Both.
-JointModel imperfect_model(const MadePulleys& made, const Mechanism& declared, const Imperfections& imperfections);
 
 }  // namespace fusee

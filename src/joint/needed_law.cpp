@@ -9,6 +9,7 @@
 #include "base/golden_section.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/transmission/load.h"
+#include "joint/imperfect_joint.h"
 
 namespace fusee {
 namespace {
@@ -44,15 +45,13 @@ std::vector<LawRow> declared_rows(const Mechanism& declared) {
   return rows;
 }
 
-/// What is identified of the weight, added to the declared one: weight · sin(tilt − θ).
-Load with_weight(Load load, const WeightError& at, double R) {
-  if (at == WeightError{}) return load;
-  const double declared = weight_moment(load);
-  const double cos_part = declared * std::sin(load.tilt) + at.cos;
-  const double sin_part = at.sin - declared * std::cos(load.tilt);
+/// The same weight as a mass on its arm.
+Load with_weight(Load load, const WeightError& error, double R) {
+  if (error == WeightError{}) return load;
+  const Weight weight = with_error({weight_moment(load), load.tilt}, error);
   if (load.lever == 0) load.lever = R;
-  load.mass = std::hypot(cos_part, sin_part) / (k_gravity * load.lever);
-  load.tilt = std::atan2(cos_part, -sin_part);
+  load.mass = weight.moment / (k_gravity * load.lever);
+  load.tilt = weight.tilt;
   return load;
 }
 
