@@ -29,6 +29,7 @@ constexpr std::array<std::string_view, 2> names(Method) { return {"exact", "pape
 constexpr std::array<std::string_view, 3> names(Groove) { return {"u", "v", "flat"}; }
 constexpr std::array<std::string_view, 2> names(Flange) { return {"follow", "round"}; }
 constexpr std::array<std::string_view, 6> names(Bore) { return {"round", "d", "hex", "square", "keyway", "horn"}; }
+constexpr std::array<std::string_view, 3> names(Parts) { return {"auto", "one", "two"}; }
 constexpr std::array<std::string_view, 3> names(Marks) { return {"engraved", "raised", "none"}; }
 
 template <auto Part, auto Member>
@@ -346,6 +347,18 @@ void add_making(std::vector<Field>& table) {
       {"material.elephant_foot_mm", "", "0.4",
        "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"},
       "mm", 0, 3));
+  constexpr auto print = &Mechanism::print;
+  table.push_back(choice<print, &Print::parts>(
+      {"print.parts", "", "\"auto\"",
+       "one: P1 and P2 in one piece, with a cone under the middle flange where it stands out over P1; two: each printed "
+       "for itself and pinned together; auto: one, unless that cone would be high"}));
+  table.push_back(number<print, &Print::overhang, degrees, radians>(
+      {"print.overhang_deg", "", "45",
+       "the flattest slope above the horizontal that a face looking down may have; 90 is upright"},
+      "deg", 20, 75));
+  table.push_back(boolean<print, &Print::supports>(
+      {"print.supports", "", "false",
+       "true: the printer makes supports, and the part is not shaped to need none"}));
   table.push_back(
       number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
   table.push_back(number<cut, &Cut::plate>(
@@ -558,6 +571,7 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "load") return "what the joint carries";
   if (table == "body") return "the body of the pulley";
   if (table == "material") return "what it is printed of";
+  if (table == "print") return "how the part is printed";
   if (table == "cut") return "cutting it as a stack of plates";
   if (table == "optimize") return "what fusee optimize may change, and what it is after";
   if (table == "identified") return "what fusee calibrate found the joint to be, against what is declared";

@@ -129,6 +129,17 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+enum class Parts { automatic, one, two };
+
+/// How the part is printed.
+struct Print {
+  Parts parts = Parts::automatic;  ///< one: P1 and P2 in one piece; two: each for itself, pinned together
+  double overhang = 0;             ///< the flattest slope above the horizontal that a face looking down may have, rad
+  bool supports = false;           ///< true: the printer makes supports, nothing is shaped to need none
+
+  bool operator==(const Print&) const = default;
+};
+
 /// Cutting the part as a stack of plates.
 struct Cut {
   double kerf = 0;
@@ -178,6 +189,7 @@ struct Mechanism {
   Load load;
   Body body;
   Material material;
+  Print print;
   Cut cut;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
 
