@@ -6,16 +6,10 @@
 #include <vector>
 
 #include "fusee/solid/pulley.h"
-#include "solid/anchors.h"
 #include "solid/body.h"
+#include "solid/tie_offs.h"
 
 namespace fusee {
-
-struct PlannedAnchor {
-  Side side = Side::left;
-  bool wound_end = true;
-  AnchorPath path;
-};
 
 struct BodyPlan {
   BodyLayout layout;

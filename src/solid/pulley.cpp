@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "fusee/base/diagnostics.h"
@@ -12,6 +10,7 @@
 #include "solid/marks.h"
 #include "solid/plan.h"
 #include "solid/rings.h"
+#include "solid/tie_off_tools.h"
 #include "solid/tools.h"
 
 namespace fusee {
@@ -61,7 +60,7 @@ class FeatureCutter {
 
   std::vector<TriangleMesh> cuts(int variant) const {
     std::vector<TriangleMesh> tools;
-    for (const PlannedAnchor& anchor : plan_.anchors) tools.push_back(anchor_tool(anchor, variant));
+    for (const PlannedAnchor& anchor : plan_.anchors) tools.push_back(tie_off_tool(plan_, anchor, variant));
     if (layout_.set_screw.present)
       tools.push_back(set_screw_tool(layout_.set_screw, layout_.hub_radius, layout_.z_hub, variant));
     const double depth = layout_.mark_depth;
@@ -82,24 +81,6 @@ class FeatureCutter {
             prism(mark.loops, layout_.z_top - 0.5 * layout_.flange_thickness, layout_.z_top + layout_.mark_depth));
     }
     return raised;
-  }
-
-  TriangleMesh anchor_tool(const PlannedAnchor& anchor, int variant) const {
-    AnchorPath path = anchor.path;
-    path.straight *= 1.0 - 0.003 * variant;
-    const double radius = layout_.pocket_radius;
-    const Keyhole shape = keyhole(path, layout_.channel_width, radius, pocket_facets(radius) + variant);
-    const double half = channel_half_height(variant);
-    if (anchor.side == Side::left) return keyhole_tool(shape, -k_overshoot, layout_.z_p1 - half, layout_.z_p1 + half);
-    return keyhole_tool(shape, layout_.z_hub + k_overshoot, layout_.z_p2 + half, layout_.z_p2 - half);
-  }
-
-  // The channel's floor and roof must not lie in the plane of a ring.
-  double channel_half_height(int variant) const {
-    double half = 0.5 * layout_.channel_width * (1.0 + 0.002 * variant);
-    const auto on_ring = [&half](const GroovePoint& point) { return std::abs(point.dz - half) < 0.01; };
-    while (std::any_of(layout_.groove.begin(), layout_.groove.end(), on_ring)) half += 0.013;
-    return half;
   }
 
   const Mechanism& mechanism_;

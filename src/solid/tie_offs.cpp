@@ -1,0 +1,121 @@
+#include "solid/tie_offs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace fusee {
+namespace {
+
+// Below it an automatic channel would close in printing.
+constexpr double k_least_channel = 0.6;
+// A pocket narrower than this many channel widths is none: the knot would be pulled through.
+constexpr double k_least_pocket = 0.55;
+// An automatic pocket on a thin tendon, in channel widths.
+constexpr double k_thin_pocket = 0.85;
+// A pocket beside the hub leaves this gap to it rather than a sliver.
+constexpr double k_hub_gap = 0.4;
+
+// Near the wound end where there is room, anywhere else.
+std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, double wanted) {
+  auto path = find_anchor(site, wound_end, wanted, AnchorReach::near);
+  if (!wound_end || (path && path->room >= wanted)) return path;
+  return find_anchor(site, wound_end, wanted, AnchorReach::anywhere);
+}
+
+}  // namespace
+
+void choose_channel(BodyLayout& layout, const Mechanism& mechanism) {
+  const double d = mechanism.tendon.diameter;
+  layout.channel_width =
+      mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel);
+  layout.channel_fillet = std::max(2.0 * d, 0.75 * layout.channel_width);
+}
+
+double TieOffPlanner::wanted_pocket(const BodyLayout& layout) const {
+  if (mechanism_.body.knot_pocket > 0) return 0.5 * mechanism_.body.knot_pocket;
+  return std::max(1.75 * mechanism_.tendon.diameter, k_thin_pocket * layout.channel_width);
+}
+
+double TieOffPlanner::least_pocket(const BodyLayout& layout) const {
+  return mechanism_.body.knot_pocket > 0 ? wanted_pocket(layout) : k_least_pocket * layout.channel_width;
+}
+
+AnchorSite TieOffPlanner::site(const BodyLayout& layout, const Outline& outline) const {
+  AnchorSite site{outline, mechanism_.tendon.diameter, layout.channel_width, layout.channel_fillet, layout.min_wall, {},
+                  {}};
+  site.holes.push_back({Vec2::Zero(), Vec2::Zero(), layout.bore.radius});
+  for (const Polygon& hole : layout.bore.screw_holes) {
+    Vec2 centre = Vec2::Zero();
+    for (const Vec2& point : hole) centre += point / static_cast<double>(hole.size());
+    site.holes.push_back({centre, centre, (hole.front() - centre).norm()});
+  }
+  return site;
+}
+
+// P2's pockets open on the face that the hub stands on. They avoid it where they can, and cut into its side where
+// they cannot.
+std::optional<AnchorPath> TieOffPlanner::p2_anchor(AnchorSite site, const BodyLayout& layout, bool wound_end,
+                                                   double wanted) const {
+  if (layout.hub_radius > 0) {
+    site.above_pocket.push_back({Vec2::Zero(), Vec2::Zero(), layout.hub_radius + k_hub_gap - layout.min_wall});
+    if (auto path = anchor_at(site, wound_end, wanted); path && path->room >= least_pocket(layout)) return path;
+    site.above_pocket.clear();
+  }
+  return anchor_at(site, wound_end, wanted);
+}
+
+WoundTieOffs TieOffPlanner::wound(const BodyLayout& layout) const {
+  return {anchor_at(site(layout, synthesis_.p1), true, wanted_pocket(layout)),
+          p2_anchor(site(layout, synthesis_.p2), layout, true, wanted_pocket(layout))};
+}
+
+bool TieOffPlanner::has_room(const BodyLayout& layout, const WoundTieOffs& wound) const {
+  return wound.both() && std::min(wound.p1->room, wound.p2->room) >= least_pocket(layout);
+}
+
+void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound) const {
+  const double wanted = wanted_pocket(layout);
+  layout.pocket_radius = wanted;
+  if (!wound.both()) return;
+  layout.pocket_radius = std::min(wound.p1->room, wound.p2->room);
+  if (mechanism_.body.knot_pocket <= 0 && layout.pocket_radius < wanted) {
+    layout.notes.push_back(
+        fmt::format("no room for knot pockets of {:.2f} mm: made {:.2f} mm", 2.0 * wanted, 2.0 * layout.pocket_radius));
+  }
+}
+
+std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTieOffs& wound) const {
+  std::vector<PlannedAnchor> anchors;
+  if (!wound.both()) return anchors;
+  add(anchors, layout, synthesis_.p1, *wound.p1);
+  add(anchors, layout, synthesis_.p2, *wound.p2);
+  return anchors;
+}
+
+// The spare tie-off at the other end of the arc is left out where it has no room beside the first.
+void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline,
+                        const AnchorPath& first) const {
+  const double radius = layout.pocket_radius;
+  const bool left = outline.side == Side::left;
+  anchors.push_back({outline.side, true, first});
+  AnchorSite beside = site(layout, outline);
+  const std::vector<Bar> bars = first.bars(layout.channel_width);
+  beside.holes.insert(beside.holes.end(), bars.begin(), bars.end());
+  beside.holes.push_back({first.pocket(), first.pocket(), radius});
+  const auto spare = left ? anchor_at(beside, false, radius) : p2_anchor(beside, layout, false, radius);
+  if (spare && spare->room >= radius) {
+    anchors.push_back({outline.side, false, *spare});
+  } else {
+    layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(outline.side)));
+  }
+}
+
+std::vector<AnchorRoom> TieOffPlanner::rooms(const BodyLayout& layout, const WoundTieOffs& wound) const {
+  const auto room_of = [&](Side side, const std::optional<AnchorPath>& found) {
+    return AnchorRoom{side, found ? found->room : 0.0, least_pocket(layout)};
+  };
+  return {room_of(Side::left, wound.p1), room_of(Side::right, wound.p2)};
+}
+
+}  // namespace fusee

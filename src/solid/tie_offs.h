@@ -1,0 +1,63 @@
+/// \file
+/// Which tie-offs a body gets, and where: the two that carry load first, a spare one at the other end of each arc where
+/// there is room. mm, not yet scaled.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fusee/solid/layout.h"
+#include "solid/anchors.h"
+
+namespace fusee {
+
+struct PlannedAnchor {
+  Side side = Side::left;
+  bool wound_end = true;
+  AnchorPath path;
+};
+
+/// The tie-offs that carry load.
+struct WoundTieOffs {
+  std::optional<AnchorPath> p1, p2;
+  bool both() const { return p1 && p2; }
+};
+
+/// What was found about the tie-off at a wound end.
+struct AnchorRoom {
+  Side side = Side::left;
+  double room = 0;   ///< radius of the largest pocket found, 0: not even the channel fits
+  double least = 0;  ///< radius below which there is no use in it
+};
+
+/// Width and fillet of the channels.
+void choose_channel(BodyLayout& layout, const Mechanism& mechanism);
+
+/// Refers to what it is made from.
+class TieOffPlanner {
+ public:
+  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis)
+      : mechanism_(mechanism), synthesis_(synthesis) {}
+
+  /// In a layout that has bore, hub, wall and channel.
+  WoundTieOffs wound(const BodyLayout& layout) const;
+  bool has_room(const BodyLayout& layout, const WoundTieOffs& wound) const;
+  /// One size of pocket for all: the smaller of what the wound ends have room for.
+  void settle_pockets(BodyLayout& layout, const WoundTieOffs& wound) const;
+  /// With the spare ones; one that is left out leaves a note in the layout.
+  std::vector<PlannedAnchor> all(BodyLayout& layout, const WoundTieOffs& wound) const;
+  std::vector<AnchorRoom> rooms(const BodyLayout& layout, const WoundTieOffs& wound) const;
+
+ private:
+  double wanted_pocket(const BodyLayout& layout) const;
+  double least_pocket(const BodyLayout& layout) const;
+  AnchorSite site(const BodyLayout& layout, const Outline& outline) const;
+  std::optional<AnchorPath> p2_anchor(AnchorSite site, const BodyLayout& layout, bool wound_end, double wanted) const;
+  void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline,
+           const AnchorPath& first) const;
+
+  const Mechanism& mechanism_;
+  const SynthesisResult& synthesis_;
+};
+
+}  // namespace fusee
