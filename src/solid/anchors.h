@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct AnchorPath {
   double turn = 0;  ///< > 0
   double straight = 0;
   double room = 0;  ///< radius of the largest pocket, up to the one wanted
+  double lap = 0;   ///< along the pitch curve from the end of the active arc to `start`
+  double wrap = 0;  ///< by how much the pitch curve turns over that
 
   Vec2 heading() const;  ///< along the straight
   Vec2 outer() const;    ///< unit vector across the straight, away from the fillet's centre
@@ -42,10 +45,22 @@ struct AnchorSite {
   std::vector<Bar> above_pocket;  ///< the pocket alone keeps clear of these: what stands on the face it opens at
 };
 
+/// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm
+struct LapRange {
+  double least = 0;
+  double most = std::numeric_limits<double>::infinity();
+};
+/// The same by how much the tendon lies round the pulley past the active arc, rad. Empty (least > most) where the
+/// closing arc ends before.
+LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap);
+/// Of the closing arc.
+double closing_length(const Outline& outline);
+
 /// The path with the most room for a pocket of radius `wanted`, the shortest of those with all of it; null when no
 /// channel fits at all. `near`: only short channels that do not pass the axis.
 enum class AnchorReach { near, anywhere };
-std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach);
+std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
+                                      const LapRange& laps = {});
 
 /// The keyhole in the groove's plane: channel and pocket of `radius`, counter-clockwise. `facets` on the pocket.
 struct Keyhole {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "fusee/base/units.h"
+
 namespace fusee {
 namespace {
 
@@ -16,11 +18,21 @@ constexpr double k_thin_pocket = 0.85;
 // A pocket beside the hub leaves this gap to it rather than a sliver.
 constexpr double k_hub_gap = 0.4;
 
-// Near the wound end where there is room, anywhere else.
-std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, double wanted) {
-  auto path = find_anchor(site, wound_end, wanted, AnchorReach::near);
+// A wound tie-off is tried at steps of this, from the far end of the closing arc.
+constexpr double k_wrap_step = radians(5);
+
+// Near its end of the arc where there is room; a wound one anywhere else.
+std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, double wanted, const LapRange& laps) {
+  auto path = find_anchor(site, wound_end, wanted, AnchorReach::near, laps);
   if (!wound_end || (path && path->room >= wanted)) return path;
-  return find_anchor(site, wound_end, wanted, AnchorReach::anywhere);
+  return find_anchor(site, wound_end, wanted, AnchorReach::anywhere, laps);
+}
+
+int cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
+  const auto cuts = [&layout](const AnchorPath& path) {
+    return path.pocket().norm() < layout.hub_radius + layout.pocket_radius;
+  };
+  return int{cuts(pair.wound)} + int{pair.spare && cuts(*pair.spare)};
 }
 
 }  // namespace
@@ -53,21 +65,24 @@ AnchorSite TieOffPlanner::site(const BodyLayout& layout, const Outline& outline)
   return site;
 }
 
-// P2's pockets open on the face that the hub stands on. They avoid it where they can, and cut into its side where
-// they cannot.
-std::optional<AnchorPath> TieOffPlanner::p2_anchor(AnchorSite site, const BodyLayout& layout, bool wound_end,
-                                                   double wanted) const {
-  if (layout.hub_radius > 0) {
+std::optional<AnchorPath> TieOffPlanner::tie_off(AnchorSite site, const BodyLayout& layout, bool wound_end,
+                                                 double wanted, const LapRange& laps) const {
+  // P2's pockets open on the face that the hub stands on. They avoid it where they can, and cut into its side where
+  // they cannot.
+  if (site.outline.side == Side::right && layout.hub_radius > 0) {
     site.above_pocket.push_back({Vec2::Zero(), Vec2::Zero(), layout.hub_radius + k_hub_gap - layout.min_wall});
-    if (auto path = anchor_at(site, wound_end, wanted); path && path->room >= least_pocket(layout)) return path;
+    if (auto path = anchor_at(site, wound_end, wanted, laps); path && path->room >= least_pocket(layout)) return path;
     site.above_pocket.clear();
   }
-  return anchor_at(site, wound_end, wanted);
+  return anchor_at(site, wound_end, wanted, laps);
 }
 
 WoundTieOffs TieOffPlanner::wound(const BodyLayout& layout) const {
-  return {anchor_at(site(layout, synthesis_.p1), true, wanted_pocket(layout)),
-          p2_anchor(site(layout, synthesis_.p2), layout, true, wanted_pocket(layout))};
+  const auto at_wound_end = [&](const Outline& outline) {
+    const LapRange laps = lap_range(outline, true, mechanism_.body.wrap);
+    return tie_off(site(layout, outline), layout, true, wanted_pocket(layout), laps);
+  };
+  return {at_wound_end(synthesis_.p1), at_wound_end(synthesis_.p2)};
 }
 
 bool TieOffPlanner::has_room(const BodyLayout& layout, const WoundTieOffs& wound) const {
@@ -93,22 +108,45 @@ std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTie
   return anchors;
 }
 
-// The spare tie-off at the other end of the arc is left out where it has no room beside the first.
 void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline,
                         const AnchorPath& first) const {
+  const TieOffPair pair = wrapped_furthest(layout, outline, first);
+  anchors.push_back({outline.side, true, pair.wound});
+  if (pair.spare) {
+    anchors.push_back({outline.side, false, *pair.spare});
+  } else {
+    layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(outline.side)));
+  }
+}
+
+// Wrap takes e^(−μφ) off what the knot bears, so the tie-off goes as far round the closing arc as leaves room for the
+// spare one, but not into the hub, where the set screw is.
+TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outline& outline,
+                                           const AnchorPath& first) const {
+  const TieOffPair nearest{first, spare_beside(layout, outline, first)};
+  if (mechanism_.body.wrap > 0) return nearest;
   const double radius = layout.pocket_radius;
-  const bool left = outline.side == Side::left;
-  anchors.push_back({outline.side, true, first});
+  for (double wrap = k_two_pi; wrap > first.wrap; wrap -= k_wrap_step) {
+    LapRange there = lap_range(outline, true, wrap);
+    there.most = there.least;
+    const auto wound = tie_off(site(layout, outline), layout, true, radius, there);
+    if (!wound || wound->room < radius) continue;
+    const TieOffPair further{*wound, spare_beside(layout, outline, *wound)};
+    if (further.spare && cuts_into_hub(layout, further) <= cuts_into_hub(layout, nearest)) return further;
+  }
+  return nearest;
+}
+
+// At the other end of the arc, its mouth beyond all that the tendon of the first lies on.
+std::optional<AnchorPath> TieOffPlanner::spare_beside(const BodyLayout& layout, const Outline& outline,
+                                                      const AnchorPath& first) const {
+  const double radius = layout.pocket_radius;
   AnchorSite beside = site(layout, outline);
   const std::vector<Bar> bars = first.bars(layout.channel_width);
   beside.holes.insert(beside.holes.end(), bars.begin(), bars.end());
   beside.holes.push_back({first.pocket(), first.pocket(), radius});
-  const auto spare = left ? anchor_at(beside, false, radius) : p2_anchor(beside, layout, false, radius);
-  if (spare && spare->room >= radius) {
-    anchors.push_back({outline.side, false, *spare});
-  } else {
-    layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(outline.side)));
-  }
+  const auto spare = tie_off(beside, layout, false, radius, {0.0, closing_length(outline) - first.lap});
+  return spare && spare->room >= radius ? spare : std::nullopt;
 }
 
 std::vector<AnchorRoom> TieOffPlanner::rooms(const BodyLayout& layout, const WoundTieOffs& wound) const {

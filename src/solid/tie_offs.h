@@ -23,6 +23,12 @@ struct WoundTieOffs {
   bool both() const { return p1 && p2; }
 };
 
+/// Both tie-offs of a pulley.
+struct TieOffPair {
+  AnchorPath wound;
+  std::optional<AnchorPath> spare;
+};
+
 /// What was found about the tie-off at a wound end.
 struct AnchorRoom {
   Side side = Side::left;
@@ -52,9 +58,13 @@ class TieOffPlanner {
   double wanted_pocket(const BodyLayout& layout) const;
   double least_pocket(const BodyLayout& layout) const;
   AnchorSite site(const BodyLayout& layout, const Outline& outline) const;
-  std::optional<AnchorPath> p2_anchor(AnchorSite site, const BodyLayout& layout, bool wound_end, double wanted) const;
+  std::optional<AnchorPath> tie_off(AnchorSite site, const BodyLayout& layout, bool wound_end, double wanted,
+                                    const LapRange& laps) const;
   void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline,
            const AnchorPath& first) const;
+  TieOffPair wrapped_furthest(const BodyLayout& layout, const Outline& outline, const AnchorPath& first) const;
+  std::optional<AnchorPath> spare_beside(const BodyLayout& layout, const Outline& outline,
+                                         const AnchorPath& first) const;
 
   const Mechanism& mechanism_;
   const SynthesisResult& synthesis_;
