@@ -61,6 +61,9 @@ class Face {
     const double middle = std::max(layout.bore.radius, on_top ? layout.hub_radius : 0.0);
     bars_.push_back({Vec2::Zero(), Vec2::Zero(), middle});
     edge_ = on_top ? 0.0 : layout.elephant_foot;
+    if (!on_top) {
+      for (const Vec2& place : layout.dowels.places) bars_.push_back({place, place, 0.5 * layout.dowels.hole_diameter});
+    }
     for (const Polygon& hole : layout.bore.screw_holes) {
       for (const Vec2& corner : hole) bars_.push_back({corner, corner, 0.0});
     }

@@ -7,6 +7,8 @@
 
 #include "solid/bore.h"
 #include "solid/conditions.h"
+#include "solid/dowels.h"
+#include "solid/heights.h"
 #include "solid/hub.h"
 #include "solid/set_screw.h"
 
@@ -20,15 +22,23 @@ constexpr double k_wall = 1.2;
 constexpr double k_wall_per_radius = 0.12;
 constexpr double k_least_wall = 0.4;
 
+// One print is made as long as the cone under its middle flange is no higher: two take pins and glue.
+constexpr double k_highest_cone = 3.0;
+
+FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+  return flange_rims(synthesis.p1, synthesis.p2, mechanism.tendon.diameter, mechanism.groove_depth(),
+                     mechanism.body.flange);
+}
+
 class Planner {
  public:
-  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis)
+  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, Parts parts)
       : mechanism_(mechanism),
         synthesis_(synthesis),
         d_(mechanism.tendon.diameter),
-        base_(axial_layout(mechanism)),
+        base_(axial_layout(mechanism, rims, parts)),
+        rims_(rims),
         tie_offs_(mechanism, synthesis) {
-    rims_ = flange_rims(synthesis.p1, synthesis.p2, d_, base_.groove_depth, mechanism.body.flange);
     choose_channel(base_, mechanism);
   }
 
@@ -40,6 +50,8 @@ class Planner {
     tie_offs_.settle_pockets(plan.layout, wound);
     plan.anchors = tie_offs_.all(plan.layout, wound);
     turn_set_screw(plan);
+    roof_pockets(plan.layout);
+    if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, synthesis_, plan);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
     return plan;
   }
@@ -94,6 +106,7 @@ class Planner {
     if (mechanism_.body.bore_diameter <= 0 && bore < k_bores.front()) {
       layout.notes.push_back(fmt::format("no room for a bore of {} mm: made {} mm", k_bores.front(), bore));
     }
+    roof_recess(layout);
     choose_hub(layout, mechanism_, inradius(rims_.upper));
     return layout;
   }
@@ -128,9 +141,15 @@ class Planner {
   const SynthesisResult& synthesis_;
   double d_;
   BodyLayout base_;
-  FlangeRims rims_;
+  const FlangeRims& rims_;
   TieOffPlanner tie_offs_;
 };
+
+// What holds P1 and P2 at one angle: pins, a horn's screws, or a shaft that does not turn in its bore.
+bool is_located(const BodyLayout& layout) {
+  return !layout.dowels.places.empty() || layout.bore.screw_holes.size() > 1 || layout.bore.kind == Bore::d ||
+         layout.bore.kind == Bore::keyway;
+}
 
 }  // namespace
 
@@ -139,7 +158,17 @@ bool BodyPlan::possible() const {
 }
 
 BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  return Planner(mechanism, synthesis).plan();
+  const FlangeRims rims = rims_of(mechanism, synthesis);
+  const auto plan_in = [&](Parts parts) { return Planner(mechanism, synthesis, rims, parts).plan(); };
+  if (mechanism.print.parts != Parts::automatic) return plan_in(mechanism.print.parts);
+  if (axial_layout(mechanism, rims, Parts::one).middle_cone <= k_highest_cone) return plan_in(Parts::one);
+  BodyPlan two = plan_in(Parts::two);
+  if (two.possible() && is_located(two.layout)) return two;
+  BodyPlan one = plan_in(Parts::one);
+  one.layout.notes.push_back(
+      fmt::format("a cone of {:.1f} mm stands under the middle flange: there is no room for pins to print P1 and P2 apart",
+                  one.layout.middle_cone));
+  return one;
 }
 
 }  // namespace fusee

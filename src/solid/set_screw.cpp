@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fusee/base/units.h"
+
 namespace fusee {
 namespace {
 
@@ -28,7 +30,7 @@ const Screw* find_screw(const std::string& name) {
 }
 
 double nut_corner(const SetScrewLayout& screw) { return screw.nut_width / std::numbers::sqrt3; }
-double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter * std::numbers::sqrt2; }
+double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter / std::cos(screw.roof_slope); }
 
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout) {
@@ -37,6 +39,7 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
   result.nut_trap = nut_trap;
   result.hole_diameter = (nut_trap ? screw.clearance : screw.tapping) + compensation;
   result.angle = 0.5 * k_pi;
+  result.roof_slope = layout.roof_slope > 0 ? layout.roof_slope : radians(45);
   const double middle = 0.5 * (layout.z_top + layout.z_hub);
   result.z = middle;
   if (nut_trap) {

@@ -33,7 +33,7 @@ double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, do
 
 /// From the nut's middle (the screw's axis) to the corner that points down.
 double nut_corner(const SetScrewLayout& screw);
-/// A horizontal hole's roof rises to a corner, 45° on both sides, so that it prints without support.
+/// A horizontal hole's roof rises to a corner, at roof_slope on both sides, so that it prints without support.
 double teardrop_top(const SetScrewLayout& screw);
 
 }  // namespace fusee

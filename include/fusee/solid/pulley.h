@@ -19,12 +19,22 @@ struct Anchor {
   Vec2 pocket;                 ///< centre of the knot pocket
 };
 
+/// P1 or P2 where they are printed apart: as it lies on the printer, the face that meets the other at z = 0, the axis at
+/// the origin.
+struct PrintedPart {
+  Side side = Side::left;
+  TriangleMesh mesh;           ///< coordinates are floats already
+  double expected_volume = 0;  ///< mm³
+  int expected_euler = 0;
+};
+
 enum class PulleyStatus { made, impossible };
 
 struct Pulley {
   PulleyStatus status = PulleyStatus::impossible;
   BodyLayout layout;
-  TriangleMesh mesh;                  ///< coordinates are floats already
+  TriangleMesh mesh;                  ///< the whole; coordinates are floats already
+  std::vector<PrintedPart> parts;     ///< P1 and P2 of a pulley in two parts; empty: the whole is printed as it stands
   std::vector<Anchor> anchors;
   std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too
   std::vector<Change> advice;         ///< body_advice() of an impossible one, when somebody asked for it
@@ -46,5 +56,7 @@ std::vector<Change> body_advice(const Mechanism& mechanism);
 /// from the analytic surface within `tolerance`, smallest wall, groove depth and width.
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
                                 const Pulley& pulley, double tolerance);
+/// The same of one part of two: check_mesh, Euler number and volume.
+std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPart& part);
 
 }  // namespace fusee
