@@ -15,6 +15,7 @@
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "solid/body.h"
+#include "solid/dowels.h"
 
 namespace fusee {
 namespace {
@@ -64,32 +65,10 @@ Material2d common_material(const Stock& stock) {
   return material;
 }
 
-/// Two places as far apart as can be, at radii that differ by half a dowel at least and not in line with the axis: no
-/// turning or flipping that leaves the bore in place maps them onto themselves.
 std::optional<std::pair<Vec2, Vec2>> dowel_places(const Stock& stock, const Material2d& material, double diameter) {
-  constexpr int k_directions = 48;
-  constexpr int k_radii = 24;
-  double reach = 0;
-  for (const Vec2& p : stock.floor1) reach = std::max(reach, p.norm());
-  std::vector<Vec2> free;
-  for (int r = 1; r < k_radii; ++r) {
-    for (int a = 0; a < k_directions; ++a) {
-      const Vec2 p = reach * r / k_radii * unit(k_two_pi * a / k_directions);
-      if (material.holds(p, 0.5 * diameter + stock.wall)) free.push_back(p);
-    }
-  }
-  std::optional<std::pair<Vec2, Vec2>> best;
-  double widest = diameter + stock.wall;
-  for (const Vec2& a : free) {
-    for (const Vec2& b : free) {
-      const double apart = (a - b).norm();
-      const bool in_line = std::abs(cross(a, b)) < std::sin(radians(20)) * a.norm() * b.norm();
-      if (apart <= widest || in_line || a.norm() < b.norm() + 0.5 * diameter) continue;
-      widest = apart;
-      best = {a, b};
-    }
-  }
-  return best;
+  return pin_places(circumradius(stock.floor1), diameter, stock.wall, [&](const Vec2& place) {
+    return material.holds(place, 0.5 * diameter + stock.wall);
+  });
 }
 
 void place_dowels(Plates& plates, const Stock& stock) {

@@ -180,8 +180,9 @@ std::string key_numbers(const Product& product) {
 std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z()); }
 
 /// Plane, half height and least radius of a groove, for its tint.
-std::string groove_words(const BodyLayout& layout, double z) {
-  return vector_words(layout.scale * Vec3(z, 0.98 * layout.groove_half_width, 1.1 * layout.bore.radius));
+std::string groove_words(const BodyLayout& layout, double z, const GrooveWalls& walls) {
+  const double half = std::min(walls.below_width(), walls.above_width());
+  return vector_words(layout.scale * Vec3(z, 0.98 * half, 1.1 * layout.bore.radius));
 }
 
 std::string part_view(const Product& product) {
@@ -191,8 +192,8 @@ std::string part_view(const Product& product) {
   std::string html =
       "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
       vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(layout, layout.z_p1) +
-      "\" data-groove2=\"" + groove_words(layout, layout.z_p2) + "\"></canvas>";
+      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(layout, layout.z_p1, layout.p1) +
+      "\" data-groove2=\"" + groove_words(layout, layout.z_p2, layout.p2) + "\"></canvas>";
   html +=
       "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button "
       "data-view=\"top\">Top</button>"

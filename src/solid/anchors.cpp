@@ -23,13 +23,6 @@ constexpr double k_floor_gap = 0.05;
 // Pockets are placed against a floor of about this many points: no more are needed to keep a wall.
 constexpr std::size_t k_floor_points = 256;
 
-struct Station {
-  double lap = 0;  // from the end of the active arc
-  double wrap = 0;
-  Vec2 position;
-  Vec2 normal;
-};
-
 // Walks the closing arc from one end of the active arc to the other.
 class ClosingArc {
  public:
@@ -217,6 +210,10 @@ std::vector<Bar> AnchorPath::bars(double width) const {
 LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap) {
   const ClosingArc arc(outline, wound_end);
   return {arc.lap_at(least_wrap), arc.length()};
+}
+
+Station closing_station(const Outline& outline, bool wound_end, double lap) {
+  return ClosingArc(outline, wound_end).at(lap);
 }
 
 double closing_length(const Outline& outline) { return ClosingArc(outline, true).length(); }

@@ -13,6 +13,16 @@
 
 namespace fusee {
 
+/// A place of the closing arc.
+struct Station {
+  double lap = 0;   ///< along the pitch curve from the end of the active arc
+  double wrap = 0;  ///< by how much the pitch curve turns over that
+  Vec2 position;
+  Vec2 normal;
+};
+/// At `lap` from the wound end or from the other one.
+Station closing_station(const Outline& outline, bool wound_end, double lap);
+
 /// The channel's centre line: from `start` on the pitch curve along the tangent, an arc that turns inward by `turn`, a
 /// straight to the pocket.
 struct AnchorPath {
@@ -45,13 +55,29 @@ struct AnchorSite {
   std::vector<Bar> above_pocket;  ///< the pocket alone keeps clear of these: what stands on the face it opens at
 };
 
+/// Where a channel and its pocket have no room: a hole along the axis at the groove's floor, through the outer flange.
+/// The knot lies in a countersink of the face.
+struct FaceHole {
+  Vec2 start;  ///< on the pitch curve beside the hole
+  Vec2 normal;
+  Vec2 hole;
+  double hole_radius = 0;
+  double room = 0;  ///< radius of the countersink at the face
+  double lap = 0;
+  double wrap = 0;
+
+  /// Middle of the countersink: it and the hole touch on the outer side, where the flange ends.
+  Vec2 pocket() const { return hole - (room - hole_radius) * normal; }
+  std::vector<Bar> bars(double) const { return {{hole, hole, hole_radius}}; }
+};
+
 /// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm
 struct LapRange {
   double least = 0;
   double most = std::numeric_limits<double>::infinity();
 };
-/// The same by how much the tendon lies round the pulley past the active arc, rad. Empty (least > most) where the
-/// closing arc ends before.
+/// All that leaves at least this much wrap past the active arc, rad. Empty (least > most) where the closing arc ends
+/// before.
 LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap);
 /// Of the closing arc.
 double closing_length(const Outline& outline);

@@ -129,4 +129,10 @@ BoreLayout bore_layout(const Body& body, double diameter, double compensation) {
   return bore;
 }
 
+double recess_roof_share(const BoreLayout& bore) {
+  // What remains of the ceiling: less than a slicer sees.
+  constexpr double k_ledge = 0.05;
+  return std::min(1.0, (circumradius(bore.screw_holes.front()) + k_ledge) / distance_to_edges(bore.outline, Vec2::Zero()));
+}
+
 }  // namespace fusee

@@ -14,4 +14,7 @@ Polygon polyhole(double diameter, const Vec2& centre);
 /// face +y, towards the joint at home. Nothing is checked: make_pulley's conditions do that.
 BoreLayout bore_layout(const Body& body, double diameter, double compensation);
 
+/// A horn's recess narrows in a cone to this share of its outline, just wider than the centre screw's hole.
+double recess_roof_share(const BoreLayout& bore);
+
 }  // namespace fusee

@@ -92,9 +92,12 @@ class Conditions {
 
   void add_horn() {
     if (body_.bore != Bore::horn) return;
-    add_most("horn_recess", layout_.bore.horn_recess, layout_.z_hub - layout_.min_wall,
-             fmt::format("the recess of horn {} is {} mm deep, the pulley {} mm high", body_.horn,
-                         rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)));
+    const bool apart = layout_.parts == Parts::two;
+    const double depth = layout_.bore.horn_recess > 0 ? layout_.bore.horn_recess + layout_.bore.horn_roof : 0.0;
+    const double height = apart ? layout_.z_mate : layout_.z_hub;
+    add_most("horn_recess", depth, height - layout_.min_wall,
+             fmt::format("the recess of horn {} is {} mm deep with its roof, {} {} mm high", body_.horn, rounded(depth, 3),
+                         apart ? "P1 (print.parts) is" : "the pulley is", rounded(height, 3)));
     const double gap = horn_gap();
     add_least("horn_holes", gap, 0.2,
               fmt::format("the holes of horn {} leave {} mm between them (material.hole_compensation_mm)", body_.horn,
@@ -182,10 +185,13 @@ class Conditions {
     add_least("channel_width", width, d_,
               fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
                           rounded(width), rounded(d_)));
-    const double below = layout_.z_p1 - 0.5 * width;
-    add_least("channel_floor", below, 0.4,
-              fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of the lower flange",
-                          rounded(width), rounded(below, 3)));
+    const double ground2 = layout_.parts == Parts::two ? layout_.z_mate : layout_.z_middle;
+    const double left = std::min({layout_.z_p1, layout_.z_mate - layout_.z_p1, layout_.z_p2 - ground2,
+                                  layout_.z_top - layout_.z_p2}) -
+                        0.5 * width;
+    add_least("channel_floor", left, 0.4,
+              fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
+                          rounded(width), rounded(left, 3)));
   }
 
   // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.

@@ -97,7 +97,7 @@ std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const S
   holding.strength = tendon_strength(mechanism.tendon);
   for (const PlannedAnchor& anchor : plan.anchors) {
     if (!anchor.wound_end) continue;
-    holding.knots.push_back(hardest(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, anchor.path.wrap));
+    holding.knots.push_back(hardest(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, anchor.wrap()));
   }
   return holding;
 }

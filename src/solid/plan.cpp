@@ -7,8 +7,11 @@
 
 #include "solid/bore.h"
 #include "solid/conditions.h"
+#include "solid/dowels.h"
+#include "solid/heights.h"
 #include "solid/hub.h"
 #include "solid/set_screw.h"
+#include "solid/tails.h"
 
 namespace fusee {
 namespace {
@@ -20,15 +23,23 @@ constexpr double k_wall = 1.2;
 constexpr double k_wall_per_radius = 0.12;
 constexpr double k_least_wall = 0.4;
 
+// One print is made as long as the cone under its middle flange is no higher: two take pins and glue.
+constexpr double k_highest_cone = 3.0;
+
+FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+  return flange_rims(synthesis.p1, synthesis.p2, mechanism.tendon.diameter, mechanism.groove_depth(),
+                     mechanism.body.flange);
+}
+
 class Planner {
  public:
-  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis)
+  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, Parts parts)
       : mechanism_(mechanism),
         synthesis_(synthesis),
         d_(mechanism.tendon.diameter),
-        base_(axial_layout(mechanism)),
+        base_(axial_layout(mechanism, rims, parts)),
+        rims_(rims),
         tie_offs_(mechanism, synthesis) {
-    rims_ = flange_rims(synthesis.p1, synthesis.p2, d_, base_.groove_depth, mechanism.body.flange);
     choose_channel(base_, mechanism);
   }
 
@@ -40,7 +51,11 @@ class Planner {
     tie_offs_.settle_pockets(plan.layout, wound);
     plan.anchors = tie_offs_.all(plan.layout, wound);
     turn_set_screw(plan);
+    roof_pockets(plan.layout);
+    if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, synthesis_, plan);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
+    const std::vector<Condition> of_tails = place_tails(plan, mechanism_, synthesis_);
+    plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
     return plan;
   }
 
@@ -64,9 +79,10 @@ class Planner {
 
   // Thick walls before large bores, both as large as leaves room for both tie-offs. Where the least of all has none,
   // none of the others has.
-  BodyLayout preferred_layout() const {
+  BodyLayout preferred_layout() {
     const std::vector<double> walls = this->walls(), bores = this->bores();
     const BodyLayout least = layout_with(bores.back(), walls.back());
+    if (!fits(least)) tie_offs_.allow_face_holes();
     if (!fits(least)) return least;
     for (const double wall : walls) {
       for (const double bore : bores) {
@@ -94,6 +110,7 @@ class Planner {
     if (mechanism_.body.bore_diameter <= 0 && bore < k_bores.front()) {
       layout.notes.push_back(fmt::format("no room for a bore of {} mm: made {} mm", k_bores.front(), bore));
     }
+    roof_recess(layout);
     choose_hub(layout, mechanism_, inradius(rims_.upper));
     return layout;
   }
@@ -107,7 +124,7 @@ class Planner {
       const Vec2 tip = plan.layout.hub_radius * unit(angle);
       return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
         if (anchor.side == Side::left) return true;
-        const double near = gap({anchor.path.pocket(), anchor.path.pocket(), plan.layout.pocket_radius},
+        const double near = gap({anchor.pocket(), anchor.pocket(), anchor.pocket_radius(plan.layout)},
                                 {Vec2::Zero(), tip, half_width});
         return near >= std::min(plan.layout.min_wall, 1.0);
       });
@@ -128,9 +145,15 @@ class Planner {
   const SynthesisResult& synthesis_;
   double d_;
   BodyLayout base_;
-  FlangeRims rims_;
+  const FlangeRims& rims_;
   TieOffPlanner tie_offs_;
 };
+
+// What holds P1 and P2 at one angle: pins, a horn's screws, or a shaft that does not turn in its bore.
+bool is_located(const BodyLayout& layout) {
+  return !layout.dowels.places.empty() || layout.bore.screw_holes.size() > 1 || layout.bore.kind == Bore::d ||
+         layout.bore.kind == Bore::keyway;
+}
 
 }  // namespace
 
@@ -139,7 +162,17 @@ bool BodyPlan::possible() const {
 }
 
 BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  return Planner(mechanism, synthesis).plan();
+  const FlangeRims rims = rims_of(mechanism, synthesis);
+  const auto plan_in = [&](Parts parts) { return Planner(mechanism, synthesis, rims, parts).plan(); };
+  if (mechanism.print.parts != Parts::automatic) return plan_in(mechanism.print.parts);
+  if (axial_layout(mechanism, rims, Parts::one).middle_cone <= k_highest_cone) return plan_in(Parts::one);
+  BodyPlan two = plan_in(Parts::two);
+  if (two.possible() && is_located(two.layout)) return two;
+  BodyPlan one = plan_in(Parts::one);
+  one.layout.notes.push_back(
+      fmt::format("a cone of {:.1f} mm stands under the middle flange: there is no room for pins to print P1 and P2 apart",
+                  one.layout.middle_cone));
+  return one;
 }
 
 }  // namespace fusee

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fusee/base/units.h"
+#include "solid/face_holes.h"
 
 namespace fusee {
 namespace {
@@ -28,14 +29,50 @@ std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, doub
   return find_anchor(site, wound_end, wanted, AnchorReach::anywhere, laps);
 }
 
+template <typename Member>
+auto of(const TieOff& way, const Member& member) {
+  return std::visit(member, way);
+}
+double room_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.room; });
+}
+double lap_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.lap; });
+}
+double wrap_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.wrap; });
+}
+Vec2 pocket_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.pocket(); });
+}
+bool is_channel(const TieOff& way) { return std::holds_alternative<AnchorPath>(way); }
+
+double pocket_radius_of(const TieOff& way, const BodyLayout& layout) {
+  return is_channel(way) ? layout.pocket_radius : room_of(way);
+}
+
+std::vector<Bar> bars_of(const TieOff& way, const BodyLayout& layout) {
+  std::vector<Bar> bars = of(way, [&layout](const auto& found) { return found.bars(layout.channel_width); });
+  bars.push_back({pocket_of(way), pocket_of(way), pocket_radius_of(way, layout)});
+  return bars;
+}
+
 int cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
-  const auto cuts = [&layout](const AnchorPath& path) {
-    return path.pocket().norm() < layout.hub_radius + layout.pocket_radius;
+  const auto cuts = [&layout](const TieOff& way) {
+    return pocket_of(way).norm() < layout.hub_radius + pocket_radius_of(way, layout);
   };
   return int{cuts(pair.wound)} + int{pair.spare && cuts(*pair.spare)};
 }
 
 }  // namespace
+
+Vec2 PlannedAnchor::start() const {
+  return of(way, [](const auto& found) { return found.start; });
+}
+Vec2 PlannedAnchor::pocket() const { return pocket_of(way); }
+double PlannedAnchor::pocket_radius(const BodyLayout& layout) const { return pocket_radius_of(way, layout); }
+double PlannedAnchor::wrap() const { return wrap_of(way); }
+std::vector<Bar> PlannedAnchor::bars(const BodyLayout& layout) const { return bars_of(way, layout); }
 
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism) {
   const double d = mechanism.tendon.diameter;
@@ -65,7 +102,7 @@ AnchorSite TieOffPlanner::site(const BodyLayout& layout, const Outline& outline)
   return site;
 }
 
-std::optional<AnchorPath> TieOffPlanner::tie_off(AnchorSite site, const BodyLayout& layout, bool wound_end,
+std::optional<AnchorPath> TieOffPlanner::channel(AnchorSite site, const BodyLayout& layout, bool wound_end,
                                                  double wanted, const LapRange& laps) const {
   // P2's pockets open on the face that the hub stands on. They avoid it where they can, and cut into its side where
   // they cannot.
@@ -77,6 +114,15 @@ std::optional<AnchorPath> TieOffPlanner::tie_off(AnchorSite site, const BodyLayo
   return anchor_at(site, wound_end, wanted, laps);
 }
 
+std::optional<TieOff> TieOffPlanner::tie_off(const AnchorSite& site, const BodyLayout& layout, bool wound_end,
+                                             double wanted, const LapRange& laps) const {
+  const auto path = channel(site, layout, wound_end, wanted, laps);
+  if (face_holes_ && !(path && path->room >= least_pocket(layout))) {
+    if (const auto hole = find_face_hole(site, layout, wound_end, wanted, laps)) return hole;
+  }
+  return path;
+}
+
 WoundTieOffs TieOffPlanner::wound(const BodyLayout& layout) const {
   const auto at_wound_end = [&](const Outline& outline) {
     const LapRange laps = lap_range(outline, true, mechanism_.body.wrap);
@@ -86,14 +132,17 @@ WoundTieOffs TieOffPlanner::wound(const BodyLayout& layout) const {
 }
 
 bool TieOffPlanner::has_room(const BodyLayout& layout, const WoundTieOffs& wound) const {
-  return wound.both() && std::min(wound.p1->room, wound.p2->room) >= least_pocket(layout);
+  const auto enough = [&](const TieOff& way) { return !is_channel(way) || room_of(way) >= least_pocket(layout); };
+  return wound.both() && enough(*wound.p1) && enough(*wound.p2);
 }
 
 void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound) const {
   const double wanted = wanted_pocket(layout);
   layout.pocket_radius = wanted;
   if (!wound.both()) return;
-  layout.pocket_radius = std::min(wound.p1->room, wound.p2->room);
+  for (const TieOff& way : {*wound.p1, *wound.p2}) {
+    if (is_channel(way)) layout.pocket_radius = std::min(layout.pocket_radius, room_of(way));
+  }
   if (mechanism_.body.knot_pocket <= 0 && layout.pocket_radius < wanted) {
     layout.notes.push_back(
         fmt::format("no room for knot pockets of {:.2f} mm: made {:.2f} mm", 2.0 * wanted, 2.0 * layout.pocket_radius));
@@ -109,11 +158,17 @@ std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTie
 }
 
 void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline,
-                        const AnchorPath& first) const {
+                        const TieOff& first) const {
   const TieOffPair pair = wrapped_furthest(layout, outline, first);
-  anchors.push_back({outline.side, true, pair.wound});
+  anchors.push_back({outline.side, true, pair.wound, {}});
+  if (!is_channel(first)) {
+    layout.notes.push_back(
+        fmt::format("no room on {} for a tie-off's channel and pocket: the tendon goes through a hole "
+                    "to the face",
+                    pulley_name(outline.side)));
+  }
   if (pair.spare) {
-    anchors.push_back({outline.side, false, *pair.spare});
+    anchors.push_back({outline.side, false, *pair.spare, {}});
   } else {
     layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(outline.side)));
   }
@@ -122,15 +177,15 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
 // Wrap takes e^(−μφ) off what the knot bears, so the tie-off goes as far round the closing arc as leaves room for the
 // spare one, but not into the hub, where the set screw is.
 TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outline& outline,
-                                           const AnchorPath& first) const {
+                                           const TieOff& first) const {
   const TieOffPair nearest{first, spare_beside(layout, outline, first)};
   if (mechanism_.body.wrap > 0) return nearest;
-  const double radius = layout.pocket_radius;
-  for (double wrap = k_two_pi; wrap > first.wrap; wrap -= k_wrap_step) {
+  const double radius = pocket_radius_of(first, layout);
+  for (double wrap = k_two_pi; wrap > wrap_of(first); wrap -= k_wrap_step) {
     LapRange there = lap_range(outline, true, wrap);
     there.most = there.least;
     const auto wound = tie_off(site(layout, outline), layout, true, radius, there);
-    if (!wound || wound->room < radius) continue;
+    if (!wound || is_channel(*wound) != is_channel(first) || room_of(*wound) < radius) continue;
     const TieOffPair further{*wound, spare_beside(layout, outline, *wound)};
     if (further.spare && cuts_into_hub(layout, further) <= cuts_into_hub(layout, nearest)) return further;
   }
@@ -138,22 +193,26 @@ TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outli
 }
 
 // At the other end of the arc, its mouth beyond all that the tendon of the first lies on.
-std::optional<AnchorPath> TieOffPlanner::spare_beside(const BodyLayout& layout, const Outline& outline,
-                                                      const AnchorPath& first) const {
-  const double radius = layout.pocket_radius;
+std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, const Outline& outline,
+                                                  const TieOff& first) const {
+  const double radius = pocket_radius_of(first, layout);
   AnchorSite beside = site(layout, outline);
-  const std::vector<Bar> bars = first.bars(layout.channel_width);
+  const std::vector<Bar> bars = bars_of(first, layout);
   beside.holes.insert(beside.holes.end(), bars.begin(), bars.end());
-  beside.holes.push_back({first.pocket(), first.pocket(), radius});
-  const auto spare = tie_off(beside, layout, false, radius, {0.0, closing_length(outline) - first.lap});
-  return spare && spare->room >= radius ? spare : std::nullopt;
+  const auto spare = tie_off(beside, layout, false, radius, {0.0, closing_length(outline) - lap_of(first)});
+  const bool as_good = spare && is_channel(*spare) == is_channel(first) && room_of(*spare) >= radius;
+  return as_good ? spare : std::nullopt;
 }
 
 std::vector<AnchorRoom> TieOffPlanner::rooms(const BodyLayout& layout, const WoundTieOffs& wound) const {
-  const auto room_of = [&](Side side, const std::optional<AnchorPath>& found) {
-    return AnchorRoom{side, found ? found->room : 0.0, least_pocket(layout)};
+  std::vector<AnchorRoom> rooms;
+  const auto add_room = [&](Side side, const std::optional<TieOff>& found) {
+    if (found && !is_channel(*found)) return;
+    rooms.push_back({side, found ? room_of(*found) : 0.0, least_pocket(layout)});
   };
-  return {room_of(Side::left, wound.p1), room_of(Side::right, wound.p2)};
+  add_room(Side::left, wound.p1);
+  add_room(Side::right, wound.p2);
+  return rooms;
 }
 
 }  // namespace fusee

@@ -40,6 +40,14 @@ class Levels {
     }
   }
 
+  void cone(const Indices& base, double low, const Indices& top, double high) {
+    for (std::size_t i = 0; i < base.size(); ++i) {
+      const std::size_t j = (i + 1) % base.size();
+      mesh_.triangles.push_back({vertex(base[i], low), vertex(base[j], low), vertex(top[j], high)});
+      mesh_.triangles.push_back({vertex(base[i], low), vertex(top[j], high), vertex(top[i], high)});
+    }
+  }
+
   void face(const std::vector<Indices>& loops, double z, bool up) {
     std::vector<Polygon> polygons;
     Indices index;
@@ -76,21 +84,34 @@ class Levels {
   TriangleMesh mesh_;
 };
 
+// Adds the loop's points again, moved towards their middle.
+Indices shrunk(std::vector<Vec2>& points, const Indices& loop, double share) {
+  Vec2 middle = Vec2::Zero();
+  for (const std::uint32_t index : loop) middle += points[index] / static_cast<double>(loop.size());
+  Indices result;
+  for (const std::uint32_t index : loop) {
+    result.push_back(static_cast<std::uint32_t>(points.size()));
+    points.push_back(middle + share * (points[index] - middle));
+  }
+  return result;
+}
+
 void turn_inside_out(TriangleMesh& mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-// Round below, a 45° roof above; x across, y up, about the hole's axis. The roof's corner stands where the tangents at
-// both ends meet.
-Polygon teardrop(double radius, int facets) {
+// Round below, a roof above; x across, y up, about the hole's axis. The roof's corner stands where the tangents at both
+// ends meet.
+Polygon teardrop(double radius, double roof_slope, int facets) {
   Polygon points;
-  for (int k = 0; k <= facets; ++k) points.push_back(radius * unit(0.75 * k_pi + 1.5 * k_pi * k / facets));
-  points.push_back(radius * std::sqrt(2.0) * unit(0.5 * k_pi));
+  const double round = k_two_pi - 2.0 * roof_slope;
+  for (int k = 0; k <= facets; ++k) points.push_back(radius * unit(0.5 * k_pi + roof_slope + round * k / facets));
+  points.push_back(radius / std::cos(roof_slope) * unit(0.5 * k_pi));
   return points;
 }
 
 TriangleMesh screw_hole(const SetScrewLayout& screw, double reach, int facets) {
-  TriangleMesh hole = prism({teardrop(0.5 * screw.hole_diameter, facets)}, 0.0, reach);
+  TriangleMesh hole = prism({teardrop(0.5 * screw.hole_diameter, screw.roof_slope, facets)}, 0.0, reach);
   // (across, up, out) is right-handed like the prism's (x, y, z).
   const Vec2 out = unit(screw.angle), across = turned_left(out);
   for (Vec3& v : hole.vertices) {
@@ -130,15 +151,43 @@ TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high) {
   return levels.mesh();
 }
 
-TriangleMesh keyhole_tool(const Keyhole& keyhole, double open, double near, double far) {
-  const bool upside_down = open > near;
-  demand(upside_down ? near > far : near < far, "a keyhole whose pocket opens on the wrong side");
-  Levels levels(keyhole.points);
-  levels.face({keyhole.pocket}, open, false);
-  levels.wall(keyhole.pocket, open, near);
-  levels.face({keyhole.channel}, near, false);
-  levels.wall(keyhole.outline, near, far);
-  levels.face({keyhole.outline}, far, true);
+TriangleMesh keyhole_tool(const Keyhole& keyhole, const KeyholeHeights& z) {
+  const bool upside_down = z.open > z.near;
+  demand(upside_down ? z.near > z.far : z.near < z.far, "a keyhole whose pocket opens on the wrong side");
+  std::vector<Vec2> points = keyhole.points;
+  const Indices roof = shrunk(points, keyhole.pocket, z.roof_share);
+  Levels levels(points);
+  levels.face({keyhole.pocket}, z.open, false);
+  levels.wall(keyhole.pocket, z.open, z.near);
+  levels.face({keyhole.channel}, z.near, false);
+  levels.wall(keyhole.outline, z.near, z.far);
+  if (z.roof == z.far) {
+    levels.face({keyhole.outline}, z.far, true);
+  } else {
+    levels.face({keyhole.channel}, z.far, true);
+    levels.cone(keyhole.pocket, z.far, roof, z.roof);
+    levels.face({roof}, z.roof, true);
+  }
+  TriangleMesh mesh = levels.mesh();
+  if (upside_down) turn_inside_out(mesh);
+  return mesh;
+}
+
+TriangleMesh countersunk_tool(const Polygon& hole, const Polygon& seat, const CountersinkHeights& z) {
+  const bool upside_down = z.open > z.far;
+  std::vector<Vec2> points = hole;
+  points.insert(points.end(), seat.begin(), seat.end());
+  Indices inner, outer;
+  for (std::uint32_t i = 0; i < hole.size(); ++i) {
+    inner.push_back(i);
+    outer.push_back(i + static_cast<std::uint32_t>(hole.size()));
+  }
+  Levels levels(points);
+  levels.face({outer}, z.open, false);
+  levels.wall(outer, z.open, z.sunk);
+  levels.cone(outer, z.sunk, inner, z.ground);
+  levels.wall(inner, z.ground, z.far);
+  levels.face({inner}, z.far, true);
   TriangleMesh mesh = levels.mesh();
   if (upside_down) turn_inside_out(mesh);
   return mesh;
