@@ -37,10 +37,10 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   TendonLength result;
   result.side = anchor.side;
   result.joint_knot = attachment(mechanism, 0.0);
-  const double z = left ? layout.z_p1 : layout.z_p2;
+  const double groove = left ? layout.z_p1 : layout.z_p2, z = anchor.seat ? anchor.seat->z : groove;
   result.pulley_knot = layout.scale * Vec3(anchor.pocket.x(), anchor.pocket.y(), z);
   result.between_knots =
-      above_pulley + lower_span + wound_arc(outline, contact, exit).length + (anchor.pocket - anchor.exit).norm();
+      above_pulley + lower_span + wound_arc(outline, contact, exit).length + (anchor.pocket - anchor.exit).norm() + std::abs(z - groove);
   const double ends = 2.0 * (k_knot_ratio * mechanism.tendon.diameter + k_tail);
   result.cut = k_cut_grain * std::ceil((result.between_knots + ends) / k_cut_grain);
   result.spare_lap = wound_arc(outline, outline.anchor_end(), exit).turn;

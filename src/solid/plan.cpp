@@ -119,14 +119,9 @@ class Planner {
   void turn_set_screw(BodyPlan& plan) const {
     SetScrewLayout& screw = plan.layout.set_screw;
     if (!screw.present) return;
-    const double half_width = 0.5 * std::max(screw.hole_diameter, screw.nut_width);
-    const auto clear_at = [&](double angle) {
-      const Vec2 tip = plan.layout.hub_radius * unit(angle);
+    const auto clear_at = [&plan](double angle) {
       return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
-        if (anchor.side == Side::left) return true;
-        const double near = gap({anchor.pocket(), anchor.pocket(), anchor.pocket_radius(plan.layout)},
-                                {Vec2::Zero(), tip, half_width});
-        return near >= std::min(plan.layout.min_wall, 1.0);
+        return anchor.side == Side::left || clears_set_screw(plan.layout, angle, anchor.way);
       });
     };
     const int choices = mechanism_.body.bore == Bore::round ? 24 : 1;

@@ -9,6 +9,7 @@
 #include "solid/body.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
+#include "solid/face_holes.h"
 #include "solid/gate.h"
 #include "solid/marks.h"
 #include "solid/plan.h"
@@ -177,8 +178,9 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyLayout& layout) {
     anchor.channel =
         outline_of(keyhole(*path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
   } else {
-    anchor.channel = hole_outline(std::get<FaceHole>(planned.way), 0);
-    anchor.seat = FaceSeat{planned.pocket_radius(layout), planned.side == Side::left ? 0.0 : layout.z_top};
+    const auto& hole = std::get<FaceHole>(planned.way);
+    anchor.channel = hole_outline(hole, 0);
+    anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top};
   }
   return anchor;
 }

@@ -64,6 +64,13 @@ int cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
   return int{cuts(pair.wound)} + int{pair.spare && cuts(*pair.spare)};
 }
 
+// On a shaft with a flat the set screw cannot be turned out of a pocket's way.
+bool blocks_set_screw(const BodyLayout& layout, const TieOffPair& pair) {
+  if (!layout.set_screw.present || layout.bore.kind == Bore::round) return false;
+  const auto blocks = [&layout](const TieOff& way) { return !clears_set_screw(layout, layout.set_screw.angle, way); };
+  return blocks(pair.wound) || (pair.spare && blocks(*pair.spare));
+}
+
 }  // namespace
 
 Vec2 PlannedAnchor::start() const {
@@ -73,6 +80,12 @@ Vec2 PlannedAnchor::pocket() const { return pocket_of(way); }
 double PlannedAnchor::pocket_radius(const BodyLayout& layout) const { return pocket_radius_of(way, layout); }
 double PlannedAnchor::wrap() const { return wrap_of(way); }
 std::vector<Bar> PlannedAnchor::bars(const BodyLayout& layout) const { return bars_of(way, layout); }
+
+bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& way) {
+  const SetScrewLayout& screw = layout.set_screw;
+  const Bar bar{Vec2::Zero(), layout.hub_radius * unit(angle), 0.5 * std::max(screw.hole_diameter, screw.nut_width)};
+  return gap({pocket_of(way), pocket_of(way), pocket_radius_of(way, layout)}, bar) >= std::min(layout.min_wall, 1.0);
+}
 
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism) {
   const double d = mechanism.tendon.diameter;
@@ -187,7 +200,10 @@ TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outli
     const auto wound = tie_off(site(layout, outline), layout, true, radius, there);
     if (!wound || is_channel(*wound) != is_channel(first) || room_of(*wound) < radius) continue;
     const TieOffPair further{*wound, spare_beside(layout, outline, *wound)};
-    if (further.spare && cuts_into_hub(layout, further) <= cuts_into_hub(layout, nearest)) return further;
+    const bool in_the_way =
+        outline.side == Side::right &&
+        (cuts_into_hub(layout, further) > cuts_into_hub(layout, nearest) || blocks_set_screw(layout, further));
+    if (further.spare && !in_the_way) return further;
   }
   return nearest;
 }

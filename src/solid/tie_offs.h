@@ -50,6 +50,9 @@ struct AnchorRoom {
   double least = 0;  ///< radius below which there is no use in it
 };
 
+/// A set screw whose axis points in direction `angle` keeps a wall to this tie-off.
+bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& way);
+
 /// Width and fillet of the channels.
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism);
 

@@ -14,6 +14,7 @@ namespace fusee {
 /// Where a knot lies that is drawn against the outer face of its pulley.
 struct FaceSeat {
   double radius = 0;  ///< of the countersink at the face, mm
+  double depth = 0;   ///< over which it narrows to the hole
   double z = 0;       ///< of the face
 };
 
