@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_mm", "body.hub_diameter_mm",
                                  "body.hub_height_mm",   "body.bore_diameter_mm",    "body.anchor_hole_mm",
-                                 "body.knot_pocket_mm",  "body.min_wall_mm"};
+                                 "body.knot_pocket_mm",  "body.min_wall_mm",         "body.wrap_deg"};
 
 double number_of(const Mechanism& mechanism, const std::string& key) { return fusee::number_of(mechanism, *find_field(key)); }
 

@@ -173,11 +173,14 @@ class Conditions {
   }
 
   void add_anchor(const AnchorRoom& room) {
+    const std::string past = body_.wrap > 0 ? fmt::format(", {} deg or more past the arc that the tendon leaves from (body.wrap_deg)",
+                                                          rounded(degrees(body_.wrap)))
+                                            : "";
     add_least(fmt::format("anchor_{}", pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
               fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed "
-                          "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm)",
+                          "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm){}",
                           pulley_name(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
-                          rounded(layout_.min_wall, 3)));
+                          rounded(layout_.min_wall, 3), past));
   }
 
   void add_channel() {

@@ -1,0 +1,174 @@
+// What the knots bear, against tendons laid over polygons step by step.
+#include "fusee/solid/holding.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <optional>
+
+#include "fusee/mechanism/file.h"
+#include "support/mechanisms.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A joint whose body is the file's default one.
+DeclaredMechanism loaded_forearm() {
+  DeclaredMechanism mechanism = testing::forearm();
+  mechanism.body = testing::plain_mechanism().body;
+  mechanism.material = testing::plain_mechanism().material;
+  mechanism.pulley.mu = 0.2;
+  mechanism.load.tip_force = 20;
+  mechanism.tendon.strength = 2000;
+  mechanism.tendon.knot_efficiency = 0.5;
+  return mechanism;
+}
+
+struct Held {
+  explicit Held(const DeclaredMechanism& declared)
+      : mechanism(declared), synthesis(synthesise(declared)), pulley(make_pulley(declared, synthesis)), holding(tendon_holding(declared, synthesis, pulley)) {}
+
+  DeclaredMechanism mechanism;
+  SynthesisResult synthesis;
+  Pulley pulley;
+  Holding holding;
+};
+
+/// The tension that is left at `exit` of a taut string over the turned pitch polygon: each corner takes its share. The
+/// take-off is the corner that the line from the pin leaves last.
+double left_at(const Held& held, Side side, double alpha, double tension, const Vec2& exit) {
+  const Mechanism& m = held.mechanism;
+  const Outline& outline = side == Side::left ? held.synthesis.p1 : held.synthesis.p2;
+  const double outward = side == Side::left ? -1.0 : 1.0;
+  const Vec2 pin(side == Side::left ? -m.guides.EB : m.guides.ED, m.pulley.EF);
+  const double rho = m.guide_pitch_radius();
+  const std::size_t n = outline.points.size();
+  const auto place = [&](std::size_t i) { return turned(outline.points[i % n].position, -alpha); };
+  const auto inclination = [&](std::size_t i) {
+    const Vec2 up = pin - place(i);
+    // To the outer side of the pin.
+    return std::atan2(up.x() * outward, up.y()) + std::asin(rho / up.norm());
+  };
+  std::size_t take_off = 0;
+  double best = -10;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 p = place(i);
+    // The outermost line: its distance from the axis on the outer side.
+    const double a = inclination(i) * outward;
+    const double distance = outward * cross(Vec2(std::sin(a), std::cos(a)), p) * -1.0;
+    if (distance > best) best = distance, take_off = i;
+  }
+  const std::size_t step = side == Side::left ? 1 : n - 1;
+  for (std::size_t i = take_off; (outline.points[i].position - exit).norm() > 0.6; i = (i + step) % n) {
+    const std::size_t j = (i + step) % n, k = (j + step) % n;
+    const Vec2 in = outline.points[j].position - outline.points[i].position, out = outline.points[k].position - outline.points[j].position;
+    const double corner = std::abs(std::atan2(cross(in, out), in.dot(out)));
+    // 2 T sin(corner/2) presses, and friction takes μ times that.
+    tension -= 2.0 * tension * std::sin(0.5 * corner) * m.pulley.mu;
+  }
+  return tension;
+}
+
+TEST(Holding, KnotsBearWhatAStringOverThePolygonLeaves) {
+  const Held held(loaded_forearm());
+  ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
+  ASSERT_EQ(held.holding.knots.size(), 2u);
+  Mechanism unloaded = held.mechanism;
+  unloaded.load = {};
+  for (const KnotHold& knot : held.holding.knots) {
+    std::optional<Vec2> exit;
+    for (const Anchor& anchor : held.pulley.anchors) {
+      if (anchor.side == knot.side && anchor.wound_end) exit = anchor.exit;
+    }
+    ASSERT_TRUE(exit.has_value());
+    double most = 0;
+    for (const Mechanism& moved : {static_cast<const Mechanism&>(held.mechanism), unloaded}) {
+      AnalysisOptions quick;
+      quick.samples = 10;
+      for (const AnalysisRow& row : analyse(moved, quick).rows) {
+        for (const EquilibriumPoint& point : {row.rising, row.falling}) {
+          const double tension = (knot.side == Side::left ? point.t1 : point.t2).lower;
+          most = std::max(most, left_at(held, knot.side, point.alpha, tension, *exit));
+        }
+      }
+    }
+    // The polygon's take-off is a corner, its exit the nearest one.
+    EXPECT_NEAR(knot.at_knot, most, 0.02 * most) << pulley_name(knot.side);
+    EXPECT_NEAR(knot.at_knot, knot.tension * std::exp(-0.2 * knot.wrap_left), 1e-9);
+  }
+}
+
+TEST(Holding, WithoutFrictionAKnotBearsAllOfIt) {
+  DeclaredMechanism mechanism = loaded_forearm();
+  mechanism.pulley.mu = 0;
+  const Held held(mechanism);
+  const double most = analyse(mechanism, {.samples = 10}).largest_tension.tension;
+  double bears = 0;
+  for (const KnotHold& knot : held.holding.knots) bears = std::max(bears, knot.at_knot);
+  EXPECT_NEAR(bears, most, 1e-3 * most);
+}
+
+/// The load pulls at tendon 2 and relieves tendon 1, which bears its pretension when the load is gone.
+TEST(Holding, ATendonThatTheLoadRelievesBearsItsPretension) {
+  const Held held(loaded_forearm());
+  const KnotHold& first = held.holding.knots.front();
+  ASSERT_EQ(first.side, Side::left);
+  EXPECT_GT(first.tension, held.mechanism.tendon.pretension);
+}
+
+TEST(Holding, SaysWhenAKnotBearsMoreThanHalfAndWhatHelps) {
+  DeclaredMechanism mechanism = loaded_forearm();
+  EXPECT_TRUE(Held(mechanism).holding.warnings.empty());
+  mechanism.body.wrap = radians(6);
+  Held held(mechanism);
+  const double hardest = std::max(held.holding.knots[0].at_knot, held.holding.knots[1].at_knot);
+  // A tenth more than half of it.
+  mechanism.tendon.strength = hardest / 0.55 / 0.5;
+  held = Held(mechanism);
+  ASSERT_EQ(held.holding.warnings.size(), 1u);
+  const std::string& warning = held.holding.warnings.front();
+  EXPECT_THAT(warning, HasSubstr("tendon 2"));
+  EXPECT_THAT(warning, HasSubstr("55 %"));
+  EXPECT_THAT(warning, HasSubstr("tendon.strength_N"));
+  // What is advised is true.
+  const std::size_t at = warning.find("body.wrap_deg = ");
+  ASSERT_NE(at, std::string::npos) << warning;
+  DeclaredMechanism advised = mechanism;
+  advised.body.wrap = radians(std::stod(warning.substr(at + 16)));
+  EXPECT_TRUE(Held(advised).holding.warnings.empty());
+  advised = mechanism;
+  const std::size_t bears = warning.find("a tendon that bears ");
+  ASSERT_NE(bears, std::string::npos) << warning;
+  advised.tendon.strength = std::stod(warning.substr(bears + 20));
+  EXPECT_TRUE(Held(advised).holding.warnings.empty());
+}
+
+TEST(Holding, ATendonOfUnknownStrengthIsSaidToBeOne) {
+  DeclaredMechanism mechanism = loaded_forearm();
+  mechanism.tendon.strength = 0;
+  mechanism.tendon.modulus = 12345;
+  mechanism.load.tip_force = 500;
+  const Held held(mechanism);
+  EXPECT_FALSE(held.holding.share(held.holding.knots[0]).has_value());
+  EXPECT_TRUE(held.holding.warnings.empty());
+}
+
+class Profile : public ::testing::TestWithParam<const char*> {};
+
+/// What the profiles had before tie-offs went round the closing arc: 4 to 30 degrees, but for the optimum's P1.
+TEST_P(Profile, WrapsFurtherAndHoldsItsTendons) {
+  const MechanismFile file = read_mechanism(std::string(FUSEE_SOURCE_DIR) + "/profiles/" + GetParam() + ".toml");
+  const Held held(file.mechanism);
+  ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
+  EXPECT_TRUE(held.holding.warnings.empty());
+  const bool thick = std::string(GetParam()) == "paper_optimum";
+  for (const KnotHold& knot : held.holding.knots) EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 39) << pulley_name(knot.side);
+}
+INSTANTIATE_TEST_SUITE_P(All, Profile,
+                         ::testing::Values("finger", "forearm", "gripper", "linear_wrist", "paper_optimum", "unsymmetric", "wrist_exo"));
+
+}  // namespace
+}  // namespace fusee

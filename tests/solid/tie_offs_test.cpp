@@ -1,0 +1,204 @@
+// Tie-offs: how far round they go, what small pulleys get in their place, and where a tail lies.
+#include <gmock/gmock.h>
+
+#include "fusee/solid/pulley.h"
+#include "solid/broken.h"
+#include "solid/plan.h"
+#include "solid/wrap.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using testing::check_named;
+using testing::circle;
+using testing::failed;
+using testing::plain_mechanism;
+using testing::pulley_of;
+using testing::SupportShape;
+using ::testing::HasSubstr;
+
+const Outline& outline_of(const SynthesisResult& shape, Side side) { return side == Side::left ? shape.p1 : shape.p2; }
+
+/// Along the winding, from the end of the active arc.
+double wrap_at(const SynthesisResult& shape, const Anchor& anchor) {
+  const Outline& outline = outline_of(shape, anchor.side);
+  return degrees(wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn);
+}
+
+const Anchor& find(const Pulley& pulley, Side side, bool wound) {
+  for (const Anchor& anchor : pulley.anchors) {
+    if (anchor.side == side && anchor.wound_end == wound) return anchor;
+  }
+  throw std::runtime_error("no such tie-off");
+}
+
+std::string failures(const Pulley& pulley, const Mechanism& mechanism, const SynthesisResult& shape) {
+  return failed(check_pulley(pulley.mesh, mechanism, shape, pulley, 0.01));
+}
+
+TEST(TieOffs, WrapAsFarAsTheSpareLeavesRoomAndNeverOverItsMouth) {
+  const Mechanism mechanism = plain_mechanism();
+  for (const double radius : {16.0, 20.0, 30.0, 45.0}) {
+    const SynthesisResult shape = pulley_of(circle(radius), circle(0.9 * radius, {0.1 * radius, 0.05 * radius}));
+    const Pulley pulley = make_pulley(mechanism, shape);
+    ASSERT_TRUE(pulley.made()) << pulley.brief();
+    for (const Side side : {Side::left, Side::right}) {
+      const double wound = wrap_at(shape, find(pulley, side, true)), spare = wrap_at(shape, find(pulley, side, false));
+      // 160 degrees are not active.
+      EXPECT_GE(wound, 60) << radius << " " << pulley_name(side);
+      EXPECT_LT(wound, spare);
+      EXPECT_LT(spare, 160);
+    }
+  }
+}
+
+TEST(TieOffs, BeginWhereTheFileAsksThemTo) {
+  Mechanism mechanism = plain_mechanism();
+  const SynthesisResult shape = pulley_of(circle(20), circle(20));
+  for (const double wrap : {10.0, 30.0, 55.0}) {
+    mechanism.body.wrap = radians(wrap);
+    const Pulley pulley = make_pulley(mechanism, shape);
+    ASSERT_TRUE(pulley.made()) << pulley.brief();
+    for (const Side side : {Side::left, Side::right}) {
+      EXPECT_GE(wrap_at(shape, find(pulley, side, true)), wrap - 1.6);
+      EXPECT_LE(wrap_at(shape, find(pulley, side, true)), wrap + 10);
+    }
+  }
+  mechanism.body.wrap = radians(200);
+  const Pulley pulley = make_pulley(mechanism, shape);
+  EXPECT_FALSE(pulley.made());
+  EXPECT_THAT(pulley.brief(), HasSubstr("body.wrap_deg"));
+}
+
+TEST(TieOffs, SmallPulleysAreMade) {
+  int through_the_face = 0;
+  for (const double radius : {3.0, 4.0, 5.0}) {
+    for (const double diameter : {0.3, 0.45, 0.6}) {
+      for (const double bore : {0.0, 2.0, 3.0}) {
+        Mechanism mechanism = plain_mechanism();
+        mechanism.tendon.diameter = diameter;
+        mechanism.body.min_wall = 0;
+        mechanism.body.bore_diameter = radius < 4 ? std::min(bore, 2.0) : bore;
+        const SynthesisResult shape = pulley_of(circle(radius), circle(1.05 * radius, {0.1, 0}));
+        const Pulley pulley = make_pulley(mechanism, shape);
+        ASSERT_TRUE(pulley.made()) << radius << " " << diameter << " " << bore << ": " << pulley.brief();
+        EXPECT_EQ(failures(pulley, mechanism, shape), "") << radius << " " << diameter << " " << bore;
+        for (const Anchor& anchor : pulley.anchors) through_the_face += anchor.seat.has_value();
+      }
+    }
+  }
+  EXPECT_GE(through_the_face, 6);
+}
+
+/// Where the channel and its pocket would stand in the bore.
+TEST(TieOffs, AHoleToTheFaceStandsInTheGrooveAndWithinTheFlange) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.tendon.diameter = 0.5;
+  mechanism.body.min_wall = 0.5;
+  mechanism.body.bore_diameter = 3;
+  const SynthesisResult shape = pulley_of(circle(3.2), circle(3.4));
+  const Pulley pulley = make_pulley(mechanism, shape);
+  ASSERT_TRUE(pulley.made()) << pulley.brief();
+  EXPECT_EQ(failures(pulley, mechanism, shape), "");
+  for (const Anchor& anchor : pulley.anchors) {
+    ASSERT_TRUE(anchor.seat.has_value());
+    const double pitch = anchor.side == Side::left ? 3.2 : 3.4;
+    double nearest = 1e9, furthest = 0;
+    for (const Vec2& point : anchor.channel) {
+      nearest = std::min(nearest, point.norm());
+      furthest = std::max(furthest, point.norm());
+    }
+    // Over the tendon's centre line; a rim outside, a wall to the bore inside.
+    EXPECT_LT(nearest, pitch);
+    EXPECT_GT(furthest, pitch - 0.25);
+    EXPECT_LE(furthest, pitch - 0.25 + pulley.layout.groove_depth - 0.4);
+    EXPECT_GE(nearest, pulley.layout.bore.radius + 0.5);
+    // Open from the face to the groove: a section through flange 1 has the hole.
+    if (anchor.side == Side::left) {
+      const auto loops = section(pulley.mesh, anchor.seat->depth + 0.05);
+      Vec2 middle = Vec2::Zero();
+      for (const Vec2& point : anchor.channel) middle += point / static_cast<double>(anchor.channel.size());
+      double gap = 1e9;
+      for (const Polygon& loop : loops) {
+        if (signed_area(loop) < 0) gap = std::min(gap, std::abs(distance_to_edges(loop, middle) - 0.5 * pulley.layout.channel_width));
+      }
+      EXPECT_LT(gap, 0.03);
+    }
+  }
+}
+
+TEST(TieOffs, ALargePulleyHasNoHoleToTheFace) {
+  const Pulley pulley = make_pulley(plain_mechanism(), pulley_of(circle(20), circle(18)));
+  for (const Anchor& anchor : pulley.anchors) EXPECT_FALSE(anchor.seat.has_value());
+}
+
+// ---- tails ----------------------------------------------------------------------------------------------------------
+
+double beyond_pocket(const TailSlot& slot, const BodyLayout& layout) { return (slot.to - slot.from).norm() - layout.pocket_radius; }
+
+TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.marks = Marks::none;
+  const SynthesisResult shape = pulley_of(circle(20), circle(18));
+  const Pulley with = make_pulley(mechanism, shape);
+  mechanism.body.tail = Tail::none;
+  const Pulley without = make_pulley(mechanism, shape);
+  EXPECT_EQ(failures(with, mechanism, shape), "");
+  double volume = 0;
+  for (const Anchor& anchor : with.anchors) {
+    EXPECT_EQ(anchor.tail.has_value(), anchor.wound_end);
+    if (!anchor.tail) continue;
+    const TailSlot& slot = *anchor.tail;
+    EXPECT_GE(slot.depth, mechanism.tendon.diameter);
+    EXPECT_GE(beyond_pocket(slot, with.layout), 3.0);
+    // A rectangle from the pocket's round edge, whose chord it ends on.
+    const double half = 0.5 * slot.width, radius = with.layout.pocket_radius;
+    const double edge = std::sqrt(radius * radius - half * half);
+    const double segment = radius * radius * std::asin(half / radius) - half * edge;
+    volume += slot.depth * (slot.width * ((slot.to - slot.from).norm() - edge) - segment);
+  }
+  for (const Anchor& anchor : without.anchors) EXPECT_FALSE(anchor.tail.has_value());
+  EXPECT_GT(volume, 0);
+  // The pocket is a polygon inside its circle.
+  EXPECT_NEAR(without.expected_volume - with.expected_volume, volume, 0.01 * volume);
+  EXPECT_EQ(with.expected_euler, without.expected_euler);
+}
+
+TEST(Tails, AClampScrewHasItsPilotAtTheEnd) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.marks = Marks::none;
+  const SynthesisResult shape = pulley_of(circle(26), circle(25));
+  for (const char* name : {"M2", "M2.5", "M3"}) {
+    mechanism.body.clamp_screw = name;
+    const Pulley pulley = make_pulley(mechanism, shape);
+    ASSERT_TRUE(pulley.made()) << pulley.brief();
+    EXPECT_EQ(failures(pulley, mechanism, shape), "") << name;
+    const TailSlot& slot = *find(pulley, Side::left, true).tail;
+    EXPECT_GT(slot.pilot_diameter, 1.6);
+    // A blind hole: in a section half-way down, not in the groove above the middle flange's top.
+    const auto hole_at = [&](double z) {
+      for (const Polygon& loop : section(pulley.mesh, z)) {
+        if (signed_area(loop) < 0 && std::abs(distance_to_edges(loop, slot.to) - 0.5 * slot.pilot_diameter) < 0.01) return true;
+      }
+      return false;
+    };
+    EXPECT_TRUE(hole_at(0.5 * (slot.depth + slot.pilot_depth)));
+    EXPECT_FALSE(hole_at(slot.pilot_depth + 0.1));
+  }
+}
+
+TEST(Tails, AClampScrewWithoutRoomIsRefusedByItsKey) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.tendon.diameter = 0.5;
+  mechanism.body.min_wall = 0;
+  const SynthesisResult shape = pulley_of(circle(6), circle(6.5));
+  ASSERT_TRUE(make_pulley(mechanism, shape).made());
+  mechanism.body.clamp_screw = "M3";
+  const Pulley pulley = make_pulley(mechanism, shape);
+  EXPECT_FALSE(pulley.made());
+  EXPECT_THAT(pulley.brief(), HasSubstr("body.clamp_screw"));
+}
+
+}  // namespace
+}  // namespace fusee
