@@ -12,6 +12,9 @@
 
 namespace fusee {
 
+/// Chords of a channel's arc.
+inline constexpr int k_fillet_steps = 6;
+
 /// The channel's centre line: from `start` on the pitch curve along the tangent, an arc that turns inward by `turn`, a
 /// straight to the pocket.
 struct AnchorPath {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/base/diagnostics.h"
+#include "solid/boolean.h"
+#include "solid/mouths.h"
 #include "solid/tools.h"
 
 namespace fusee {
@@ -10,8 +13,20 @@ namespace {
 
 // Tools stand out of the body by this, so that no two of their faces coincide.
 constexpr double k_overshoot = 1.0;
+// A pocket's closed end is this much deeper than its channel, for the same reason.
+constexpr double k_deeper = 0.07;
 
-// The channel's floor and roof must not lie in the plane of a ring.
+/// Where a tie-off lies along the axis, seen as it is printed: its own heights run upwards from the groove's plane.
+struct Heights {
+  double plane = 0;
+  double up = 1;            ///< −1: printed upside down
+  double half = 0;          ///< of the channel
+  double channel_roof = 0;  ///< how far its ceiling rises
+  double open = 0;          ///< where the pocket ends in the air; below the plane: on the bed
+  double pocket_roof = 0;   ///< height of the roof over a pocket that is open to the bed
+};
+
+// The channel's floor must not lie in the plane of a ring.
 double channel_half_height(const BodyLayout& layout, int variant) {
   double half = 0.5 * layout.channel_width * (1.0 + 0.002 * variant);
   const auto on_ring = [&half](const std::vector<GroovePoint>& wall) {
@@ -23,20 +38,68 @@ double channel_half_height(const BodyLayout& layout, int variant) {
   return half;
 }
 
+Heights heights_of(const BodyLayout& layout, Side side, int variant) {
+  Heights heights;
+  const bool left = side == Side::left, turned = left && layout.parts == Parts::two;
+  heights.plane = left ? layout.z_p1 : layout.z_p2;
+  heights.up = turned ? -1.0 : 1.0;
+  heights.half = channel_half_height(layout, variant);
+  heights.channel_roof = layout.channel_roof;
+  heights.open = left ? layout.z_p1 + k_overshoot : layout.z_hub - layout.z_p2 + k_overshoot;
+  if (left && !turned) {
+    heights.open = -heights.open;
+    heights.pocket_roof = layout.pocket_roof;
+  }
+  return heights;
+}
+
+// The ceiling is one slope that rises from the inner wall, which holds it all along, to the outer one: where that one
+// ends, at the mouth, it runs on into the groove's own roof. A flat ceiling would be bridged only if it were closed all
+// round, and a gable's strips end in mid-air at a mouth as slanted as this.
+TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& heights) {
+  std::vector<std::vector<Vec3>> sections;
+  for (std::size_t k = 0; k < edges.outer.size(); ++k) {
+    const Vec2 &o = edges.outer[k], &i = edges.inner[k];
+    const double ridge = heights.half + heights.channel_roof * (o - i).norm() / width;
+    sections.push_back({{i.x(), i.y(), -heights.half},
+                        {o.x(), o.y(), -heights.half},
+                        {o.x(), o.y(), ridge},
+                        {i.x(), i.y(), heights.half}});
+  }
+  return strip(sections);
+}
+
+// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under it,
+// and no keel hangs down between the two.
+TriangleMesh pocket(const AnchorPath& path, double radius, int facets, const Heights& heights) {
+  const Vec2 centre = path.pocket(), outer = path.outer();
+  const double closed = std::copysign(heights.half + k_deeper, -heights.open);
+  std::vector<Vec3> mouth, end;
+  for (int k = 0; k < facets; ++k) {
+    const Vec2 aside = radius * unit(k_two_pi * (k + 0.3) / facets), point = centre + aside;
+    mouth.emplace_back(point.x(), point.y(), heights.open);
+    end.emplace_back(point.x(), point.y(), closed + heights.pocket_roof * 0.5 * (1.0 + aside.dot(outer) / radius));
+  }
+  return strip({mouth, end});
+}
+
 }  // namespace
 
 TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant) {
   const BodyLayout& layout = plan.layout;
   AnchorPath path = anchor.path;
   path.straight *= 1.0 - 0.003 * variant;
-  const double radius = layout.pocket_radius;
-  const Keyhole shape = keyhole(path, layout.channel_width, radius, pocket_facets(radius) + variant);
-  const double half = channel_half_height(layout, variant);
-  if (anchor.side == Side::right)
-    return keyhole_tool(shape, {layout.z_hub + k_overshoot, layout.z_p2 + half, layout.z_p2 - half, layout.z_p2 - half});
-  const double far = layout.z_p1 + half;
-  const double roof_share = 1.0 - layout.pocket_roof / rise_of(layout, radius);
-  return keyhole_tool(shape, {-k_overshoot, layout.z_p1 - half, far, far + layout.pocket_roof, roof_share});
+  const double width = layout.channel_width, radius = layout.pocket_radius;
+  const Heights heights = heights_of(layout, anchor.side, variant);
+  const Polygon& floor = anchor.side == Side::left ? plan.floor1 : plan.floor2;
+  const ChannelEdges edges = layout.channel_roof > 0 ? flared_edges(path, width, floor) : plain_edges(path, width);
+  const auto both = unite(rounded_to_float(channel(edges, width, heights)),
+                          rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
+  demand(both.has_value(), "channel and knot pocket do not join");
+  TriangleMesh tool = both->mesh;
+  for (Vec3& vertex : tool.vertices) vertex.z() = heights.plane + heights.up * vertex.z();
+  if (heights.up < 0) turn_inside_out(tool);
+  return tool;
 }
 
 }  // namespace fusee

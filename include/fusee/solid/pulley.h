@@ -45,6 +45,9 @@ struct Pulley {
   std::string brief() const;
 };
 
+/// What goes to the printer: the whole as it stands, or P1 and P2 side by side.
+TriangleMesh plate_of(const Pulley& pulley);
+
 Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis);
 
 /// Do all conditions of curves and body hold? Makes no mesh.
