@@ -9,6 +9,7 @@
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/units.h"
+#include "fusee/export/mesh_files.h"
 #include "fusee/export/report.h"
 #include "fusee/mechanism/fields.h"
 
@@ -138,6 +139,15 @@ Json knots_json(const Product& product) {
   return list;
 }
 
+/// What goes to the printer, each as it lies there.
+Json print_json(const Pulley& pulley) {
+  Json list = Json::array();
+  if (pulley.parts.empty()) list.push_back({{"file", "pulley.stl"}});
+  for (const PrintedPart& part : pulley.parts)
+    list.push_back({{"file", part_file_name(part.side)}, {"part", pulley_name(part.side)}});
+  return list;
+}
+
 Json notes_json(const Product& product) {
   Json notes = Json::array();
   for (const Diagnostic& warning : product.file.warnings) notes.push_back(warning.message);
@@ -159,6 +169,7 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
                        {"sha256", product.file.sha256}};
   manifest["grooves"] = grooves_json(product.pulley.layout);
   manifest["tendon"] = {{"diameter_mm", number(product.joint.mechanism.tendon.diameter)}};
+  manifest["print"] = print_json(product.pulley);
   manifest["as_built"] = as_built_json(product.as_built);
   manifest["tendons_at_home"] = tendons_json(product);
   manifest["knots"] = knots_json(product);

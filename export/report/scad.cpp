@@ -235,7 +235,7 @@ std::string at_face_text(const Anchor& anchor) {
   const auto& tail = anchor.tail;
   const std::string seat =
       anchor.seat ? fmt::format("[{}, {}]", decimal(anchor.seat->radius), decimal(anchor.seat->depth)) : "[]";
-  const std::string slot = tail ? fmt::format("[{}, {}]", points_text(tail->outline()), decimal(tail->depth)) : "[]";
+  const std::string slot = tail ? fmt::format("[{}, {}, {}]", points_text(tail->outline()), decimal(tail->depth), decimal(tail->roof)) : "[]";
   const std::string pilot =
       tail && tail->pilot_diameter > 0
           ? fmt::format("[{}, {}, {}, {}]", decimal(tail->to.x()), decimal(tail->to.y()), decimal(tail->pilot_diameter),
@@ -257,7 +257,7 @@ std::string arrays(const Product& product) {
   text += floor_array("P2", synthesis.p2, d, kept);
   text +=
       "\n// Where tendons are tied off: groove (1 or 2), middle of the knot pocket, outline of channel and "
-      "pocket,\n// countersink of a hole to the face in their place [radius, depth], slot for the tail [outline, depth], "
+      "pocket,\n// countersink of a hole to the face in their place [radius, depth], slot for the tail [outline, depth, its gable's height], "
       "pilot of its screw [x, y, diameter, depth].\ntie_offs = [";
   bool first = true;
   for (const Anchor& anchor : product.pulley.anchors) {
@@ -384,7 +384,15 @@ module face_hole(t, to_groove) {
 
 // What lies flush in the face, seen in the same way: the tail, and its screw.
 module tail(t) {
-  if (len(t[4]) > 0) translate([0, 0, -1]) linear_extrude(t[4][1] + 1) polygon(t[4][0]);
+  slot = t[4];
+  if (len(slot) > 0) {
+    translate([0, 0, -1]) linear_extrude(slot[1] + 1) polygon(slot[0]);
+    if (slot[2] > 0) hull() {
+      translate([0, 0, slot[1] - 0.01]) linear_extrude(0.01) polygon(slot[0]);
+      for (end = [(slot[0][0] + slot[0][3]) / 2, (slot[0][1] + slot[0][2]) / 2])
+        translate([end[0], end[1], slot[1] + slot[2] - 0.001]) cube(0.001);
+    }
+  }
   if (len(t[5]) > 0) translate([t[5][0], t[5][1], 0]) cylinder(d = t[5][2], h = t[5][3], $fn = facets);
 }
 

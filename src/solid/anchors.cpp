@@ -15,7 +15,6 @@ namespace {
 constexpr std::array<double, 5> k_laps{1.6, 2.5, 4.0, 6.0, 9.0};
 // What counts as a tendon's diameter there is at least this share of the channel's width.
 constexpr double k_least_lap = 0.6;
-constexpr int k_fillet_steps = 6;
 // The straight of a near tie-off is at most this many fillets long.
 constexpr double k_near_fillets = 6.0;
 // Between a channel and the floor that a tendon lies on.

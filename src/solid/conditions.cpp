@@ -188,9 +188,10 @@ class Conditions {
     add_least("channel_width", width, d_,
               fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
                           rounded(width), rounded(d_)));
-    const double ground2 = layout_.parts == Parts::two ? layout_.z_mate : layout_.z_middle;
-    const double left = std::min({layout_.z_p1, layout_.z_mate - layout_.z_p1, layout_.z_p2 - ground2,
-                                  layout_.z_top - layout_.z_p2}) -
+    // On the side of the roof the flange is made as thick as it needs.
+    const bool apart = layout_.parts == Parts::two;
+    const double left = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
+                               : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
                         0.5 * width;
     add_least("channel_floor", left, 0.4,
               fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",

@@ -15,25 +15,14 @@ namespace {
 constexpr std::array<double, 4> k_pins{3.0, 2.5, 2.0, 1.5};
 // A pin that is held over less of its length than this locates nothing.
 constexpr double k_least_hold = 1.5;
-// Places are looked for within a floor of about this many points.
-constexpr std::size_t k_floor_points = 256;
-
-// Points of a convex floor: they span no more than it.
-Polygon coarse_floor(const Outline& outline, double tendon_diameter) {
-  const Polygon all = parallel(outline, -0.5 * tendon_diameter);
-  const std::size_t stride = std::max<std::size_t>(1, all.size() / k_floor_points);
-  Polygon floor;
-  for (std::size_t i = 0; i < all.size(); i += stride) floor.push_back(all[i]);
-  return floor;
-}
 
 class DowelChooser {
  public:
-  DowelChooser(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan)
+  DowelChooser(const Mechanism& mechanism, const BodyPlan& plan)
       : layout_(plan.layout),
         compensation_(mechanism.material.hole_compensation),
-        floor1_(coarse_floor(synthesis.p1, mechanism.tendon.diameter)),
-        floor2_(coarse_floor(synthesis.p2, mechanism.tendon.diameter)) {
+        floor1_(plan.floor1),
+        floor2_(plan.floor2) {
     for (auto* bars : {&in_p1_, &in_both_}) {
       bars->push_back({Vec2::Zero(), Vec2::Zero(), layout_.bore.radius});
       for (const Polygon& hole : layout_.bore.screw_holes) {
@@ -75,7 +64,8 @@ class DowelChooser {
 
   const BodyLayout& layout_;
   double compensation_;
-  Polygon floor1_, floor2_;
+  const Polygon& floor1_;
+  const Polygon& floor2_;
   std::vector<Bar> in_p1_, in_both_;
 };
 
@@ -106,8 +96,8 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
   return best;
 }
 
-DowelLayout choose_dowels(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan) {
-  return DowelChooser(mechanism, synthesis, plan).choose();
+DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan) {
+  return DowelChooser(mechanism, plan).choose();
 }
 
 }  // namespace fusee

@@ -16,6 +16,6 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
                                                 const std::function<bool(const Vec2&)>& is_free);
 
 /// Holes through P1 and into P2, clear of all that is cut out of them; none where there is no room for two.
-DowelLayout choose_dowels(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan);
+DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan);
 
 }  // namespace fusee

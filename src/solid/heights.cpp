@@ -8,6 +8,8 @@
 #include "fusee/base/units.h"
 #include "solid/bore.h"
 #include "solid/groove.h"
+#include "solid/mouths.h"
+#include "solid/tie_offs.h"
 
 namespace fusee {
 namespace {
@@ -17,6 +19,9 @@ namespace {
 constexpr double k_slope_margin = radians(1.5);
 // What the chamfer at the bed leaves of the lip, outwards and upwards.
 constexpr double k_lip_left = 0.2;
+
+// What a channel's roof leaves of the flange over it.
+constexpr double k_over_channel = 0.3;
 
 // A printing aid, no dimension: as much of it as the flange's lip bears.
 void choose_elephant_foot(BodyLayout& layout, double wanted) {
@@ -50,19 +55,26 @@ void choose_cones(BodyLayout& layout, const FlangeRims& rims) {
   }
 }
 
+// A flange is as thick as it must be at the lip, and thicker where a channel's roof needs it.
 void stack_up(BodyLayout& layout) {
   const double flange = layout.flange_thickness;
-  layout.z_p1 = flange + layout.lower_cone + layout.p1.below_width();
+  const bool apart = layout.parts == Parts::two;
+  const double over_mouth = layout.roof_slope > 0 ? mouth_rise(layout) + k_over_channel : 0.0;
+  const double roof_flange = std::max(flange, over_mouth);
+  const double over_channel = 0.5 * layout.channel_width + layout.channel_roof + k_over_channel;
+  layout.z_p1 = (apart ? roof_flange : flange) + layout.lower_cone + layout.p1.below_width();
+  if (apart) layout.z_p1 = std::max(layout.z_p1, over_channel);
   layout.z_middle = layout.z_p1 + layout.p1.above_width() + layout.middle_cone;
-  layout.z_mate = layout.z_middle + flange;
-  const double lip2 = layout.parts == Parts::two ? layout.z_mate + flange : layout.z_mate;
-  layout.z_p2 = lip2 + layout.p2.below_width();
-  layout.z_top = layout.z_p2 + layout.p2.above_width() + layout.upper_cone + flange;
+  layout.z_mate = layout.z_middle + (apart ? flange : roof_flange);
+  if (!apart) layout.z_mate = std::max(layout.z_mate, layout.z_p1 + over_channel);
+  layout.z_p2 = layout.z_mate + (apart ? flange : 0.0) + layout.p2.below_width();
+  layout.z_top = layout.z_p2 + std::max(layout.p2.above_width() + layout.upper_cone + roof_flange, over_channel);
   layout.z_hub = layout.z_top;
 }
 
 // Moves all that stands on the middle flange up.
 void thicken_middle(BodyLayout& layout, double by) {
+  if (by <= 0) return;
   for (double* z : {&layout.z_mate, &layout.z_p2, &layout.z_top, &layout.z_hub}) *z += by;
   if (layout.set_screw.present) layout.set_screw.z += by;
 }
@@ -72,6 +84,7 @@ void thicken_middle(BodyLayout& layout, double by) {
 BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts) {
   BodyLayout layout;
   layout.parts = parts;
+  layout.tendon_diameter = mechanism.tendon.diameter;
   layout.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
   layout.groove_depth = mechanism.groove_depth();
   layout.flange_thickness = mechanism.body.flange_thickness;
@@ -79,18 +92,17 @@ BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Part
   layout.scale = 1.0 / (1.0 - mechanism.material.shrinkage);
   choose_walls(layout, mechanism);
   choose_cones(layout, rims);
+  choose_channel(layout, mechanism);
+  if (layout.roof_slope > 0) layout.channel_roof = rise_of(layout, layout.channel_width);
   choose_elephant_foot(layout, mechanism.material.elephant_foot);
   stack_up(layout);
   return layout;
 }
 
 void roof_pockets(BodyLayout& layout) {
-  const double ledge = layout.pocket_radius - 0.5 * k_longest_bridge;
-  if (layout.parts == Parts::two || layout.roof_slope <= 0 || ledge <= 0) return;
-  // A little of the bridge is kept for the facets.
-  layout.pocket_roof = rise_of(layout, ledge + 0.1);
-  const double top = layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_roof + layout.min_wall;
-  thicken_middle(layout, std::max(0.0, top - layout.z_mate));
+  if (layout.parts == Parts::two || layout.roof_slope <= 0) return;
+  layout.pocket_roof = rise_of(layout, 2.0 * layout.pocket_radius);
+  thicken_middle(layout, layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_roof + layout.min_wall - layout.z_mate);
 }
 
 void roof_recess(BodyLayout& layout) {

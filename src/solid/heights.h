@@ -6,14 +6,11 @@
 
 namespace fusee {
 
-/// Ceilings wider than this are given a roof, mm: printers bridge 5 mm without sagging (10 mm with care).
-inline constexpr double k_longest_bridge = 5.0;
-
-/// Groove walls, flanges, cones, chamfer and heights of a part that is printed in one piece or in two; no bore, no hub.
+/// Groove walls, channels, flanges, cones, chamfer and heights of a part that is printed in one piece or in two; no bore, no hub.
 BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts);
 
-/// The cone over P1's knot pockets, which open on the bed where the part is printed in one piece; the middle flange
-/// becomes as thick as it needs.
+/// The roof over P1's knot pockets, which open on the bed where the part is printed in one piece; the middle flange becomes
+/// as thick as it needs.
 void roof_pockets(BodyLayout& layout);
 /// The cone over a horn's recess.
 void roof_recess(BodyLayout& layout);

@@ -26,6 +26,18 @@ constexpr double k_least_wall = 0.4;
 // One print is made as long as the cone under its middle flange is no higher: two take pins and glue.
 constexpr double k_highest_cone = 3.0;
 
+// Distances are measured to a floor of about this many points: no more are needed to keep a wall.
+constexpr std::size_t k_floor_points = 256;
+
+// Some of the points of a convex floor: they span no more than it.
+Polygon coarse_floor(const Outline& outline, double tendon_diameter) {
+  const Polygon all = parallel(outline, -0.5 * tendon_diameter);
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / k_floor_points);
+  Polygon floor;
+  for (std::size_t i = 0; i < all.size(); i += stride) floor.push_back(all[i]);
+  return floor;
+}
+
 FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& synthesis) {
   return flange_rims(synthesis.p1, synthesis.p2, mechanism.tendon.diameter, mechanism.groove_depth(),
                      mechanism.body.flange);
@@ -39,22 +51,22 @@ class Planner {
         d_(mechanism.tendon.diameter),
         base_(axial_layout(mechanism, rims, parts)),
         rims_(rims),
-        tie_offs_(mechanism, synthesis) {
-    choose_channel(base_, mechanism);
-  }
+        tie_offs_(mechanism, synthesis) {}
 
   BodyPlan plan() {
     BodyPlan plan;
     plan.rims = rims_;
+    plan.floor1 = coarse_floor(synthesis_.p1, d_);
+    plan.floor2 = coarse_floor(synthesis_.p2, d_);
     plan.layout = preferred_layout();
     const WoundTieOffs wound = tie_offs_.wound(plan.layout);
     tie_offs_.settle_pockets(plan.layout, wound);
     plan.anchors = tie_offs_.all(plan.layout, wound);
     turn_set_screw(plan);
     roof_pockets(plan.layout);
-    if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, synthesis_, plan);
+    if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
-    const std::vector<Condition> of_tails = place_tails(plan, mechanism_, synthesis_);
+    const std::vector<Condition> of_tails = place_tails(plan, mechanism_);
     plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
     return plan;
   }

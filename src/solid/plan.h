@@ -14,6 +14,7 @@ namespace fusee {
 struct BodyPlan {
   BodyLayout layout;
   FlangeRims rims;
+  Polygon floor1, floor2;  ///< of the grooves, coarse: nowhere outside them
   std::vector<PlannedAnchor> anchors;
   std::vector<Condition> conditions;
 

@@ -24,6 +24,8 @@ namespace {
 constexpr double k_overshoot = 1.0;
 // A cut whose rounding to float left a fault is tried again with other facets on the tools.
 constexpr int k_variants = 8;
+// Room between two parts on the printer.
+constexpr double k_between_parts = 5.0;
 
 // A body with its features, and what it must measure.
 struct Featured {
@@ -231,6 +233,14 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
   }
   pulley.status = PulleyStatus::made;
   return pulley;
+}
+
+TriangleMesh plate_of(const Pulley& pulley) {
+  if (pulley.parts.empty()) return pulley.mesh;
+  TriangleMesh plate = pulley.parts[0].mesh, other = pulley.parts[1].mesh;
+  const double shift = bounds(plate).high.x() + k_between_parts - bounds(other).low.x();
+  for (Vec3& vertex : other.vertices) vertex.x() += shift;
+  return together({plate, rounded_to_float(std::move(other))});
 }
 
 }  // namespace fusee

@@ -12,14 +12,13 @@
 namespace fusee {
 namespace {
 
-// A slot's depth in tendon diameters, so that the tail lies below the face.
+// A slot's depth in tendon diameters, so that the tail lies below the face, and where a gable gives it room.
 constexpr double k_depth_ratio = 1.2;
+constexpr double k_gabled_ratio = 0.8;
 // Beyond the pocket's edge a slot is as long as there is room, up to what a thumb presses down, and not shorter than
 // what glue holds.
 constexpr double k_longest_ratio = 10.0;
 constexpr double k_shortest_ratio = 3.0;
-// A slot wider than a bridge would need support where its face lies on the printer.
-constexpr double k_longest_bridge = 5.0;
 // Below a slot's floor, above a channel's roof: two layers.
 constexpr double k_least_ground = 0.4;
 constexpr int k_directions = 72;
@@ -28,22 +27,24 @@ constexpr double k_thread_ratio = 2.5;
 
 class TailPlacer {
  public:
-  TailPlacer(const BodyPlan& plan, const Mechanism& mechanism, const SynthesisResult& synthesis)
+  TailPlacer(const BodyPlan& plan, const Mechanism& mechanism)
       : plan_(plan),
         layout_(plan.layout),
         d_(mechanism.tendon.diameter),
         compensation_(mechanism.material.hole_compensation),
         screw_(find_screw(mechanism.body.clamp_screw)),
-        floor1_(parallel(synthesis.p1, -0.5 * d_)),
-        floor2_(parallel(synthesis.p2, -0.5 * d_)) {}
+        floor1_(plan.floor1),
+        floor2_(plan.floor2) {}
 
   std::optional<TailSlot> place(const PlannedAnchor& anchor) const {
     const bool left = anchor.side == Side::left;
     TailSlot slot;
     slot.width = layout_.channel_width;
-    slot.depth = k_depth_ratio * d_;
+    const bool on_bed = left && layout_.parts == Parts::one && layout_.roof_slope > 0;
+    slot.depth = (on_bed ? k_gabled_ratio : k_depth_ratio) * d_;
+    slot.roof = on_bed ? rise_of(layout_, 0.5 * slot.width) : 0.0;
     const double to_channel = (left ? layout_.z_p1 : layout_.z_top - layout_.z_p2) - 0.5 * layout_.channel_width;
-    if (slot.width > k_longest_bridge || to_channel - slot.depth < k_least_ground) return std::nullopt;
+    if (to_channel - slot.depth - slot.roof < k_least_ground) return std::nullopt;
     add_screw(slot);
     slot.from = anchor.pocket();
     const double edge = anchor.pocket_radius(layout_);
@@ -70,7 +71,7 @@ class TailPlacer {
   void add_screw(TailSlot& slot) const {
     if (screw_ == nullptr) return;
     slot.pilot_diameter = screw_->tapping + compensation_;
-    slot.pilot_depth = slot.depth + k_thread_ratio * screw_->nominal;
+    slot.pilot_depth = slot.depth + slot.roof + k_thread_ratio * screw_->nominal;
     slot.head_diameter = screw_->head;
   }
 
@@ -134,7 +135,8 @@ class TailPlacer {
   double d_;
   double compensation_;
   const Screw* screw_;
-  Polygon floor1_, floor2_;
+  const Polygon& floor1_;
+  const Polygon& floor2_;
 };
 
 Condition clamp_condition(const std::string& screw, Side side, bool placed) {
@@ -152,12 +154,12 @@ Condition clamp_condition(const std::string& screw, Side side, bool placed) {
 
 }  // namespace
 
-std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, const SynthesisResult& synthesis) {
+std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism) {
   const std::string& screw = mechanism.body.clamp_screw;
   const bool clamps = find_screw(screw) != nullptr;
   std::vector<Condition> conditions;
   if (mechanism.body.tail == Tail::none && !clamps) return conditions;
-  const TailPlacer placer(plan, mechanism, synthesis);
+  const TailPlacer placer(plan, mechanism);
   for (PlannedAnchor& anchor : plan.anchors) {
     if (!anchor.wound_end) continue;
     anchor.tail = placer.place(anchor);

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
+#include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/face_holes.h"
+#include "solid/mouths.h"
 #include "solid/tools.h"
 
 namespace fusee {
@@ -13,8 +16,20 @@ namespace {
 
 // Tools stand out of the body by this, so that no two of their faces coincide.
 constexpr double k_overshoot = 1.0;
+// A pocket's closed end is this much deeper than its channel, for the same reason.
+constexpr double k_deeper = 0.07;
 
-// The channel's floor and roof must not lie in the plane of a ring.
+/// Where a tie-off lies along the axis, seen as it is printed: its own heights run upwards from the groove's plane.
+struct Heights {
+  double plane = 0;
+  double up = 1;            ///< −1: printed upside down
+  double half = 0;          ///< of the channel
+  double channel_roof = 0;  ///< how far its ceiling rises
+  double open = 0;          ///< where the pocket ends in the air; below the plane: on the bed
+  double pocket_roof = 0;   ///< height of the roof over a pocket that is open to the bed
+};
+
+// The channel's floor must not lie in the plane of a ring.
 double channel_half_height(const BodyLayout& layout, int variant) {
   double half = 0.5 * layout.channel_width * (1.0 + 0.002 * variant);
   const auto on_ring = [&half](const std::vector<GroovePoint>& wall) {
@@ -26,31 +41,88 @@ double channel_half_height(const BodyLayout& layout, int variant) {
   return half;
 }
 
-TriangleMesh channel_tool(const BodyLayout& layout, Side side, AnchorPath path, int variant) {
-  path.straight *= 1.0 - 0.003 * variant;
-  const double radius = layout.pocket_radius;
-  const Keyhole shape = keyhole(path, layout.channel_width, radius, pocket_facets(radius) + variant);
-  const double half = channel_half_height(layout, variant);
-  if (side == Side::right)
-    return keyhole_tool(shape,
-                        {layout.z_hub + k_overshoot, layout.z_p2 + half, layout.z_p2 - half, layout.z_p2 - half});
-  const double far = layout.z_p1 + half;
-  const double roof_share = 1.0 - layout.pocket_roof / rise_of(layout, radius);
-  return keyhole_tool(shape, {-k_overshoot, layout.z_p1 - half, far, far + layout.pocket_roof, roof_share});
+Heights heights_of(const BodyLayout& layout, Side side, int variant) {
+  Heights heights;
+  const bool left = side == Side::left, turned = left && layout.parts == Parts::two;
+  heights.plane = left ? layout.z_p1 : layout.z_p2;
+  heights.up = turned ? -1.0 : 1.0;
+  heights.half = channel_half_height(layout, variant);
+  heights.channel_roof = layout.channel_roof;
+  heights.open = left ? layout.z_p1 + k_overshoot : layout.z_hub - layout.z_p2 + k_overshoot;
+  if (left && !turned) {
+    heights.open = -heights.open;
+    heights.pocket_roof = layout.pocket_roof;
+  }
+  return heights;
 }
 
-// The countersink begins a little outside of the face, so that no edge of it lies in the face.
+// The ceiling is one slope that rises from the inner wall, which holds it all along, to the outer one: where that one
+// ends, at the mouth, it runs on into the groove's own roof. A flat ceiling would be bridged only if it were closed all
+// round, and a gable's strips end in mid-air at a mouth as slanted as this.
+TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& heights) {
+  std::vector<std::vector<Vec3>> sections;
+  for (std::size_t k = 0; k < edges.outer.size(); ++k) {
+    const Vec2 &o = edges.outer[k], &i = edges.inner[k];
+    const double ridge = heights.half + heights.channel_roof * (o - i).norm() / width;
+    sections.push_back({{i.x(), i.y(), -heights.half},
+                        {o.x(), o.y(), -heights.half},
+                        {o.x(), o.y(), ridge},
+                        {i.x(), i.y(), heights.half}});
+  }
+  return strip(sections);
+}
+
+// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under
+// it, and no keel hangs down between the two.
+TriangleMesh pocket(const AnchorPath& path, double radius, int facets, const Heights& heights) {
+  const Vec2 centre = path.pocket(), outer = path.outer();
+  const double closed = std::copysign(heights.half + k_deeper, -heights.open);
+  std::vector<Vec3> mouth, end;
+  for (int k = 0; k < facets; ++k) {
+    const Vec2 aside = radius * unit(k_two_pi * (k + 0.3) / facets), point = centre + aside;
+    mouth.emplace_back(point.x(), point.y(), heights.open);
+    end.emplace_back(point.x(), point.y(), closed + heights.pocket_roof * 0.5 * (1.0 + aside.dot(outer) / radius));
+  }
+  return strip({mouth, end});
+}
+
+TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int variant) {
+  const BodyLayout& layout = plan.layout;
+  path.straight *= 1.0 - 0.003 * variant;
+  const double width = layout.channel_width, radius = layout.pocket_radius;
+  const Heights heights = heights_of(layout, side, variant);
+  const Polygon& floor = side == Side::left ? plan.floor1 : plan.floor2;
+  const ChannelEdges edges = layout.channel_roof > 0 ? flared_edges(path, width, floor) : plain_edges(path, width);
+  const auto both = unite(rounded_to_float(channel(edges, width, heights)),
+                          rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
+  demand(both.has_value(), "channel and knot pocket do not join");
+  TriangleMesh tool = both->mesh;
+  for (Vec3& vertex : tool.vertices) vertex.z() = heights.plane + heights.up * vertex.z();
+  if (heights.up < 0) turn_inside_out(tool);
+  return tool;
+}
+
+// The countersink begins a little outside of the face, so that no edge of it lies in the face. Where the hole comes up
+// from the bed its end in the groove's floor rises outwards, as a channel's ceiling does.
 TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole& hole, int variant) {
   constexpr double k_outside = 0.02;
-  const Polygon inner = hole_outline(hole, variant);
-  Polygon outer = inner;
+  const bool left = side == Side::left, from_bed = left && layout.parts == Parts::one;
+  const double in = left ? 1.0 : -1.0, face = left ? 0.0 : layout.z_top, groove = left ? layout.z_p1 : layout.z_p2;
+  const double open = left ? -k_overshoot : layout.z_hub + k_overshoot;
+  const double far = groove + in * channel_half_height(layout, variant);
+  const double ground = face + in * std::max(countersink_depth(layout, hole), k_outside);
   const double wider = std::max(hole.room, hole.hole_radius + k_outside) / hole.hole_radius;
-  for (Vec2& point : outer) point = hole.pocket() + wider * (point - hole.hole);
-  const double half = channel_half_height(layout, variant);
-  const double depth = std::max(countersink_depth(layout, hole), k_outside);
-  if (side == Side::left) return countersunk_tool(inner, outer, {-k_overshoot, -k_outside, depth, layout.z_p1 + half});
-  return countersunk_tool(
-      inner, outer, {layout.z_hub + k_overshoot, layout.z_top + k_outside, layout.z_top - depth, layout.z_p2 - half});
+  const double rise = from_bed && layout.roof_slope > 0 ? rise_of(layout, 2.0 * hole.hole_radius) : 0.0;
+  std::vector<std::vector<Vec3>> sections(4);
+  for (const Vec2& point : hole_outline(hole, variant)) {
+    const Vec2 aside = point - hole.hole, outer = hole.pocket() + wider * aside;
+    const double share = 0.5 * (1.0 + aside.dot(hole.normal) / hole.hole_radius);
+    sections[0].emplace_back(outer.x(), outer.y(), open);
+    sections[1].emplace_back(outer.x(), outer.y(), face - in * k_outside);
+    sections[2].emplace_back(point.x(), point.y(), ground);
+    sections[3].emplace_back(point.x(), point.y(), far + rise * share);
+  }
+  return strip(sections);
 }
 
 }  // namespace
@@ -64,18 +136,30 @@ Polygon hole_outline(const FaceHole& hole, int variant) {
 }
 
 TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant) {
-  if (const auto* path = std::get_if<AnchorPath>(&anchor.way))
-    return channel_tool(plan.layout, anchor.side, *path, variant);
+  if (const auto* path = std::get_if<AnchorPath>(&anchor.way)) return channel_tool(plan, anchor.side, *path, variant);
   return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.way), variant);
 }
 
 TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
-  if (side == Side::left) return prism({slot.outline()}, -k_overshoot, slot.depth);
-  return prism({slot.outline()}, layout.z_top - slot.depth, layout.z_top + k_overshoot);
+  const double face = side == Side::left ? 0.0 : layout.z_top, in = side == Side::left ? 1.0 : -1.0;
+  const Vec2 across = 0.5 * slot.width * turned_left((slot.to - slot.from).normalized());
+  const auto section_at = [&](const Vec2& place) {
+    std::vector<Vec3> section;
+    const auto add = [&](double aside, double depth) {
+      const Vec2 point = place + aside * across;
+      section.emplace_back(point.x(), point.y(), face + in * depth);
+    };
+    add(-1, -k_overshoot), add(1, -k_overshoot), add(1, slot.depth);
+    if (slot.roof > 0) add(0, slot.depth + slot.roof);
+    add(-1, slot.depth);
+    return section;
+  };
+  return strip({section_at(slot.from), section_at(slot.to)});
 }
 
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
   const Polygon hole = polyhole(slot.pilot_diameter, slot.to);
+  // From within the slot, so that both are one hollow.
   if (side == Side::left) return prism({hole}, 0.5 * slot.depth, slot.pilot_depth);
   return prism({hole}, layout.z_top - slot.pilot_depth, layout.z_top - 0.5 * slot.depth);
 }

@@ -40,14 +40,6 @@ class Levels {
     }
   }
 
-  void cone(const Indices& base, double low, const Indices& top, double high) {
-    for (std::size_t i = 0; i < base.size(); ++i) {
-      const std::size_t j = (i + 1) % base.size();
-      mesh_.triangles.push_back({vertex(base[i], low), vertex(base[j], low), vertex(top[j], high)});
-      mesh_.triangles.push_back({vertex(base[i], low), vertex(top[j], high), vertex(top[i], high)});
-    }
-  }
-
   void face(const std::vector<Indices>& loops, double z, bool up) {
     std::vector<Polygon> polygons;
     Indices index;
@@ -83,22 +75,6 @@ class Levels {
   std::vector<Indices> numbers_;
   TriangleMesh mesh_;
 };
-
-// Adds the loop's points again, moved towards their middle.
-Indices shrunk(std::vector<Vec2>& points, const Indices& loop, double share) {
-  Vec2 middle = Vec2::Zero();
-  for (const std::uint32_t index : loop) middle += points[index] / static_cast<double>(loop.size());
-  Indices result;
-  for (const std::uint32_t index : loop) {
-    result.push_back(static_cast<std::uint32_t>(points.size()));
-    points.push_back(middle + share * (points[index] - middle));
-  }
-  return result;
-}
-
-void turn_inside_out(TriangleMesh& mesh) {
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-}
 
 // Round below, a roof above; x across, y up, about the hole's axis. The roof's corner stands where the tangents at both
 // ends meet.
@@ -151,45 +127,28 @@ TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high) {
   return levels.mesh();
 }
 
-TriangleMesh keyhole_tool(const Keyhole& keyhole, const KeyholeHeights& z) {
-  const bool upside_down = z.open > z.near;
-  demand(upside_down ? z.near > z.far : z.near < z.far, "a keyhole whose pocket opens on the wrong side");
-  std::vector<Vec2> points = keyhole.points;
-  const Indices roof = shrunk(points, keyhole.pocket, z.roof_share);
-  Levels levels(points);
-  levels.face({keyhole.pocket}, z.open, false);
-  levels.wall(keyhole.pocket, z.open, z.near);
-  levels.face({keyhole.channel}, z.near, false);
-  levels.wall(keyhole.outline, z.near, z.far);
-  if (z.roof == z.far) {
-    levels.face({keyhole.outline}, z.far, true);
-  } else {
-    levels.face({keyhole.channel}, z.far, true);
-    levels.cone(keyhole.pocket, z.far, roof, z.roof);
-    levels.face({roof}, z.roof, true);
-  }
-  TriangleMesh mesh = levels.mesh();
-  if (upside_down) turn_inside_out(mesh);
-  return mesh;
+void turn_inside_out(TriangleMesh& mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-TriangleMesh countersunk_tool(const Polygon& hole, const Polygon& seat, const CountersinkHeights& z) {
-  const bool upside_down = z.open > z.far;
-  std::vector<Vec2> points = hole;
-  points.insert(points.end(), seat.begin(), seat.end());
-  Indices inner, outer;
-  for (std::uint32_t i = 0; i < hole.size(); ++i) {
-    inner.push_back(i);
-    outer.push_back(i + static_cast<std::uint32_t>(hole.size()));
+TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections) {
+  TriangleMesh mesh;
+  const auto corners = static_cast<std::uint32_t>(sections.front().size());
+  for (const std::vector<Vec3>& section : sections)
+    mesh.vertices.insert(mesh.vertices.end(), section.begin(), section.end());
+  const auto last = static_cast<std::uint32_t>(sections.size() - 1) * corners;
+  for (std::uint32_t c = 1; c + 1 < corners; ++c) {
+    mesh.triangles.push_back({0, c + 1, c});
+    mesh.triangles.push_back({last, last + c, last + c + 1});
   }
-  Levels levels(points);
-  levels.face({outer}, z.open, false);
-  levels.wall(outer, z.open, z.sunk);
-  levels.cone(outer, z.sunk, inner, z.ground);
-  levels.wall(inner, z.ground, z.far);
-  levels.face({inner}, z.far, true);
-  TriangleMesh mesh = levels.mesh();
-  if (upside_down) turn_inside_out(mesh);
+  for (std::uint32_t k = 0; k < last; k += corners) {
+    for (std::uint32_t c = 0; c < corners; ++c) {
+      const std::uint32_t a = k + c, b = k + (c + 1) % corners;
+      mesh.triangles.push_back({a, b, b + corners});
+      mesh.triangles.push_back({a, b + corners, a + corners});
+    }
+  }
+  if (enclosed_volume(mesh) < 0) turn_inside_out(mesh);
   return mesh;
 }
 

@@ -6,34 +6,15 @@
 
 #include "fusee/solid/layout.h"
 #include "fusee/solid/mesh.h"
-#include "solid/anchors.h"
 
 namespace fusee {
 
 /// loops[0] without the others, from `low` to `high`.
 TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high);
 
-/// Where a keyhole lies along the axis: the pocket is open to `open` (below both, or above both; `near` lies between the
-/// others), the channel lies between `near` and `far`. Where `roof` is not `far` the pocket narrows from `far` to `roof`,
-/// to `roof_share` of its outline.
-struct KeyholeHeights {
-  double open = 0;
-  double near = 0;
-  double far = 0;
-  double roof = 0;
-  double roof_share = 1;
-};
-TriangleMesh keyhole_tool(const Keyhole& keyhole, const KeyholeHeights& z);
-
-/// Along the axis a seat between `open` and `sunk`, which narrows to the hole at `ground`, and the hole from there to
-/// `far`. Both outlines have as many corners, each beside its like.
-struct CountersinkHeights {
-  double open = 0;
-  double sunk = 0;
-  double ground = 0;
-  double far = 0;
-};
-TriangleMesh countersunk_tool(const Polygon& hole, const Polygon& seat, const CountersinkHeights& z);
+/// The body between convex outlines of equally many corners, one over the other.
+TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections);
+void turn_inside_out(TriangleMesh& mesh);
 
 /// The set screw's hole from the axis through the hub, with the slot its nut is slid into. Another `variant` has other
 /// facets.

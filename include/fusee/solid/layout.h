@@ -64,6 +64,7 @@ struct SetScrewLayout {
 struct BodyLayout {
   Parts parts = Parts::one;  ///< as it is printed; never automatic
   double roof_slope = 0;     ///< of faces made to look down, above the horizontal, rad; 0: they may be flat
+  double tendon_diameter = 0;
   GrooveWalls p1, p2;
   double groove_depth = 0;
   double flange_thickness = 0;
@@ -82,7 +83,8 @@ struct BodyLayout {
   double channel_width = 0;         ///< of the tie-off channels
   double channel_fillet = 0;        ///< radius at which a channel leaves the floor's tangent, to its centre line
   double pocket_radius = 0;         ///< of the knot pockets
-  double pocket_roof = 0;           ///< height of the cone over P1's pockets; 0: a flat ceiling
+  double channel_roof = 0;          ///< how far the channels' ceilings rise towards their outer walls; 0: flat
+  double pocket_roof = 0;           ///< the same of P1's pockets where they open on the bed
   double min_wall = 0;              ///< no wall is thinner
   double elephant_foot = 0;         ///< width of the chamfer at the bed
   DowelLayout dowels;               ///< of a part in two

@@ -24,7 +24,8 @@ struct TailSlot {
   Vec2 from;
   Vec2 to;
   double width = 0;
-  double depth = 0;
+  double depth = 0;           ///< of its walls
+  double roof = 0;            ///< height of the gable over them where the face lies on the printer; 0: flat
   double pilot_diameter = 0;  ///< of the hole that the screw's thread is cut into, at `to`; 0: no screw
   double pilot_depth = 0;     ///< below the face
   double head_diameter = 0;
@@ -73,6 +74,9 @@ struct Pulley {
   bool made() const { return status == PulleyStatus::made; }
   std::string brief() const;
 };
+
+/// What goes to the printer: the whole as it stands, or P1 and P2 side by side.
+TriangleMesh plate_of(const Pulley& pulley);
 
 Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis);
 
