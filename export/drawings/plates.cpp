@@ -46,6 +46,14 @@ struct Stock {
         wall(std::max(layout.min_wall, k_least_wall)) {}
 
   Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
+  /// What is cut into the plate of the groove: channel and pocket, or the notch that a hole to the face leaves.
+  std::vector<Polygon> in_core(const Anchor& anchor) const {
+    std::vector<Polygon> parts{anchor.channel};
+    if (!anchor.seat) parts.push_back(pocket(anchor));
+    return parts;
+  }
+  /// And through its flange.
+  Polygon in_flange(const Anchor& anchor) const { return anchor.seat ? anchor.channel : pocket(anchor); }
 };
 
 // Dowels
@@ -60,7 +68,7 @@ Material2d common_material(const Stock& stock) {
   for (const Polygon& hole : stock.layout.bore.screw_holes) material.add_hole(hole);
   for (const Anchor& anchor : stock.product.pulley.anchors) {
     if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
-    if (stock.layout.pocket_radius > 0) material.add_hole(stock.pocket(anchor));
+    if (stock.layout.pocket_radius > 0) material.add_hole(stock.in_flange(anchor));
   }
   return material;
 }
@@ -120,7 +128,7 @@ class LayerMaker {
     for (const Polygon& hole : stock_.layout.bore.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
       add_hole(layer, circle_polygon(dowel, 0.5 * plates_.dowel_diameter), "dowel hole");
-    for (const Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
+    for (const Anchor* anchor : pockets) add_fine_hole(layer, stock_.in_flange(*anchor));
     plates_.layers.push_back(std::move(layer));
   }
 
@@ -135,12 +143,20 @@ class LayerMaker {
     layer.cut_holes.push_back(*path);
   }
 
+  /// Of a knot or of a tendon: it can be drilled.
+  void add_fine_hole(PlateLayer& layer, const Polygon& hole) {
+    const auto path = cut_hole(hole, kerf_);
+    if (path && bounding_box(*path).size().minCoeff() >= k_least_feature) return add_hole(layer, hole, "knot pocket");
+    note_once(plates_, fmt::format("{}: the knot's hole of {} mm is left out, the cut would be narrower than {} mm: drill it",
+                                   layer.name, rounded(bounding_box(hole).size().minCoeff(), 3), rounded(k_least_feature)));
+  }
+
   /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and
   /// their corners are the mitres.
   void cut_channel(PlateLayer& layer, const Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
-    for (const Polygon& part : {anchor.channel, stock_.pocket(anchor)}) {
+    for (const Polygon& part : stock_.in_core(anchor)) {
       const auto inner = part.size() > 2 && is_simple(part) ? cut_hole(part, kerf_) : std::nullopt;
       if (!inner) {
         note_once(plates_, fmt::format("a tendon channel is left out: a kerf of {} mm is wider", rounded(kerf_)));
@@ -283,6 +299,9 @@ void describe_stack(Plates& plates, const Stock& stock) {
   lines.push_back(fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(room), rounded(d)));
   if (stock.layout.set_screw.present)
     lines.push_back("the set screw is no part of the plates: drill it across the hub");
+  if (std::any_of(stock.product.pulley.anchors.begin(), stock.product.pulley.anchors.end(),
+                  [](const Anchor& anchor) { return anchor.tail.has_value(); }))
+    lines.push_back("the slots for the tendons' tails are no part of the plates: glue the tails down");
   if (stock.layout.bore.horn_recess > 0)
     lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep",
                                 rounded(stock.layout.bore.horn_recess)));

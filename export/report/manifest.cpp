@@ -104,15 +104,13 @@ Json grooves_json(const BodyLayout& layout) {
 }
 
 Json tendons_json(const Product& product) {
-  /// To tie a knot with at each end.
-  constexpr double k_tail = 50.0;
   Json list = Json::array();
   for (const TendonLength& tendon : tendon_lengths(product)) {
     const bool left = tendon.side == Side::left;
     list.push_back({{"tendon", left ? 1 : 2},
                     {"pulley", pulley_name(tendon.side)},
                     {"between_knots_mm", to_micrometre(tendon.between_knots)},
-                    {"cut_length_mm", number(std::ceil(tendon.between_knots + 2 * k_tail))},
+                    {"cut_length_mm", number(tendon.cut)},
                     {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
                     {"pulley_knot_mm",
                      {to_micrometre(tendon.pulley_knot.x()), to_micrometre(tendon.pulley_knot.y()),
@@ -131,10 +129,30 @@ Json print_json(const Pulley& pulley) {
   return list;
 }
 
+/// What the knots on the pulley bear, where that is most.
+Json knots_json(const Product& product) {
+  const Holding& holding = product.holding;
+  const auto known = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
+  Json list = Json::array();
+  for (const KnotHold& knot : holding.knots) {
+    list.push_back({{"tendon", knot.side == Side::left ? 1 : 2},
+                    {"alpha_deg", number(degrees(knot.alpha))},
+                    {"wrap_left_deg", number(degrees(knot.wrap_left))},
+                    {"tension_N", number(knot.tension)},
+                    {"at_knot_N", number(knot.at_knot)},
+                    {"strength_N", holding.strength ? number(holding.strength->tension) : Json(nullptr)},
+                    {"strength_source", holding.strength ? Json(holding.strength->source) : Json(nullptr)},
+                    {"efficiency", number(product.joint.mechanism.tendon.knot_efficiency)},
+                    {"share", known(holding.share(knot))}});
+  }
+  return list;
+}
+
 Json notes_json(const Product& product) {
   Json notes = Json::array();
   for (const Diagnostic& warning : product.file.warnings) notes.push_back(warning.message);
   for (const std::string& warning : product.synthesis.warnings) notes.push_back(warning);
+  for (const std::string& warning : product.holding.warnings) notes.push_back(warning);
   for (const std::string& note : product.pulley.layout.notes) notes.push_back(note);
   return notes;
 }
@@ -154,6 +172,7 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["print"] = print_json(product.pulley);
   manifest["as_built"] = as_built_json(product.as_built);
   manifest["tendons_at_home"] = tendons_json(product);
+  manifest["knots"] = knots_json(product);
   manifest["mechanism"] = mechanism_json(product.file.mechanism);
   if (const Json derived = derived_json(product); !derived.empty()) manifest["derived"] = derived;
   manifest["notes"] = notes_json(product);

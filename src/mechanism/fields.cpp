@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, 2> names(Flange) { return {"follow", "rou
 constexpr std::array<std::string_view, 6> names(Bore) { return {"round", "d", "hex", "square", "keyway", "horn"}; }
 constexpr std::array<std::string_view, 3> names(Parts) { return {"auto", "one", "two"}; }
 constexpr std::array<std::string_view, 3> names(Marks) { return {"engraved", "raised", "none"}; }
+constexpr std::array<std::string_view, 2> names(Tail) { return {"slot", "none"}; }
 
 template <auto Part, auto Member>
 struct ChoiceAccess {
@@ -260,6 +261,10 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(choice<pulley, &PulleyDrive::method>({"pulley.method", "", "\"exact\"",
                                                         "exact: the envelope of the tendon lines over the real pins; "
                                                         "paper: point pins, r2 drawn in polar coordinates"}));
+  table.push_back(number<pulley, &PulleyDrive::mu>(
+      {"pulley.friction", "mu", "0.2",
+       "effective friction between tendon and groove: what lies on the pulley slides as far as this lets it"},
+      "", 0, 2));
   table.push_back(
       number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));
   table.push_back(number<tendon, &Tendon::modulus>(
@@ -270,8 +275,14 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(number<tendon, &Tendon::bend_ratio>(
       {"tendon.bend_ratio", "D/d", "8", "smallest bend diameter per tendon diameter before a warning"}, "", 1, 1000));
   table.push_back(number<tendon, &Tendon::strength>(
-      {"tendon.strength_N", "", "0", "the tension at which a tendon breaks, knots included; 0: not known"}, "N", 0,
-      1000000));
+      {"tendon.strength_N", "", "0",
+       "the tension at which a tendon breaks without a knot, as makers state it; 0: that of "
+       "the catalogue's tendon of this diameter and modulus, if there is one"},
+      "N", 0, 1000000));
+  table.push_back(number<tendon, &Tendon::knot_efficiency>(
+      {"tendon.knot_efficiency", "", "0.5",
+       "share of its strength that a tendon keeps at a knot: 0.5 is assumed, what braided HMPE keeps"},
+      "", 0.05, 1));
   add_load(table);
 }
 
@@ -324,6 +335,17 @@ void add_body(std::vector<Field>& table) {
       {"body.knot_pocket_mm", "", "0",
        "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, or what there is room for"},
       "mm", 0, 100));
+  table.push_back(number<body, &Body::wrap, degrees, radians>(
+      {"body.wrap_deg", "", "0",
+       "least wrap of a tendon past the arc that it leaves from, before its tie-off: relieves the knot; 0: as much as "
+       "there is room for"},
+      "deg", 0, 330));
+  table.push_back(choice<body, &Body::tail>({"body.tail", "", "\"slot\"",
+                                             "where a tendon's end lies beyond its knot; slot: in a straight slot of "
+                                             "the face, where there is room for one"}));
+  table.push_back(text<body, &Body::clamp_screw>(
+      {"body.clamp_screw", "", "\"none\"", "screw whose head clamps the tail at the end of its slot"},
+      {"none", "M2", "M2.5", "M3"}));
   table.push_back(choice<body, &Body::marks>(
       {"body.marks", "", "\"engraved\"", "home mark, clocking mark and labels on the faces"}));
   table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"},

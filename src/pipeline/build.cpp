@@ -68,7 +68,10 @@ bool design(Workshop& shop) {
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
   if (!product.pulley.made()) product.pulley.advice = body_advice(mechanism);
-  return product.pulley.made();
+  if (!product.pulley.made()) return false;
+  shop.step("moving the joint to see what its knots bear");
+  product.holding = tendon_holding(mechanism, product.synthesis, product.pulley);
+  return true;
 }
 
 void write_parts(Workshop& shop) {

@@ -30,8 +30,7 @@ class DowelChooser {
       }
     }
     for (const PlannedAnchor& anchor : plan.anchors) {
-      std::vector<Bar> bars = anchor.path.bars(layout_.channel_width);
-      bars.push_back({anchor.path.pocket(), anchor.path.pocket(), layout_.pocket_radius});
+      const std::vector<Bar> bars = anchor.bars(layout_);
       in_both_.insert(in_both_.end(), bars.begin(), bars.end());
       if (anchor.side == Side::left) in_p1_.insert(in_p1_.end(), bars.begin(), bars.end());
     }

@@ -68,8 +68,9 @@ class Face {
       for (const Vec2& corner : hole) bars_.push_back({corner, corner, 0.0});
     }
     for (const PlannedAnchor& anchor : plan.anchors) {
-      if ((anchor.side == Side::right) == on_top)
-        bars_.push_back({anchor.path.pocket(), anchor.path.pocket(), layout.pocket_radius});
+      if ((anchor.side == Side::right) != on_top) continue;
+      bars_.push_back({anchor.pocket(), anchor.pocket(), anchor.pocket_radius(layout)});
+      if (anchor.tail) bars_.push_back({anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->head_or_width()});
     }
   }
 

@@ -11,6 +11,7 @@
 #include "solid/heights.h"
 #include "solid/hub.h"
 #include "solid/set_screw.h"
+#include "solid/tails.h"
 
 namespace fusee {
 namespace {
@@ -65,6 +66,8 @@ class Planner {
     roof_pockets(plan.layout);
     if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
+    const std::vector<Condition> of_tails = place_tails(plan, mechanism_, synthesis_);
+    plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
     return plan;
   }
 
@@ -88,9 +91,10 @@ class Planner {
 
   // Thick walls before large bores, both as large as leaves room for both tie-offs. Where the least of all has none,
   // none of the others has.
-  BodyLayout preferred_layout() const {
+  BodyLayout preferred_layout() {
     const std::vector<double> walls = this->walls(), bores = this->bores();
     const BodyLayout least = layout_with(bores.back(), walls.back());
+    if (!fits(least)) tie_offs_.allow_face_holes();
     if (!fits(least)) return least;
     for (const double wall : walls) {
       for (const double bore : bores) {
@@ -127,14 +131,9 @@ class Planner {
   void turn_set_screw(BodyPlan& plan) const {
     SetScrewLayout& screw = plan.layout.set_screw;
     if (!screw.present) return;
-    const double half_width = 0.5 * std::max(screw.hole_diameter, screw.nut_width);
-    const auto clear_at = [&](double angle) {
-      const Vec2 tip = plan.layout.hub_radius * unit(angle);
+    const auto clear_at = [&plan](double angle) {
       return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
-        if (anchor.side == Side::left) return true;
-        const double near = gap({anchor.path.pocket(), anchor.path.pocket(), plan.layout.pocket_radius},
-                                {Vec2::Zero(), tip, half_width});
-        return near >= std::min(plan.layout.min_wall, 1.0);
+        return anchor.side == Side::left || clears_set_screw(plan.layout, angle, anchor.way);
       });
     };
     const int choices = mechanism_.body.bore == Bore::round ? 24 : 1;

@@ -9,6 +9,7 @@
 #include "solid/body.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
+#include "solid/face_holes.h"
 #include "solid/gate.h"
 #include "solid/marks.h"
 #include "solid/plan.h"
@@ -56,7 +57,10 @@ class FeatureCutter {
   // Null when the result is no solid: the next variant may do better.
   std::optional<Featured> cut(const TriangleMesh& body, double volume, int variant) const {
     Featured result{body, volume};
-    if (const TriangleMesh tool = placed(cuts(variant)); !tool.triangles.empty()) {
+    // What overlaps is cut one after the other.
+    for (const auto& tools : {cuts(variant), tail_slots(), clamp_pilots()}) {
+      const TriangleMesh tool = placed(tools);
+      if (tool.triangles.empty()) continue;
       const auto outcome = subtract(result.mesh, tool);
       if (!outcome) return std::nullopt;
       result = {outcome->mesh, result.volume - outcome->common_volume};
@@ -83,7 +87,7 @@ class FeatureCutter {
   std::vector<TriangleMesh> cuts(int variant) const {
     std::vector<TriangleMesh> tools;
     for (const PlannedAnchor& anchor : plan_.anchors) {
-      if (anchor.side == Side::left ? has_p1_ : has_p2_) tools.push_back(tie_off_tool(plan_, anchor, variant));
+      if (has(anchor)) tools.push_back(tie_off_tool(plan_, anchor, variant));
     }
     for (const Vec2& place : layout_.dowels.places)
       tools.push_back(prism({polyhole(layout_.dowels.hole_diameter, place)}, -k_overshoot, layout_.dowels.z_end));
@@ -94,6 +98,25 @@ class FeatureCutter {
       if (has_p1_ && !mark.on_top) tools.push_back(prism(mark.loops, -k_overshoot, depth));
       if (has_p2_ && mark.on_top && mechanism_.body.marks == Marks::engraved)
         tools.push_back(prism(mark.loops, layout_.z_top - depth, layout_.z_top + k_overshoot));
+    }
+    return tools;
+  }
+
+  bool has(const PlannedAnchor& anchor) const { return anchor.side == Side::left ? has_p1_ : has_p2_; }
+
+  std::vector<TriangleMesh> tail_slots() const {
+    std::vector<TriangleMesh> tools;
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (anchor.tail && has(anchor)) tools.push_back(tail_slot_tool(layout_, anchor.side, *anchor.tail));
+    }
+    return tools;
+  }
+
+  std::vector<TriangleMesh> clamp_pilots() const {
+    std::vector<TriangleMesh> tools;
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (anchor.tail && anchor.tail->pilot_diameter > 0 && has(anchor))
+        tools.push_back(clamp_pilot_tool(layout_, anchor.side, *anchor.tail));
     }
     return tools;
   }
@@ -151,18 +174,29 @@ Made make_piece(const Mechanism& mechanism, const SynthesisResult& synthesis, co
   return {std::move(featured->mesh), featured->volume, 2 - 2 * handles(stack, plan, piece)};
 }
 
-std::vector<Anchor> anchors_of(const BodyPlan& plan) {
-  std::vector<Anchor> anchors;
-  for (const PlannedAnchor& planned : plan.anchors) {
-    const BodyLayout& layout = plan.layout;
-    const Keyhole shape =
-        keyhole(planned.path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius));
-    anchors.push_back({planned.side, planned.wound_end, planned.path.start, outline_of(shape), planned.path.pocket()});
+Anchor anchor_of(const PlannedAnchor& planned, const BodyLayout& layout) {
+  Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, planned.pocket(), {}, planned.tail};
+  if (const auto* path = std::get_if<AnchorPath>(&planned.way)) {
+    anchor.channel =
+        outline_of(keyhole(*path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
+  } else {
+    const auto& hole = std::get<FaceHole>(planned.way);
+    anchor.channel = hole_outline(hole, 0);
+    anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top};
   }
-  return anchors;
+  return anchor;
 }
 
 }  // namespace
+
+Polygon TailSlot::outline() const {
+  const Vec2 across = 0.5 * width * turned_left((to - from).normalized());
+  return {from - across, to - across, to + across, from + across};
+}
+
+double pocket_radius(const Anchor& anchor, const BodyLayout& layout) {
+  return anchor.seat ? anchor.seat->radius : layout.pocket_radius;
+}
 
 std::string Pulley::brief() const {
   if (made()) {
@@ -186,7 +220,7 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
   if (!plan.possible()) return pulley;
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   pulley.layout = plan.layout;
-  pulley.anchors = anchors_of(plan);
+  for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan.layout));
   Made whole = make_piece(mechanism, synthesis, plan, marks, Piece::whole);
   pulley.mesh = std::move(whole.mesh);
   pulley.expected_volume = whole.volume;

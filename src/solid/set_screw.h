@@ -11,10 +11,12 @@ namespace fusee {
 /// Sizes of one thread.
 struct Screw {
   const char* name;
+  double nominal;    ///< diameter
   double clearance;  ///< hole that the screw passes
   double tapping;    ///< hole that the screw's thread is cut into
   double nut_width;  ///< across flats
   double nut_thickness;
+  double head;       ///< diameter of a pan head
 };
 
 /// "M2" … "M6"; null for any other name.

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
 #include "solid/boolean.h"
+#include "solid/bore.h"
+#include "solid/face_holes.h"
 #include "solid/mouths.h"
 #include "solid/tools.h"
 
@@ -15,6 +18,9 @@ namespace {
 constexpr double k_overshoot = 1.0;
 // A pocket's closed end is this much deeper than its channel, for the same reason.
 constexpr double k_deeper = 0.07;
+
+// A hole to the bed ends this far past the groove's plane, in the floor's band.
+constexpr double k_past_plane = 0.03;
 
 /// Where a tie-off lies along the axis, seen as it is printed: its own heights run upwards from the groove's plane.
 struct Heights {
@@ -83,15 +89,12 @@ TriangleMesh pocket(const AnchorPath& path, double radius, int facets, const Hei
   return strip({mouth, end});
 }
 
-}  // namespace
-
-TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant) {
+TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int variant) {
   const BodyLayout& layout = plan.layout;
-  AnchorPath path = anchor.path;
   path.straight *= 1.0 - 0.003 * variant;
   const double width = layout.channel_width, radius = layout.pocket_radius;
-  const Heights heights = heights_of(layout, anchor.side, variant);
-  const Polygon& floor = anchor.side == Side::left ? plan.floor1 : plan.floor2;
+  const Heights heights = heights_of(layout, side, variant);
+  const Polygon& floor = side == Side::left ? plan.floor1 : plan.floor2;
   const ChannelEdges edges = layout.channel_roof > 0 ? flared_edges(path, width, floor) : plain_edges(path, width);
   const auto both = unite(rounded_to_float(channel(edges, width, heights)),
                           rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
@@ -100,6 +103,68 @@ TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int
   for (Vec3& vertex : tool.vertices) vertex.z() = heights.plane + heights.up * vertex.z();
   if (heights.up < 0) turn_inside_out(tool);
   return tool;
+}
+
+// The hole's end in the groove, with a roof where the face lies on the bed.
+std::vector<Vec3> hole_end(const BodyLayout& layout, Side side, const FaceHole& hole, const Polygon& outline,
+                           double half) {
+  std::vector<Vec3> end;
+  for (const Vec2& point : outline) {
+    double z = side == Side::left ? layout.z_p1 + half : layout.z_p2 - half;
+    if (on_bed(layout, side))
+      z = layout.z_p1 + k_past_plane + rise_of(layout, (point - hole.hole).dot(hole.normal) + hole.hole_radius);
+    end.emplace_back(point.x(), point.y(), z);
+  }
+  return end;
+}
+
+// The countersink begins a little outside of the face, so that no edge of it lies in the face.
+TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole& hole, int variant) {
+  constexpr double k_outside = 0.02;
+  const Polygon inner = hole_outline(hole, variant);
+  Polygon outer = inner;
+  const double wider = std::max(hole.room, hole.hole_radius + k_outside) / hole.hole_radius;
+  for (Vec2& point : outer) point = hole.pocket() + wider * (point - hole.hole);
+  const auto at = [](const Polygon& outline, double z) {
+    std::vector<Vec3> points;
+    for (const Vec2& point : outline) points.emplace_back(point.x(), point.y(), z);
+    return points;
+  };
+  const double depth = std::max(countersink_depth(layout, hole), k_outside);
+  const std::vector<Vec3> end = hole_end(layout, side, hole, inner, channel_half_height(layout, variant));
+  if (side == Side::left) return strip({at(outer, -k_overshoot), at(outer, -k_outside), at(inner, depth), end});
+  return strip({at(outer, layout.z_hub + k_overshoot), at(outer, layout.z_top + k_outside),
+                at(inner, layout.z_top - depth), end});
+}
+
+}  // namespace
+
+bool on_bed(const BodyLayout& layout, Side side) {
+  return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;
+}
+
+Polygon hole_outline(const FaceHole& hole, int variant) {
+  const int facets = pocket_facets(hole.hole_radius) + variant;
+  Polygon points;
+  for (int k = 0; k < facets; ++k)
+    points.push_back(hole.hole + hole.hole_radius * unit(k_two_pi * (k + 0.31) / facets));
+  return points;
+}
+
+TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant) {
+  if (const auto* path = std::get_if<AnchorPath>(&anchor.way)) return channel_tool(plan, anchor.side, *path, variant);
+  return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.way), variant);
+}
+
+TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
+  if (side == Side::left) return prism({slot.outline()}, -k_overshoot, slot.depth);
+  return prism({slot.outline()}, layout.z_top - slot.depth, layout.z_top + k_overshoot);
+}
+
+TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
+  const Polygon hole = polyhole(slot.pilot_diameter, slot.to);
+  if (side == Side::left) return prism({hole}, 0.5 * slot.depth, slot.pilot_depth);
+  return prism({hole}, layout.z_top - slot.pilot_depth, layout.z_top - 0.5 * slot.depth);
 }
 
 }  // namespace fusee

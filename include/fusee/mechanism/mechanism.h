@@ -58,6 +58,7 @@ struct PulleyDrive {
   std::string table;         ///< the CSV of law = table, as written in the file
   std::vector<LawRow> rows;  ///< its contents, by increasing α
   Method method = Method::exact;
+  double mu = 0;             ///< friction between tendon and groove, effective
 
   bool operator==(const PulleyDrive&) const = default;
 };
@@ -67,7 +68,8 @@ struct Tendon {
   double modulus = 0;     ///< Young's modulus, MPa
   double pretension = 0;  ///< of tendon 1 at home, N
   double bend_ratio = 0;  ///< smallest D/d before a warning
-  double strength = 0;    ///< the tension at which it breaks, N; 0: not known
+  double strength = 0;    ///< the tension at which it breaks without a knot, N; 0: not known
+  double knot_efficiency = 1;  ///< share of it that is left at a knot
 
   bool operator==(const Tendon&) const = default;
 };
@@ -94,6 +96,7 @@ enum class Groove { u, v, flat };
 enum class Flange { follow, round };
 enum class Bore { round, d, hex, square, keyway, horn };
 enum class Marks { engraved, raised, none };
+enum class Tail { slot, none };
 
 /// The printed body. 0 stands for "automatic" where the field table says so; solid/layout.h resolves it.
 struct Body {
@@ -113,6 +116,9 @@ struct Body {
   bool nut_trap = false;
   double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
   double knot_pocket = 0;       ///< diameter; 0: 3.5 d, or what there is room for
+  double wrap = 0;              ///< least wrap between the active arc and a tie-off, rad; 0: as much as there is room for
+  Tail tail = Tail::slot;       ///< where the end of a tendon lies beyond its knot
+  std::string clamp_screw;      ///< over the tail: "none", "M2" … "M3"
   Marks marks = Marks::engraved;
   double mark_depth = 0;
   double min_wall = 0;          ///< 0: 1.2 mm, thinner on small pulleys
