@@ -120,6 +120,15 @@ Json tendons_json(const Product& product) {
   return list;
 }
 
+/// What goes to the printer, each as it lies there.
+Json print_json(const Pulley& pulley) {
+  Json list = Json::array();
+  if (pulley.parts.empty()) list.push_back({{"file", "pulley.stl"}});
+  for (const PrintedPart& part : pulley.parts)
+    list.push_back({{"file", part_file_name(part.side)}, {"part", pulley_name(part.side)}});
+  return list;
+}
+
 /// What the knots on the pulley bear, where that is most.
 Json knots_json(const Product& product) {
   const Holding& holding = product.holding;
@@ -136,15 +145,6 @@ Json knots_json(const Product& product) {
                     {"efficiency", number(product.joint.mechanism.tendon.knot_efficiency)},
                     {"share", known(holding.share(knot))}});
   }
-  return list;
-}
-
-/// What goes to the printer, each as it lies there.
-Json print_json(const Pulley& pulley) {
-  Json list = Json::array();
-  if (pulley.parts.empty()) list.push_back({{"file", "pulley.stl"}});
-  for (const PrintedPart& part : pulley.parts)
-    list.push_back({{"file", part_file_name(part.side)}, {"part", pulley_name(part.side)}});
   return list;
 }
 

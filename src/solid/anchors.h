@@ -15,7 +15,6 @@ namespace fusee {
 
 /// Chords of a channel's arc.
 inline constexpr int k_fillet_steps = 6;
-
 /// A place of the closing arc.
 struct Station {
   double lap = 0;   ///< along the pitch curve from the end of the active arc

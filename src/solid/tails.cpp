@@ -8,6 +8,7 @@
 #include "fusee/base/units.h"
 #include "solid/plane_distance.h"
 #include "solid/set_screw.h"
+#include "solid/tie_off_tools.h"
 
 namespace fusee {
 namespace {
@@ -40,9 +41,9 @@ class TailPlacer {
     const bool left = anchor.side == Side::left;
     TailSlot slot;
     slot.width = layout_.channel_width;
-    const bool on_bed = left && layout_.parts == Parts::one && layout_.roof_slope > 0;
-    slot.depth = (on_bed ? k_gabled_ratio : k_depth_ratio) * d_;
-    slot.roof = on_bed ? rise_of(layout_, 0.5 * slot.width) : 0.0;
+    const bool gabled = on_bed(layout_, anchor.side);
+    slot.depth = (gabled ? k_gabled_ratio : k_depth_ratio) * d_;
+    slot.roof = gabled ? rise_of(layout_, 0.5 * slot.width) : 0.0;
     const double to_channel = (left ? layout_.z_p1 : layout_.z_top - layout_.z_p2) - 0.5 * layout_.channel_width;
     if (to_channel - slot.depth - slot.roof < k_least_ground) return std::nullopt;
     add_screw(slot);

@@ -19,6 +19,9 @@ constexpr double k_overshoot = 1.0;
 // A pocket's closed end is this much deeper than its channel, for the same reason.
 constexpr double k_deeper = 0.07;
 
+// A hole to the bed ends this far past the groove's plane, in the floor's band.
+constexpr double k_past_plane = 0.03;
+
 /// Where a tie-off lies along the axis, seen as it is printed: its own heights run upwards from the groove's plane.
 struct Heights {
   double plane = 0;
@@ -72,8 +75,8 @@ TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& hei
   return strip(sections);
 }
 
-// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under
-// it, and no keel hangs down between the two.
+// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under it,
+// and no keel hangs down between the two.
 TriangleMesh pocket(const AnchorPath& path, double radius, int facets, const Heights& heights) {
   const Vec2 centre = path.pocket(), outer = path.outer();
   const double closed = std::copysign(heights.half + k_deeper, -heights.open);
@@ -102,30 +105,43 @@ TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int 
   return tool;
 }
 
-// The countersink begins a little outside of the face, so that no edge of it lies in the face. Where the hole comes up
-// from the bed its end in the groove's floor rises outwards, as a channel's ceiling does.
+// The hole's end in the groove, with a roof where the face lies on the bed.
+std::vector<Vec3> hole_end(const BodyLayout& layout, Side side, const FaceHole& hole, const Polygon& outline,
+                           double half) {
+  std::vector<Vec3> end;
+  for (const Vec2& point : outline) {
+    double z = side == Side::left ? layout.z_p1 + half : layout.z_p2 - half;
+    if (on_bed(layout, side))
+      z = layout.z_p1 + k_past_plane + rise_of(layout, (point - hole.hole).dot(hole.normal) + hole.hole_radius);
+    end.emplace_back(point.x(), point.y(), z);
+  }
+  return end;
+}
+
+// The countersink begins a little outside of the face, so that no edge of it lies in the face.
 TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole& hole, int variant) {
   constexpr double k_outside = 0.02;
-  const bool left = side == Side::left, from_bed = left && layout.parts == Parts::one;
-  const double in = left ? 1.0 : -1.0, face = left ? 0.0 : layout.z_top, groove = left ? layout.z_p1 : layout.z_p2;
-  const double open = left ? -k_overshoot : layout.z_hub + k_overshoot;
-  const double far = groove + in * channel_half_height(layout, variant);
-  const double ground = face + in * std::max(countersink_depth(layout, hole), k_outside);
+  const Polygon inner = hole_outline(hole, variant);
+  Polygon outer = inner;
   const double wider = std::max(hole.room, hole.hole_radius + k_outside) / hole.hole_radius;
-  const double rise = from_bed && layout.roof_slope > 0 ? rise_of(layout, 2.0 * hole.hole_radius) : 0.0;
-  std::vector<std::vector<Vec3>> sections(4);
-  for (const Vec2& point : hole_outline(hole, variant)) {
-    const Vec2 aside = point - hole.hole, outer = hole.pocket() + wider * aside;
-    const double share = 0.5 * (1.0 + aside.dot(hole.normal) / hole.hole_radius);
-    sections[0].emplace_back(outer.x(), outer.y(), open);
-    sections[1].emplace_back(outer.x(), outer.y(), face - in * k_outside);
-    sections[2].emplace_back(point.x(), point.y(), ground);
-    sections[3].emplace_back(point.x(), point.y(), far + rise * share);
-  }
-  return strip(sections);
+  for (Vec2& point : outer) point = hole.pocket() + wider * (point - hole.hole);
+  const auto at = [](const Polygon& outline, double z) {
+    std::vector<Vec3> points;
+    for (const Vec2& point : outline) points.emplace_back(point.x(), point.y(), z);
+    return points;
+  };
+  const double depth = std::max(countersink_depth(layout, hole), k_outside);
+  const std::vector<Vec3> end = hole_end(layout, side, hole, inner, channel_half_height(layout, variant));
+  if (side == Side::left) return strip({at(outer, -k_overshoot), at(outer, -k_outside), at(inner, depth), end});
+  return strip({at(outer, layout.z_hub + k_overshoot), at(outer, layout.z_top + k_outside),
+                at(inner, layout.z_top - depth), end});
 }
 
 }  // namespace
+
+bool on_bed(const BodyLayout& layout, Side side) {
+  return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;
+}
 
 Polygon hole_outline(const FaceHole& hole, int variant) {
   const int facets = pocket_facets(hole.hole_radius) + variant;
@@ -140,6 +156,8 @@ TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int
   return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.way), variant);
 }
 
+// Across the slot a section is a rectangle, or where the face lies on the bed a gable over one: each of its slopes grows
+// out of its own wall all along, so that it prints up to where the slot opens into the pocket.
 TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
   const double face = side == Side::left ? 0.0 : layout.z_top, in = side == Side::left ? 1.0 : -1.0;
   const Vec2 across = 0.5 * slot.width * turned_left((slot.to - slot.from).normalized());
@@ -149,7 +167,9 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot&
       const Vec2 point = place + aside * across;
       section.emplace_back(point.x(), point.y(), face + in * depth);
     };
-    add(-1, -k_overshoot), add(1, -k_overshoot), add(1, slot.depth);
+    add(-1, -k_overshoot);
+    add(1, -k_overshoot);
+    add(1, slot.depth);
     if (slot.roof > 0) add(0, slot.depth + slot.roof);
     add(-1, slot.depth);
     return section;
@@ -159,7 +179,6 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot&
 
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
   const Polygon hole = polyhole(slot.pilot_diameter, slot.to);
-  // From within the slot, so that both are one hollow.
   if (side == Side::left) return prism({hole}, 0.5 * slot.depth, slot.pilot_depth);
   return prism({hole}, layout.z_top - slot.pilot_depth, layout.z_top - 0.5 * slot.depth);
 }

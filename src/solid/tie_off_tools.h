@@ -17,4 +17,7 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot&
 /// … and open to the slot.
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
 
+/// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over it?
+bool on_bed(const BodyLayout& layout, Side side);
+
 }  // namespace fusee
