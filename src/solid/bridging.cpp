@@ -14,13 +14,15 @@
 namespace fusee {
 namespace {
 
-// Lines across a patch stand this far apart, at most: finer than any step that matters. A patch of less than 8 mm gets k_lines of them.
+// Lines across a patch stand this far apart, at most: finer than any step that matters. A patch of less than 8 mm gets
+// k_lines of them.
 constexpr double k_widest_spacing = 0.1;
 constexpr double k_narrowest_spacing = 0.02;
 constexpr double k_lines = 400;
 // Points on a free rim: a rim bends little within that, and every corner is looked at besides.
 constexpr double k_rim_spacing = 0.25;
-// A ceiling is one bridge where it is printed in one layer: the usual layer of a 0.4 mm nozzle. A vault that rises higher is steps, layer by layer.
+// A ceiling is one bridge where it is printed in one layer: the usual layer of a 0.4 mm nozzle. A vault that rises
+// higher is steps, layer by layer.
 constexpr double k_layer = 0.2;
 // Directions tried: even ones, and along and across the longest edges.
 constexpr int k_even_directions = 12;
@@ -76,8 +78,9 @@ void for_each_side(const HangingPatch& patch, Beyond beyond, const Visit& visit)
 
 std::vector<Polygon> held_edges(const HangingPatch& patch) {
   std::vector<Polygon> edges;
-  for_each_side(patch, Beyond::held,
-                [&](const Vec3& a, const Vec3& b) { edges.push_back({a.head<2>(), b.head<2>()}); });
+  for_each_side(patch, Beyond::held, [&](const Vec3& a, const Vec3& b) {
+    edges.push_back({a.head<2>(), b.head<2>()});
+  });
   return edges;
 }
 
@@ -120,7 +123,8 @@ std::vector<double> directions_of(const HangingPatch& patch) {
   return directions;
 }
 
-// Walks each line through the patch, from facet to facet: a patch may have holes, and may lie above itself. A corner on a line counts as above it.
+// Walks each line through the patch, from facet to facet: a patch may have holes, and may lie above itself. A corner on
+// a line counts as above it.
 class Chords {
  public:
   Chords(const HangingPatch& patch, const Frame& frame, double spacing) : patch_(patch), spacing_(spacing) {
@@ -142,9 +146,8 @@ class Chords {
         }
       }
     }
-    std::sort(chords.begin(), chords.end(), [](const Chord& a, const Chord& b) {
-      return std::pair(a.line, a.from) < std::pair(b.line, b.from);
-    });
+    std::sort(chords.begin(), chords.end(),
+              [](const Chord& a, const Chord& b) { return std::pair(a.line, a.from) < std::pair(b.line, b.from); });
     return chords;
   }
 
@@ -222,6 +225,11 @@ class Ceiling {
       }
     }
     for (const Chord& chord : bridges) look_at_bridge(reach, frame, chord);
+    // What carries a rim is a bridge: one that may be, or that was counted.
+    const double longest = std::max(reach.bridge, limits_.bridge);
+    bridges.erase(std::remove_if(bridges.begin(), bridges.end(),
+                                 [longest](const Chord& chord) { return chord.length() > longest; }),
+                  bridges.end());
     look_at_rim(reach, frame, bridges);
     return reach;
   }
@@ -268,9 +276,9 @@ class Ceiling {
 
   // No more than `least`. Between two lines that both are bridges there is one too.
   double to_bridges(const std::vector<Chord>& bridges, const Vec2& point, double least) const {
-    const auto first = std::lower_bound(
-        bridges.begin(), bridges.end(), (point.y() - least) / spacing_ - 1,
-        [](const Chord& chord, double line) { return static_cast<double>(chord.line) < line; });
+    const auto first =
+        std::lower_bound(bridges.begin(), bridges.end(), (point.y() - least) / spacing_ - 1,
+                         [](const Chord& chord, double line) { return static_cast<double>(chord.line) < line; });
     for (auto chord = first; chord != bridges.end(); ++chord) {
       const double beside = static_cast<double>(chord->line) * spacing_ - point.y();
       if (beside > least + spacing_) break;

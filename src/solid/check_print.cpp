@@ -12,9 +12,9 @@
 namespace fusee {
 namespace {
 
-// Why the usual limits are what they are. A line of plastic is about 0.45 mm wide and stands safely on half of the line below: at layers of 0.2 mm that
-// is 45°, and the word of every slicer. The same half line is the step. Bridges sag from about 5 mm on. The first layer is up to 0.3 mm thick and is
-// pressed onto the bed.
+// Why the usual limits are what they are. A line of plastic is about 0.45 mm wide and stands safely on half of the line
+// below: at layers of 0.2 mm that is 45°, and the word of every slicer. The same half line is the step. Bridges sag
+// from about 5 mm on. The first layer is up to 0.3 mm thick and is pressed onto the bed.
 //
 // A face drawn at exactly the limit comes back as floats, and its facets cut the curve's corners: far less than this.
 constexpr double k_slope_tolerance = radians(0.1);

@@ -13,8 +13,8 @@ namespace fusee {
 namespace {
 
 constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
-// A facet narrower than this has no direction of its own: the floats of coordinates up to 128 mm are 8e-6 mm apart, which turns it by 0.1°
-// and more. Booleans cut planes into such facets.
+// A facet narrower than this has no direction of its own: the floats of coordinates up to 128 mm are 8e-6 mm apart,
+// which turns it by 0.1° and more. Booleans cut planes into such facets.
 constexpr double k_narrow = 5e-3;
 // Facets of one plane that were cut into ever thinner ones: after so many the next wide one is no longer of that plane.
 constexpr int k_narrow_neighbours = 8;
@@ -22,14 +22,12 @@ constexpr int k_narrow_neighbours = 8;
 constexpr double k_level = 1e-5;
 
 struct Surface {
-  TriangleMesh mesh;  // welded
+  TriangleMesh mesh;                                 // welded
   std::vector<std::array<std::uint32_t, 3>> across;  // facet over side k
   std::vector<Vec3> normals;
   double bed = 0;
 
-  const Vec3& corner(std::uint32_t facet, std::size_t k) const {
-    return mesh.vertices[mesh.triangles[facet][k % 3]];
-  }
+  const Vec3& corner(std::uint32_t facet, std::size_t k) const { return mesh.vertices[mesh.triangles[facet][k % 3]]; }
   Vec3 along(std::uint32_t facet, std::size_t k) const { return corner(facet, k + 1) - corner(facet, k); }
   Vec3 twice_area(std::uint32_t facet) const { return along(facet, 0).cross(corner(facet, 2) - corner(facet, 0)); }
 };
@@ -46,9 +44,8 @@ std::vector<std::array<std::uint32_t, 3>> neighbours_of(const TriangleMesh& mesh
     const std::uint32_t a = triangle[side % 3], b = triangle[(side % 3 + 1) % 3];
     edges.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), side});
   }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& s, const HalfEdge& t) {
-    return std::pair(s.key, s.side) < std::pair(t.key, t.side);
-  });
+  std::sort(edges.begin(), edges.end(),
+            [](const HalfEdge& s, const HalfEdge& t) { return std::pair(s.key, s.side) < std::pair(t.key, t.side); });
   std::vector<std::array<std::uint32_t, 3>> across(mesh.triangles.size(), {k_none, k_none, k_none});
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     if (edges[i].key != edges[i + 1].key) continue;
@@ -95,14 +92,16 @@ Vec3 centre_of(const Surface& surface, std::uint32_t facet) {
 }
 
 bool within_first_layer(const Surface& surface, std::uint32_t facet, double first_layer) {
-  const double top = std::max({surface.corner(facet, 0).z(), surface.corner(facet, 1).z(), surface.corner(facet, 2).z()});
+  const double top =
+      std::max({surface.corner(facet, 0).z(), surface.corner(facet, 1).z(), surface.corner(facet, 2).z()});
   return top <= surface.bed + first_layer + k_level;
 }
 
 double slope_of(const Vec3& normal) { return std::acos(std::clamp(-normal.z(), -1.0, 1.0)); }
 
-// Is there material below side k of a hanging facet? It has a neighbour that does not hang. One that looks down or stands upright holds where it goes
-// down from the edge. One that looks up has material below it: it holds in a sharp cave, and not at a sharp rim.
+// Is there material below side k of a hanging facet? It has a neighbour that does not hang. One that looks down or
+// stands upright holds where it goes down from the edge. One that looks up has material below it: it holds in a sharp
+// cave, and not at a sharp rim.
 bool holds(const Surface& surface, std::uint32_t facet, std::size_t k, std::uint32_t neighbour) {
   const Vec3& normal = surface.normals[neighbour];
   const Vec3 into_neighbour = normal.cross(-surface.along(facet, k));
@@ -184,8 +183,7 @@ std::vector<std::uint32_t> terraces_of(const TriangleMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
       if (std::abs(mesh.vertices[a].z() - mesh.vertices[b].z()) > k_level) continue;
-      const auto [low, high] = std::minmax(root(a), root(b));
-      parent[high] = low;
+      parent[root(a)] = root(b);
     }
   }
   std::vector<std::uint32_t> terrace(mesh.vertices.size());
@@ -194,14 +192,15 @@ std::vector<std::uint32_t> terraces_of(const TriangleMesh& mesh) {
 }
 
 struct Terrace {
-  bool has_lower = false;                                      // a neighbour goes down from it
-  double top = -std::numeric_limits<double>::infinity();       // of its own vertices
-  double next = std::numeric_limits<double>::infinity();       // lowest neighbour above
-  double twice_area = 0;                                       // of the section half-way up to `next`: positive round a solid
+  bool has_lower = false;                                 // a neighbour goes down from it
+  double top = -std::numeric_limits<double>::infinity();  // of its own vertices
+  double next = std::numeric_limits<double>::infinity();  // lowest neighbour above
+  double twice_area = 0;  // of the section half-way up to `next`: positive round a solid
 };
 
 // A facet's share of the section at z, about `origin`: solid on the left.
-double section_share(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle, double z, const Vec2& origin) {
+double section_share(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle, double z,
+                     const Vec2& origin) {
   Vec2 from = origin, to = origin;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 &a = mesh.vertices[triangle[k]], &b = mesh.vertices[triangle[(k + 1) % 3]];
@@ -231,8 +230,8 @@ Overhangs find_overhangs(const TriangleMesh& mesh, double steep_enough, double f
   return overhangs;
 }
 
-// Half-way from a terrace without lower neighbours to the next vertex above, the section of the facets round it is one loop: round a solid that
-// begins there, or round the bottom of a pit.
+// Half-way from a terrace without lower neighbours to the next vertex above, the section of the facets round it is one
+// loop: round a solid that begins there, or round the bottom of a pit.
 std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer) {
   const TriangleMesh welded = weld(mesh);
   const double bed = bounds(welded).low.z();

@@ -1,5 +1,6 @@
 /// \file
-/// The faces of a part that look down too flatly to stand on the layer below, in connected patches, with what holds each edge. mm, rad.
+/// The faces of a part that look down too flatly to stand on the layer below, in connected patches, with what holds
+/// each edge. mm, rad.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ enum class Beyond : std::uint8_t {
 };
 
 struct HangingFacet {
-  std::array<Vec3, 3> corners;               ///< side k runs from corner k to k + 1; clockwise seen from above
+  std::array<Vec3, 3> corners;  ///< side k runs from corner k to k + 1; clockwise seen from above
   std::array<Beyond, 3> beyond{};
   std::array<std::uint32_t, 3> neighbour{};  ///< index within the patch where `beyond` says so
 };
@@ -28,12 +29,13 @@ struct HangingPatch {
   std::vector<HangingFacet> facets;
   double flattest = 0;  ///< slope above the horizontal
   Vec3 flattest_at = Vec3::Zero();
-  double area = 0;      ///< in plan, mm²
+  double area = 0;  ///< in plan, mm²
 };
 
 struct Overhangs {
   std::vector<HangingPatch> patches;
-  double flattest_other = 0;  ///< slope of the flattest face that looks down, lies above the first layer and is steep enough; π/2: none
+  double flattest_other =
+      0;  ///< slope of the flattest face that looks down, lies above the first layer and is steep enough; π/2: none
   Vec3 flattest_other_at = Vec3::Zero();
 };
 
