@@ -268,8 +268,7 @@ class Ceiling {
   void look_at_rim(Reach& reach, const Frame& frame, const std::vector<Chord>& bridges) const {
     for (const RimPoint& point : rim_) {
       if (point.from_edge <= reach.step) continue;
-      const double distance =
-          point.from_edge <= limits_.step ? point.from_edge : to_bridges(bridges, frame(point.at), point.from_edge);
+      const double distance = to_bridges(bridges, frame(point.at), point.from_edge);
       if (distance > reach.step) std::tie(reach.step, reach.step_at) = std::pair(distance, point.at);
     }
   }

@@ -18,6 +18,15 @@ namespace {
 //
 // A face drawn at exactly the limit comes back as floats, and its facets cut the curve's corners: far less than this.
 constexpr double k_slope_tolerance = radians(0.1);
+// What rounding to float moves a coordinate by.
+constexpr double k_float_grain = 1e-5;
+
+PrintLimits with_tolerances(PrintLimits limits) {
+  limits.overhang -= k_slope_tolerance;
+  limits.step += k_float_grain;
+  limits.bridge += k_float_grain;
+  return limits;
+}
 
 std::string place_of(const Vec3& point) {
   return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ", " + fixed(point.z(), 3) + ") mm";
@@ -58,16 +67,16 @@ Check island_check(const TriangleMesh& mesh, const PrintLimits& limits) {
 
 }  // namespace
 
-std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& limits) {
-  const double steep_enough = limits.overhang - k_slope_tolerance;
+std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& asked) {
+  const PrintLimits limits = with_tolerances(asked);
   if (!measurable(mesh)) {
     const std::string why = "not looked at: the mesh is no solid";
-    return {{"overhang", 0, degrees(steep_enough), "deg", false, why},
+    return {{"overhang", 0, degrees(limits.overhang), "deg", false, why},
             {"unsupported_step", 0, limits.step, "mm", false, why},
             {"bridge", 0, limits.bridge, "mm", false, why},
             {"island", 0, 0, "1", false, why}};
   }
-  const Overhangs overhangs = find_overhangs(mesh, steep_enough, limits.first_layer);
+  const Overhangs overhangs = find_overhangs(mesh, limits.overhang, limits.first_layer);
   Worst flatness{-overhangs.flattest_other, overhangs.flattest_other_at}, step, bridge;
   for (const HangingPatch& patch : overhangs.patches) {
     const Reach reach = reach_of(patch, limits);
@@ -79,7 +88,7 @@ std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& limi
     flatness.look(-patch.flattest, patch.flattest_at);
     flatness.count(patch);
   }
-  return {at_least("overhang", degrees(-flatness.value), degrees(steep_enough), "deg", flatness.where()),
+  return {at_least("overhang", degrees(-flatness.value), degrees(limits.overhang), "deg", flatness.where()),
           at_most("unsupported_step", step.value, limits.step, "mm", step.where()),
           at_most("bridge", bridge.value, limits.bridge, "mm", bridge.where()), island_check(mesh, limits)};
 }
