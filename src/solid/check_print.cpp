@@ -8,6 +8,8 @@
 #include "fusee/solid/print.h"
 #include "solid/bridging.h"
 #include "solid/hanging.h"
+#include "solid/nearest_float.h"
+#include "solid/place.h"
 
 namespace fusee {
 namespace {
@@ -18,18 +20,12 @@ namespace {
 //
 // A face drawn at exactly the limit comes back as floats, and its facets cut the curve's corners: far less than this.
 constexpr double k_slope_tolerance = radians(0.1);
-// What rounding to float moves a coordinate by.
-constexpr double k_float_grain = 1e-5;
 
 PrintLimits with_tolerances(PrintLimits limits) {
   limits.overhang -= k_slope_tolerance;
   limits.step += k_float_grain;
   limits.bridge += k_float_grain;
   return limits;
-}
-
-std::string place_of(const Vec3& point) {
-  return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ", " + fixed(point.z(), 3) + ") mm";
 }
 
 // The worst of many, and how much is like it.
@@ -65,10 +61,7 @@ Check island_check(const TriangleMesh& mesh, const PrintLimits& limits) {
                  islands.empty() ? std::string() : "begins in mid-air at " + place_of(islands.front()));
 }
 
-}  // namespace
-
-std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& asked) {
-  const PrintLimits limits = with_tolerances(asked);
+std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& mesh) {
   if (!measurable(mesh)) {
     const std::string why = "not looked at: the mesh is no solid";
     return {{"overhang", 0, degrees(limits.overhang), "deg", false, why},
@@ -91,6 +84,12 @@ std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& aske
   return {at_least("overhang", degrees(-flatness.value), degrees(limits.overhang), "deg", flatness.where()),
           at_most("unsupported_step", step.value, limits.step, "mm", step.where()),
           at_most("bridge", bridge.value, limits.bridge, "mm", bridge.where()), island_check(mesh, limits)};
+}
+
+}  // namespace
+
+std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& limits) {
+  return checks_within(with_tolerances(limits), mesh);
 }
 
 }  // namespace fusee

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fusee/base/units.h"
+#include "solid/nearest_float.h"
 
 namespace fusee {
 namespace {
@@ -18,8 +19,6 @@ constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
 constexpr double k_narrow = 5e-3;
 // Facets of one plane that were cut into ever thinner ones: after so many the next wide one is no longer of that plane.
 constexpr int k_narrow_neighbours = 8;
-// Heights closer than this are one height: what floats make of a plane, with room.
-constexpr double k_level = 1e-5;
 
 struct Surface {
   TriangleMesh mesh;                                 // welded
@@ -94,7 +93,7 @@ Vec3 centre_of(const Surface& surface, std::uint32_t facet) {
 bool within_first_layer(const Surface& surface, std::uint32_t facet, double first_layer) {
   const double top =
       std::max({surface.corner(facet, 0).z(), surface.corner(facet, 1).z(), surface.corner(facet, 2).z()});
-  return top <= surface.bed + first_layer + k_level;
+  return top <= surface.bed + first_layer + k_float_grain;
 }
 
 double slope_of(const Vec3& normal) { return std::acos(std::clamp(-normal.z(), -1.0, 1.0)); }
@@ -182,7 +181,7 @@ std::vector<std::uint32_t> terraces_of(const TriangleMesh& mesh) {
   for (const auto& triangle : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
-      if (std::abs(mesh.vertices[a].z() - mesh.vertices[b].z()) > k_level) continue;
+      if (std::abs(mesh.vertices[a].z() - mesh.vertices[b].z()) > k_float_grain) continue;
       parent[root(a)] = root(b);
     }
   }
@@ -270,7 +269,7 @@ std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer) {
   std::vector<Vec3> islands;
   for (std::uint32_t v = 0; v < terraces.size(); ++v) {
     const bool begins = !terraces[v].has_lower && terraces[v].twice_area > 0;
-    if (begins && welded.vertices[v].z() > bed + first_layer + k_level) islands.push_back(welded.vertices[v]);
+    if (begins && welded.vertices[v].z() > bed + first_layer + k_float_grain) islands.push_back(welded.vertices[v]);
   }
   return islands;
 }

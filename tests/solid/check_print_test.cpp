@@ -197,6 +197,16 @@ TEST(CheckPrint, ATiltedPartIsJudgedAsItLies) {
   }
 }
 
+// The neighbour of a sharp edge looks up: the top of a thin rim holds nothing, the floor of a cave holds its roof.
+TEST(CheckPrint, ASharpRimIsFreeAndTheBottomOfASharpGrooveHolds) {
+  const TriangleMesh rim = turned_part({{5, 0}, {5, 2}, {8, 3}});
+  EXPECT_NEAR(value(check_print(rim), "unsupported_step"), 3, 1e-9);
+  const TriangleMesh groove = turned_part({{10, 0}, {10, 3}, {7, 4}, {10, 5}, {10, 8}});
+  const auto checks = check_print(groove);
+  EXPECT_NEAR(value(checks, "unsupported_step"), 3, 1e-9);
+  EXPECT_EQ(value(checks, "bridge"), 0);
+}
+
 // ---- steps ----------------------------------------------------------------------------------------------------------
 
 TEST(CheckPrint, ALedgeAsWideAsAStepMayBe) {
