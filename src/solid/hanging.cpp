@@ -31,26 +31,28 @@ struct Surface {
   Vec3 twice_area(std::uint32_t facet) const { return along(facet, 0).cross(corner(facet, 2) - corner(facet, 0)); }
 };
 
+// Over a side lies a facet that runs along it the other way: so a line that crosses facet after facet never turns back.
 std::vector<std::array<std::uint32_t, 3>> neighbours_of(const TriangleMesh& mesh) {
   struct HalfEdge {
-    std::uint64_t key;
+    std::uint64_t edge;
     std::uint32_t side;  // 3 · facet + k
+    bool upward;         // from the vertex of the lower number
   };
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
+  std::vector<HalfEdge> halves;
+  halves.reserve(3 * mesh.triangles.size());
   for (std::uint32_t side = 0; side < 3 * mesh.triangles.size(); ++side) {
     const auto& triangle = mesh.triangles[side / 3];
     const std::uint32_t a = triangle[side % 3], b = triangle[(side % 3 + 1) % 3];
-    edges.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), side});
+    halves.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), side, a < b});
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const HalfEdge& s, const HalfEdge& t) { return std::pair(s.key, s.side) < std::pair(t.key, t.side); });
+  std::sort(halves.begin(), halves.end(),
+            [](const HalfEdge& s, const HalfEdge& t) { return std::pair(s.edge, s.side) < std::pair(t.edge, t.side); });
   std::vector<std::array<std::uint32_t, 3>> across(mesh.triangles.size(), {k_none, k_none, k_none});
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    if (edges[i].key != edges[i + 1].key) continue;
-    const std::uint32_t s = edges[i].side, t = edges[i + 1].side;
-    across[s / 3][s % 3] = t / 3;
-    across[t / 3][t % 3] = s / 3;
+  for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
+    const HalfEdge &one = halves[i], &other = halves[i + 1];
+    if (one.edge != other.edge || one.upward == other.upward) continue;
+    across[one.side / 3][one.side % 3] = other.side / 3;
+    across[other.side / 3][other.side % 3] = one.side / 3;
     ++i;
   }
   return across;
@@ -168,47 +170,97 @@ class PatchFinder {
   std::vector<std::uint32_t> index_;  // of a facet within its patch
 };
 
-// ---- islands --------------------------------------------------------------------------------------------------------
+// ---- islands ------------------------------------------------------------------------------------------------
 
 // Vertices joined by edges that are level.
-std::vector<std::uint32_t> terraces_of(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&parent](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
-      if (std::abs(mesh.vertices[a].z() - mesh.vertices[b].z()) > k_float_grain) continue;
-      parent[root(a)] = root(b);
-    }
-  }
-  std::vector<std::uint32_t> terrace(mesh.vertices.size());
-  for (std::uint32_t v = 0; v < terrace.size(); ++v) terrace[v] = root(v);
-  return terrace;
-}
-
 struct Terrace {
   bool has_lower = false;                                 // a neighbour goes down from it
   double top = -std::numeric_limits<double>::infinity();  // of its own vertices
   double next = std::numeric_limits<double>::infinity();  // lowest neighbour above
   double twice_area = 0;  // of the section half-way up to `next`: positive round a solid
+
+  bool is_lowest() const { return !has_lower && std::isfinite(next); }
+  double half_way() const { return 0.5 * (top + next); }
 };
 
-// A facet's share of the section at z, about `origin`: solid on the left.
-double section_share(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle, double z,
-                     const Vec2& origin) {
-  Vec2 from = origin, to = origin;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 &a = mesh.vertices[triangle[k]], &b = mesh.vertices[triangle[(k + 1) % 3]];
-    if ((a.z() >= z) == (b.z() >= z)) continue;
-    const Vec2 at = (a + (z - a.z()) / (b.z() - a.z()) * (b - a)).head<2>();
-    (a.z() >= z ? from : to) = at;
+class Terraces {
+ public:
+  explicit Terraces(const TriangleMesh& mesh) : mesh_(mesh), root_(mesh.vertices.size()), terraces_(root_.size()) {
+    join_level_vertices();
+    for (std::uint32_t v = 0; v < root_.size(); ++v) {
+      terraces_[root_[v]].top = std::max(terraces_[root_[v]].top, mesh_.vertices[v].z());
+    }
+    for (const auto& triangle : mesh_.triangles) look_at_neighbours(triangle);
+    for (const auto& triangle : mesh_.triangles) add_sections(triangle);
   }
-  return cross(from - origin, to - origin);
-}
+
+  // One vertex of each terrace where a solid begins.
+  std::vector<Vec3> beginnings() const {
+    std::vector<Vec3> found;
+    for (std::uint32_t v = 0; v < terraces_.size(); ++v) {
+      if (terraces_[v].is_lowest() && terraces_[v].twice_area > 0) found.push_back(mesh_.vertices[v]);
+    }
+    return found;
+  }
+
+ private:
+  void join_level_vertices() {
+    std::iota(root_.begin(), root_.end(), 0u);
+    for (const auto& triangle : mesh_.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
+        if (std::abs(height(a) - height(b)) <= k_float_grain) root_[root(a)] = root(b);
+      }
+    }
+    for (std::uint32_t v = 0; v < root_.size(); ++v) root_[v] = root(v);
+  }
+
+  std::uint32_t root(std::uint32_t v) {
+    while (root_[v] != v) v = root_[v] = root_[root_[v]];
+    return v;
+  }
+
+  double height(std::uint32_t v) const { return mesh_.vertices[v].z(); }
+
+  void look_at_neighbours(const std::array<std::uint32_t, 3>& triangle) {
+    for (const std::uint32_t v : triangle) {
+      Terrace& terrace = terraces_[root_[v]];
+      for (const std::uint32_t neighbour : triangle) {
+        if (root_[neighbour] == root_[v]) continue;
+        if (height(neighbour) < height(v)) terrace.has_lower = true;
+        if (height(neighbour) > terrace.top) terrace.next = std::min(terrace.next, height(neighbour));
+      }
+    }
+  }
+
+  void add_sections(const std::array<std::uint32_t, 3>& triangle) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t own = root_[triangle[k]];
+      const auto same = [&](std::uint32_t v) { return root_[v] == own; };
+      const bool counted = std::any_of(triangle.begin(), triangle.begin() + static_cast<std::ptrdiff_t>(k), same);
+      Terrace& terrace = terraces_[own];
+      if (!counted && terrace.is_lowest()) {
+        terrace.twice_area += section_share(triangle, terrace.half_way(), mesh_.vertices[own].head<2>());
+      }
+    }
+  }
+
+  // A facet's share of the area of the section at z, twice, about `origin`: the solid is on the left of the cut.
+  double section_share(const std::array<std::uint32_t, 3>& triangle, double z, const Vec2& origin) const {
+    Vec2 from = origin, to = origin;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = mesh_.vertices[triangle[k]], &b = mesh_.vertices[triangle[(k + 1) % 3]];
+      if ((a.z() >= z) == (b.z() >= z)) continue;
+      const Vec2 at = (a + (z - a.z()) / (b.z() - a.z()) * (b - a)).head<2>();
+      (a.z() >= z ? from : to) = at;
+    }
+    return cross(from - origin, to - origin);
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<std::uint32_t> root_;  // the vertex that stands for a vertex's terrace
+  std::vector<Terrace> terraces_;    // at that vertex
+};
 
 }  // namespace
 
@@ -229,48 +281,15 @@ Overhangs find_overhangs(const TriangleMesh& mesh, double steep_enough, double f
   return overhangs;
 }
 
-// Half-way from a terrace without lower neighbours to the next vertex above, the section of the facets round it is one
+// Half-way from a terrace without lower neighbours to the next vertex above, the facets round it are cut along one
 // loop: round a solid that begins there, or round the bottom of a pit.
 std::vector<Vec3> find_islands(const TriangleMesh& mesh, double first_layer) {
   const TriangleMesh welded = weld(mesh);
-  const double bed = bounds(welded).low.z();
-  const std::vector<std::uint32_t> terrace_of = terraces_of(welded);
-  std::vector<Terrace> terraces(welded.vertices.size());
-  for (std::uint32_t v = 0; v < terrace_of.size(); ++v) {
-    Terrace& terrace = terraces[terrace_of[v]];
-    terrace.top = std::max(terrace.top, welded.vertices[v].z());
-  }
-  const auto for_each_spoke = [&](const auto& visit) {
-    for (const auto& triangle : welded.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) {
-          if (terrace_of[triangle[k]] != terrace_of[triangle[other]]) visit(triangle[k], triangle[other]);
-        }
-      }
-    }
-  };
-  for_each_spoke([&](std::uint32_t v, std::uint32_t neighbour) {
-    Terrace& terrace = terraces[terrace_of[v]];
-    const double height = welded.vertices[neighbour].z();
-    if (height < welded.vertices[v].z()) terrace.has_lower = true;
-    if (height > terrace.top) terrace.next = std::min(terrace.next, height);
-  });
-  for (const auto& triangle : welded.triangles) {
-    std::array<std::uint32_t, 3> of{};
-    for (std::size_t k = 0; k < 3; ++k) of[k] = terrace_of[triangle[k]];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const bool counted = (k > 0 && of[k] == of[0]) || (k > 1 && of[k] == of[1]);
-      Terrace& terrace = terraces[of[k]];
-      if (counted || terrace.has_lower || !std::isfinite(terrace.next)) continue;
-      const double z = 0.5 * (terrace.top + terrace.next);
-      terrace.twice_area += section_share(welded, triangle, z, welded.vertices[of[k]].head<2>());
-    }
-  }
-  std::vector<Vec3> islands;
-  for (std::uint32_t v = 0; v < terraces.size(); ++v) {
-    const bool begins = !terraces[v].has_lower && terraces[v].twice_area > 0;
-    if (begins && welded.vertices[v].z() > bed + first_layer + k_float_grain) islands.push_back(welded.vertices[v]);
-  }
+  const double pressed_on = bounds(welded).low.z() + first_layer + k_float_grain;
+  std::vector<Vec3> islands = Terraces(welded).beginnings();
+  islands.erase(std::remove_if(islands.begin(), islands.end(),
+                               [pressed_on](const Vec3& place) { return place.z() <= pressed_on; }),
+                islands.end());
   return islands;
 }
 

@@ -469,11 +469,15 @@ TEST(CheckPrint, WhatIsNoSolidIsNotPassed) {
   mesh = cube(10);
   mesh.vertices[2].x() = std::nan("");
   EXPECT_EQ(check_named(check_print(mesh), "island").where, "not looked at: the mesh is no solid");
-  // Open or crossed edges end too.
+  // With open and crowded edges and turned facets it ends too.
   mesh = ledge(3);
   mesh.triangles.erase(mesh.triangles.begin() + 5);
   mesh.triangles.push_back(mesh.triangles[7]);
   EXPECT_EQ(check_print(mesh).size(), 4u);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    std::swap(mesh.triangles[f][0], mesh.triangles[f][1]);
+    EXPECT_EQ(check_print(mesh).size(), 4u);
+  }
 }
 
 // ---- the second route: layers of bits -------------------------------------------------------------------------------
@@ -503,6 +507,8 @@ class Layers {
   }
 
  private:
+  static constexpr double k_far = 1.0;  // further is as far as this
+
   bool at(std::size_t layer, int row, int column) const {
     return row >= 0 && column >= 0 && row < rows_ && column < columns_ &&
            bits_[layer][static_cast<std::size_t>(row * columns_ + column)];
@@ -526,15 +532,17 @@ class Layers {
     return bits;
   }
 
+  // In square rings outward, until no nearer one can come.
   double to_material(std::size_t layer, int row, int column) const {
-    double least = std::numeric_limits<double>::infinity();
-    const int far = static_cast<int>(1.5 / pixel_);
-    for (int i = -far; i <= far; ++i) {
-      for (int j = -far; j <= far; ++j) {
-        if (at(layer, row + i, column + j)) least = std::min(least, pixel_ * std::hypot(i, j));
+    double least = k_far;
+    for (int ring = 1; ring * pixel_ < least; ++ring) {
+      for (int i = -ring; i <= ring; ++i) {
+        for (int j = -ring; j <= ring; j += std::abs(i) == ring ? 1 : 2 * ring) {
+          if (at(layer, row + i, column + j)) least = std::min(least, pixel_ * std::hypot(i, j));
+        }
       }
     }
-    return std::min(least, 1.5);
+    return least;
   }
 
   double pixel_;
