@@ -32,6 +32,7 @@ struct Field {
   /// Inclusive bounds in the file's unit for numbers and both ends of ranges.
   double least = 0;
   double most = 0;
+  bool whole = false;                     ///< a number without a fraction
   std::vector<std::string_view> choices;  ///< of a choice
   std::string_view meaning;               ///< one line
 

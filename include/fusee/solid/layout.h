@@ -25,6 +25,7 @@ struct BoreLayout {
   double radius = 0;   ///< of the largest circle about the axis that the bore reaches
   std::vector<Polygon> screw_holes;  ///< of a servo horn, through holes; with a recess the first is the centre screw's
   double horn_recess = 0;            ///< depth of the horn's pocket from the bottom face; 0: through
+  int spline_teeth = 0;              ///< of an outline that takes a servo's toothed shaft; 0: it has none
 };
 
 struct SetScrewLayout {
