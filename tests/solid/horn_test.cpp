@@ -22,7 +22,7 @@ using testing::pulley_of;
 /// A closed line in a plane z = const, as it was cut out of a mesh.
 struct Loop {
   std::vector<Vec2> points;
-  Vec2 middle = Vec2::Zero();  ///< of its corners
+  Vec2 middle = Vec2::Zero();  ///< its centroid
   double room = 0;             ///< diameter of the circle about `middle` that touches the nearest side
   double reach = 0;            ///< of the circle through the furthest corner
 };
@@ -35,7 +35,14 @@ double side_distance(const Vec2& p, const Vec2& a, const Vec2& b) {
 Loop measured(std::vector<Vec2> points) {
   Loop loop{std::move(points)};
   const std::size_t n = loop.points.size();
-  for (const Vec2& p : loop.points) loop.middle += p / static_cast<double>(n);
+  double area = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 &a = loop.points[i], &b = loop.points[(i + 1) % n];
+    const double part = a.x() * b.y() - a.y() * b.x();
+    area += part;
+    loop.middle += part * (a + b) / 3;
+  }
+  loop.middle /= area;
   loop.room = 1e9;
   for (std::size_t i = 0; i < n; ++i) {
     loop.room = std::min(loop.room, 2 * side_distance(loop.middle, loop.points[i], loop.points[(i + 1) % n]));
