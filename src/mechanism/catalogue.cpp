@@ -109,7 +109,7 @@ const HornType* find_horn(std::string_view name) { return find(horns(), name); }
 const ShaftType* find_shaft(std::string_view name) { return find(shafts(), name); }
 
 const Horn& horn_of(const Mechanism& mechanism) {
-  if (mechanism.body.horn.empty()) return mechanism.horn;
+  if (mechanism.body.horn == k_own_horn) return mechanism.horn;
   const HornType* type = find_horn(mechanism.body.horn);
   if (type == nullptr) {
     throw InputError("", "body.horn: there is no servo horn \"" + mechanism.body.horn + "\"",

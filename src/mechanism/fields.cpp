@@ -328,8 +328,8 @@ void add_body(std::vector<Field>& table) {
       {"body.bore_flat_mm", "", "0", "from the flat of a D shaft to its far side; 0: 0.9 times the diameter",
        "body.bore=d"},
       "mm", 0, 500));
-  table.push_back(text<body, &Body::horn>({"body.horn", "", "\"\"",
-                                           "which servo horn is screwed on; \"\": the one that [horn] describes",
+  table.push_back(text<body, &Body::horn>({"body.horn", "", "\"own\"",
+                                           "which servo horn is screwed on; own: the one that [horn] describes",
                                            "body.bore=horn"}));
   table.push_back(text<body, &Body::shaft>(
       {"body.shaft", "", "\"none\"",
@@ -361,7 +361,7 @@ void add_body(std::vector<Field>& table) {
 
 void add_horn(std::vector<Field>& table) {
   constexpr auto horn = &Mechanism::horn;
-  constexpr std::string_view k_when = "body.bore=horn";
+  constexpr std::string_view k_when = "body.horn=own";
   table.push_back(number<horn, &Horn::bolt_circle>(
       {"horn.bolt_circle_mm", "", "0", "diameter of the circle through the centres of the screws", k_when}, "mm", 0,
       500));
@@ -646,7 +646,7 @@ bool is_used(const Field& field, const DeclaredMechanism& mechanism) {
   const std::size_t equals = field.only_when.find('=');
   const Field* other = find_field(field.only_when.substr(0, equals));
   demand(other != nullptr, "only_when of " + field.name());
-  return other->get_text(mechanism) == field.only_when.substr(equals + 1);
+  return is_used(*other, mechanism) && other->get_text(mechanism) == field.only_when.substr(equals + 1);
 }
 
 DeclaredMechanism default_mechanism() {

@@ -31,7 +31,7 @@ class Faults {
     faults_.push_back({key, std::move(message), std::move(hint)});
   }
   void lacks(std::string_view key, std::string_view reason) {
-    say(key, "horn." + std::string(key) + " is missing",
+    say(key, "horn." + std::string(key) + " is missing or 0",
         "add " + std::string(key) + " under [horn]: " + std::string(reason));
   }
 

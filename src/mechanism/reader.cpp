@@ -445,7 +445,10 @@ void MechanismReader::check_unused() {
   for (const Field& field : fields()) {
     const auto entry = entries_.find(field.name());
     if (entry == entries_.end() || is_used(field, mechanism_)) continue;
-    warn(entry->second.place, field.name() + " is not used: it is for " + condition_text(field) + " only");
+    // Where the key that decides has no use itself, that is why.
+    const Field* decider = find_field(field.only_when.substr(0, field.only_when.find('=')));
+    const Field& unmet = is_used(*decider, mechanism_) ? field : *decider;
+    warn(entry->second.place, field.name() + " is not used: it is for " + condition_text(unmet) + " only");
   }
 }
 
@@ -466,7 +469,7 @@ void MechanismReader::check_horn() {
   const auto described = std::find_if(fields().begin(), fields().end(), [this](const Field& field) {
     return field.table == "horn" && has(field.name()) && (!good_[field.name()] || field.get(mechanism_, 0) != 0);
   });
-  if (!body.horn.empty()) {
+  if (body.horn != k_own_horn) {
     if (find_horn(body.horn) == nullptr) {
       std::vector<std::string> names;
       for (const HornType& type : horns()) names.push_back(type.name);

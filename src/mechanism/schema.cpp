@@ -58,7 +58,7 @@ Json field_schema(const Field& field) {
     }
   }
   if (field.name() == "body.horn") {
-    json["enum"] = {""};
+    json["enum"] = {k_own_horn};
     for (const HornType& type : horns()) json["enum"].push_back(type.name);
   }
   if (!field.fallback.empty()) json["default"] = fallback_json(field);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
 #include "solid/hub.h"
 #include "solid/plane_distance.h"
 #include "solid/set_screw.h"
@@ -93,15 +94,15 @@ class Conditions {
                           rounded(layout_.min_wall, 3)));
   }
 
-  std::string horn_name() const { return body_.horn.empty() ? "of [horn]" : body_.horn; }
+  std::string horn_name() const { return body_.horn == k_own_horn ? "of [horn]" : body_.horn; }
 
   void add_horn() {
     if (body_.bore != Bore::horn) return;
     add_most("horn_recess", layout_.bore.horn_recess, layout_.z_hub - layout_.min_wall,
-             fmt::format("the recess for the {} {} is {} mm deep, the pulley {} mm high",
-                         layout_.bore.spline_teeth > 0 ? "shaft (horn.spline_length_mm)" : "boss (horn.boss_height_mm)",
-                         layout_.bore.spline_teeth > 0 ? "" : "of horn " + horn_name(),
-                         rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)));
+             fmt::format(
+                 "horn {}: {} takes a recess {} mm deep, the pulley is {} mm high", horn_name(),
+                 layout_.bore.spline_teeth > 0 ? "the shaft (horn.spline_length_mm)" : "the boss (horn.boss_height_mm)",
+                 rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)));
     const Web web = thinnest_web();
     add_least("horn_holes", web.thickness, k_least_web,
               fmt::format("horn {}: {} mm are left between {} (with material.hole_compensation_mm), it takes {} mm: {}",

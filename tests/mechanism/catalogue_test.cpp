@@ -27,7 +27,7 @@ TEST(Catalogue, HornsAreWhatAFileCouldSay) {
       EXPECT_LE(number_of(mechanism, field), field.most) << type.name << " " << field.key;
     }
   }
-  EXPECT_EQ(find_horn("none such"), nullptr);
+  EXPECT_EQ(find_horn(k_own_horn), nullptr);
 }
 
 // A misspelt key of an optional number would be 0 without a word.

@@ -53,7 +53,7 @@ TEST(OwnHorn, NumbersAreReadInTheirUnits) {
 
 TEST(OwnHorn, HalfACircleOfScrewsIsNone) {
   EXPECT_THAT(of_horn("bolt_circle_mm = 16\nbolt_hole_mm = 2.2\ncentre_hole_mm = 5\n"),
-              HasSubstr("17:2 horn.bolt_count is missing | add bolt_count under [horn]: how many screws stand on the "
+              HasSubstr("17:2 horn.bolt_count is missing or 0 | add bolt_count under [horn]: how many screws stand on the "
                         "circle of 16 mm"));
   EXPECT_THAT(of_horn("bolt_count = 0\n"
                       "bolt_circle_mm = 16\nbolt_hole_mm = 2.2\ncentre_hole_mm = 5\n"),
@@ -114,7 +114,7 @@ TEST(OwnHorn, ForAnotherBoreIsNotUsed) {
   std::vector<Diagnostic> warnings;
   parse_mechanism(k_good_file + "[horn]\nbolt_circle_mm = 16\n", "f.toml", ".", {}, &warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_THAT(warnings[0].message, HasSubstr("horn.bolt_circle_mm is not used"));
+  EXPECT_EQ(warnings[0].message, "horn.bolt_circle_mm is not used: it is for bore = \"horn\" only");
 }
 
 TEST(Shaft, FillsInTheBore) {

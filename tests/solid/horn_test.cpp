@@ -132,7 +132,7 @@ Mechanism with_horn(const std::string& name) {
 }
 
 Mechanism with_horn(const Horn& horn) {
-  Mechanism mechanism = with_horn("");
+  Mechanism mechanism = with_horn("own");
   mechanism.horn = horn;
   return mechanism;
 }
@@ -248,6 +248,25 @@ TEST(Horn, HolesThatRunIntoOneAnotherAreRefused) {
   Horn deep = shaft;
   deep.spline_length = 40;
   expect_refused(deep, shaft, "horn_recess", "horn.spline_length_mm");
+}
+
+TEST(Horn, AdviceOnOnesOwnIsTried) {
+  Mechanism mechanism = parse_mechanism(find_template("linear_wrist"), "linear_wrist.toml", ".",
+                                        {{"body.bore", "horn"},
+                                         {"horn.bolt_circle_mm", "10"},
+                                         {"horn.bolt_count", "4"},
+                                         {"horn.bolt_hole_mm", "2.2"},
+                                         {"horn.centre_hole_mm", "5"},
+                                         {"horn.boss_diameter_mm", "8"},
+                                         {"horn.boss_height_mm", "2"}});
+  ASSERT_FALSE(body_possible(mechanism));
+  const std::vector<Change> advice = body_advice(mechanism);
+  const auto wider =
+      std::find_if(advice.begin(), advice.end(), [](const Change& c) { return c.key == "horn.bolt_circle_mm"; });
+  ASSERT_NE(wider, advice.end());
+  mechanism.horn.bolt_circle = wider->to;
+  EXPECT_TRUE(body_possible(mechanism));
+  for (const Change& change : advice) EXPECT_FALSE(change.key.starts_with("horn.") && change.to == 0) << change.text;
 }
 
 TEST(Shaft, EveryOneOfTheCataloguePasses) {

@@ -55,7 +55,9 @@ const std::vector<MaterialType>& material_types();
 const HornType* find_horn(std::string_view name);
 const ShaftType* find_shaft(std::string_view name);
 
-/// The horn that the pulley is made for, where body.bore = "horn": that of body.horn, or else the mechanism's own.
+/// The body.horn that stands for Mechanism::horn.
+inline constexpr std::string_view k_own_horn = "own";
+/// The horn that the pulley is made for, where body.bore = "horn". InputError for a name that is not known.
 const Horn& horn_of(const Mechanism& mechanism);
 
 }  // namespace fusee

@@ -108,7 +108,7 @@ struct Body {
   Bore bore = Bore::round;
   double bore_diameter = 0;  ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
   double bore_flat = 0;      ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
-  std::string horn;          ///< bore = horn: a name of catalogue.h; "": the horn that the file describes
+  std::string horn = "own";    ///< bore = horn: a name of catalogue.h; own: Mechanism::horn
   std::string shaft = "none";  ///< a name of catalogue.h: the reader has made bore, bore_diameter and bore_flat that shaft's
   std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
@@ -195,7 +195,7 @@ struct Mechanism {
   Tendon tendon;
   Load load;
   Body body;
-  Horn horn;  ///< of [horn]; horn_of() (catalogue.h) says which one is mounted
+  Horn horn;  ///< of [horn], one's own; horn_of() (catalogue.h) says which one is mounted
   Material material;
   Cut cut;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
