@@ -11,7 +11,8 @@ namespace fusee {
 Polygon polyhole(double diameter, const Vec2& centre);
 
 /// The bore for a shaft of `diameter` (across flats for hex and square; of no meaning for a horn). Flats, keyways and
-/// one tooth of a toothed shaft face +y, towards the joint at home. Nothing is checked: make_pulley's conditions do that.
+/// one tooth of a toothed shaft face +y, towards the joint at home. Nothing is checked: make_pulley's conditions do
+/// that.
 BoreLayout bore_layout(const Mechanism& mechanism, double diameter);
 
 }  // namespace fusee

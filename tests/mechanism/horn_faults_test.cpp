@@ -52,9 +52,10 @@ TEST(OwnHorn, NumbersAreReadInTheirUnits) {
 }
 
 TEST(OwnHorn, HalfACircleOfScrewsIsNone) {
-  EXPECT_THAT(of_horn("bolt_circle_mm = 16\nbolt_hole_mm = 2.2\ncentre_hole_mm = 5\n"),
-              HasSubstr("17:2 horn.bolt_count is missing or 0 | add bolt_count under [horn]: how many screws stand on the "
-                        "circle of 16 mm"));
+  EXPECT_THAT(
+      of_horn("bolt_circle_mm = 16\nbolt_hole_mm = 2.2\ncentre_hole_mm = 5\n"),
+      HasSubstr("17:2 horn.bolt_count is missing or 0 | add bolt_count under [horn]: how many screws stand on the "
+                "circle of 16 mm"));
   EXPECT_THAT(of_horn("bolt_count = 0\n"
                       "bolt_circle_mm = 16\nbolt_hole_mm = 2.2\ncentre_hole_mm = 5\n"),
               HasSubstr("18:14 horn.bolt_count is missing"));

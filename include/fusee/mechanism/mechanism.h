@@ -109,7 +109,7 @@ struct Body {
   double bore_diameter = 0;  ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
   double bore_flat = 0;      ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
   std::string horn = "own";    ///< bore = horn: a name of catalogue.h; own: Mechanism::horn
-  std::string shaft = "none";  ///< a name of catalogue.h: the reader has made bore, bore_diameter and bore_flat that shaft's
+  std::string shaft = "none";  ///< a name of catalogue.h; the reader gave bore, bore_diameter and bore_flat its numbers
   std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
   double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
