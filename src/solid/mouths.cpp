@@ -65,13 +65,14 @@ ChannelEdges plain_edges(const AnchorPath& path, double width) {
   return edges;
 }
 
-ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor) {
+ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double beyond) {
   ChannelEdges edges = plain_edges(path, width);
   const Entry entry = entry_of(path, width, floor);
   const Vec2 along = path.sense * turned_left(path.normal);
-  const Vec2 out = turned(entry.normal, path.sense * k_lean);
-  // Back to the face in which the channel begins.
-  const double reach = (entry.place - path.start).dot(along) / std::max(0.05, -out.dot(along));
+  const Vec2 out = turned(entry.normal, -path.sense * k_lean);
+  // Past all flanges, but not behind the face in which the channel begins.
+  const double back = -out.dot(along), behind = (entry.place - path.start).dot(along);
+  const double reach = back * beyond > behind ? behind / back : beyond;
   const Vec2 flare = entry.place + reach * out;
   for (int k = 0; k <= k_steps; ++k) {
     const double share = static_cast<double>(k) / k_steps / entry.share;
@@ -91,8 +92,8 @@ double mouth_rise(const BodyLayout& layout) {
   path.straight = layout.channel_width;
   const double d = layout.tendon_diameter, far = 100.0 * layout.channel_width;
   const Polygon floor{{-far, -far}, {far, -far}, {far, -0.5 * d}, {-far, -0.5 * d}};
-  const ChannelEdges edges = flared_edges(path, layout.channel_width, floor);
   const double lip = layout.groove_depth - 0.5 * d;
+  const ChannelEdges edges = flared_edges(path, layout.channel_width, floor, layout.groove_depth + 1.0);
   double top = 0;
   for (std::size_t k = 0; k < edges.inner.size(); ++k) {
     const Vec2 across = edges.outer[k] - edges.inner[k];
