@@ -43,7 +43,10 @@ struct Stock {
                          mechanism.body.flange)),
         floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
         floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
-        wall(std::max(layout.min_wall, k_least_wall)) {}
+        wall(std::max(layout.min_wall, k_least_wall)) {
+    // A recess goes through all plates, and takes the centre hole above it with it.
+    if (layout.bore.horn_recess > 0) layout.bore.screw_holes.erase(layout.bore.screw_holes.begin());
+  }
 
   Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
   /// What is cut into the plate of the groove: channel and pocket, or the notch that a hole to the face leaves.

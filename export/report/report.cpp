@@ -18,6 +18,7 @@
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
 
 namespace fusee {
 namespace {
@@ -310,6 +311,22 @@ std::string knot_table(const Product& product) {
          strength_words(product) + "</p>";
 }
 
+/// How the pulley gets onto what turns it.
+std::string mounting(const Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const std::string home = " with P1 below and the home mark pointing to +y: the way that C lies from O at home.";
+  if (mechanism.body.bore != Bore::horn) return "Put the pulley on its shaft" + home;
+  const Horn& horn = horn_of(mechanism);
+  if (horn.spline_teeth > 0) {
+    return "Turn the servo to where its home shall be. Push the pulley onto its toothed shaft" + home +
+           " It goes on every " + readable(360.0 / horn.spline_teeth, 1) +
+           "°: the controller’s zero takes up the rest. The screw comes from above.";
+  }
+  return "Put the horn on the servo at its home, the first screw " + readable(degrees(horn.first_bolt), 1) +
+         "° from +x towards +y, and its own screw in the middle. Screw the pulley onto it (" +
+         std::to_string(horn.bolt_count) + " holes on " + readable_rounded(horn.bolt_circle) + " mm)" + home;
+}
+
 std::vector<std::string> steps(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
   std::vector<std::string> items{
@@ -321,9 +338,7 @@ std::vector<std::string> steps(const Product& product) {
                     ": do not scale again.");
   }
   items.push_back("Measure the bore and the groove with callipers before going on.");
-  items.push_back(
-      "Put the pulley on its shaft with P1 below and the home mark pointing to +y: the way that C lies from O at "
-      "home.");
+  items.push_back(mounting(product));
   items.push_back(
       "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
       "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");

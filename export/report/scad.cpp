@@ -224,6 +224,8 @@ print_scale = {};     // a print shrinks by as much
       decimal(screw.nut_thickness), decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
   text += "horn_recess = " + decimal(bore.horn_recess) +
           ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
+  text += "horn_teeth = " + (bore.spline_teeth > 0 ? points_text(bore.outline) : "[]") +
+          ";     // outline around a servo's toothed shaft\n";
   text += "horn_holes = [";
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k)
     text += (k == 0 ? "" : ",\n  ") + points_text(bore.screw_holes[k]);
@@ -351,7 +353,8 @@ module polyhole(d, sides) {
 
 module bore_outline() {
   d = bore + hole_compensation;
-  if (bore_shape == "hex") polyhole(d, 6);
+  if (len(horn_teeth) > 0) polygon(horn_teeth);
+  else if (bore_shape == "hex") polyhole(d, 6);
   else if (bore_shape == "square") polyhole(d, 4);
   else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, -2 * d + bore_top]) square(2 * d); }
   else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key_width / 2, 0]) square([key_width, bore_top]); }

@@ -7,13 +7,12 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/solid/pulley.h"
+#include "solid/nearest_float.h"
 #include "solid/nearest_segment.h"
 
 namespace fusee {
 namespace {
 
-// What rounding to float moves a coordinate by, and a section of such a mesh a little more.
-constexpr double k_float_grain = 1e-5;
 // The features' vertices are rounded too: far below any feature, far above the rounding.
 constexpr double k_volume_tolerance = 1e-6;
 

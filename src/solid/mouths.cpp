@@ -9,11 +9,14 @@
 namespace fusee {
 namespace {
 
-// The mouth's wall leans over by this against the groove's edge. PrusaSlicer widens a layer by 0.193 mm at 45° and 0.2 mm
-// layers, with squared corners; the tip between a wall and an edge that grows by 0.19 mm stays within it down to 59°.
+// The mouth's wall leans over by this against the groove's edge. PrusaSlicer widens a layer by 0.193 mm at 45° and 0.2
+// mm layers, with squared corners; the tip between a wall and an edge that grows by 0.19 mm stays within it down to
+// 59°.
 constexpr double k_lean = radians(20);
 // From where the channel's outer edge lies this far within the floor it is left as it is.
 constexpr double k_depth = 0.1;
+// A mouth's wall ends this far outside the widest flange.
+constexpr double k_past_flanges = 1.0;
 constexpr int k_steps = 12;
 constexpr int k_fine_steps = 48;
 
@@ -65,19 +68,41 @@ ChannelEdges plain_edges(const AnchorPath& path, double width) {
   return edges;
 }
 
-ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor) {
+ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double beyond) {
   ChannelEdges edges = plain_edges(path, width);
   const Entry entry = entry_of(path, width, floor);
   const Vec2 along = path.sense * turned_left(path.normal);
-  const Vec2 out = turned(entry.normal, path.sense * k_lean);
-  // Back to the face in which the channel begins.
-  const double reach = (entry.place - path.start).dot(along) / std::max(0.05, -out.dot(along));
+  const Vec2 out = turned(entry.normal, -path.sense * k_lean);
+  // Past all flanges, but not behind the face in which the channel begins.
+  const double back = -out.dot(along), behind = (entry.place - path.start).dot(along);
+  const double reach = back * beyond > behind ? behind / back : beyond;
   const Vec2 flare = entry.place + reach * out;
   for (int k = 0; k <= k_steps; ++k) {
     const double share = static_cast<double>(k) / k_steps / entry.share;
     if (share <= 1.0) edges.outer[static_cast<std::size_t>(k)] = flare + share * (entry.place - flare);
   }
   return edges;
+}
+
+ChannelEdges edges_of(const BodyLayout& layout, const AnchorPath& path, const Polygon& floor) {
+  if (layout.channel_roof <= 0) return plain_edges(path, layout.channel_width);
+  const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
+  return flared_edges(path, layout.channel_width, floor, layout.groove_depth + cones + k_past_flanges);
+}
+
+// Along the outer edge, round the pocket to the inner edge, and back along it.
+Polygon keyhole_outline(const BodyLayout& layout, const AnchorPath& path, const Polygon& floor) {
+  const ChannelEdges edges = edges_of(layout, path, floor);
+  const double radius = layout.pocket_radius, mouth = std::asin(0.5 * layout.channel_width / radius);
+  const int facets = pocket_facets(radius);
+  Polygon outline(edges.outer.begin(), edges.outer.end() - 1);
+  for (int k = 0; k <= facets; ++k) {
+    const double angle = (k_pi - mouth) * (2.0 * k / facets - 1.0);
+    outline.push_back(path.pocket() + radius * (std::cos(angle) * path.heading() - std::sin(angle) * path.outer()));
+  }
+  outline.insert(outline.end(), edges.inner.rbegin() + 1, edges.inner.rend());
+  if (path.sense < 0) std::reverse(outline.begin(), outline.end());
+  return outline;
 }
 
 // Of a straight floor: the tangent at the start, moved in by half a tendon.
@@ -91,8 +116,8 @@ double mouth_rise(const BodyLayout& layout) {
   path.straight = layout.channel_width;
   const double d = layout.tendon_diameter, far = 100.0 * layout.channel_width;
   const Polygon floor{{-far, -far}, {far, -far}, {far, -0.5 * d}, {-far, -0.5 * d}};
-  const ChannelEdges edges = flared_edges(path, layout.channel_width, floor);
   const double lip = layout.groove_depth - 0.5 * d;
+  const ChannelEdges edges = flared_edges(path, layout.channel_width, floor, layout.groove_depth + 1.0);
   double top = 0;
   for (std::size_t k = 0; k < edges.inner.size(); ++k) {
     const Vec2 across = edges.outer[k] - edges.inner[k];

@@ -118,7 +118,7 @@ class Planner {
   BodyLayout layout_with(double bore, double wall) const {
     BodyLayout layout = base_;
     layout.min_wall = wall;
-    layout.bore = bore_layout(mechanism_.body, bore, mechanism_.material.hole_compensation);
+    layout.bore = bore_layout(mechanism_, bore);
     if (mechanism_.body.bore_diameter <= 0 && bore < k_bores.front()) {
       layout.notes.push_back(fmt::format("no room for a bore of {} mm: made {} mm", k_bores.front(), bore));
     }

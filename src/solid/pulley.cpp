@@ -12,8 +12,10 @@
 #include "solid/face_holes.h"
 #include "solid/gate.h"
 #include "solid/marks.h"
+#include "solid/mouths.h"
 #include "solid/plan.h"
 #include "solid/rings.h"
+#include "solid/self_intersection.h"
 #include "solid/tie_off_tools.h"
 #include "solid/tools.h"
 
@@ -153,6 +155,14 @@ int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   return static_cast<int>(count);
 }
 
+// Formats and slicers keep fewer digits than a float near the axis has: faces that lie closer than this would cross
+// there. Draco's finest grid is about a tenth of it.
+bool stands_rounding(TriangleMesh mesh) {
+  constexpr double k_grain = 0x1p-15;  // mm
+  for (Vec3& vertex : mesh.vertices) vertex = k_grain * (vertex / k_grain).array().round().matrix();
+  return !find_crossing(mesh).facets;
+}
+
 struct Made {
   TriangleMesh mesh;
   double volume = 0;
@@ -168,17 +178,22 @@ Made make_piece(const Mechanism& mechanism, const SynthesisResult& synthesis, co
   demand_solid(body, "body");
   const FeatureCutter cutter(mechanism, plan, marks, piece);
   std::optional<Featured> featured;
-  for (int variant = 0; variant < k_variants && !featured; ++variant)
-    featured = cutter.cut(body, volume_of(stack), variant);
+  for (int variant = 0; variant < k_variants; ++variant) {
+    auto made = cutter.cut(body, volume_of(stack), variant);
+    if (!made) continue;
+    const bool bears_rounding = stands_rounding(made->mesh);
+    if (bears_rounding || !featured) featured = std::move(made);
+    if (bears_rounding) break;
+  }
   demand(featured.has_value(), "the features cannot be cut into the body of " + mechanism.name);
   return {std::move(featured->mesh), featured->volume, 2 - 2 * handles(stack, plan, piece)};
 }
 
-Anchor anchor_of(const PlannedAnchor& planned, const BodyLayout& layout) {
+Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan) {
+  const BodyLayout& layout = plan.layout;
   Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, planned.pocket(), {}, planned.tail};
   if (const auto* path = std::get_if<AnchorPath>(&planned.way)) {
-    anchor.channel =
-        outline_of(keyhole(*path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
+    anchor.channel = keyhole_outline(layout, *path, planned.side == Side::left ? plan.floor1 : plan.floor2);
   } else {
     const auto& hole = std::get<FaceHole>(planned.way);
     anchor.channel = hole_outline(hole, 0);
@@ -220,7 +235,7 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
   if (!plan.possible()) return pulley;
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   pulley.layout = plan.layout;
-  for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan.layout));
+  for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan));
   Made whole = make_piece(mechanism, synthesis, plan, marks, Piece::whole);
   pulley.mesh = std::move(whole.mesh);
   pulley.expected_volume = whole.volume;

@@ -95,7 +95,7 @@ TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int 
   const double width = layout.channel_width, radius = layout.pocket_radius;
   const Heights heights = heights_of(layout, side, variant);
   const Polygon& floor = side == Side::left ? plan.floor1 : plan.floor2;
-  const ChannelEdges edges = layout.channel_roof > 0 ? flared_edges(path, width, floor) : plain_edges(path, width);
+  const ChannelEdges edges = edges_of(layout, path, floor);
   const auto both = unite(rounded_to_float(channel(edges, width, heights)),
                           rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
   demand(both.has_value(), "channel and knot pocket do not join");

@@ -111,7 +111,8 @@ struct Body {
   Bore bore = Bore::round;
   double bore_diameter = 0;  ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
   double bore_flat = 0;      ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
-  std::string horn;          ///< bore = horn: a name of catalogue.h
+  std::string horn = "own";    ///< bore = horn: a name of catalogue.h; own: Mechanism::horn
+  std::string shaft = "none";  ///< a name of catalogue.h; the reader gave bore, bore_diameter and bore_flat its numbers
   std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
   double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
@@ -124,6 +125,23 @@ struct Body {
   double min_wall = 0;          ///< 0: 1.2 mm, thinner on small pulleys
 
   bool operator==(const Body&) const = default;
+};
+
+/// A servo's horn that the pulley is screwed onto, or (with `spline_teeth`) the servo's toothed output shaft itself.
+struct Horn {
+  double bolt_circle = 0;      ///< diameter of the circle through the screws' centres
+  int bolt_count = 0;          ///< screws, evenly on that circle
+  double bolt_hole = 0;        ///< diameter of the holes that they pass through
+  double first_bolt = 0;       ///< direction of the first, from +x, rad
+  double centre_hole = 0;      ///< for the screw that holds the horn on the servo, its head and its driver
+  double boss_diameter = 0;    ///< of what stands above the horn's face and sinks into the pulley
+  double boss_height = 0;      ///< how far it stands above that face; 0: the horn is flat
+  int spline_teeth = 0;        ///< of the output shaft
+  double spline_diameter = 0;  ///< over the teeth
+  double spline_depth = 0;     ///< of a tooth
+  double spline_length = 0;    ///< how far the shaft reaches into the pulley; 0: its teeth go through
+
+  bool operator==(const Horn&) const = default;
 };
 
 struct Material {
@@ -194,6 +212,7 @@ struct Mechanism {
   Tendon tendon;
   Load load;
   Body body;
+  Horn horn;  ///< of [horn], one's own; horn_of() (catalogue.h) says which one is mounted
   Material material;
   Print print;
   Cut cut;

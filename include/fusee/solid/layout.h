@@ -47,6 +47,7 @@ struct BoreLayout {
   std::vector<Polygon> screw_holes;  ///< of a servo horn, through holes; with a recess the first is the centre screw's
   double horn_recess = 0;            ///< depth of the horn's pocket from the bottom face; 0: through
   double horn_roof = 0;              ///< height of the cone above it, which closes it without a flat ceiling
+  int spline_teeth = 0;              ///< of an outline that takes a servo's toothed shaft; 0: it has none
 };
 
 struct SetScrewLayout {
