@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fusee/base/units.h"
+#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
@@ -84,10 +85,28 @@ ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& f
   return edges;
 }
 
+namespace {
+
+// Cuts across the channel, from edge to edge: where two of them meet it folds.
+bool folds(const ChannelEdges& edges) {
+  for (std::size_t a = 0; a < edges.inner.size(); ++a) {
+    for (std::size_t b = a + 1; b < edges.inner.size(); ++b) {
+      if (gap({edges.inner[a], edges.outer[a], 0.0}, {edges.inner[b], edges.outer[b], 0.0}) <= 0) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+// A mouth of a thick tendon on a small pulley would fold over its own channel.
 ChannelEdges edges_of(const BodyLayout& layout, const AnchorPath& path, const Polygon& floor) {
-  if (layout.channel_roof <= 0) return plain_edges(path, layout.channel_width);
+  const ChannelEdges plain = plain_edges(path, layout.channel_width);
+  if (layout.channel_roof <= 0) return plain;
   const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
-  return flared_edges(path, layout.channel_width, floor, layout.groove_depth + cones + k_past_flanges);
+  const ChannelEdges flared =
+      flared_edges(path, layout.channel_width, floor, layout.groove_depth + cones + k_past_flanges);
+  return folds(flared) ? plain : flared;
 }
 
 // Along the outer edge, round the pocket to the inner edge, and back along it.

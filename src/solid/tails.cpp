@@ -23,8 +23,9 @@ constexpr double k_shortest_ratio = 3.0;
 // Below a slot's floor, above a channel's roof: two layers.
 constexpr double k_least_ground = 0.4;
 constexpr int k_directions = 72;
-// Turns of thread that hold a screw: its length in the part per nominal diameter.
+// Thread that holds a screw in plastic, per nominal diameter, and the least that does.
 constexpr double k_thread_ratio = 2.5;
+constexpr double k_least_thread_ratio = 1.5;
 
 class TailPlacer {
  public:
@@ -42,11 +43,11 @@ class TailPlacer {
     TailSlot slot;
     slot.width = layout_.channel_width;
     const bool gabled = on_bed(layout_, anchor.side);
-    slot.depth = (gabled ? k_gabled_ratio : k_depth_ratio) * d_;
     slot.roof = gabled ? rise_of(layout_, 0.5 * slot.width) : 0.0;
+    slot.depth = std::max(k_gabled_ratio * d_, k_depth_ratio * d_ - slot.roof);
     const double to_channel = (left ? layout_.z_p1 : layout_.z_top - layout_.z_p2) - 0.5 * layout_.channel_width;
     if (to_channel - slot.depth - slot.roof < k_least_ground) return std::nullopt;
-    add_screw(slot);
+    if (screw_ != nullptr && !add_screw(slot, anchor.side)) return std::nullopt;
     slot.from = anchor.pocket();
     const double edge = anchor.pocket_radius(layout_);
     const std::vector<Bar> at_face = obstacles_at_face(anchor);
@@ -69,11 +70,16 @@ class TailPlacer {
   }
 
  private:
-  void add_screw(TailSlot& slot) const {
-    if (screw_ == nullptr) return;
+  // As long as there is material under the slot; false where that is too little.
+  bool add_screw(TailSlot& slot, Side side) const {
+    const double ground = layout_.parts == Parts::one ? layout_.z_top
+                          : side == Side::left        ? layout_.z_mate
+                                                      : layout_.z_top - layout_.z_mate;
+    const double below = slot.depth + slot.roof, room = ground - k_least_ground - below;
     slot.pilot_diameter = screw_->tapping + compensation_;
-    slot.pilot_depth = slot.depth + slot.roof + k_thread_ratio * screw_->nominal;
+    slot.pilot_depth = below + std::min(k_thread_ratio * screw_->nominal, room);
     slot.head_diameter = screw_->head;
+    return room >= k_least_thread_ratio * screw_->nominal;
   }
 
   static Vec2 heading(const PlannedAnchor& anchor) {
@@ -109,16 +115,12 @@ class TailPlacer {
       return std::all_of(at_face.begin(), at_face.end(), [&](const Bar& other) { return gap(bar, other) >= wall; });
     };
     if (!clear({slot.from, slot.to, half})) return false;
-    return slot.pilot_diameter <= 0 || (clear({slot.to, slot.to, 0.5 * slot.head_diameter}) && takes_pilot(slot, side));
+    return slot.pilot_diameter <= 0 || (clear({slot.to, slot.to, 0.5 * slot.head_diameter}) && takes_pilot(slot));
   }
 
-  // The pilot hole goes deep: it keeps clear of all that is cut into either pulley, and ends within the part.
-  bool takes_pilot(const TailSlot& slot, Side side) const {
+  // The pilot hole goes deep: it keeps clear of all that is cut into either pulley.
+  bool takes_pilot(const TailSlot& slot) const {
     const double radius = 0.5 * slot.pilot_diameter, wall = layout_.min_wall;
-    const double ground = layout_.parts == Parts::one ? layout_.z_top
-                          : side == Side::left        ? layout_.z_mate
-                                                      : layout_.z_top - layout_.z_mate;
-    if (slot.pilot_depth > ground - k_least_ground) return false;
     if (std::min(depth_inside(floor1_, slot.to), depth_inside(floor2_, slot.to)) < radius + wall) return false;
     std::vector<Bar> bars{{Vec2::Zero(), Vec2::Zero(), layout_.bore.radius}};
     add_holes(bars);

@@ -108,7 +108,8 @@ TEST(Holding, WithoutFrictionAKnotBearsAllOfIt) {
   const double most = analyse(mechanism, {.samples = 10}).largest_tension.tension;
   double bears = 0;
   for (const KnotHold& knot : held.holding.knots) bears = std::max(bears, knot.at_knot);
-  EXPECT_NEAR(bears, most, 1e-3 * most);
+  // Its largest stands between two of the analysis's places.
+  EXPECT_NEAR(bears, most, 1e-2 * most);
 }
 
 /// The load pulls at tendon 2 and relieves tendon 1, which bears its pretension when the load is gone.

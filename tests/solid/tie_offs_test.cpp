@@ -150,13 +150,21 @@ TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
     EXPECT_EQ(anchor.tail.has_value(), anchor.wound_end);
     if (!anchor.tail) continue;
     const TailSlot& slot = *anchor.tail;
-    EXPECT_GE(slot.depth, mechanism.tendon.diameter);
+    EXPECT_GE(slot.depth + slot.roof, mechanism.tendon.diameter);
     EXPECT_GE(beyond_pocket(slot, with.layout), 3.0);
     // A rectangle from the pocket's round edge, whose chord it ends on.
     const double half = 0.5 * slot.width, radius = with.layout.pocket_radius;
     const double edge = std::sqrt(radius * radius - half * half);
     const double segment = radius * radius * std::asin(half / radius) - half * edge;
-    volume += slot.depth * (slot.width * ((slot.to - slot.from).norm() - edge) - segment);
+    const double length = (slot.to - slot.from).norm();
+    volume += slot.depth * (slot.width * (length - edge) - segment);
+    if (slot.roof <= 0) continue;
+    // The gable over it, cut off where it meets the pocket, in thin slices across.
+    constexpr int k_slices = 2000;
+    for (int k = 0; k < k_slices; ++k) {
+      const double aside = half * (2.0 * (k + 0.5) / k_slices - 1.0);
+      volume += slot.roof * (1.0 - std::abs(aside) / half) * (length - std::sqrt(radius * radius - aside * aside)) * slot.width / k_slices;
+    }
   }
   for (const Anchor& anchor : without.anchors) EXPECT_FALSE(anchor.tail.has_value());
   EXPECT_GT(volume, 0);
@@ -168,7 +176,7 @@ TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
 TEST(Tails, AClampScrewHasItsPilotAtTheEnd) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.marks = Marks::none;
-  const SynthesisResult shape = pulley_of(circle(26), circle(25));
+  const SynthesisResult shape = pulley_of(circle(36), circle(35));
   for (const char* name : {"M2", "M2.5", "M3"}) {
     mechanism.body.clamp_screw = name;
     const Pulley pulley = make_pulley(mechanism, shape);
