@@ -89,11 +89,20 @@ TEST(Analysis, SaysWhereNothingHoldsTheJoint) {
 TEST(Analysis, SaysWhereTheTendonBreaks) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 100.0;
-  mechanism.tendon.strength = 150.0;
   const AnalysisResult result = analyse(mechanism, quick());
-  ASSERT_TRUE(result.breaks_at.has_value());
-  EXPECT_EQ(*result.breaks_at, result.largest_tension.alpha);
-  mechanism.tendon.strength = 1500.0;
+  const double at_joint = result.largest_at_joint.value, most = result.largest_tension.tension;
+  ASSERT_LT(at_joint, most);
+  // At its knot at C, where the tendon would bear it …
+  mechanism.tendon.knot_efficiency = 0.5;
+  mechanism.tendon.strength = 1.9 * at_joint;
+  EXPECT_EQ(analyse(mechanism, quick()).breaks_at, result.largest_at_joint.alpha);
+  // … below its pin, where the knot would …
+  mechanism.tendon.knot_efficiency = 1.0;
+  mechanism.tendon.strength = 0.5 * (at_joint + most);
+  EXPECT_EQ(analyse(mechanism, quick()).breaks_at, result.largest_tension.alpha);
+  // … and nowhere.
+  mechanism.tendon.knot_efficiency = 0.5;
+  mechanism.tendon.strength = 2.1 * most;
   EXPECT_FALSE(analyse(mechanism, quick()).breaks_at.has_value());
 }
 
