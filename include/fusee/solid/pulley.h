@@ -42,8 +42,8 @@ struct Anchor {
   Vec2 exit;                   ///< where the channel's centre line leaves the floor, mm
   Polygon channel;             ///< outline of the channel, or of the hole, in the groove's plane, ccw
   Vec2 pocket;                 ///< centre of the knot pocket, or of the countersink
-  std::optional<FaceSeat> seat;  ///< of a tie-off through the face
-  std::optional<TailSlot> tail;
+  std::optional<FaceSeat> seat = {};  ///< of a tie-off through the face
+  std::optional<TailSlot> tail = {};
 };
 
 /// Of the knot pocket, or of the countersink, mm.

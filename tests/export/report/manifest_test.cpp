@@ -113,6 +113,10 @@ TEST(TendonLengths, ARoundPulleyIsWoundAsACircleIs) {
     // The exit is found to half a step of the outline.
     EXPECT_NEAR(length.between_knots, tendon.length + r * k_pi / 2 + 0.5 * (r - 0.5), 0.5 * r * k_two_pi / 3600);
     EXPECT_NEAR(length.spare_lap, k_pi / 4, 0.004);
+    // Two knots of 12 diameters and two tails of 50 mm, in whole 5 mm.
+    EXPECT_GE(length.cut, length.between_knots + 24 * m.tendon.diameter + 100);
+    EXPECT_LT(length.cut, length.between_knots + 24 * m.tendon.diameter + 105);
+    EXPECT_EQ(std::fmod(length.cut, 5.0), 0.0);
     EXPECT_EQ(length.joint_knot, Vec2(0, 100));
     EXPECT_DOUBLE_EQ(length.pulley_knot.z(), 1.01 * (length.side == Side::left ? 3.0 : 8.0));
   }
