@@ -93,7 +93,7 @@ TEST(Scad, EveryTieOffIsThere) {
   anchor.pocket = {1.25, -2.5};
   anchor.channel = {{0, 0}, {1, 0}, {0, 1}};
   product.pulley.anchors = {anchor};
-  EXPECT_THAT(scad_text(product), HasSubstr("tie_offs = [\n  [2, [1.25, -2.5], [[0, 0], [1, 0], [0, 1]]]];"));
+  EXPECT_THAT(scad_text(product), HasSubstr("tie_offs = [\n  [2, [1.25, -2.5], [[0, 0], [1, 0], [0, 1]], [], [], []]];"));
 }
 
 TEST(Scad, SameInputSameBytes) { EXPECT_EQ(scad_text(product_of()), scad_text(product_of())); }
