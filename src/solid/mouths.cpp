@@ -68,16 +68,20 @@ ChannelEdges plain_edges(const AnchorPath& path, double width) {
 ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double beyond) {
   ChannelEdges edges = plain_edges(path, width);
   const Entry entry = entry_of(path, width, floor);
-  const Vec2 along = path.sense * turned_left(path.normal);
   const Vec2 out = turned(entry.normal, -path.sense * k_lean);
-  // Past all flanges, but not behind the face in which the channel begins.
-  const double back = -out.dot(along), behind = (entry.place - path.start).dot(along);
-  const double reach = back * beyond > behind ? behind / back : beyond;
-  const Vec2 flare = entry.place + reach * out;
+  // The mouth's two walls end past all flanges, or where they meet.
+  const double apart = cross(path.normal, out);
+  const Vec2 to_entry = entry.place - path.start;
+  const double met = std::abs(apart) > 1e-9 ? cross(to_entry, out) / apart : -1.0;
+  const bool meet = met > 0 && met < beyond;
+  const Vec2 first = path.start + (meet ? met : beyond) * path.normal;
+  const Vec2 flare = meet ? first : Vec2(entry.place + beyond * out);
+  const double from = meet ? 0.0 : 1.0 / k_steps;
   for (int k = 0; k <= k_steps; ++k) {
-    const double share = static_cast<double>(k) / k_steps / entry.share;
+    const double share = (static_cast<double>(k) / k_steps - from) / std::max(1e-9, entry.share - from);
     if (share <= 1.0) edges.outer[static_cast<std::size_t>(k)] = flare + share * (entry.place - flare);
   }
+  edges.outer[0] = first;
   return edges;
 }
 
