@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fusee/base/units.h"
+#include "solid/bore.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {
@@ -50,7 +51,8 @@ class DowelChooser {
 
  private:
   std::optional<std::pair<Vec2, Vec2>> places_for(double pin, const std::vector<Bar>& obstacles) const {
-    const double radius = 0.5 * (pin + compensation_), room = radius + layout_.min_wall;
+    // To the hole's corners.
+    const double radius = circumradius(polyhole(pin + compensation_, Vec2::Zero())), room = radius + layout_.min_wall;
     return pin_places(circumradius(floor1_), 2.0 * radius, layout_.min_wall, [&](const Vec2& place) {
       return std::all_of(obstacles.begin(), obstacles.end(),
                          [&](const Bar& bar) { return gap({place, place, room}, bar) >= 0; }) &&
