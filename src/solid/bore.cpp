@@ -72,15 +72,20 @@ Polygon keyway_outline(double diameter, double compensation) {
   return points;
 }
 
+void make_round(BoreLayout& bore, double diameter) {
+  bore.circle = RoundHole{Vec2::Zero(), diameter};
+  bore.outline = polyhole(diameter, Vec2::Zero());
+}
+
 // The hub of the horn sinks into a recess below; its own screw and those on the circle pass through.
 void add_horn(BoreLayout& bore, const Horn& horn, double compensation) {
-  const Polygon centre_hole = polyhole(horn.centre_hole + compensation, Vec2::Zero());
+  const double centre_hole = horn.centre_hole + compensation;
   bore.horn_recess = horn.recess_depth;
   if (horn.recess_depth > 0) {
-    bore.outline = polyhole(horn.hub_diameter + compensation, Vec2::Zero());
-    bore.screw_holes.push_back(centre_hole);
+    make_round(bore, horn.hub_diameter + compensation);
+    bore.screw_holes.push_back(polyhole(centre_hole, Vec2::Zero()));
   } else {
-    bore.outline = centre_hole;
+    make_round(bore, centre_hole);
   }
   for (int k = 0; k < horn.hole_count; ++k) {
     const Vec2 centre = 0.5 * horn.hole_circle * unit(k_two_pi * k / horn.hole_count);
@@ -88,22 +93,28 @@ void add_horn(BoreLayout& bore, const Horn& horn, double compensation) {
   }
 }
 
-Polygon outline_of(const Body& body, double diameter, double compensation) {
+void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compensation) {
   const double radius = 0.5 * (diameter + compensation);
   switch (body.bore) {
     case Bore::d:
-      return d_outline(radius, (body.bore_flat > 0 ? body.bore_flat : 0.9 * diameter) + compensation);
+      bore.outline = d_outline(radius, (body.bore_flat > 0 ? body.bore_flat : 0.9 * diameter) + compensation);
+      bore.arc_points = bore.outline.size();
+      return;
     case Bore::hex:
-      return tangent_polygon(radius, 6, 0.5 * k_pi, Vec2::Zero());
+      bore.outline = tangent_polygon(radius, 6, 0.5 * k_pi, Vec2::Zero());
+      return;
     case Bore::square:
-      return tangent_polygon(radius, 4, 0.5 * k_pi, Vec2::Zero());
+      bore.outline = tangent_polygon(radius, 4, 0.5 * k_pi, Vec2::Zero());
+      return;
     case Bore::keyway:
-      return keyway_outline(diameter, compensation);
+      bore.outline = keyway_outline(diameter, compensation);
+      bore.arc_points = bore.outline.size() - 2;  // without the key's ground
+      return;
     case Bore::round:
     case Bore::horn:
       break;
   }
-  return polyhole(diameter + compensation, Vec2::Zero());
+  make_round(bore, diameter + compensation);
 }
 
 }  // namespace
@@ -123,7 +134,7 @@ BoreLayout bore_layout(const Body& body, double diameter, double compensation) {
     }
     add_horn(bore, *horn, compensation);
   } else {
-    bore.outline = outline_of(body, diameter, compensation);
+    fit_shaft(bore, body, diameter, compensation);
   }
   for (const Vec2& point : bore.outline) bore.radius = std::max(bore.radius, point.norm());
   return bore;

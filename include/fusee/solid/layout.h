@@ -5,6 +5,8 @@
 /// These are the finished part's sizes; the mesh's coordinates are `scale` times them.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,17 @@ struct GroovePoint {
   double dz = 0;
 };
 
+/// The circle that is wanted where a print has a polygon around it.
+struct RoundHole {
+  Vec2 centre = Vec2::Zero();
+  double diameter = 0;
+};
+
 struct BoreLayout {
   Bore kind = Bore::round;
   Polygon outline;     ///< counter-clockwise about the axis, hole compensation included
+  std::optional<RoundHole> circle;   ///< that the outline's sides touch from outside, where the bore is a circle
+  std::size_t arc_points = 0;        ///< how many of the outline's first points lie on one arc about the axis (D, keyway)
   double radius = 0;   ///< of the largest circle about the axis that the bore reaches
   std::vector<Polygon> screw_holes;  ///< of a servo horn, through holes; with a recess the first is the centre screw's
   double horn_recess = 0;            ///< depth of the horn's pocket from the bottom face; 0: through
