@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "fusee/base/text.h"
 #include "solid/groove.h"
@@ -24,6 +25,11 @@ void choose_elephant_foot(BodyLayout& layout, double wanted) {
 }
 
 }  // namespace
+
+RoundHole circle_within(const Polygon& facets) {
+  const Vec2 centre = std::accumulate(facets.begin(), facets.end(), Vec2(0, 0)) / static_cast<double>(facets.size());
+  return {centre, 2.0 * distance_to_edges(facets, centre)};
+}
 
 BodyLayout axial_layout(const Mechanism& mechanism) {
   const double d = mechanism.tendon.diameter;

@@ -27,6 +27,9 @@ struct RoundHole {
   double diameter = 0;
 };
 
+/// The circle that the sides of a print's round hole touch.
+RoundHole circle_within(const Polygon& facets);
+
 struct BoreLayout {
   Bore kind = Bore::round;
   Polygon outline;     ///< counter-clockwise about the axis, hole compensation included
