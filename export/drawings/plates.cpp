@@ -29,6 +29,8 @@ struct Stock {
   const Product& product;
   const Mechanism& mechanism;
   BodyLayout layout;
+  Contour bore;
+  std::vector<Contour> screw_holes;
   FlangeRims rims;
   Polygon floor1;
   Polygon floor2;
@@ -38,13 +40,16 @@ struct Stock {
       : product(made),
         mechanism(made.joint.mechanism),
         layout(layout_to_cut(made)),
+        bore(bore_contour(layout.bore)),
         rims(flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth,
                          mechanism.body.flange)),
         floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
         floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
-        wall(std::max(layout.min_wall, k_least_wall)) {}
+        wall(std::max(layout.min_wall, k_least_wall)) {
+    for (const Polygon& hole : layout.bore.screw_holes) screw_holes.push_back(circle_contour(circle_within(hole)));
+  }
 
-  Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
+  Contour pocket(const Anchor& anchor) const { return circle_contour({anchor.pocket, 2 * layout.pocket_radius}); }
 };
 
 // Dowels
@@ -55,11 +60,11 @@ Material2d common_material(const Stock& stock) {
   Material2d material;
   material.add_outline(stock.floor1);
   material.add_outline(stock.floor2);
-  material.add_hole(stock.layout.bore.outline);
-  for (const Polygon& hole : stock.layout.bore.screw_holes) material.add_hole(hole);
+  material.add_hole(stock.bore.points);
+  for (const Contour& hole : stock.screw_holes) material.add_hole(hole.points);
   for (const Anchor& anchor : stock.product.pulley.anchors) {
     if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
-    if (stock.layout.pocket_radius > 0) material.add_hole(stock.pocket(anchor));
+    if (stock.layout.pocket_radius > 0) material.add_hole(stock.pocket(anchor).points);
   }
   return material;
 }
@@ -137,16 +142,16 @@ class LayerMaker {
     layer.outer = {outline};
     layer.cut_outer = {offset_edges(outline, 0.5 * kerf_)};
     for (const Anchor* anchor : channels) cut_channel(layer, *anchor);
-    add_hole(layer, stock_.layout.bore.outline, "bore");
-    for (const Polygon& hole : stock_.layout.bore.screw_holes) add_hole(layer, hole, "screw hole");
+    add_hole(layer, stock_.bore, "bore");
+    for (const Contour& hole : stock_.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
-      add_hole(layer, circle_polygon(dowel, 0.5 * plates_.dowel_diameter), "dowel hole");
+      add_hole(layer, circle_contour({dowel, plates_.dowel_diameter}), "dowel hole");
     for (const Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
     plates_.layers.push_back(std::move(layer));
   }
 
  private:
-  void add_hole(PlateLayer& layer, const Polygon& hole, const char* what) {
+  void add_hole(PlateLayer& layer, const Contour& hole, const char* what) {
     const auto path = cut_hole(hole, kerf_);
     if (!path) {
       note_once(plates_, fmt::format("the {} is left out: a kerf of {} mm is wider", what, rounded(kerf_)));
@@ -161,14 +166,14 @@ class LayerMaker {
   void cut_channel(PlateLayer& layer, const Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
-    for (const Polygon& part : {anchor.channel, stock_.pocket(anchor)}) {
-      const auto inner = part.size() > 2 && is_simple(part) ? cut_hole(part, kerf_) : std::nullopt;
+    for (const Polygon& part : {anchor.channel, stock_.pocket(anchor).points}) {
+      const auto inner = part.size() > 2 && is_simple(part) ? cut_hole({part, {}, 0}, kerf_) : std::nullopt;
       if (!inner) {
         note_once(plates_, fmt::format("a tendon channel is left out: a kerf of {} mm is wider", rounded(kerf_)));
         return;
       }
       finished.push_back(part);
-      path.push_back(*inner);
+      path.push_back(inner->points);
     }
     const std::vector<Polygon> outer = difference(layer.outer.front(), finished);
     const std::vector<Polygon> cut_outer = difference(layer.cut_outer.front(), path);
@@ -227,7 +232,7 @@ void add_layers(Plates& plates, const Stock& stock) {
 Material2d material_of(const PlateLayer& layer) {
   Material2d material;
   material.add_outline(layer.outer.front());
-  for (const Polygon& hole : layer.holes) material.add_hole(hole);
+  for (const Contour& hole : layer.holes) material.add_hole(hole.points);
   return material;
 }
 
@@ -318,8 +323,8 @@ void note_small_features(Plates& plates, const Stock& stock) {
                                        rounded(narrow), rounded(k_least_feature)));
   }
   for (const PlateLayer& layer : plates.layers) {
-    for (const Polygon& hole : layer.holes) {
-      const double width = bounding_box(hole).size().minCoeff();
+    for (const Contour& hole : layer.holes) {
+      const double width = bounding_box(hole.points).size().minCoeff();
       if (width < k_least_feature)
         plates.notes.push_back(
             fmt::format("{}: a hole is {} mm wide, below {} mm", layer.name, rounded(width), rounded(k_least_feature)));
