@@ -275,6 +275,15 @@ std::string tendon_table(const Product& product) {
          "home. The cut leaves 60 mm at each end for knots.</p>";
 }
 
+/// Why a round bore has corners, where it is round.
+std::string polyhole_words(const BoreLayout& bore) {
+  if (!bore.circle) return "";
+  return " The bore is a polygon of " + std::to_string(bore.outline.size()) +
+         " sides on purpose: a printer’s corners cut inside of a curve, and a circle would come out too small. Its "
+         "sides touch the circle of " +
+         with_unit(bore.circle->diameter, "mm") + ": try the shaft in it.";
+}
+
 std::vector<std::string> steps(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
   std::vector<std::string> items{
@@ -285,7 +294,7 @@ std::vector<std::string> steps(const Product& product) {
                     " % larger, for the shrinkage of " + product.joint.mechanism.material.name +
                     ": do not scale again.");
   }
-  items.push_back("Measure the bore and the groove with callipers before going on.");
+  items.push_back("Measure the bore and the groove with callipers before going on." + polyhole_words(layout.bore));
   items.push_back(
       "Put the pulley on its shaft with P1 below and the home mark pointing to +y: the way that C lies from O at "
       "home.");

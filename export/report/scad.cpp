@@ -163,8 +163,12 @@ std::string parameters(const Product& product) {
 )",
       on_one_line(mechanism.name));
   if (layout.bore.kind != Bore::horn)
-    text += slider_text({"bore", "shaft diameter (across flats for hex and square)",
-                         shaft_diameter(layout.bore, mechanism.material.hole_compensation), 1, 0.1, 40});
+    text += slider_text(
+        {"bore",
+         layout.bore.circle
+             ? "shaft diameter; the hole is a polygon around it, for a printer's corners cut inside of a curve"
+             : "shaft diameter (across flats for hex and square)",
+         shaft_diameter(layout.bore, mechanism.material.hole_compensation), 1, 0.1, 40});
   text += slider_text({"hole_compensation", "added to every hole's diameter: what a printer takes off it",
                        mechanism.material.hole_compensation, 0, 0.05, 1});
   text += "\n/* [Hub] */\n";

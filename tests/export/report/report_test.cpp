@@ -163,6 +163,15 @@ TEST(Report, SaysHowLongToCutTheTendon) {
   EXPECT_THAT(words, HasSubstr("Left on the pulley at full pay-out"));
 }
 
+TEST(Report, SaysWhyARoundBoreHasCorners) {
+  Product product = sample();
+  product.pulley.layout.bore.outline = {{2.6, -2.6}, {2.6, 2.6}, {-2.6, 2.6}, {-2.6, -2.6}};
+  EXPECT_THAT(report_html(product), Not(HasSubstr("a printer’s corners cut inside")));
+  product.pulley.layout.bore.circle = RoundHole{Vec2::Zero(), 5.2};
+  EXPECT_THAT(report_html(product), HasSubstr("a polygon of 4 sides on purpose: a printer’s corners cut inside"));
+  EXPECT_THAT(report_html(product), HasSubstr("⌀ 5.2 inside the polygon"));
+}
+
 TEST(Report, ShowsForcesOnlyUnderLoad) {
   Mechanism mechanism = testing::forearm();
   EXPECT_TRUE(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']").empty());
