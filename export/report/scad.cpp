@@ -147,6 +147,18 @@ std::string tick_box(const char* name, const char* words, bool value) {
   return fmt::format("// {}\n{} = {};\n", words, name, value);
 }
 
+/// What else a D or a keyway is made of.
+std::string flat_sliders(const BoreLayout& bore, double compensation) {
+  const double radius = 0.5 * shaft_diameter(bore, compensation);
+  const double top = bore.outline.back().y() - 0.5 * compensation;
+  if (bore.kind == Bore::d)
+    return slider_text({"bore_flat", "from the flat to the far side of the shaft", top + radius, 0.5, 0.1, 40});
+  if (bore.kind != Bore::keyway) return "";
+  const double width = 2 * std::abs(bore.outline.back().x()) - compensation;
+  return slider_text({"key_width", "of the keyway", width, 0.5, 0.1, 20}) +
+         slider_text({"key_depth", "of the keyway, from the shaft's edge", top - radius, 0, 0.1, 10});
+}
+
 /// What of the shaft and the screw this part has none of is no parameter, but a number that the program reads.
 std::string parameters(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
@@ -169,7 +181,9 @@ std::string parameters(const Product& product) {
              ? "shaft diameter; the hole is a polygon around it, for a printer's corners cut inside of a curve"
              : "shaft diameter (across flats for hex and square)",
          shaft_diameter(layout.bore, mechanism.material.hole_compensation), 1, 0.1, 40});
-  text += slider_text({"hole_compensation", "added to every hole's diameter: what a printer takes off it",
+  text += flat_sliders(layout.bore, mechanism.material.hole_compensation);
+  text += slider_text({"hole_compensation",
+                       "added to the diameter of the bore and of a horn's holes: what a printer takes off it",
                        mechanism.material.hole_compensation, 0, 0.05, 1});
   text += "\n/* [Hub] */\n";
   text += slider_text({"hub_diameter", "0: no hub", 2 * layout.hub_radius, 0, 0.1, 100});
@@ -200,9 +214,6 @@ std::string hidden_numbers(const Product& product) {
   const RimMargins margins =
       rim_margins(rims, synthesis.p1, synthesis.p2, layout.groove_depth - 0.5 * d, mechanism.body.flange);
   const BoreLayout& bore = layout.bore;
-  const double bore_top = std::max_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) {
-                            return a.y() < b.y();
-                          })->y();
   const SetScrewLayout& screw = layout.set_screw;
   std::string absent;
   if (bore.kind == Bore::horn)
@@ -227,8 +238,6 @@ lower_margin = {};    // how far the flanges stand outside of the groove's lip
 middle_margin = {};
 upper_margin = {};
 bore_shape = "{}";
-bore_top = {};        // d: the flat, keyway: the key's ground, from the axis
-key_width = {};
 screw_hole = {};      // diameter
 screw_angle = {};     // direction, degrees
 screw_lift = {};      // above the middle of the hub
@@ -241,10 +250,9 @@ print_scale = {};     // a print shrinks by as much
 )",
       absent, decimal(d), decimal(mechanism.body.seat_ratio),
       mechanism.body.flange == Flange::follow ? "follow" : "round", decimal(margins.lower), decimal(margins.middle),
-      decimal(margins.upper), name_of(bore.kind), decimal(bore_top),
-      decimal(bore.kind == Bore::keyway ? 2 * bore.outline.back().cwiseAbs().x() : 0), decimal(screw.hole_diameter),
-      decimal(degrees(screw.angle)), decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width),
-      decimal(screw.nut_thickness), decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
+      decimal(margins.upper), name_of(bore.kind), decimal(screw.hole_diameter), decimal(degrees(screw.angle)),
+      decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width), decimal(screw.nut_thickness),
+      decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
   text += "horn_recess = " + decimal(bore.horn_recess) +
           ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
   text += "horn_holes = [";
@@ -372,10 +380,11 @@ module round_hole(d) { polyhole(d, max(8, round(2 * d))); }
 
 module bore_outline() {
   d = bore + hole_compensation;
+  key = bore_shape == "keyway" ? key_width + hole_compensation : 0;
   if (bore_shape == "hex") polyhole(d, 6);
   else if (bore_shape == "square") polyhole(d, 4);
-  else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, -2 * d + bore_top]) square(2 * d); }
-  else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key_width / 2, 0]) square([key_width, bore_top]); }
+  else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, bore_flat - bore / 2 + hole_compensation / 2 - 2 * d]) square(2 * d); }
+  else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key / 2, 0]) square([key, d / 2 + key_depth]); }
   else round_hole(d);
 }
 

@@ -65,9 +65,8 @@ class Expected:
 
         self.shape = value("bore_shape")
         self.bore = value("bore")
-        self.compensation = value("hole_compensation")
-        self.top = value("bore_top") - self.compensation / 2
-        self.key = value("key_width") - self.compensation
+        self.top = {"d": lambda: value("bore_flat") - self.bore / 2, "keyway": lambda: self.bore / 2 + value("key_depth")}.get(self.shape, float)()
+        self.key = value("key_width") if self.shape == "keyway" else 0
         self.screws = [(Vec2(x, y), d) for x, y, d in value("horn_holes")]
         self.tie_offs = [Vec2(*map(float, pair)) for pair in re.findall(r"^\s*\[[12], \[([-0-9.]+), ([-0-9.]+)\]", text, re.M)]
         self.kerf = mechanism["cut"]["kerf_mm"]
