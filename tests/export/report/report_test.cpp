@@ -54,7 +54,7 @@ Product sample(Mechanism mechanism = testing::forearm()) {
   product.pulley.mesh = tube(60, 5);
   const Outline& p1 = product.synthesis.p1;
   const Vec2 exit = p1.points[p1.anchor_end()].position;
-  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit}};
+  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit, {}, {}}};
   product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
   for (const TransmissionPoint& point : product.synthesis.stroke) {
     product.as_built.points.push_back(
@@ -170,6 +170,20 @@ TEST(Report, SaysWhyARoundBoreHasCorners) {
   product.pulley.layout.bore.circle = RoundHole{Vec2::Zero(), 5.2};
   EXPECT_THAT(report_html(product), HasSubstr("a polygon of 4 sides on purpose: a printer’s corners cut inside"));
   EXPECT_THAT(report_html(product), HasSubstr("⌀ 5.2 inside the polygon"));
+}
+
+TEST(Report, SaysHowThePulleyGetsOntoWhatTurnsIt) {
+  const auto making = [](const Mechanism& mechanism) {
+    return words_of(parsed(report_html(sample(mechanism))).select_node("//section[@id='making']").node());
+  };
+  Mechanism mechanism = testing::forearm();
+  EXPECT_THAT(making(mechanism), HasSubstr("Put the pulley on its shaft with P1 below"));
+  mechanism.body.bore = Bore::horn;
+  mechanism.body.horn = "feetech-sts3215";
+  EXPECT_THAT(making(mechanism), HasSubstr("the first screw 45.0° from +x towards +y"));
+  EXPECT_THAT(making(mechanism), HasSubstr("(4 holes on 14 mm) with P1 below"));
+  mechanism.body.horn = "spline-25T-futaba";
+  EXPECT_THAT(making(mechanism), HasSubstr("It goes on every 14.4°"));
 }
 
 TEST(Report, ShowsForcesOnlyUnderLoad) {
