@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
 
 namespace fusee {
 namespace {
-
-/// A print's hole has few facets, tangent to its circle: the circle itself.
-Polygon circle_within(const Polygon& facets) {
-  const Vec2 centre = std::accumulate(facets.begin(), facets.end(), Vec2(0, 0)) / static_cast<double>(facets.size());
-  return circle_polygon(centre, distance_to_edges(facets, centre));
-}
 
 /// Offset too far, an edge runs backward.
 bool edges_keep_direction(const Polygon& before, const Polygon& after) {
@@ -23,6 +16,25 @@ bool edges_keep_direction(const Polygon& before, const Polygon& after) {
     if (!((after[j] - after[i]).dot(before[j] - before[i]) > 0)) return false;
   }
   return true;
+}
+
+/// The place nearest to `point`, on the line from there to `neighbour`, that is `radius` from the origin.
+Vec2 on_circle(const Vec2& point, const Vec2& neighbour, double radius) {
+  const Vec2 direction = (neighbour - point).normalized();
+  const double to_foot = -point.dot(direction);
+  const Vec2 foot = point + to_foot * direction;
+  const double half_chord = std::sqrt(std::max(0.0, radius * radius - foot.squaredNorm()));
+  return foot + (to_foot > 0 ? -half_chord : half_chord) * direction;
+}
+
+/// An offset moves chords; here the first `count` points come back onto their arc, which ends where the straight edges
+/// beside it meet it.
+void put_on_arc(Polygon& points, std::size_t count, double radius) {
+  const Vec2 first = on_circle(points.front(), points.back(), radius);
+  const Vec2 last = on_circle(points[count - 1], points[count % points.size()], radius);
+  const double turn = turn_between(first, last);
+  for (std::size_t i = 0; i < count; ++i)
+    points[i] = turned(first, turn * static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
 bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
@@ -43,11 +55,12 @@ BodyLayout layout_to_cut(const Product& product) {
   mechanism.material.shrinkage = 0;
   mechanism.material.hole_compensation = 0;
   mechanism.material.elephant_foot = 0;
-  BodyLayout layout = resolve_layout(mechanism, product.synthesis);
-  if (layout.bore.kind == Bore::round || (layout.bore.kind == Bore::horn && layout.bore.spline_teeth == 0))
-    layout.bore.outline = circle_within(layout.bore.outline);
-  for (Polygon& hole : layout.bore.screw_holes) hole = circle_within(hole);
-  return layout;
+  return resolve_layout(mechanism, product.synthesis);
+}
+
+Contour bore_contour(const BoreLayout& bore) {
+  if (bore.circle) return circle_contour(*bore.circle);
+  return {bore.outline, std::nullopt, bore.arc_points};
 }
 
 Polygon offset_edges(const Polygon& polygon, double distance) {
@@ -66,10 +79,12 @@ Polygon offset_edges(const Polygon& polygon, double distance) {
   return moved;
 }
 
-std::optional<Polygon> cut_hole(const Polygon& hole, double kerf) {
-  Polygon path = offset_edges(hole, -0.5 * kerf);
-  if (!edges_keep_direction(hole, path) || !is_simple(path)) return std::nullopt;
-  return path;
+std::optional<Contour> cut_hole(const Contour& hole, double kerf) {
+  Polygon path = offset_edges(hole.points, -0.5 * kerf);
+  if (!edges_keep_direction(hole.points, path) || !is_simple(path)) return std::nullopt;
+  if (hole.circle) return Contour{std::move(path), RoundHole{hole.circle->centre, hole.circle->diameter - kerf}, 0};
+  if (hole.arc_points > 0) put_on_arc(path, hole.arc_points, hole.points.front().norm() - 0.5 * kerf);
+  return Contour{std::move(path), std::nullopt, hole.arc_points};
 }
 
 bool contains(const Polygon& polygon, const Vec2& p) {

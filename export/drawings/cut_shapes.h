@@ -5,23 +5,26 @@
 #include <optional>
 #include <vector>
 
+#include "export/drawings/plane_shapes.h"
 #include "fusee/base/plane.h"
 #include "fusee/export/product.h"
 
 namespace fusee {
 
-/// The body's sizes without shrinkage and hole compensation, which are a print's; round holes as near to circles as
-/// drawings go.
+/// The body's sizes without shrinkage and hole compensation, which are a print's.
 BodyLayout layout_to_cut(const Product& product);
+
+/// The bore as it is cut: a circle, arcs and flats, or corners.
+Contour bore_contour(const BoreLayout& bore);
 
 /// Every edge moved outward by `distance` (inward when negative), corners mitred: exact for the polygon.
 /// Counter-clockwise in and out. Sense is lost where an edge is shorter than what is taken away: is_simple() and the
 /// area tell.
 Polygon offset_edges(const Polygon& polygon, double distance);
 
-/// Cutter's path for a hole of this outline: half a kerf inside it. Null when the kerf is wider than the hole
-/// somewhere.
-std::optional<Polygon> cut_hole(const Polygon& hole, double kerf);
+/// Cutter's path for a hole of this outline: half a kerf inside it, a circle for a circle and an arc for an arc. Null
+/// when the kerf is wider than the hole somewhere.
+std::optional<Contour> cut_hole(const Contour& hole, double kerf);
 
 bool contains(const Polygon& polygon, const Vec2& point);
 

@@ -45,7 +45,12 @@ class Ac1015Writer {
     write_tables();
     write_blocks();
     tags_.begin_section("ENTITIES");
-    for (const DxfPath& path : document_.paths) write_polyline(path);
+    for (const DxfPath& path : document_.paths) {
+      if (path.circle)
+        write_circle(path.layer, *path.circle);
+      else
+        write_polyline(path);
+    }
     tags_.end_section();
     write_objects();
     tags_.text(0, "EOF");
@@ -198,9 +203,17 @@ class Ac1015Writer {
 
   void write_polyline(const DxfPath& path) {
     begin_entity("LWPOLYLINE", "AcDbPolyline", k_model_record, path.layer);
-    tags_.integer(90, static_cast<int>(path.points.size()));
+    tags_.integer(90, static_cast<int>(path.vertices.size()));
     tags_.integer(70, path.closed ? 1 : 0);
-    for (const Vec2& p : path.points) tags_.point(10, p);
+    for (const BulgeVertex& vertex : path.vertices) {
+      tags_.point(10, vertex.place);
+      if (vertex.bulge != 0) tags_.real(42, vertex.bulge);
+    }
+  }
+
+  void write_circle(const std::string& layer, const RoundHole& circle) {
+    begin_entity("CIRCLE", "AcDbCircle", k_model_record, layer);
+    write_circle_values(tags_, circle);
   }
 
   void write_dictionary(int handle, int owner, std::initializer_list<std::pair<std::string_view, int>> entries,

@@ -43,13 +43,20 @@ void write_r12_polyline(DxfTagWriter& tags, const DxfPath& path) {
   tags.integer(66, 1);
   tags.point3(10, 0, 0, 0);
   tags.integer(70, path.closed ? 1 : 0);
-  for (const Vec2& p : path.points) {
+  for (const BulgeVertex& vertex : path.vertices) {
     tags.text(0, "VERTEX");
     tags.text(8, path.layer);
-    tags.point3(10, p.x(), p.y(), 0);
+    tags.point3(10, vertex.place.x(), vertex.place.y(), 0);
+    if (vertex.bulge != 0) tags.real(42, vertex.bulge);
   }
   tags.text(0, "SEQEND");
   tags.text(8, path.layer);
+}
+
+void write_r12_circle(DxfTagWriter& tags, const std::string& layer, const RoundHole& circle) {
+  tags.text(0, "CIRCLE");
+  tags.text(8, layer);
+  write_circle_values(tags, circle);
 }
 
 }  // namespace
@@ -64,7 +71,12 @@ std::string r12_text(const DxfDocument& document) {
   tags.begin_section("BLOCKS");
   tags.end_section();
   tags.begin_section("ENTITIES");
-  for (const DxfPath& path : document.paths) write_r12_polyline(tags, path);
+  for (const DxfPath& path : document.paths) {
+    if (path.circle)
+      write_r12_circle(tags, path.layer, *path.circle);
+    else
+      write_r12_polyline(tags, path);
+  }
   tags.end_section();
   tags.text(0, "EOF");
   return tags.take();

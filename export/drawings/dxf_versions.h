@@ -18,6 +18,8 @@ std::string ac1015_text(const DxfDocument& document);
 void write_remarks(DxfTagWriter& tags, const DxfDocument& document);
 /// The header's variables that both know: version, extents, units.
 void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& box);
+/// Centre and radius.
+void write_circle_values(DxfTagWriter& tags, const RoundHole& circle);
 /// Of the one text style, which no text is written in.
 void write_style_values(DxfTagWriter& tags);
 

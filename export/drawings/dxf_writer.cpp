@@ -7,6 +7,8 @@
 namespace fusee {
 namespace {
 
+constexpr double k_box_sagitta = 0.001;  // mm: a box is for the eye
+
 /// Comments are plain ASCII: the code page of a DXF file differs by version.
 std::string ascii(const std::string& text) {
   std::string plain;
@@ -38,6 +40,11 @@ void write_variables(DxfTagWriter& tags, std::string_view version, const Box2d& 
   tags.integer(70, 4);
 }
 
+void write_circle_values(DxfTagWriter& tags, const RoundHole& circle) {
+  tags.point3(10, circle.centre.x(), circle.centre.y(), 0);
+  tags.real(40, 0.5 * circle.diameter);
+}
+
 void write_style_values(DxfTagWriter& tags) {
   tags.integer(70, 0);
   tags.reals({{40, 0}, {41, 1}, {50, 0}});
@@ -47,14 +54,35 @@ void write_style_values(DxfTagWriter& tags) {
   tags.text(4, "");
 }
 
+void DxfDocument::closed(std::string layer, const Contour& contour, const Vec2& shift) {
+  DxfPath path{std::move(layer), {}, true, contour.circle};
+  if (path.circle) {
+    path.circle->centre += shift;
+  } else {
+    path.vertices = vertices_of(contour);
+    for (BulgeVertex& vertex : path.vertices) vertex.place += shift;
+  }
+  paths.push_back(std::move(path));
+}
+
+void DxfDocument::open(std::string layer, const Polygon& points) {
+  paths.push_back({std::move(layer), vertices_of({points, {}, 0}), false, {}});
+}
+
 void DxfDocument::text(const std::string& layer, std::string_view line, const Vec2& origin, double height) {
-  for (Polygon& stroke : stroke_text(line, origin, height)) open(layer, std::move(stroke));
+  for (const Polygon& stroke : stroke_text(line, origin, height)) open(layer, stroke);
 }
 
 std::string dxf_text(const DxfDocument& document, DxfVersion version) {
   for (const DxfPath& path : document.paths) {
-    demand(path.points.size() >= 2, "a path on layer " + path.layer + " has fewer than two points");
-    for (const Vec2& p : path.points) demand(p.allFinite(), "a point on layer " + path.layer + " is not finite");
+    if (path.circle) {
+      demand(path.circle->diameter > 0 && path.circle->centre.allFinite(),
+             "a circle on layer " + path.layer + " is none");
+      continue;
+    }
+    demand(path.vertices.size() >= 2, "a path on layer " + path.layer + " has fewer than two points");
+    for (const BulgeVertex& vertex : path.vertices)
+      demand(vertex.place.allFinite(), "a point on layer " + path.layer + " is not finite");
   }
   return version == DxfVersion::r12 ? r12_text(document) : ac1015_text(document);
 }
@@ -62,7 +90,12 @@ std::string dxf_text(const DxfDocument& document, DxfVersion version) {
 Box2d bounding_box(const std::vector<DxfPath>& paths) {
   Polygon corners;
   for (const DxfPath& path : paths) {
-    const Box2d box = bounding_box(path.points);
+    if (path.circle) {
+      const Vec2 reach = Vec2::Constant(0.5 * path.circle->diameter);
+      corners.insert(corners.end(), {path.circle->centre - reach, path.circle->centre + reach});
+      continue;
+    }
+    const Box2d box = bounding_box(sampled_bulges(path.vertices, path.closed, k_box_sagitta).points);
     corners.insert(corners.end(), {box.low, box.high});
   }
   return bounding_box(corners);

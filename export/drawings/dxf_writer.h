@@ -1,6 +1,7 @@
 /// \file
-/// A drawing of polylines as DXF text: AC1015 (AutoCAD 2000) with every table, owner and dictionary that a strict
-/// reader looks for, or R12 (AC1009), which laser shops ask for. Millimetres, nine decimals. No splines, arcs or texts.
+/// A drawing of polylines and circles as DXF text: AC1015 (AutoCAD 2000) with every table, owner and dictionary that a
+/// strict reader looks for, or R12 (AC1009), which laser shops ask for. Millimetres, nine decimals. No splines or
+/// texts; an arc is a polyline's bulge.
 #pragma once
 
 #include <string>
@@ -20,8 +21,9 @@ struct DxfLayer {
 
 struct DxfPath {
   std::string layer;
-  Polygon points;
+  std::vector<BulgeVertex> vertices;  ///< none of a circle
   bool closed = true;
+  std::optional<RoundHole> circle;
 };
 
 struct DxfDocument {
@@ -29,8 +31,9 @@ struct DxfDocument {
   std::vector<DxfLayer> layers;
   std::vector<DxfPath> paths;  ///< drawn in this order
 
-  void closed(std::string layer, Polygon points) { paths.push_back({std::move(layer), std::move(points), true}); }
-  void open(std::string layer, Polygon points) { paths.push_back({std::move(layer), std::move(points), false}); }
+  void closed(std::string layer, const Polygon& points) { closed(std::move(layer), Contour{points, {}, 0}); }
+  void closed(std::string layer, const Contour& contour, const Vec2& shift = Vec2::Zero());
+  void open(std::string layer, const Polygon& points);
   /// A line of single-stroke text; `origin` is its lower left corner.
   void text(const std::string& layer, std::string_view text, const Vec2& origin, double height);
 };

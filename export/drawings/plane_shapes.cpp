@@ -18,6 +18,26 @@ Polygon circle_polygon(const Vec2& centre, double radius) {
   return polygon;
 }
 
+double turn_between(const Vec2& from, const Vec2& to) {
+  const double turn = std::atan2(cross(from, to), from.dot(to));
+  return turn > 0 ? turn : turn + k_two_pi;
+}
+
+Contour circle_contour(const RoundHole& hole) { return {circle_polygon(hole.centre, 0.5 * hole.diameter), hole, 0}; }
+
+std::vector<BulgeVertex> vertices_of(const Contour& contour) {
+  std::vector<BulgeVertex> vertices;
+  std::size_t next = 0;
+  if (contour.arc_points > 0) {
+    const Vec2& from = contour.points.front();
+    const Vec2& to = contour.points[contour.arc_points - 1];
+    vertices = {{from, std::tan(0.25 * turn_between(from, to))}, {to, 0}};
+    next = contour.arc_points;
+  }
+  for (; next < contour.points.size(); ++next) vertices.push_back({contour.points[next], 0});
+  return vertices;
+}
+
 Box2d bounding_box(const Polygon& points) {
   if (points.empty()) return {};
   Box2d box{points.front(), points.front()};

@@ -1,8 +1,14 @@
 /// \file
-/// Rectangles, circles and boxes, as polygons to draw. mm.
+/// Rectangles, circles, contours and boxes, to draw. mm.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "export/drawings/sampled_curves.h"
 #include "fusee/base/plane.h"
+#include "fusee/solid/layout.h"
 
 namespace fusee {
 
@@ -11,6 +17,19 @@ Polygon rectangle(const Vec2& low, const Vec2& high);
 /// A circle as a regular polygon, counter-clockwise, its corners *on* the circle; sagitta at most 0.002 mm, 24 corners
 /// at least.
 Polygon circle_polygon(const Vec2& centre, double radius);
+
+/// A closed contour: the polygon that everything is measured on, and what of it is round, for whoever draws it.
+struct Contour {
+  Polygon points;
+  std::optional<RoundHole> circle;  ///< the whole contour is this circle
+  std::size_t arc_points = 0;       ///< how many of the first points lie on one arc about the origin
+};
+
+Contour circle_contour(const RoundHole& hole);
+/// What is drawn of a contour that is no circle: the arc as one edge with its bulge.
+std::vector<BulgeVertex> vertices_of(const Contour& contour);
+/// The angle from `from` to `to` about the origin, counter-clockwise, in (0, 2π]. rad.
+double turn_between(const Vec2& from, const Vec2& to);
 
 struct Box2d {
   Vec2 low = Vec2::Zero();

@@ -30,6 +30,8 @@ struct Stock {
   const Product& product;
   const Mechanism& mechanism;
   BodyLayout layout;
+  Contour bore;
+  std::vector<Contour> screw_holes;
   FlangeRims rims;
   Polygon floor1;
   Polygon floor2;
@@ -39,24 +41,29 @@ struct Stock {
       : product(made),
         mechanism(made.joint.mechanism),
         layout(layout_to_cut(made)),
+        bore(bore_contour(layout.bore)),
         rims(flange_rims(made.synthesis.p1, made.synthesis.p2, mechanism.tendon.diameter, layout.groove_depth,
                          mechanism.body.flange)),
         floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
         floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
         wall(std::max(layout.min_wall, k_least_wall)) {
+    std::vector<Polygon> holes = layout.bore.screw_holes;
     // A recess goes through all plates, and takes the centre hole above it with it.
-    if (layout.bore.horn_recess > 0) layout.bore.screw_holes.erase(layout.bore.screw_holes.begin());
+    if (layout.bore.horn_recess > 0) holes.erase(holes.begin());
+    for (const Polygon& hole : holes) screw_holes.push_back(circle_contour(circle_within(hole)));
   }
 
-  Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
+  Contour pocket(const Anchor& anchor) const { return circle_contour({anchor.pocket, 2 * layout.pocket_radius}); }
   /// What is cut into the plate of the groove: channel and pocket, or the notch that a hole to the face leaves.
   std::vector<Polygon> in_core(const Anchor& anchor) const {
     std::vector<Polygon> parts{anchor.channel};
-    if (!anchor.seat) parts.push_back(pocket(anchor));
+    if (!anchor.seat) parts.push_back(pocket(anchor).points);
     return parts;
   }
   /// And through its flange.
-  Polygon in_flange(const Anchor& anchor) const { return anchor.seat ? anchor.channel : pocket(anchor); }
+  Contour in_flange(const Anchor& anchor) const {
+    return anchor.seat ? Contour{anchor.channel, {}, 0} : pocket(anchor);
+  }
 };
 
 // Dowels
@@ -67,11 +74,11 @@ Material2d common_material(const Stock& stock) {
   Material2d material;
   material.add_outline(stock.floor1);
   material.add_outline(stock.floor2);
-  material.add_hole(stock.layout.bore.outline);
-  for (const Polygon& hole : stock.layout.bore.screw_holes) material.add_hole(hole);
+  material.add_hole(stock.bore.points);
+  for (const Contour& hole : stock.screw_holes) material.add_hole(hole.points);
   for (const Anchor& anchor : stock.product.pulley.anchors) {
     if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
-    if (stock.layout.pocket_radius > 0) material.add_hole(stock.in_flange(anchor));
+    if (stock.layout.pocket_radius > 0) material.add_hole(stock.in_flange(anchor).points);
   }
   return material;
 }
@@ -127,16 +134,16 @@ class LayerMaker {
     layer.outer = {outline};
     layer.cut_outer = {offset_edges(outline, 0.5 * kerf_)};
     for (const Anchor* anchor : channels) cut_channel(layer, *anchor);
-    add_hole(layer, stock_.layout.bore.outline, "bore");
-    for (const Polygon& hole : stock_.layout.bore.screw_holes) add_hole(layer, hole, "screw hole");
+    add_hole(layer, stock_.bore, "bore");
+    for (const Contour& hole : stock_.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
-      add_hole(layer, circle_polygon(dowel, 0.5 * plates_.dowel_diameter), "dowel hole");
+      add_hole(layer, circle_contour({dowel, plates_.dowel_diameter}), "dowel hole");
     for (const Anchor* anchor : pockets) add_fine_hole(layer, stock_.in_flange(*anchor));
     plates_.layers.push_back(std::move(layer));
   }
 
  private:
-  void add_hole(PlateLayer& layer, const Polygon& hole, const char* what) {
+  void add_hole(PlateLayer& layer, const Contour& hole, const char* what) {
     const auto path = cut_hole(hole, kerf_);
     if (!path) {
       note_once(plates_, fmt::format("the {} is left out: a kerf of {} mm is wider", what, rounded(kerf_)));
@@ -147,11 +154,11 @@ class LayerMaker {
   }
 
   /// Of a knot or of a tendon: it can be drilled.
-  void add_fine_hole(PlateLayer& layer, const Polygon& hole) {
+  void add_fine_hole(PlateLayer& layer, const Contour& hole) {
     const auto path = cut_hole(hole, kerf_);
-    if (path && bounding_box(*path).size().minCoeff() >= k_least_feature) return add_hole(layer, hole, "knot pocket");
+    if (path && bounding_box(path->points).size().minCoeff() >= k_least_feature) return add_hole(layer, hole, "knot pocket");
     note_once(plates_, fmt::format("{}: the knot's hole of {} mm is left out, the cut would be narrower than {} mm: drill it",
-                                   layer.name, rounded(bounding_box(hole).size().minCoeff(), 3), rounded(k_least_feature)));
+                                   layer.name, rounded(bounding_box(hole.points).size().minCoeff(), 3), rounded(k_least_feature)));
   }
 
   /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and
@@ -160,13 +167,13 @@ class LayerMaker {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
     for (const Polygon& part : stock_.in_core(anchor)) {
-      const auto inner = part.size() > 2 && is_simple(part) ? cut_hole(part, kerf_) : std::nullopt;
+      const auto inner = part.size() > 2 && is_simple(part) ? cut_hole({part, {}, 0}, kerf_) : std::nullopt;
       if (!inner) {
         note_once(plates_, fmt::format("a tendon channel is left out: a kerf of {} mm is wider", rounded(kerf_)));
         return;
       }
       finished.push_back(part);
-      path.push_back(*inner);
+      path.push_back(inner->points);
     }
     const std::vector<Polygon> outer = difference(layer.outer.front(), finished);
     const std::vector<Polygon> cut_outer = difference(layer.cut_outer.front(), path);
@@ -225,7 +232,7 @@ void add_layers(Plates& plates, const Stock& stock) {
 Material2d material_of(const PlateLayer& layer) {
   Material2d material;
   material.add_outline(layer.outer.front());
-  for (const Polygon& hole : layer.holes) material.add_hole(hole);
+  for (const Contour& hole : layer.holes) material.add_hole(hole.points);
   return material;
 }
 
@@ -319,8 +326,8 @@ void note_small_features(Plates& plates, const Stock& stock) {
                                        rounded(narrow), rounded(k_least_feature)));
   }
   for (const PlateLayer& layer : plates.layers) {
-    for (const Polygon& hole : layer.holes) {
-      const double width = bounding_box(hole).size().minCoeff();
+    for (const Contour& hole : layer.holes) {
+      const double width = bounding_box(hole.points).size().minCoeff();
       if (width < k_least_feature)
         plates.notes.push_back(
             fmt::format("{}: a hole is {} mm wide, below {} mm", layer.name, rounded(width), rounded(k_least_feature)));

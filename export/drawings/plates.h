@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "export/drawings/plane_shapes.h"
 #include "fusee/base/plane.h"
 #include "fusee/export/product.h"
 
@@ -19,9 +20,9 @@ struct PlateLayer {
   std::string name;  ///< "FLANGE 1", "P1 CORE" …
   int count = 1;
   std::vector<Polygon> outer;      ///< as the finished plate: one, with the tendon's channels cut into it
-  std::vector<Polygon> holes;      ///< bore, dowels, pockets
+  std::vector<Contour> holes;      ///< bore, dowels, pockets
   std::vector<Polygon> cut_outer;  ///< where the cutter's middle runs: half a kerf outside …
-  std::vector<Polygon> cut_holes;  ///< … and half a kerf inside of the hole
+  std::vector<Contour> cut_holes;  ///< … and half a kerf inside of the hole
   std::vector<Polygon> engraving;  ///< the home mark: open strokes
   Vec2 label = Vec2::Zero();       ///< lower left corner of the number and name
   double label_height = 0;         ///< 0: there is no room for it

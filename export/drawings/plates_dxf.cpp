@@ -39,8 +39,7 @@ void add_engraving(DxfDocument& drawing, const Plates& plates) {
 
 void add_cuts(DxfDocument& drawing, const Plates& plates) {
   for (const PlacedPlate& plate : plates.placed) {
-    for (const Polygon& hole : plates.layers[plate.layer].cut_holes)
-      drawing.closed("CUT_INNER", shifted(hole, plate.shift));
+    for (const Contour& hole : plates.layers[plate.layer].cut_holes) drawing.closed("CUT_INNER", hole, plate.shift);
   }
   for (const PlacedPlate& plate : plates.placed) {
     for (const Polygon& outline : plates.layers[plate.layer].cut_outer)

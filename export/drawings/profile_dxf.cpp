@@ -38,8 +38,8 @@ void add_contours(DxfDocument& drawing, const SynthesisResult& synthesis, double
   drawing.closed("P1_FLOOR", parallel(synthesis.p1, -0.5 * d));
   drawing.closed("P2_PITCH", parallel(synthesis.p2, 0));
   drawing.closed("P2_FLOOR", parallel(synthesis.p2, -0.5 * d));
-  drawing.closed("BORE", layout.bore.outline);
-  for (const Polygon& hole : layout.bore.screw_holes) drawing.closed("BORE", hole);
+  drawing.closed("BORE", bore_contour(layout.bore));
+  for (const Polygon& hole : layout.bore.screw_holes) drawing.closed("BORE", circle_contour(circle_within(hole)));
 }
 
 void add_axis_and_home(DxfDocument& drawing, double bore_radius, double radius) {
@@ -97,7 +97,7 @@ void add_anchors(DxfDocument& drawing, const std::vector<Anchor>& anchors, const
   for (const Anchor& anchor : anchors) {
     if (anchor.channel.size() > 2) drawing.closed("MARK_ANCHOR", anchor.channel);
     const double radius = pocket_radius(anchor, layout);
-    if (radius > 0) drawing.closed("MARK_ANCHOR", circle_polygon(anchor.pocket, radius));
+    if (radius > 0) drawing.closed("MARK_ANCHOR", circle_contour({anchor.pocket, 2 * radius}));
   }
 }
 

@@ -232,8 +232,8 @@ std::string bore(const View& view, const BodyLayout& layout) {
   std::string svg = curve("hole", view, layout.bore.outline, true);
   for (const Polygon& hole : layout.bore.screw_holes) svg += curve("hole", view, hole, true);
   if (layout.bore.outline.empty()) return svg;
-  const std::string words =
-      "⌀ " + readable_rounded(2 * distance_to_edges(layout.bore.outline, Vec2::Zero())) + " clear";
+  const std::string words = "⌀ " + readable_rounded(2 * distance_to_edges(layout.bore.outline, Vec2::Zero())) +
+                            (layout.bore.circle ? " inside the polygon" : " clear");
   return svg + svg_words("small halo middle", view({0, 0}) + Vec2(0, layout.bore.radius * view.scale + 17), words);
 }
 

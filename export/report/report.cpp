@@ -327,6 +327,15 @@ std::string mounting(const Product& product) {
          std::to_string(horn.bolt_count) + " holes on " + readable_rounded(horn.bolt_circle) + " mm)" + home;
 }
 
+/// Why a round bore has corners, where it is round.
+std::string polyhole_words(const BoreLayout& bore) {
+  if (!bore.circle) return "";
+  return " The bore is a polygon of " + std::to_string(bore.outline.size()) +
+         " sides on purpose: a printer’s corners cut inside of a curve, and a circle would come out too small. Its "
+         "sides touch the circle of " +
+         with_unit(bore.circle->diameter, "mm") + ": try the shaft in it.";
+}
+
 std::vector<std::string> steps(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
   std::vector<std::string> items{
@@ -337,7 +346,7 @@ std::vector<std::string> steps(const Product& product) {
                     " % larger, for the shrinkage of " + product.joint.mechanism.material.name +
                     ": do not scale again.");
   }
-  items.push_back("Measure the bore and the groove with callipers before going on.");
+  items.push_back("Measure the bore and the groove with callipers before going on." + polyhole_words(layout.bore));
   items.push_back(mounting(product));
   items.push_back(
       "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "

@@ -117,19 +117,54 @@ const char* name_of(Bore bore) {
 
 /// The shaft's diameter (across flats) that a bore's outline was made for.
 double shaft_diameter(const BoreLayout& bore, double compensation) {
-  const bool arcs = bore.kind == Bore::d || bore.kind == Bore::keyway;
-  double radius = distance_to_edges(bore.outline, Vec2::Zero());
-  if (arcs)
-    radius = std::min_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) {
-               return a.norm() < b.norm();
-             })->norm();
+  const double radius =
+      bore.arc_points > 0 ? bore.outline.front().norm() : distance_to_edges(bore.outline, Vec2::Zero());
   return 2 * radius - compensation;
 }
 
+/// A number of the Customizer with its slider, in mm or degrees.
+struct Slider {
+  const char* name;
+  const char* words;  ///< what the Customizer says above it
+  double value, low, step, high;
+};
+
+// A slider moves its number onto its steps: they are made so fine that the part's own number is one of them.
+// 0.001 mm is finer than anything that makes the part.
+std::string slider_text(const Slider& slider) {
+  const double value = std::round(slider.value * 1000) / 1000;
+  const auto between = [&](double step) { return std::abs(std::remainder(value - slider.low, step)) > 1e-9; };
+  double step = slider.step;
+  for (const double finer : {0.01, 0.001}) {
+    if (between(step)) step = finer;
+  }
+  return fmt::format("// {}\n{} = {}; // [{}:{}:{}]\n", slider.words, slider.name, decimal(value),
+                     decimal(std::min(slider.low, value)), decimal(step),
+                     decimal(std::max(slider.high, std::ceil(value))));
+}
+
+std::string tick_box(const char* name, const char* words, bool value) {
+  return fmt::format("// {}\n{} = {};\n", words, name, value);
+}
+
+/// What else a D or a keyway is made of.
+std::string flat_sliders(const BoreLayout& bore, double compensation) {
+  const double radius = 0.5 * shaft_diameter(bore, compensation);
+  const double top = bore.outline.back().y() - 0.5 * compensation;
+  if (bore.kind == Bore::d)
+    return slider_text({"bore_flat", "from the flat to the far side of the shaft", top + radius, 0.5, 0.1, 40});
+  if (bore.kind != Bore::keyway) return "";
+  const double width = 2 * std::abs(bore.outline.back().x()) - compensation;
+  return slider_text({"key_width", "of the keyway", width, 0.5, 0.1, 20}) +
+         slider_text({"key_depth", "of the keyway, from the shaft's edge", top - radius, 0, 0.1, 10});
+}
+
+/// What of the shaft and the screw this part has none of is no parameter, but a number that the program reads.
 std::string parameters(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const Body& body = mechanism.body;
   const BodyLayout& layout = product.pulley.layout;
+  const SetScrewLayout& screw = layout.set_screw;
   std::string text = fmt::format(
       R"(// {} - a compound pulley for two tendons, in mm.
 // Made by fusee. Bottom to top: flange, groove P1, middle flange, groove P2, flange, hub. The axis is z, the joint lies towards +y.
@@ -137,43 +172,36 @@ std::string parameters(const Product& product) {
 // The engraved letters and marks of the printed part are left out.
 
 /* [Bore] */
-// shaft diameter (across flats for hex and square)
-bore = {}; // [1:0.1:40]
-// what a printer takes off a hole's diameter
-hole_compensation = {}; // [0:0.05:1]
-
-/* [Hub] */
-// 0: none
-hub_diameter = {}; // [0:0.1:100]
-hub_height = {}; // [0:0.5:40]
-set_screw = {};
-nut_trap = {};
-
-/* [Groove] */
-// lip above the groove's floor
-groove_depth = {}; // [0.5:0.1:20]
-// between the walls, degrees
-groove_angle = {}; // [0:1:120]
-groove_shape = "{}"; // [u, v, flat]
-
-/* [Flanges] */
-flange_thickness = {}; // [0.4:0.1:10]
-// chamfer at the print bed
-elephant_foot = {}; // [0:0.05:2]
-
-/* [Tie-offs] */
-channel_width = {}; // [0.3:0.05:5]
-knot_pocket = {}; // [0:0.1:20]
-// corners of round things
-facets = 24; // [12:4:96]
-
 )",
-      on_one_line(mechanism.name), decimal(shaft_diameter(layout.bore, mechanism.material.hole_compensation)),
-      decimal(mechanism.material.hole_compensation), decimal(2 * layout.hub_radius),
-      decimal(layout.z_hub - layout.z_top), layout.set_screw.present ? "true" : "false",
-      layout.set_screw.nut_trap ? "true" : "false", decimal(layout.groove_depth), decimal(degrees(body.groove_angle)),
-      name_of(body.groove), decimal(layout.flange_thickness), decimal(layout.elephant_foot),
-      decimal(layout.channel_width), decimal(2 * layout.pocket_radius));
+      on_one_line(mechanism.name));
+  if (layout.bore.kind != Bore::horn)
+    text += slider_text(
+        {"bore",
+         layout.bore.circle
+             ? "shaft diameter; the hole is a polygon around it, for a printer's corners cut inside of a curve"
+             : "shaft diameter (across flats for hex and square)",
+         shaft_diameter(layout.bore, mechanism.material.hole_compensation), 1, 0.1, 40});
+  text += flat_sliders(layout.bore, mechanism.material.hole_compensation);
+  text += slider_text({"hole_compensation",
+                       "added to the diameter of the bore and of a horn's holes: what a printer takes off it",
+                       mechanism.material.hole_compensation, 0, 0.05, 1});
+  text += "\n/* [Hub] */\n";
+  text += slider_text({"hub_diameter", "0: no hub", 2 * layout.hub_radius, 0, 0.1, 100});
+  text += slider_text({"hub_height", "above the upper flange, 0: no hub", layout.z_hub - layout.z_top, 0, 0.5, 40});
+  if (screw.present) text += tick_box("set_screw", "a screw through the hub onto the shaft", true);
+  if (screw.nut_trap) text += tick_box("nut_trap", "a pocket for the set screw's nut", true);
+  text += "\n/* [Groove] */\n";
+  text += slider_text({"groove_depth", "lip above the groove's floor", layout.groove_depth, 0.5, 0.1, 20});
+  text += slider_text({"groove_angle", "between the walls, degrees", degrees(body.groove_angle), 0, 1, 120});
+  text += fmt::format("// cross-section of the groove's ground\ngroove_shape = \"{}\"; // [u, v, flat]\n",
+                      name_of(body.groove));
+  text += "\n/* [Flanges] */\n";
+  text += slider_text({"flange_thickness", "of each of the three", layout.flange_thickness, 0.4, 0.1, 10});
+  text += slider_text({"elephant_foot", "chamfer at the print bed", layout.elephant_foot, 0, 0.05, 2});
+  text += "\n/* [Tie-offs] */\n";
+  text += slider_text({"channel_width", "height of the tendons' channels", layout.channel_width, 0.3, 0.05, 5});
+  text += slider_text({"knot_pocket", "diameter, 0: none", 2 * layout.pocket_radius, 0, 0.1, 20});
+  text += "// corners of round things\nfacets = 24; // [12:4:96]\n\n";
   return text;
 }
 
@@ -186,27 +214,30 @@ std::string hidden_numbers(const Product& product) {
   const RimMargins margins =
       rim_margins(rims, synthesis.p1, synthesis.p2, layout.groove_depth - 0.5 * d, mechanism.body.flange);
   const BoreLayout& bore = layout.bore;
-  const double bore_top = std::max_element(bore.outline.begin(), bore.outline.end(), [](const Vec2& a, const Vec2& b) {
-                            return a.y() < b.y();
-                          })->y();
   const SetScrewLayout& screw = layout.set_screw;
+  std::string absent;
+  if (bore.kind == Bore::horn)
+    absent += fmt::format("bore = {};            // of the horn\n",
+                          decimal(shaft_diameter(bore, mechanism.material.hole_compensation)));
+  if (!screw.present) absent += "set_screw = false;\n";
+  if (!screw.nut_trap) absent += "nut_trap = false;\n";
   const double middle = 0.5 * (layout.z_top + layout.z_hub);
   const double bore_edge =
       0.5 * (shaft_diameter(bore, mechanism.material.hole_compensation) + mechanism.material.hole_compensation);
   const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
   const double hub_wall =
-      std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5);
+      layout.hub_radius > 0
+          ? std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5)
+          : layout.min_wall;
   std::string text = fmt::format(
       R"(/* [Hidden] */
-tendon = {};          // its diameter
+{}tendon = {};          // its diameter
 seat_ratio = {};      // seat radius of a u groove per tendon diameter
 flange_shape = "{}";  // follow: along the groove; round
 lower_margin = {};    // how far the flanges stand outside of the groove's lip
 middle_margin = {};
 upper_margin = {};
 bore_shape = "{}";
-bore_top = {};        // d: the flat, keyway: the key's ground, from the axis
-key_width = {};
 screw_hole = {};      // diameter
 screw_angle = {};     // direction, degrees
 screw_lift = {};      // above the middle of the hub
@@ -217,19 +248,22 @@ hub_wall = {};        // the hub grows with the bore so that this is left outsid
 print_scale = {};     // a print shrinks by as much
 
 )",
-      decimal(d), decimal(mechanism.body.seat_ratio), mechanism.body.flange == Flange::follow ? "follow" : "round",
-      decimal(margins.lower), decimal(margins.middle), decimal(margins.upper), name_of(bore.kind), decimal(bore_top),
-      decimal(bore.kind == Bore::keyway ? 2 * bore.outline.back().cwiseAbs().x() : 0), decimal(screw.hole_diameter),
-      decimal(degrees(screw.angle)), decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width),
-      decimal(screw.nut_thickness), decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
+      absent, decimal(d), decimal(mechanism.body.seat_ratio),
+      mechanism.body.flange == Flange::follow ? "follow" : "round", decimal(margins.lower), decimal(margins.middle),
+      decimal(margins.upper), name_of(bore.kind), decimal(screw.hole_diameter), decimal(degrees(screw.angle)),
+      decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width), decimal(screw.nut_thickness),
+      decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
   text += "horn_recess = " + decimal(bore.horn_recess) +
           ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
   text += "horn_teeth = " + (bore.spline_teeth > 0 ? points_text(bore.outline) : "[]") +
           ";     // outline around a servo's toothed shaft\n";
   text += "horn_holes = [";
-  for (std::size_t k = 0; k < bore.screw_holes.size(); ++k)
-    text += (k == 0 ? "" : ",\n  ") + points_text(bore.screw_holes[k]);
-  return text + "];\n\n";
+  for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
+    const RoundHole hole = circle_within(bore.screw_holes[k]);
+    text += fmt::format("{}[{}, {}, {}]", k == 0 ? "" : ", ", decimal(hole.centre.x()), decimal(hole.centre.y()),
+                        decimal(hole.diameter - mechanism.material.hole_compensation));
+  }
+  return text + "];     // of its screws: x, y, diameter\n\n";
 }
 
 /// Countersink, slot and pilot of a tie-off, each [] where there is none.
@@ -312,10 +346,12 @@ function around_both(out) = [for (i = [0 : n - 1]) let (
     t = (w1 * aside(P1[i]) + w2 * aside(P2[i])) / (w1 + w2),
     a = P1[i][2]) [h * cos(a) - t * sin(a), h * sin(a) + t * cos(a)]];
 
+// the chamfer at the bed leaves 0.2 mm of the lip
+foot = max(0, min(elephant_foot, min(groove_depth, flange_thickness) - 0.2));
 is_round = flange_shape == "round";
 lower_reach = reach(P1, groove_depth) + lower_margin;
 lower = is_round ? circle_like(lower_reach) : parallel(P1, groove_depth);
-lower_foot = is_round ? circle_like(lower_reach - elephant_foot) : parallel(P1, groove_depth - elephant_foot);
+lower_foot = is_round ? circle_like(lower_reach - foot) : parallel(P1, groove_depth - foot);
 middle = is_round ? circle_like(max(reach(P1, groove_depth), reach(P2, groove_depth)) + middle_margin)
                   : around_both(groove_depth + middle_margin);
 upper = is_round ? circle_like(reach(P2, groove_depth) + upper_margin) : parallel(P2, groove_depth);
@@ -325,15 +361,14 @@ function groove_rings(P, z) = concat(
   [for (k = [len(section) - 1 : -1 : 0]) [z - section[k][1], parallel(P, section[k][0])]],
   [for (k = [0 : len(section) - 1]) [z + section[k][1], parallel(P, section[k][0])]]);
 rings = concat(
-  elephant_foot > 0 ? [[0, lower_foot]] : [],
-  [[elephant_foot, lower]],
+  foot > 0 ? [[0, lower_foot]] : [],
+  [[foot, lower]],
   is_round ? [[z_p1 - half_width, lower]] : [],
   groove_rings(P1, z_p1),
   [[z_p1 + half_width, middle], [z_p2 - half_width, middle]],
   groove_rings(P2, z_p2),
   is_round ? [[z_p2 + half_width, upper]] : [],
-  [[z_top, upper]],
-  has_hub ? [[z_top, circle_like(hub_radius)], [z_hub, circle_like(hub_radius)]] : []);
+  [[z_top, upper]]);
 
 module skin(rings) {
   count = len(rings);
@@ -342,34 +377,44 @@ module skin(rings) {
     each [[a + i, b + j, a + j], [a + i, b + i, b + j]]];
   bottom = [for (i = [0 : n - 1]) i];
   top = [for (i = [n - 1 : -1 : 0]) (count - 1) * n + i];
-  polyhedron(points, concat(sides, [bottom, top]));
+  // a line of sight goes in and out at each flange: the preview has to know how often at most
+  polyhedron(points, concat(sides, [bottom, top]), convexity = 6);
+}
+
+// On its own, for a wide bore makes it stand over the flange.
+module hub() {
+  translate([0, 0, z_top]) linear_extrude(z_hub - z_top) polygon(circle_like(hub_radius));
 }
 
 // ---- what is cut out ----
-// A hole whose flat sides touch the circle from outside: prints to size.
+// A printer's corners cut inside of a curve, so that a round hole comes out too small. This hole is a polygon around
+// the circle: its sides touch the circle of diameter d from outside, and a shaft of that diameter fits.
 module polyhole(d, sides) {
   rotate(90 + 180 / sides) circle(r = d / 2 / cos(180 / sides), $fn = sides);
 }
 
+module round_hole(d) { polyhole(d, max(8, round(2 * d))); }
+
 module bore_outline() {
   d = bore + hole_compensation;
+  key = bore_shape == "keyway" ? key_width + hole_compensation : 0;
   if (len(horn_teeth) > 0) polygon(horn_teeth);
   else if (bore_shape == "hex") polyhole(d, 6);
   else if (bore_shape == "square") polyhole(d, 4);
-  else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, -2 * d + bore_top]) square(2 * d); }
-  else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key_width / 2, 0]) square([key_width, bore_top]); }
-  else polyhole(d, max(8, round(2 * d)));
+  else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, bore_flat - bore / 2 + hole_compensation / 2 - 2 * d]) square(2 * d); }
+  else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key / 2, 0]) square([key, d / 2 + key_depth]); }
+  else round_hole(d);
 }
 
 module bore_hole() {
-  translate([0, 0, -1]) linear_extrude(1 + (horn_recess > 0 ? horn_recess : z_hub + 1)) bore_outline();
-  for (hole = horn_holes) translate([0, 0, -1]) linear_extrude(z_hub + 2) polygon(hole);
+  translate([0, 0, -1]) linear_extrude(1 + (horn_recess > 0 ? horn_recess : z_hub + 1), convexity = 4) bore_outline();
+  for (hole = horn_holes) translate([hole[0], hole[1], -1]) linear_extrude(z_hub + 2) round_hole(hole[2] + hole_compensation);
 }
 
 // The channel in the groove's plane, and the pocket from the nearer face up to it.
 module channel(t) {
   z = t[0] == 1 ? z_p1 : z_p2;
-  translate([0, 0, z - channel_width / 2]) linear_extrude(channel_width) polygon(t[2]);
+  translate([0, 0, z - channel_width / 2]) linear_extrude(channel_width, convexity = 6) polygon(t[2], convexity = 6);
   low = t[0] == 1 ? -1 : z - channel_width / 2;
   high = t[0] == 1 ? z + channel_width / 2 : z_hub + 1;
   translate([t[1][0], t[1][1], low]) cylinder(d = knot_pocket, h = high - low, $fn = facets);
@@ -411,7 +456,7 @@ module tie_off(t) {
 // Round below, a roof above: it prints lying down without support.
 module screw_hole() {
   z = (z_top + z_hub) / 2 + screw_lift;
-  translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90]) linear_extrude(hub_radius + 1) {
+  translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90]) linear_extrude(hub_radius + 1, convexity = 4) {
     circle(d = screw_hole, $fn = facets);
     rotate(45) square(screw_hole / 2);
   }
@@ -422,7 +467,10 @@ module screw_hole() {
 
 // One difference: what is cut out is put together first, for that is small and quick.
 scale(print_scale) difference() {
-  skin(rings);
+  union() {
+    skin(rings);
+    if (has_hub) hub();
+  }
   union() {
     bore_hole();
     for (t = tie_offs) tie_off(t);

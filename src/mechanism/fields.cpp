@@ -334,7 +334,8 @@ void add_body(std::vector<Field>& table) {
       choice<body, &Body::bore>({"body.bore", "", "\"round\"", "shape of the bore; horn: a servo horn is screwed on"}));
   table.push_back(number<body, &Body::bore_diameter>(
       {"body.bore_diameter_mm", "", "0",
-       "diameter of the shaft, across flats for hex and square; 0: 5 mm, or what there is room for"},
+       "diameter of the shaft, across flats for hex and square; 0: 5 mm, or what there is room for; printed round as a "
+       "polygon around this circle, for a printer's corners cut inside of a curve"},
       "mm", 0, 500));
   table.push_back(number<body, &Body::bore_flat>(
       {"body.bore_flat_mm", "", "0", "from the flat of a D shaft to its far side; 0: 0.9 times the diameter",
@@ -436,7 +437,10 @@ void add_making(std::vector<Field>& table) {
       {"material.shrinkage_percent", "", "0", "by how much a print comes out smaller; the mesh is made larger by it"},
       "%", -5, 10));
   table.push_back(number<material, &Material::hole_compensation>(
-      {"material.hole_compensation_mm", "", "0.2", "added to the diameter of holes and the bore"}, "mm", -1, 2));
+      {"material.hole_compensation_mm", "", "0.2",
+       "added to the diameter of holes and the bore, which print too small; of a round one, whose print is a polygon, to "
+       "that of the circle which its sides touch"},
+      "mm", -1, 2));
   table.push_back(number<material, &Material::elephant_foot>(
       {"material.elephant_foot_mm", "", "0.4",
        "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"},

@@ -7,6 +7,7 @@
 #include "fusee/export/report.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
+#include "fusee/solid/print.h"
 #include "pipeline/agreement.h"
 
 namespace fusee {
@@ -89,6 +90,15 @@ void write_parts(Workshop& shop) {
   shop.stage("plates.dxf", plates_dxf(product, shop.options.dxf));
 }
 
+/// As it lies on the printer.
+void check_print_of(Workshop& shop, const TriangleMesh& mesh, const std::string& prefix) {
+  const Print& print = shop.result.product.joint.mechanism.print;
+  if (print.supports) return;
+  PrintLimits limits;
+  limits.overhang = print.overhang;
+  shop.add(check_print(mesh, limits), prefix);
+}
+
 /// Everything below looks at files, not at what is in memory: only what was written can be printed.
 void check_parts(Workshop& shop) {
   Product& product = shop.result.product;
@@ -105,7 +115,9 @@ void check_parts(Workshop& shop) {
     const Part piece = shop.read_back(part_file_name(part.side));
     const std::string prefix = part.side == Side::left ? "p1_" : "p2_";
     shop.add(check_printed_part(std::get<TriangleMesh>(piece), part), prefix);
+    check_print_of(shop, std::get<TriangleMesh>(piece), prefix);
   }
+  if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
   shop.add(same_mesh(mesh, std::get<TriangleMesh>(shop.read_back("pulley.obj"))), "obj_");
   shop.add(same_mesh(plate_of(product.pulley), std::get<TriangleMesh>(shop.read_back("pulley.3mf"))), "3mf_");
   const Part decoded = shop.read_back("pulley.drc");

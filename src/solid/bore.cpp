@@ -76,6 +76,11 @@ Polygon keyway_outline(double diameter, double compensation) {
   return points;
 }
 
+void make_round(BoreLayout& bore, double diameter) {
+  bore.circle = RoundHole{Vec2::Zero(), diameter};
+  bore.outline = polyhole(diameter, Vec2::Zero());
+}
+
 // A shaft's serration as a hole: straight flanks between the circles of crests and grounds, four corners a tooth.
 Polygon toothed_outline(const Horn& horn, double compensation) {
   const double pitch = k_two_pi / horn.spline_teeth, half_flat = 0.5 * k_tooth_flat * pitch;
@@ -92,22 +97,17 @@ Polygon toothed_outline(const Horn& horn, double compensation) {
   return points;
 }
 
-// What sinks in from below: the horn's boss, or the servo's own shaft. Empty where the horn's face is flat.
-Polygon sunk_outline(const Horn& horn, double compensation) {
-  if (horn.spline_teeth > 0) return toothed_outline(horn, compensation);
-  return horn.boss_height > 0 ? polyhole(horn.boss_diameter + compensation, Vec2::Zero()) : Polygon();
-}
-
 void add_horn(BoreLayout& bore, const Horn& horn, double compensation) {
-  const Polygon sunk = sunk_outline(horn, compensation);
   const double depth = std::max(horn.boss_height, horn.spline_length);
   bore.spline_teeth = horn.spline_teeth;
+  // The horn's boss or the servo's own shaft sinks in from below; where the horn's face is flat, its screw passes.
+  if (horn.spline_teeth > 0)
+    bore.outline = toothed_outline(horn, compensation);
+  else
+    make_round(bore, (horn.boss_height > 0 ? horn.boss_diameter : horn.centre_hole) + compensation);
   if (depth > 0) {
-    bore.outline = sunk;
     bore.horn_recess = depth + k_recess_play;
     bore.screw_holes.push_back(polyhole(horn.centre_hole + compensation, Vec2::Zero()));
-  } else {
-    bore.outline = sunk.empty() ? polyhole(horn.centre_hole + compensation, Vec2::Zero()) : sunk;
   }
   for (int k = 0; k < horn.bolt_count; ++k) {
     const Vec2 centre = 0.5 * horn.bolt_circle * unit(horn.first_bolt + k_two_pi * k / horn.bolt_count);
@@ -115,22 +115,28 @@ void add_horn(BoreLayout& bore, const Horn& horn, double compensation) {
   }
 }
 
-Polygon outline_of(const Body& body, double diameter, double compensation) {
+void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compensation) {
   const double radius = 0.5 * (diameter + compensation);
   switch (body.bore) {
     case Bore::d:
-      return d_outline(radius, (body.bore_flat > 0 ? body.bore_flat : 0.9 * diameter) + compensation);
+      bore.outline = d_outline(radius, (body.bore_flat > 0 ? body.bore_flat : 0.9 * diameter) + compensation);
+      bore.arc_points = bore.outline.size();
+      return;
     case Bore::hex:
-      return tangent_polygon(radius, 6, 0.5 * k_pi, Vec2::Zero());
+      bore.outline = tangent_polygon(radius, 6, 0.5 * k_pi, Vec2::Zero());
+      return;
     case Bore::square:
-      return tangent_polygon(radius, 4, 0.5 * k_pi, Vec2::Zero());
+      bore.outline = tangent_polygon(radius, 4, 0.5 * k_pi, Vec2::Zero());
+      return;
     case Bore::keyway:
-      return keyway_outline(diameter, compensation);
+      bore.outline = keyway_outline(diameter, compensation);
+      bore.arc_points = bore.outline.size() - 2;  // without the key's ground
+      return;
     case Bore::round:
     case Bore::horn:
       break;
   }
-  return polyhole(diameter + compensation, Vec2::Zero());
+  make_round(bore, diameter + compensation);
 }
 
 }  // namespace
@@ -146,7 +152,7 @@ BoreLayout bore_layout(const Mechanism& mechanism, double diameter) {
   if (bore.kind == Bore::horn)
     add_horn(bore, horn_of(mechanism), compensation);
   else
-    bore.outline = outline_of(mechanism.body, diameter, compensation);
+    fit_shaft(bore, mechanism.body, diameter, compensation);
   for (const Vec2& point : bore.outline) bore.radius = std::max(bore.radius, point.norm());
   return bore;
 }

@@ -80,20 +80,24 @@ class GrooveGauge {
   }
 
   // At a channel's mouth there is no floor to measure.
-  bool at_a_mouth(const Vec2& point) const {
-    for (const Anchor& anchor : pulley_.anchors) {
-      if (anchor.side != outline_.side) continue;
-      bool inside = false;
-      for (std::size_t i = 0, j = anchor.channel.size() - 1; i < anchor.channel.size(); j = i++) {
-        const Vec2 &a = anchor.channel[i], &b = anchor.channel[j];
-        if (distance_to_segment(point, a, b) < 0.05) return true;
-        if ((a.y() > point.y()) != (b.y() > point.y()) &&
-            point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
-          inside = !inside;
-      }
-      if (inside) return true;
+  bool at_a_mouth(const Vec2& point, double margin = 0.05) const {
+    return std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
+      return anchor.side == outline_.side &&
+             (is_within(anchor.channel, point, margin) || is_within(anchor.mouth, point, margin));
+    });
+  }
+
+  // Within `margin` of a closed outline, or in it.
+  static bool is_within(const Polygon& outline, const Vec2& point, double margin) {
+    bool inside = false;
+    for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+      const Vec2 &a = outline[i], &b = outline[j];
+      if (distance_to_segment(point, a, b) < margin) return true;
+      if ((a.y() > point.y()) != (b.y() > point.y()) &&
+          point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
+        inside = !inside;
     }
-    return false;
+    return inside;
   }
 
   struct Deviation {
@@ -157,7 +161,8 @@ class GrooveGauge {
     const NearestSegment to_flange({outer_loop(flange)});
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < floor_.size(); ++i) {
-      if (outline_.is_active(i)) least = std::min(least, to_flange.distance(floor_[i]));
+      if (outline_.is_active(i) && !at_a_mouth(floor_[i], layout_.groove_depth))
+        least = std::min(least, to_flange.distance(floor_[i]));
     }
     return least;
   }

@@ -51,6 +51,7 @@ class DowelChooser {
 
  private:
   std::optional<std::pair<Vec2, Vec2>> places_for(double pin, const std::vector<Bar>& obstacles) const {
+    // To the hole's corners.
     const double radius = circumradius(polyhole(pin + compensation_, Vec2::Zero())), room = radius + layout_.min_wall;
     return pin_places(circumradius(floor1_), 2.0 * radius, layout_.min_wall, [&](const Vec2& place) {
       return std::all_of(obstacles.begin(), obstacles.end(),

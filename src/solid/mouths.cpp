@@ -23,7 +23,8 @@ constexpr int k_fine_steps = 48;
 
 // Where the outer edge has come far enough into the floor, and the floor's outward normal there.
 struct Entry {
-  double share = 1;  ///< of the arc's turn
+  double turn = 0;      ///< of the arc up to there
+  double straight = 0;  ///< past the arc's end
   Vec2 place = Vec2::Zero();
   Vec2 normal = Vec2::Zero();
 };
@@ -50,14 +51,109 @@ Entry entry_of(const AnchorPath& path, double width, const Polygon& floor) {
   for (int k = 0; k <= k_fine_steps; ++k) {
     const Vec2& place = arc[static_cast<std::size_t>(k)];
     const Depth depth = depth_in(floor, place);
-    entry = {static_cast<double>(k) / k_fine_steps, place, depth.normal};
+    entry = {path.turn * k / k_fine_steps, 0.0, place, depth.normal};
     if (depth.value >= k_depth) return entry;
   }
   // Not on the arc: on the straight.
   const double sunk = depth_in(floor, entry.place).value;
-  entry.place += (k_depth - sunk) / std::max(0.1, -path.heading().dot(entry.normal)) * path.heading();
+  entry.straight =
+      std::min((k_depth - sunk) / std::max(0.1, -path.heading().dot(entry.normal)), path.straight);
+  entry.place += entry.straight * path.heading();
   return entry;
 }
+
+// How far `direction` runs from `from` to the line through `on` along `along`; negative or huge when it does not meet it.
+double run_to_line(const Vec2& from, const Vec2& direction, const Vec2& on, const Vec2& along) {
+  const double sine = cross(direction, along);
+  return std::abs(sine) < 1e-9 ? -1.0 : cross(on - from, along) / sine;
+}
+
+// A mouth between two walls: one stands on the groove's edge where the channel begins, the other where its outer edge has
+// come into the floor. Seen from the middle of the channel's arc every ray meets the inner edge once and the outer boundary
+// once: the ceiling between them is a piece of a cone.
+class Flare {
+ public:
+  Flare(const AnchorPath& path, double width, const Polygon& floor, double beyond)
+      : path_(path),
+        half_(0.5 * width),
+        centre_(path.start - path.fillet * path.normal),
+        entry_(entry_of(path, width, floor)) {
+    const Vec2 radial = (entry_.place - centre_).normalized();
+    out_ = turned(entry_.normal, -path.sense * k_lean);
+    // A wall that leaned away from the channel's beginning would hide behind the channel's own edge.
+    if (path.sense * cross(radial, out_) > 0) out_ = radial;
+    const double met = run_to_line(path.start, path.normal, entry_.place, out_);
+    meet_ = met > 0 && met < beyond;
+    first_ = path.start + (meet_ ? met : beyond) * path.normal;
+    corner_ = meet_ ? first_ : Vec2(entry_.place + beyond * out_);
+  }
+
+  ChannelEdges edges() const {
+    ChannelEdges edges;
+    for (const double turn : turns()) add(edges, ray(turn), path_.fillet - half_, outer_radius(turn));
+    if (entry_.straight > 0) {
+      edges.inner.push_back(end(-half_) + entry_.straight * path_.heading());
+      edges.outer.push_back(entry_.place);
+    }
+    edges.inner.push_back(path_.pocket() - half_ * path_.outer());
+    edges.outer.push_back(path_.pocket() + half_ * path_.outer());
+    return edges;
+  }
+
+ private:
+  Vec2 ray(double turn) const { return turned(path_.normal, path_.sense * turn); }
+  Vec2 end(double aside) const { return centre_ + (path_.fillet + aside) * path_.outer(); }
+  void add(ChannelEdges& edges, const Vec2& direction, double inner, double outer) const {
+    edges.inner.push_back(centre_ + inner * direction);
+    edges.outer.push_back(centre_ + outer * direction);
+  }
+
+  double turn_of(const Vec2& place) const {
+    const Vec2 from_centre = place - centre_;
+    return path_.sense * std::atan2(cross(path_.normal, from_centre), path_.normal.dot(from_centre));
+  }
+
+  // Evenly, with both ends of the second wall in place of those that come too near to them.
+  std::vector<double> turns() const {
+    std::vector<double> marks{0.0, path_.turn};
+    if (!meet_) marks.push_back(turn_of(corner_));
+    if (entry_.straight <= 0) marks.push_back(entry_.turn);
+    std::vector<double> turns;
+    const double step = path_.turn / k_steps;
+    for (const double mark : marks) {
+      const bool taken = std::any_of(turns.begin(), turns.end(), [&](double turn) { return std::abs(turn - mark) < 0.1 * step; });
+      if (mark >= 0 && mark <= path_.turn && !taken) turns.push_back(mark);
+    }
+    const std::size_t fixed = turns.size();
+    for (int k = 1; k < k_steps; ++k) {
+      const double turn = k * step;
+      const bool near = std::any_of(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(fixed),
+                                    [&](double mark) { return std::abs(turn - mark) < 0.4 * step; });
+      if (!near) turns.push_back(turn);
+    }
+    std::sort(turns.begin(), turns.end());
+    return turns;
+  }
+
+  double outer_radius(double turn) const {
+    const double plain = path_.fillet + half_;
+    if (entry_.straight <= 0 && turn >= entry_.turn) return plain;
+    const bool before_corner = !meet_ && turn < turn_of(corner_);
+    const double reach = before_corner ? run_to_line(centre_, ray(turn), first_, corner_ - first_)
+                                       : run_to_line(centre_, ray(turn), entry_.place, out_);
+    // A mouth is no narrower than its channel.
+    return std::max(reach, plain);
+  }
+
+  const AnchorPath& path_;
+  double half_;
+  Vec2 centre_;
+  Entry entry_;
+  Vec2 out_ = Vec2::Zero();
+  bool meet_ = false;
+  Vec2 first_ = Vec2::Zero();   ///< end of the first wall
+  Vec2 corner_ = Vec2::Zero();  ///< end of the second
+};
 
 }  // namespace
 
@@ -70,19 +166,7 @@ ChannelEdges plain_edges(const AnchorPath& path, double width) {
 }
 
 ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double beyond) {
-  ChannelEdges edges = plain_edges(path, width);
-  const Entry entry = entry_of(path, width, floor);
-  const Vec2 along = path.sense * turned_left(path.normal);
-  const Vec2 out = turned(entry.normal, -path.sense * k_lean);
-  // Past all flanges, but not behind the face in which the channel begins.
-  const double back = -out.dot(along), behind = (entry.place - path.start).dot(along);
-  const double reach = back * beyond > behind ? behind / back : beyond;
-  const Vec2 flare = entry.place + reach * out;
-  for (int k = 0; k <= k_steps; ++k) {
-    const double share = static_cast<double>(k) / k_steps / entry.share;
-    if (share <= 1.0) edges.outer[static_cast<std::size_t>(k)] = flare + share * (entry.place - flare);
-  }
-  return edges;
+  return Flare(path, width, floor, beyond).edges();
 }
 
 namespace {

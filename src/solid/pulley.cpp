@@ -59,8 +59,13 @@ class FeatureCutter {
   // Null when the result is no solid: the next variant may do better.
   std::optional<Featured> cut(const TriangleMesh& body, double volume, int variant) const {
     Featured result{body, volume};
-    // What overlaps is cut one after the other.
-    for (const auto& tools : {cuts(variant), tail_slots(), clamp_pilots()}) {
+    // What may overlap is cut one after the other: two mouths meet outside of the flanges.
+    std::vector<std::vector<TriangleMesh>> passes;
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (has(anchor)) passes.push_back({tie_off_tool(plan_, anchor, variant)});
+    }
+    for (auto& pass : {cuts(variant), tail_slots(), clamp_pilots()}) passes.push_back(pass);
+    for (const std::vector<TriangleMesh>& tools : passes) {
       const TriangleMesh tool = placed(tools);
       if (tool.triangles.empty()) continue;
       const auto outcome = subtract(result.mesh, tool);
@@ -88,9 +93,6 @@ class FeatureCutter {
 
   std::vector<TriangleMesh> cuts(int variant) const {
     std::vector<TriangleMesh> tools;
-    for (const PlannedAnchor& anchor : plan_.anchors) {
-      if (has(anchor)) tools.push_back(tie_off_tool(plan_, anchor, variant));
-    }
     for (const Vec2& place : layout_.dowels.places)
       tools.push_back(prism({polyhole(layout_.dowels.hole_diameter, place)}, -k_overshoot, layout_.dowels.z_end));
     if (has_p2_ && layout_.set_screw.present)
@@ -191,9 +193,13 @@ Made make_piece(const Mechanism& mechanism, const SynthesisResult& synthesis, co
 
 Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan) {
   const BodyLayout& layout = plan.layout;
-  Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, planned.pocket(), {}, planned.tail};
+  Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, {}, planned.pocket(), {}, planned.tail};
   if (const auto* path = std::get_if<AnchorPath>(&planned.way)) {
-    anchor.channel = keyhole_outline(layout, *path, planned.side == Side::left ? plan.floor1 : plan.floor2);
+    anchor.channel =
+        outline_of(keyhole(*path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
+    const ChannelEdges edges = channel_edges(plan, planned.side, *path);
+    anchor.mouth = edges.outer;
+    anchor.mouth.insert(anchor.mouth.end(), edges.inner.rbegin(), edges.inner.rend());
   } else {
     const auto& hole = std::get<FaceHole>(planned.way);
     anchor.channel = hole_outline(hole, 0);

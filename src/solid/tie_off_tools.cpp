@@ -94,8 +94,7 @@ TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int 
   path.straight *= 1.0 - 0.003 * variant;
   const double width = layout.channel_width, radius = layout.pocket_radius;
   const Heights heights = heights_of(layout, side, variant);
-  const Polygon& floor = side == Side::left ? plan.floor1 : plan.floor2;
-  const ChannelEdges edges = edges_of(layout, path, floor);
+  const ChannelEdges edges = channel_edges(plan, side, path);
   const auto both = unite(rounded_to_float(channel(edges, width, heights)),
                           rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
   demand(both.has_value(), "channel and knot pocket do not join");
@@ -138,6 +137,14 @@ TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole&
 }
 
 }  // namespace
+
+ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path) {
+  const BodyLayout& layout = plan.layout;
+  if (layout.channel_roof <= 0) return plain_edges(path, layout.channel_width);
+  const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
+  const double beyond = layout.groove_depth + cones + k_overshoot;
+  return flared_edges(path, layout.channel_width, side == Side::left ? plan.floor1 : plan.floor2, beyond);
+}
 
 bool on_bed(const BodyLayout& layout, Side side) {
   return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fusee/solid/mesh.h"
+#include "solid/mouths.h"
 #include "solid/plan.h"
 
 namespace fusee {
@@ -19,5 +20,8 @@ TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlo
 
 /// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over it?
 bool on_bed(const BodyLayout& layout, Side side);
+
+/// A channel as it is cut, seen along the axis.
+ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path);
 
 }  // namespace fusee

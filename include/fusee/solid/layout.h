@@ -8,6 +8,8 @@
 /// each piece is printed on that face: P1 turned over, P2 with its hub up.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,15 @@ struct GroovePoint {
   double offset = 0;
   double dz = 0;
 };
+
+/// The circle that is wanted where a print has a polygon around it.
+struct RoundHole {
+  Vec2 centre = Vec2::Zero();
+  double diameter = 0;
+};
+
+/// The circle that the sides of a print's round hole touch.
+RoundHole circle_within(const Polygon& facets);
 
 /// Both halves of a groove's cross-section, from its floor to its lip: first {0, 0}, last {depth, half's width}. In print
 /// the one that is above is a roof.
@@ -43,6 +54,8 @@ struct DowelLayout {
 struct BoreLayout {
   Bore kind = Bore::round;
   Polygon outline;     ///< counter-clockwise about the axis, hole compensation included
+  std::optional<RoundHole> circle;   ///< that the outline's sides touch from outside, where the bore is a circle
+  std::size_t arc_points = 0;        ///< how many of the outline's first points lie on one arc about the axis (D, keyway)
   double radius = 0;   ///< of the largest circle about the axis that the bore reaches
   std::vector<Polygon> screw_holes;  ///< of a servo horn, through holes; with a recess the first is the centre screw's
   double horn_recess = 0;            ///< depth of the horn's pocket from the bottom face; 0: through

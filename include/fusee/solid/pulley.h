@@ -41,6 +41,7 @@ struct Anchor {
   bool wound_end = true;       ///< the end that carries load; false: the spare one at the other end of the arc
   Vec2 exit;                   ///< where the channel's centre line leaves the floor, mm
   Polygon channel;             ///< outline of the channel, or of the hole, in the groove's plane, ccw
+  Polygon mouth;               ///< the channel as it is cut, opened towards the groove, for a print without supports
   Vec2 pocket;                 ///< centre of the knot pocket, or of the countersink
   std::optional<FaceSeat> seat = {};  ///< of a tie-off through the face
   std::optional<TailSlot> tail = {};

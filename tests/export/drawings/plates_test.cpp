@@ -3,11 +3,16 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <map>
+
 #include "drawing_tools.h"
 #include "export/drawings/cut_shapes.h"
 #include "export/drawings/dxf_writer.h"
 #include "export/drawings/nesting.h"
+#include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
+#include "solid/bore.h"
 #include "support/shapes.h"
 
 namespace fusee {
@@ -49,10 +54,13 @@ TEST(Plates, KerfIsExact) {
   // Edges, not corners, are what a kerf is measured from: the floor's facets lie at 15.5·cos(π/240).
   const double facet = 15.5 * std::cos(k_pi / 240);
   EXPECT_NEAR(distance_to_edges(layer_named(plates, "P1 CORE").cut_outer[0], {0, 0}), facet + 0.1, 1e-9);
-  const Polygon& bore = layer_named(plates, "P1 CORE").cut_holes[0];
-  for (const Vec2& p : bore) EXPECT_NEAR(p.norm(), 2.9, 1e-3);
-  const Polygon& whole = layer_named(plates, "P1 CORE").holes[0];
-  EXPECT_NEAR(distance_to_edges(bore, {0, 0}), distance_to_edges(whole, {0, 0}) - 0.1, 1e-9);
+  const Contour& cut = layer_named(plates, "P1 CORE").cut_holes[0];
+  for (const Vec2& p : cut.points) EXPECT_NEAR(p.norm(), 2.9, 1e-3);
+  const Contour& whole = layer_named(plates, "P1 CORE").holes[0];
+  EXPECT_NEAR(distance_to_edges(cut.points, {0, 0}), distance_to_edges(whole.points, {0, 0}) - 0.1, 1e-9);
+  ASSERT_TRUE(cut.circle && whole.circle);
+  EXPECT_NEAR(cut.circle->diameter, 5.8, 1e-12);
+  EXPECT_NEAR(whole.circle->diameter, 6, 1e-12);
 }
 
 TEST(Plates, NoKerfChangesNothing) {
@@ -60,7 +68,7 @@ TEST(Plates, NoKerfChangesNothing) {
   product.joint.mechanism.cut.kerf = 0;
   for (const PlateLayer& layer : make_plates(product).layers) {
     for (std::size_t i = 0; i < layer.holes.size(); ++i)
-      EXPECT_NEAR(signed_area(layer.holes[i]), signed_area(layer.cut_holes[i]), 1e-9);
+      EXPECT_NEAR(signed_area(layer.holes[i].points), signed_area(layer.cut_holes[i].points), 1e-9);
     EXPECT_NEAR(signed_area(layer.outer[0]), signed_area(layer.cut_outer[0]), 1e-6);
   }
 }
@@ -86,7 +94,7 @@ TEST(Plates, DowelsKeepClearAndFitInOneWay) {
     for (const Vec2& dowel : plates.dowels) {
       ASSERT_TRUE(contains(layer.outer[0], dowel)) << layer.name;
       EXPECT_GE(distance_to_edges(layer.outer[0], dowel), clear) << layer.name;
-      EXPECT_GE(distance_to_edges(layer.holes[0], dowel), clear) << layer.name << ": bore";
+      EXPECT_GE(distance_to_edges(layer.holes[0].points, dowel), clear) << layer.name << ": bore";
     }
   }
   EXPECT_GT(std::abs(plates.dowels[0].norm() - plates.dowels[1].norm()), 1.0) << "turned";
@@ -112,10 +120,10 @@ TEST(Plates, AHornsRecessTakesItsCentreHoleWithIt) {
   EXPECT_THAT(plates.notes, Contains(HasSubstr("the horn's recess goes through all plates; it would be 2.1 mm deep")));
   for (const PlateLayer& layer : plates.layers) {
     EXPECT_EQ(layer.holes.size(), 1 + 8 + plates.dowels.size()) << layer.name;
-    EXPECT_NEAR(circumradius(layer.holes[0]), 4.0, 1e-3) << "the boss";
+    EXPECT_NEAR(circumradius(layer.holes[0].points), 4.0, 1e-3) << "the boss";
     for (std::size_t i = 0; i < layer.holes.size(); ++i) {
       for (std::size_t j = 0; j < layer.holes.size(); ++j)
-        EXPECT_TRUE(i == j || !contains(layer.holes[i], layer.holes[j][0])) << layer.name << i << " " << j;
+        EXPECT_TRUE(i == j || !contains(layer.holes[i].points, layer.holes[j].points[0])) << layer.name << i << " " << j;
     }
   }
 }
@@ -125,7 +133,7 @@ TEST(Plates, TeethAreCutWhereTheKerfIsNotWiderThanThey) {
   Mechanism& mechanism = product.joint.mechanism;
   mechanism.body.bore = Bore::horn;
   mechanism.horn = {.spline_teeth = 12, .spline_diameter = 18, .spline_depth = 1.5};
-  const Polygon coarse = layer_named(make_plates(product), "P1 CORE").cut_holes[0];
+  const Polygon coarse = layer_named(make_plates(product), "P1 CORE").cut_holes[0].points;
   ASSERT_EQ(coarse.size(), 4u * 12);
   EXPECT_NEAR(circumradius(coarse), 9 - 0.1, 0.05);
   mechanism.horn = {.spline_teeth = 25, .spline_diameter = 5.92, .spline_depth = 0.3};
@@ -169,6 +177,61 @@ TEST_P(PlatesDrawing, NothingToComplainOf) {
 }
 
 TEST_P(PlatesDrawing, SameInputSameBytes) { EXPECT_EQ(plates_dxf(egg(), GetParam()), plates_dxf(egg(), GetParam())); }
+
+TEST_P(PlatesDrawing, RoundHolesAreCirclesHalfAKerfInside) {
+  const Product product = egg_with_anchor();
+  const Plates plates = make_plates(product);
+  const double pocket = 2 * layout_to_cut(product).pocket_radius;
+  std::map<double, int> wanted;  // by diameter
+  for (const PlacedPlate& plate : plates.placed) {
+    wanted[6 - 0.2] += 1;
+    wanted[plates.dowel_diameter - 0.2] += 2;
+    if (plates.layers[plate.layer].name == "FLANGE 1") wanted[pocket - 0.2] += 1;
+  }
+  const auto holes = on_layer(drawn(product, GetParam()), "CUT_INNER");
+  for (const auto& [diameter, count] : wanted) {
+    EXPECT_EQ(std::count_if(holes.begin(), holes.end(),
+                            [d = diameter](const DrawingPath& hole) {
+                              return hole.entity == "CIRCLE" &&
+                                     std::abs(signed_area(hole.points) - k_pi / 4 * d * d) < 0.01;
+                            }),
+              count)
+        << diameter;
+  }
+  EXPECT_THAT(holes, ::testing::Each(::testing::Field(&DrawingPath::entity, "CIRCLE")));
+}
+
+TEST(CutHole, AnArcStaysAnArcAboutItsCentre) {
+  // A D of 10 mm with its flat 4 mm from the axis, cut with a kerf of 1 mm: 9 mm and 3.5 mm.
+  Mechanism mechanism = testing::plain_mechanism();
+  mechanism.material.hole_compensation = 0;
+  mechanism.body.bore = Bore::d;
+  mechanism.body.bore_flat = 9;
+  const auto cut = cut_hole(bore_contour(bore_layout(mechanism, 10)), 1);
+  ASSERT_TRUE(cut);
+  const auto vertices = vertices_of(*cut);
+  ASSERT_EQ(vertices.size(), 2u);
+  const double half = std::acos(3.5 / 4.5);
+  EXPECT_NEAR((vertices[0].place - Vec2(-4.5 * std::sin(half), 3.5)).norm(), 0, 1e-12);
+  EXPECT_NEAR((vertices[1].place - Vec2(4.5 * std::sin(half), 3.5)).norm(), 0, 1e-12);
+  EXPECT_NEAR(vertices[0].bulge, std::tan((k_two_pi - 2 * half) / 4), 1e-12);
+  EXPECT_EQ(vertices[1].bulge, 0);
+}
+
+TEST(CutHole, AKeywayKeepsItsFlats) {
+  // DIN 6885: a shaft of 8 mm has a key of 2 mm, 1 mm deep in the hub.
+  Mechanism mechanism = testing::plain_mechanism();
+  mechanism.material.hole_compensation = 0;
+  mechanism.body.bore = Bore::keyway;
+  const auto cut = cut_hole(bore_contour(bore_layout(mechanism, 8)), 0.4);
+  ASSERT_TRUE(cut);
+  const auto vertices = vertices_of(*cut);
+  ASSERT_EQ(vertices.size(), 4u);
+  const double shoulder = std::sqrt(3.8 * 3.8 - 0.8 * 0.8);
+  const Vec2 expected[] = {{-0.8, shoulder}, {0.8, shoulder}, {0.8, 4.8}, {-0.8, 4.8}};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR((vertices[i].place - expected[i]).norm(), 0, 1e-12) << i;
+  EXPECT_GT(vertices[0].bulge, 1) << "more than half a turn";
+}
 
 TEST(PlatesDxf, HolesComeBeforeOutlines) {
   const Drawing drawing = drawn(egg());

@@ -54,6 +54,44 @@ TEST(ProfileDxf, TheBoreIsTheShaftAndNoPrintersHole) {
   for (const Vec2& p : bore[0].points) EXPECT_NEAR(p.norm(), 3, 1e-6);
 }
 
+TEST_P(BothVersions, ARoundBoreIsACircleOfTheShaft) {
+  const auto bore = on_layer(drawn(egg()), "BORE");
+  ASSERT_EQ(bore.size(), 1u);
+  EXPECT_EQ(bore[0].entity, "CIRCLE");
+  EXPECT_TRUE(bore[0].closed);
+  EXPECT_THAT(profile_dxf(egg(), GetParam()), HasSubstr(" 10\n0.0\n 20\n0.0\n 30\n0.0\n 40\n3.0\n"));
+}
+
+TEST_P(BothVersions, ADBoreIsAnArcAndAFlat) {
+  Product product = egg();
+  product.joint.mechanism.body.bore = Bore::d;
+  product.joint.mechanism.body.bore_flat = 5;
+  const auto bore = on_layer(drawn(product), "BORE");
+  ASSERT_EQ(bore.size(), 1u);
+  for (const Vec2& p : bore[0].points) EXPECT_NEAR(p.norm(), 3, 1e-6);
+  // A circle of 3 mm without the segment that lies beyond 2 mm; the reader's chords stay within 0.001 mm of it.
+  const double segment = 9 * std::acos(2.0 / 3.0) - 2 * std::sqrt(5.0);
+  EXPECT_NEAR(signed_area(bore[0].points), 9 * k_pi - segment, 0.001 * k_two_pi * 3);
+  EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
+}
+
+TEST_P(BothVersions, AHornsScrewsAreCircles) {
+  Product product = egg();
+  product.joint.mechanism.body.bore = Bore::horn;
+  product.joint.mechanism.body.horn = "lynxmotion-ses";
+  const auto bore = on_layer(drawn(product), "BORE");
+  EXPECT_GT(bore.size(), 2u);
+  EXPECT_THAT(bore, ::testing::Each(::testing::Field(&DrawingPath::entity, "CIRCLE")));
+}
+
+TEST_P(BothVersions, AHexBoreHasItsSixCorners) {
+  Product product = egg();
+  product.joint.mechanism.body.bore = Bore::hex;
+  const auto bore = on_layer(drawn(product), "BORE");
+  ASSERT_EQ(bore.size(), 1u);
+  EXPECT_EQ(bore[0].points.size(), 6u);
+}
+
 TEST(ProfileDxf, TheCheckSquareIsTenMillimetresWide) {
   const auto squares = on_layer(read_dxf(profile_dxf(egg(), DxfVersion::ac1015), "profile.dxf"), "CHECK_10MM");
   ASSERT_EQ(squares.size(), 1u);

@@ -54,7 +54,7 @@ Product sample(Mechanism mechanism = testing::forearm()) {
   product.pulley.mesh = tube(60, 5);
   const Outline& p1 = product.synthesis.p1;
   const Vec2 exit = p1.points[p1.anchor_end()].position;
-  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit}};
+  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit, {}, {}}};
   product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
   for (const TransmissionPoint& point : product.synthesis.stroke) {
     product.as_built.points.push_back(
@@ -161,6 +161,15 @@ TEST(Report, SaysHowLongToCutTheTendon) {
   EXPECT_THAT(words, HasSubstr("Tendon 1"));
   EXPECT_THAT(words, Not(HasSubstr("Tendon 2 "))) << "it has no anchor here";
   EXPECT_THAT(words, HasSubstr("Left on the pulley at full pay-out"));
+}
+
+TEST(Report, SaysWhyARoundBoreHasCorners) {
+  Product product = sample();
+  product.pulley.layout.bore.outline = {{2.6, -2.6}, {2.6, 2.6}, {-2.6, 2.6}, {-2.6, -2.6}};
+  EXPECT_THAT(report_html(product), Not(HasSubstr("a printer’s corners cut inside")));
+  product.pulley.layout.bore.circle = RoundHole{Vec2::Zero(), 5.2};
+  EXPECT_THAT(report_html(product), HasSubstr("a polygon of 4 sides on purpose: a printer’s corners cut inside"));
+  EXPECT_THAT(report_html(product), HasSubstr("⌀ 5.2 inside the polygon"));
 }
 
 TEST(Report, SaysHowThePulleyGetsOntoWhatTurnsIt) {

@@ -66,6 +66,31 @@ TEST(Scad, ParametersStandAtTheTopForTheCustomizer) {
   EXPECT_LT(text.find("\nbore = "), text.find("/* [Hidden] */"));
 }
 
+TEST(Scad, ASliderHasTheNumberAmongItsSteps) {
+  Product product = product_of();
+  product.pulley.layout.channel_width = 1.237;    // between steps of 0.05 mm
+  product.pulley.layout.flange_thickness = 12.5;  // beyond the end
+  const std::string text = scad_text(product);
+  EXPECT_THAT(text, HasSubstr("\nchannel_width = 1.237; // [0.3:0.001:5]\n"));
+  EXPECT_THAT(text, HasSubstr("\nflange_thickness = 12.5; // [0.4:0.1:13]\n"));
+}
+
+TEST(Scad, WhatThePartHasNotIsNoParameter) {
+  Product product = product_of();
+  product.pulley.layout.set_screw = {};
+  const std::string none = scad_text(product);
+  EXPECT_GT(none.find("\nset_screw = false;"), none.find("/* [Hidden] */"));
+  product.pulley.layout.set_screw.present = true;
+  const std::string with = scad_text(product);
+  EXPECT_LT(with.find("\nset_screw = true;"), with.find("/* [Hidden] */"));
+}
+
+TEST(Scad, EveryNonConvexBodySaysItsConvexity) {
+  const std::string text = scad_text(product_of());
+  EXPECT_THAT(text, HasSubstr("[bottom, top]), convexity = "));
+  EXPECT_THAT(text, HasSubstr("polygon(t[2], convexity = "));
+}
+
 TEST(Scad, TeethOfAServosShaftAreInIt) {
   Product product = product_of();
   EXPECT_THAT(scad_text(product), HasSubstr("\nhorn_teeth = [];"));
