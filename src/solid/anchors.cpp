@@ -228,4 +228,42 @@ int pocket_facets(double radius) {
   return std::clamp(static_cast<int>(std::ceil(k_pi / std::acos(1.0 - std::min(0.5, 0.02 / radius)))), 12, 64);
 }
 
+// Corners in the order: outer edge, pocket from the outer edge round to the inner one, inner edge backwards, and the
+// pocket's mouth.
+Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets) {
+  demand(radius > 0.5 * width, "a pocket narrower than its channel");
+  const Vec2 centre = path.pocket(), heading = path.heading(), inner = -path.outer();
+  const double mouth = std::asin(0.5 * width / radius);
+  const auto on_pocket = [&](double angle) {
+    return Vec2(centre + radius * (std::cos(angle) * heading + std::sin(angle) * inner));
+  };
+  std::vector<Vec2> points = path.edge(0.5 * width, k_fillet_steps);
+  const auto pocket_first = static_cast<std::uint32_t>(points.size());
+  for (int k = 0; k <= facets; ++k) points.push_back(on_pocket((k_pi - mouth) * (2.0 * k / facets - 1.0)));
+  const auto inner_first = static_cast<std::uint32_t>(points.size());
+  std::vector<Vec2> back = path.edge(-0.5 * width, k_fillet_steps);
+  points.insert(points.end(), back.rbegin(), back.rend());
+  const auto mouth_first = static_cast<std::uint32_t>(points.size());
+  points.push_back(on_pocket(k_pi));
+
+  Keyhole result;
+  for (std::uint32_t i = 0; i < mouth_first; ++i) result.outline.push_back(i);
+  for (std::uint32_t i = pocket_first; i < inner_first; ++i) result.pocket.push_back(i);
+  result.pocket.push_back(mouth_first);
+  for (std::uint32_t i = 0; i <= pocket_first; ++i) result.channel.push_back(i);
+  result.channel.push_back(mouth_first);
+  for (std::uint32_t i = inner_first - 1; i < mouth_first; ++i) result.channel.push_back(i);
+  result.points = std::move(points);
+  if (path.sense < 0) {
+    for (auto* loop : {&result.outline, &result.pocket, &result.channel}) std::reverse(loop->begin(), loop->end());
+  }
+  return result;
+}
+
+Polygon outline_of(const Keyhole& keyhole) {
+  Polygon outline;
+  for (const std::uint32_t index : keyhole.outline) outline.push_back(keyhole.points[index]);
+  return outline;
+}
+
 }  // namespace fusee

@@ -90,7 +90,16 @@ enum class AnchorReach { near, anywhere };
 std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
                                       const LapRange& laps = {});
 
+/// The keyhole in the groove's plane: channel and pocket of `radius`, counter-clockwise. `facets` on the pocket.
+struct Keyhole {
+  std::vector<Vec2> points;            ///< all corners
+  std::vector<std::uint32_t> outline;  ///< channel and pocket
+  std::vector<std::uint32_t> pocket;   ///< the whole pocket
+  std::vector<std::uint32_t> channel;  ///< what the channel adds to it
+};
+Keyhole keyhole(const AnchorPath& path, double width, double radius, int facets);
 /// Facets of a pocket for a knot.
 int pocket_facets(double radius);
+Polygon outline_of(const Keyhole& keyhole);
 
 }  // namespace fusee

@@ -5,19 +5,15 @@
 #include <limits>
 
 #include "fusee/base/units.h"
-#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
 
-// The mouth's wall leans over by this against the groove's edge. PrusaSlicer widens a layer by 0.193 mm at 45° and 0.2
-// mm layers, with squared corners; the tip between a wall and an edge that grows by 0.19 mm stays within it down to
-// 59°.
+// The mouth's wall leans over by this against the groove's edge. PrusaSlicer widens a layer by 0.193 mm at 45° and 0.2 mm
+// layers, with squared corners; the tip between a wall and an edge that grows by 0.19 mm stays within it down to 59°.
 constexpr double k_lean = radians(20);
 // From where the channel's outer edge lies this far within the floor it is left as it is.
 constexpr double k_depth = 0.1;
-// A mouth's wall ends this far outside the widest flange.
-constexpr double k_past_flanges = 1.0;
 constexpr int k_steps = 12;
 constexpr int k_fine_steps = 48;
 
@@ -167,45 +163,6 @@ ChannelEdges plain_edges(const AnchorPath& path, double width) {
 
 ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double beyond) {
   return Flare(path, width, floor, beyond).edges();
-}
-
-namespace {
-
-// Cuts across the channel, from edge to edge: where two of them meet it folds.
-bool folds(const ChannelEdges& edges) {
-  for (std::size_t a = 0; a < edges.inner.size(); ++a) {
-    for (std::size_t b = a + 1; b < edges.inner.size(); ++b) {
-      if (gap({edges.inner[a], edges.outer[a], 0.0}, {edges.inner[b], edges.outer[b], 0.0}) <= 0) return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
-
-// A mouth of a thick tendon on a small pulley would fold over its own channel.
-ChannelEdges edges_of(const BodyLayout& layout, const AnchorPath& path, const Polygon& floor) {
-  const ChannelEdges plain = plain_edges(path, layout.channel_width);
-  if (layout.channel_roof <= 0) return plain;
-  const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
-  const ChannelEdges flared =
-      flared_edges(path, layout.channel_width, floor, layout.groove_depth + cones + k_past_flanges);
-  return folds(flared) ? plain : flared;
-}
-
-// Along the outer edge, round the pocket to the inner edge, and back along it.
-Polygon keyhole_outline(const BodyLayout& layout, const AnchorPath& path, const Polygon& floor) {
-  const ChannelEdges edges = edges_of(layout, path, floor);
-  const double radius = layout.pocket_radius, mouth = std::asin(0.5 * layout.channel_width / radius);
-  const int facets = pocket_facets(radius);
-  Polygon outline(edges.outer.begin(), edges.outer.end() - 1);
-  for (int k = 0; k <= facets; ++k) {
-    const double angle = (k_pi - mouth) * (2.0 * k / facets - 1.0);
-    outline.push_back(path.pocket() + radius * (std::cos(angle) * path.heading() - std::sin(angle) * path.outer()));
-  }
-  outline.insert(outline.end(), edges.inner.rbegin() + 1, edges.inner.rend());
-  if (path.sense < 0) std::reverse(outline.begin(), outline.end());
-  return outline;
 }
 
 // Of a straight floor: the tangent at the start, moved in by half a tendon.

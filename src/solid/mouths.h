@@ -23,11 +23,6 @@ ChannelEdges plain_edges(const AnchorPath& path, double width);
 /// distance from the floor.
 ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double beyond);
 
-/// Those that are cut: flared where roofs are made.
-ChannelEdges edges_of(const BodyLayout& layout, const AnchorPath& path, const Polygon& floor);
-/// Channel and pocket in the groove's plane, counter-clockwise.
-Polygon keyhole_outline(const BodyLayout& layout, const AnchorPath& path, const Polygon& floor);
-
 /// How much deeper than the groove's own roof the ceiling of a mouth cuts into the flange at the lip, at most.
 double mouth_rise(const BodyLayout& layout);
 
