@@ -109,22 +109,29 @@ double tukey_weight(double gap, double end) {
   return std::abs(share) < 1 ? (1 - share * share) * (1 - share * share) : 0.0;
 }
 
-/// Gauss and Newton's step; a turn that changes nothing is left where it is.
+/// Gauss and Newton's step.
 Eigen::Vector3d step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
-  Eigen::Matrix3d normal = gaps.slope.transpose() * weights.asDiagonal() * gaps.slope;
+  const Eigen::Matrix3d normal = gaps.slope.transpose() * weights.asDiagonal() * gaps.slope;
   const Eigen::Vector3d pull = gaps.slope.transpose() * weights.asDiagonal() * gaps.size;
-  // Facets of a circle say as much of a turn as this; a pulley's curves say a thousand times more.
-  normal(0, 0) += 1e-6 * weights.sum();
   return -normal.ldlt().solve(pull);
 }
 
-PlaneMotion descended(const std::vector<SupportPair>& pairs, PlaneMotion motion) {
+/// The same for the shift alone.
+Eigen::Vector3d shift_step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
+  const auto slope = gaps.slope.rightCols<2>();
+  const Eigen::Matrix2d normal = slope.transpose() * weights.asDiagonal() * slope;
+  const Eigen::Vector2d pull = slope.transpose() * weights.asDiagonal() * gaps.size;
+  const Eigen::Vector2d step = -normal.ldlt().solve(pull);
+  return {0.0, step.x(), step.y()};
+}
+
+PlaneMotion descended(const std::vector<SupportPair>& pairs, PlaneMotion motion, bool turns) {
   for (int i = 0; i < k_most_steps; ++i) {
     const Gaps here = gaps(pairs, motion, k_directions);
     const std::vector<double> sizes = sorted_sizes(here.size);
     const double end = std::max(k_least_kept, k_medians_kept * sizes[sizes.size() / 2]);
     const Eigen::VectorXd weights = here.size.unaryExpr([end](double gap) { return tukey_weight(gap, end); });
-    const Eigen::Vector3d step = step_of(here, weights);
+    const Eigen::Vector3d step = turns ? step_of(here, weights) : shift_step_of(here, weights);
     motion.turn += step[0];
     motion.shift += step.tail<2>();
     if (step.norm() < 1e-10) break;
@@ -175,15 +182,11 @@ double deviation(const std::vector<OutlinePair>& pairs, const PlaneMotion& motio
 OutlineFit lay_on(const std::vector<OutlinePair>& pairs) {
   const std::vector<SupportPair> supports = supports_of(pairs);
   const std::vector<RatedMotion> turns = coarse_motions(supports);
-  if (are_round(turns)) {
-    PlaneMotion motion = descended(supports, turns.front().motion);
-    motion.turn = 0;
-    return {motion, false};
-  }
+  if (are_round(turns)) return {descended(supports, turns.front().motion, false), false};
   OutlineFit best;
   double least = std::numeric_limits<double>::infinity();
   for (const RatedMotion& start : valleys_of(turns)) {
-    const PlaneMotion motion = descended(supports, start.motion);
+    const PlaneMotion motion = descended(supports, start.motion, true);
     const double rms = kept_rms(gaps(supports, motion, k_directions).size);
     if (rms >= least) continue;
     best.motion = motion;

@@ -14,6 +14,8 @@ namespace {
 
 // What deviates by a larger part of its radius is another pulley: 0.3 mm at 16 mm, more than a print or a scan is off.
 constexpr double k_most_deviation = 0.02;
+// A file that was scaled or mirrored by a program is so exactly: 30 µm at 16 mm, three times what facets stray by.
+constexpr double k_most_deviation_of_copy = 0.002;
 // One size more than this off is a wrong unit or a slicer's scaling, and no material's shrinkage.
 constexpr double k_most_rescaled = 0.02;
 // A way that needs more doing has to fit this much better: curves that are their own mirror image fit both ways.
@@ -126,21 +128,30 @@ std::vector<Way> ways_of_one(const std::vector<GrooveInMesh>& grooves, const Gro
   return ways;
 }
 
+bool fits(const FittedWay& fitted, double radius) {
+  const bool is_copy = fitted.scale != 1.0 || fitted.way.mirrored;
+  return fitted.deviation < (is_copy ? k_most_deviation_of_copy : k_most_deviation) * radius;
+}
+
 /// A size of its own, a mirror, a turn upside down: each needs more doing than the one before.
 int effort(const FittedWay& fitted) {
   return 4 * static_cast<int>(fitted.scale != 1.0) + 2 * static_cast<int>(fitted.way.mirrored) +
          static_cast<int>(fitted.way.flipped && !fitted.way.mirrored);
 }
 
-FittedWay best_of(const std::vector<Way>& ways, const GrooveFloors& expected) {
+/// None where no way fits.
+std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloors& expected) {
   std::vector<FittedWay> all;
-  for (const Way& way : ways) all.push_back(fitted(way, expected));
+  for (const Way& way : ways) {
+    FittedWay one = fitted(way, expected);
+    if (fits(one, mean_radius(expected))) all.push_back(std::move(one));
+  }
   std::stable_sort(all.begin(), all.end(),
                    [](const FittedWay& a, const FittedWay& b) { return effort(a) < effort(b); });
-  FittedWay best;
+  std::optional<FittedWay> best;
   for (const FittedWay& one : all) {
-    const bool same_effort = effort(one) == effort(best);
-    if (one.deviation < (same_effort ? 1.0 : k_clearly_better) * best.deviation) best = one;
+    const double better = best && effort(one) != effort(*best) ? k_clearly_better : 1.0;
+    if (!best || one.deviation < better * best->deviation) best = one;
   }
   return best;
 }
@@ -277,10 +288,7 @@ PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& exp
   const std::vector<GrooveInMesh> grooves =
       find_grooves(mesh, k_least_groove * tendon_diameter / radius, unit_here * tendon_diameter / k_slices);
   for (const std::vector<Way>& ways : {ways_of_both(grooves, expected), ways_of_one(grooves, expected)}) {
-    if (ways.empty()) continue;
-    const FittedWay best = best_of(ways, expected);
-    if (!(best.deviation < k_most_deviation * radius)) continue;
-    return {status_of(best), placement_of(mesh, best), best.scale};
+    if (const auto best = best_of(ways, expected)) return {status_of(*best), placement_of(mesh, *best), best->scale};
   }
   return {};
 }
