@@ -90,7 +90,8 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
              in_degrees(rest.structure) + " rms stay unexplained, " + rest.where + ".";
     case CalibrationVerdict::confounded:
-      return "The data are explained by " + names + ", and cannot tell which.";
+      return (calibration.next_runs.empty() ? "" : "Measure this first: " + calibration.next_runs.front() + ". ") +
+             "The data are explained by " + names + ", and cannot tell which.";
     case CalibrationVerdict::explained:
       return "The data are explained by " + names + ".";
     case CalibrationVerdict::no_effect:
@@ -136,7 +137,8 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
 void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  const bool above_floor = !is_at_floor(selection.best, evidence.floor);
+  // What is left beside the noise is named only where it is more than the noise.
+  const bool above_floor = !is_at_floor(selection.best, evidence.floor) && rest.structure > evidence.floor;
   calibration.rest_autocorrelation = rest.autocorrelation;
   if (above_floor) {
     calibration.unexplained_rms = rest.structure;
