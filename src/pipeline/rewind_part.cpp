@@ -143,7 +143,7 @@ std::string unit_words(double scale) {
   for (const Unit& unit : k_units) {
     if (std::abs(scale / unit.scale - 1) < 0.02) return unit.words;
   }
-  return "scale it by " + rounded(1 / scale, 4);
+  return "scale it by " + rounded(1 / scale, 4) + ", or was it made for another pulley.r1_mm?";
 }
 
 void refuse(const PlacementResult& result) {

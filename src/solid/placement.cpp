@@ -14,8 +14,9 @@ namespace {
 
 // What deviates by a larger part of its radius is another pulley: 0.3 mm at 16 mm, more than a print or a scan is off.
 constexpr double k_most_deviation = 0.02;
-// A file that was scaled or mirrored by a program is so exactly: 30 µm at 16 mm, three times what facets stray by.
-constexpr double k_most_deviation_of_copy = 0.002;
+// A file that was scaled or mirrored by a program is so exactly: 16 µm at 16 mm, little more than facets stray by. A pulley for
+// another r1 is nearly this one in another size, to within some 0.1 %.
+constexpr double k_most_deviation_of_copy = 0.001;
 // One size more than this off is a wrong unit or a slicer's scaling, and no material's shrinkage.
 constexpr double k_most_rescaled = 0.02;
 // A way that needs more doing has to fit this much better: curves that are their own mirror image fit both ways.
@@ -118,17 +119,19 @@ std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const Gr
 
 std::vector<Way> ways_of_one(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
   std::vector<Way> ways;
+  // Of two grooves one alone may be that of many pulleys.
+  if (grooves.size() != 1) return ways;
   for (const bool flipped : {false, true}) {
-    for (const GrooveInMesh& groove : grooves) {
-      for (const Side side : {Side::left, Side::right}) {
-        if (!floor_of(expected, side).empty()) ways.push_back({{{side, &groove}}, flipped, false});
-      }
+    for (const Side side : {Side::left, Side::right}) {
+      if (!floor_of(expected, side).empty()) ways.push_back({{{side, &grooves.front()}}, flipped, false});
     }
   }
   return ways;
 }
 
 bool fits(const FittedWay& fitted, double radius) {
+  // A circle is every other circle in another size.
+  if (fitted.scale != 1.0 && !fitted.fit.tells_turn) return false;
   const bool is_copy = fitted.scale != 1.0 || fitted.way.mirrored;
   return fitted.deviation < (is_copy ? k_most_deviation_of_copy : k_most_deviation) * radius;
 }

@@ -1,7 +1,9 @@
 """What a build leaves behind, in good times and in bad: whole files or none."""
 
+import math
 import os
 import signal
+import struct
 import subprocess
 import time
 import unittest
@@ -46,6 +48,49 @@ class Build(harness.Scratch):
             self.expect(f"check p/{name}", 0, "valid")
         for name in ["pulley.stl", "pulley.obj", "pulley.3mf", "pulley.drc", "profile.dxf"]:
             self.expect(f"rewind arm.toml p/{name}", 0, "theta within")
+
+    def test_check_shows_size_and_volume(self):
+        self.build("p")
+        self.expect("check p/pulley.stl", 0, r"\nsize \d+\.?\d* × \d+\.?\d* × \d+\.?\d* mm, volume \d+\.?\d* cm³\n", "^$")
+        self.expect("check p/profile.dxf", 0, r"\nsize \d+\.?\d* × \d+\.?\d* mm, \d+ closed contours\n", "^$")
+        document = self.expect_json("check p/pulley.stl", 0)
+        x, y, z = document["size_mm"]
+        self.assertTrue(0 < document["volume_mm3"] < x * y * z)
+        self.move("p/pulley.stl", "inches.stl", scale=1 / 25.4)
+        self.expect("check inches.stl", 0, "volume", r"inches.stl: warning: .*looks like inches \(× 25.4 = ")
+        for axis, size in zip((x, y, z), self.expect_json("check inches.stl", 0)["size_mm"]):
+            self.assertAlmostEqual(axis / 25.4, size, 5)
+
+    def move(self, source, target, turn=0.0, by=(0.0, 0.0, 0.0), scale=1.0, mirror=1):
+        """What a slicer does to a binary STL."""
+        cosine, sine = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+        data = (self.folder / source).read_bytes()
+        out = bytearray(data[:84])
+        for at in range(84, len(data), 50):
+            numbers = struct.unpack("<12fH", data[at:at + 50])
+            corners = []
+            for x, y, z in (numbers[3:6], numbers[6:9], numbers[9:12]):
+                x *= mirror
+                corners.append((scale * (cosine * x - sine * y) + by[0], scale * (sine * x + cosine * y) + by[1], scale * z + by[2]))
+            flat = [number for corner in corners[::mirror] for number in corner]
+            out += struct.pack("<12fH", 0, 0, 0, *flat, 0)
+        (self.folder / target).write_bytes(out)
+
+    def test_rewind_finds_what_was_moved(self):
+        self.build("a/long/path/p")
+        stl = "a/long/path/p/pulley.stl"
+        right = self.expect_json(f"rewind arm.toml {stl}", 0)
+        self.assertEqual(right["placements"], [])
+        self.move(stl, "moved.stl", turn=90, by=(125, 105, -3))
+        done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  it was moved .* its axis at \(125, 105\) mm, turned by 90° about it; grooves P1 at z = ", "note: the part does not lie as it was made.*--as-is")
+        moved = self.expect_json("rewind arm.toml moved.stl", 0)
+        self.assertAlmostEqual(moved["placements"][0]["turned_deg"], 90, 4)
+        self.assertAlmostEqual(moved["as_built"]["max_theta_error_deg"], right["as_built"]["max_theta_error_deg"], 4)
+        self.assertNotEqual(self.fusee("rewind arm.toml moved.stl --as-is").returncode, 0)
+        self.move(stl, "mirrored.stl", mirror=-1)
+        self.expect("rewind arm.toml mirrored.stl", 3, "^$", "mirrored.stl: error: the part is the mirror image.*--as-is")
+        self.expect("rewind arm.toml mirrored.stl --as-is", 5, "mirrored.stl: theta within", "check 'slack' failed")
+        self.expect(f"rewind arm.toml {stl} --as-is", 0, "^pulley.stl: theta within", "^$")
 
     def test_limits_that_cannot_be_met_fail_the_build(self):
         self.expect("build arm.toml --max-theta-error-deg 0", 5, "FAILED|of", "check 'theta_error' failed")

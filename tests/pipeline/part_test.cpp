@@ -149,6 +149,8 @@ TEST_F(MadePart, MirroredOrInInchesIsRefusedWithWords) {
   EXPECT_THAT(message(put(changed([](Vec3& v) { v.z() = -v.z(); }), false, 30, Vec3(9, 9, 9))), ::testing::HasSubstr("mirror image"));
   EXPECT_THAT(message(changed([](Vec3& v) { v /= 25.4; })), ::testing::HasSubstr("inches: scale it by 25.4"));
   EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("1.1 times the size"));
+  // Not every other size is a unit's.
+  EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("another pulley.r1_mm"));
   EXPECT_EQ(message(*mesh_), "taken");
   EXPECT_EQ(message(changed([](Vec3& v) { v *= 1.004; })), "taken");
 }
@@ -182,7 +184,8 @@ TEST_F(MadePart, BothPulleysSideBySideAreBothFound) {
 
 TEST_F(MadePart, OfAnotherMechanismIsWoundWhereItLiesAndSaidSo) {
   Mechanism other = *mechanism_;
-  other.pulley.r1 = 12;
+  other.guides.ED = 62;
+  other.guides.OE = -25;
   EXPECT_EQ(rewind_moved_part({other, {}}, *mesh_).place, PartPlace::not_recognised);
   Mechanism impossible = *mechanism_;
   impossible.pulley.r1 = 60;

@@ -59,9 +59,9 @@ struct PlacementResult {
 /// What hangs together, each a mesh of its own; in the order of their first facets.
 std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh);
 
-/// Looks for the pulley with these floors, both grooves first, then either alone. Found is what deviates by less than 2 % of
-/// its radius; of two ways that fit alike, the one that is not turned over. One groove alone looks the same mirrored and
-/// turned over: it is never called mirrored.
+/// Looks for the pulley with these floors, or for one of the two where the mesh has one groove. Found is what deviates by less
+/// than 2 % of its radius; of two ways that fit alike, the one that is not turned over. One groove alone looks the same
+/// mirrored and turned over: it is never called mirrored.
 PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter);
 
 }  // namespace fusee
