@@ -71,10 +71,11 @@ std::string placement_text(const Placement& placement) {
 std::string place_text(const RewoundPart& part) {
   std::string text;
   for (const Placement& placement : part.placements)
-    text += "  it was moved and is wound where it was found: " + placement_text(placement) + "\n";
+    text += wrapped("it was moved and is wound where it was found: " + placement_text(placement), "  ", "  ");
   if (part.alone)
-    text += "  the file holds " + std::string(word(*part.alone)) + " alone: tendon " + (*part.alone == Side::left ? "1" : "2") +
-            " alone was wound, the other's slack is not known\n";
+    text += wrapped("the file holds " + std::string(word(*part.alone)) + " alone: tendon " +
+                        (*part.alone == Side::left ? "1" : "2") + " alone was wound, the other's slack is not known",
+                    "  ", "  ");
   return text;
 }
 

@@ -158,6 +158,33 @@ TEST(RmsDrop, IsNeverBelowNothing) {
   EXPECT_EQ(found[0].rms_drop, 0);
 }
 
+TEST(FoundEffects, SayWhatTheirSignMeans) {
+  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
+  Workers workers(evidence);
+  Selection selection;
+  selection.catalogue = catalogue(joint(), evidence.measurement);
+  selection.none = workers.one().fit({}, {});
+  for (const auto& [gain, words] : {std::pair(-0.01, "it shows too little"), std::pair(0.01, "it shows too much"), std::pair(0.0, "")}) {
+    selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
+    selection.best.at.sensor.gain = gain;
+    const std::vector<FoundEffect> found = found_effects(evidence, workers, selection);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].parameters[0].sense, words);
+  }
+}
+
+TEST(Effects, ThatACaliperReadsAskForWhatItReads) {
+  const std::vector<std::pair<std::string, std::string>> words = {
+      {"guide_radius", "diameter with a caliper and write half of it as [prior] guide_radius_mm"},
+      {"radius_offset", "write half of what both are too large together (too small: negative)"},
+      {"guide_position", "below the joint's axis the pins lie (above it: negative)"}};
+  for (const auto& [name, expected] : words) {
+    const Effect* effect = find_effect(name, JointKind::tendons);
+    ASSERT_NE(effect, nullptr);
+    EXPECT_THAT(std::string(effect->parameters.back().by_hand.words), HasSubstr(expected));
+  }
+}
+
 TEST(Selections, MayBeCopiedAndOutlivedByTheirCopy) {
   Selection copy;
   {

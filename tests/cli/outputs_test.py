@@ -82,7 +82,7 @@ class Build(harness.Scratch):
         right = self.expect_json(f"rewind arm.toml {stl}", 0)
         self.assertEqual(right["placements"], [])
         self.move(stl, "moved.stl", turn=90, by=(125, 105, -3))
-        done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  it was moved .* its axis at \(125, 105\) mm, turned by 90° about it; grooves P1 at z = ", "note: the part does not lie as it was made.*--as-is")
+        done = self.expect("rewind arm.toml moved.stl", 0, r"^moved.stl: theta within .*\n  it was moved .*axis at\s+\(125, 105\)\s+mm,\s+turned\s+by\s+90°\s+about\s+it;\s+grooves\s+P1\s+at\s+z\s+= ", "note: the part does not lie as it was made.*--as-is")
         moved = self.expect_json("rewind arm.toml moved.stl", 0)
         self.assertAlmostEqual(moved["placements"][0]["turned_deg"], 90, 4)
         self.assertAlmostEqual(moved["as_built"]["max_theta_error_deg"], right["as_built"]["max_theta_error_deg"], 4)
