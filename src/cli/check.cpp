@@ -46,7 +46,7 @@ void add_unit_warning(const std::string& file, const PartSize& size, Reply& repl
     guess = "it looks like millimetres taken for inches (÷ 25.4 = " + would_be(1 / 25.4) + ") or for metres (÷ 1000 = " +
             would_be(0.001) + ")";
   if (guess.empty()) return;
-  Diagnostic warning = about_file(Severity::warning, file, "it is only right in mm if it measures " + would_be(1) + "; " + guess);
+  Diagnostic warning = about_file(Severity::warning, file, "read in mm it measures " + would_be(1) + ": " + guess);
   warning.hint = "export it again in millimetres, or scale it where it is sliced or cut";
   reply.diagnostics.push_back(warning);
 }

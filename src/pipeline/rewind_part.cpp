@@ -183,16 +183,27 @@ bool is_finite(const TriangleMesh& mesh) {
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& vertex) { return vertex.allFinite(); });
 }
 
+/// What is recognised nowhere may have no groove where it lies either.
+RewoundPart rewind_unrecognised(const JointAsItIs& joint, const TriangleMesh& mesh) {
+  try {
+    return {rewind_mesh(joint, mesh), PartPlace::not_recognised, {}};
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    diagnostics.front().hint =
+        "nor do its grooves fit anywhere else: is it this mechanism's pulley, closed, its axis along z, in mm?";
+    throw InputError(std::move(diagnostics));
+  }
+}
+
 RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
-  if (!is_finite(mesh)) return {rewind_mesh(joint, mesh), PartPlace::not_recognised, {}};
+  if (!is_finite(mesh)) return rewind_unrecognised(joint, mesh);
   const BodyLayout layout = axial_layout(joint.mechanism);
   const std::optional<GrooveFloors> expected = floors_to_find(joint, layout.scale);
   if (!expected) return {rewind_mesh(joint, mesh), PartPlace::nothing_to_compare, {}};
   const double as_it_lies = deviation_as_it_lies(mesh, layout, *expected);
   if (as_it_lies <= k_as_made) return {rewind_mesh(joint, mesh), PartPlace::as_made, {}};
   const std::vector<PlacementResult> found = find_all(mesh, *expected, joint.mechanism.tendon.diameter * layout.scale);
-  if (found.front().status == PlacementStatus::unknown)
-    return {rewind_mesh(joint, mesh), PartPlace::not_recognised, {}};
+  if (found.front().status == PlacementStatus::unknown) return rewind_unrecognised(joint, mesh);
   std::vector<Placement> placements;
   double worst = 0;
   for (const PlacementResult& result : found) {

@@ -187,6 +187,12 @@ TEST_F(MadePart, OfAnotherMechanismIsWoundWhereItLiesAndSaidSo) {
   other.guides.ED = 62;
   other.guides.OE = -25;
   EXPECT_EQ(rewind_moved_part({other, {}}, *mesh_).place, PartPlace::not_recognised);
+  try {
+    rewind_moved_part({other, {}}, put(*mesh_, false, 0, Vec3(0, 0, 500)));
+    ADD_FAILURE() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.diagnostics().front().hint, ::testing::HasSubstr("nor do its grooves fit anywhere else"));
+  }
   Mechanism impossible = *mechanism_;
   impossible.pulley.r1 = 60;
   EXPECT_EQ(rewind_moved_part({impossible, {}}, *mesh_).place, PartPlace::nothing_to_compare);
