@@ -261,8 +261,8 @@ std::string rest_section(const CalibrationProduct& product) {
   if (plot.empty()) return "";
   const std::string words = calibration.unexplained_where.empty()
                                 ? "What is left is at the noise floor."
-                                : "Unexplained beyond the noise: " + degree_words(calibration.unexplained_rms) + " rms, " +
-                                      calibration.unexplained_where + ".";
+                                : "Unexplained beyond the noise: " + degree_words(calibration.unexplained_rms) +
+                                      " rms, " + calibration.unexplained_where + ".";
   const std::string colour = " Neighbouring rows of it are correlated by " +
                              readable(calibration.rest_autocorrelation, 2) +
                              "; noise would be near 0. Dashed: the noise floor of a single row.";

@@ -136,7 +136,8 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
       squares += residual * residual;
     }
   }
-  rest.fitted = std::sqrt(std::max(0.0, squares / static_cast<double>(std::max<std::size_t>(1, evidence.rows_used())) - fit.price));
+  rest.fitted = std::sqrt(
+      std::max(0.0, squares / static_cast<double>(std::max<std::size_t>(1, evidence.rows_used())) - fit.price));
   rest.where = places.largest();
   return rest;
 }
@@ -152,7 +153,8 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     calibration.unexplained_where = rest.where;
   }
   calibration.verdict = verdict_of(is_walking(scatter), above_floor, calibration.effects);
-  calibration.summary = finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
+  calibration.summary =
+      finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
   ask_for_runs(calibration);
 }
 

@@ -30,7 +30,8 @@ std::string size_text(const PartSize& size) {
     return "size " + by_three(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
            (*size.contours == 1 ? "contour" : "contours");
   const std::string extent = "size " + by_three(*size.extent, false, 1);
-  return extent + (size.volume ? ", volume " + rounded(*size.volume / 1000.0) + " cm³" : ", no volume: it is not sound");
+  return extent +
+         (size.volume ? ", volume " + rounded(*size.volume / 1000.0) + " cm³" : ", no volume: it is not sound");
 }
 
 /// Files carry no unit, or a wrong one; their size tells.
@@ -43,8 +44,8 @@ void add_unit_warning(const std::string& file, const PartSize& size, Reply& repl
   if (largest > 0 && largest < k_smallest)
     guess = "it looks like inches (× 25.4 = " + would_be(25.4) + ") or metres (× 1000 = " + would_be(1000) + ")";
   if (largest > k_largest)
-    guess = "it looks like millimetres taken for inches (÷ 25.4 = " + would_be(1 / 25.4) + ") or for metres (÷ 1000 = " +
-            would_be(0.001) + ")";
+    guess = "it looks like millimetres taken for inches (÷ 25.4 = " + would_be(1 / 25.4) +
+            ") or for metres (÷ 1000 = " + would_be(0.001) + ")";
   if (guess.empty()) return;
   Diagnostic warning = about_file(Severity::warning, file, "read in mm it measures " + would_be(1) + ": " + guess);
   warning.hint = "export it again in millimetres, or scale it where it is sliced or cut";
@@ -69,8 +70,8 @@ Reply run_check(const Arguments& arguments, Console& console) {
   const PartSize size = size_of(part, checks);
   Reply reply;
   const bool ok = all_ok(checks);
-  reply.text =
-      file + ": " + what_it_is(part) + "\n" + size_text(size) + "\n\n" + checks_table(checks) + "\n" + (ok ? "valid" : "not valid") + "\n";
+  reply.text = file + ": " + what_it_is(part) + "\n" + size_text(size) + "\n\n" + checks_table(checks) + "\n" +
+               (ok ? "valid" : "not valid") + "\n";
   reply.fields["file"] = file;
   reply.fields["kind"] = std::holds_alternative<Drawing>(part) ? "drawing" : "mesh";
   add_size(size, reply);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/as_built.h"
@@ -40,7 +41,7 @@ Json points_json(const std::vector<RewindPoint>& points) {
   return list;
 }
 
-// ---- where the part lies ---------------------------------------------------------------------------------------------
+// ---- where the part lies -------------------------------------------------------------------------
 
 std::string_view word(Side side) { return side == Side::left ? "P1" : "P2"; }
 
@@ -60,18 +61,20 @@ std::string turn_text(const Placement& placement) {
 
 /// "its axis at (12.3, -4) mm, turned by 90° about it; grooves P1 at z = …"
 std::string placement_text(const Placement& placement) {
-  std::string text = "its axis at (" + trimmed_fixed(placement.axis.x(), 3) + ", " + trimmed_fixed(placement.axis.y(), 3) + ") mm" +
-                     turn_text(placement) + "; " + (placement.grooves.size() == 1 ? "groove " : "grooves ") + grooves_text(placement) +
+  std::string text = "its axis at (" + trimmed_fixed(placement.axis.x(), 3) + ", " +
+                     trimmed_fixed(placement.axis.y(), 3) + ") mm" + turn_text(placement) + "; " +
+                     (placement.grooves.size() == 1 ? "groove " : "grooves ") + grooves_text(placement) +
                      "; floors within " + rounded(placement.deviation, 2) + " mm of the declared ones";
   if (placement.bore_off_axis > 0)
-    text += "; the bore stands " + rounded(placement.bore_off_axis, 2) + " mm off the grooves' axis, and it is the bore that turns";
+    text += "; the bore stands " + rounded(placement.bore_off_axis, 2) +
+            " mm off the grooves' axis, and it is the bore that turns";
   return text;
 }
 
 std::string place_text(const RewoundPart& part) {
   std::string text;
   for (const Placement& placement : part.placements)
-    text += wrapped("it was moved and is wound where it was found: " + placement_text(placement), "  ", "  ");
+    text += wrapped("found from its grooves: " + placement_text(placement), "  ", "  ");
   if (part.alone)
     text += wrapped("the file holds " + std::string(word(*part.alone)) + " alone: tendon " +
                         (*part.alone == Side::left ? "1" : "2") + " alone was wound, the other's slack is not known",
@@ -86,23 +89,28 @@ void add_place_notes(const std::string& file, const RewoundPart& part, Reply& re
     reply.diagnostics.push_back(diagnostic);
   };
   if (part.place == PartPlace::found)
-    add(Severity::note, "the part does not lie as it was made; its place was found from its grooves", "--as-is winds it where it lies");
-  const bool may_be_mirrored = part.alone && part.placements.front().turned_over;
-  if (may_be_mirrored)
+    add(Severity::note, "the grooves are not where they were made: the part was looked for and found",
+        "--as-is winds it where it lies");
+  const auto may_be_mirrored = [](const Placement& placement) {
+    return placement.grooves.size() == 1 && placement.turned_over;
+  };
+  if (std::any_of(part.placements.begin(), part.placements.end(), may_be_mirrored))
     add(Severity::warning, "one groove alone looks the same upside down and mirrored: taken for upside down",
         "look at the file: was it mirrored?");
   if (part.place == PartPlace::not_recognised)
     add(Severity::warning, "the grooves of this part fit those of the mechanism nowhere: it is wound where it lies",
         "is it the pulley of this mechanism file, its axis along z?");
   if (part.place == PartPlace::nothing_to_compare)
-    add(Severity::note, "no pulley of this mechanism can be made, so the part could not be looked for: it is wound where it lies", "");
+    add(Severity::note,
+        "no pulley of this mechanism can be made, so the part could not be looked for: it is wound where it lies", "");
 }
 
 Json placements_json(const RewoundPart& part) {
   Json list = Json::array();
   for (const Placement& placement : part.placements) {
     Json grooves = Json::array();
-    for (const PlacedGroove& groove : placement.grooves) grooves.push_back({{"pulley", word(groove.side)}, {"z_mm", groove.z}});
+    for (const PlacedGroove& groove : placement.grooves)
+      grooves.push_back({{"pulley", word(groove.side)}, {"z_mm", groove.z}});
     list.push_back({{"axis_mm", {placement.axis.x(), placement.axis.y()}},
                     {"turned_deg", degrees(placement.turn)},
                     {"tells_turn", placement.tells_turn},
@@ -114,7 +122,7 @@ Json placements_json(const RewoundPart& part) {
   return list;
 }
 
-// ---- the whole -------------------------------------------------------------------------------------------------------
+// ---- the whole -----------------------------------------------------------------------------------
 
 /// What is wrong with the part is said of its file.
 RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool as_is, Console& console) {
@@ -152,10 +160,11 @@ Reply run_rewind(const Arguments& arguments, Console& console) {
   Reply reply;
   reply.diagnostics = spec.warnings;
   add_place_notes(file, part, reply);
-  reply.text = std::filesystem::path(file).filename().string() + ": " + result_text(part) + "\n" + place_text(part) + "\n" +
-               points_table(part.as_built.points, console.verbose()) + "\n" + checks_table(checks);
+  reply.text = std::filesystem::path(file).filename().string() + ": " + result_text(part) + "\n" + place_text(part) +
+               "\n" + points_table(part.as_built.points, console.verbose()) + "\n" + checks_table(checks);
   reply.fields["file"] = file;
   reply.fields["placements"] = placements_json(part);
+  reply.fields["alone"] = part.alone ? Json(word(*part.alone)) : Json();
   reply.fields["as_built"] = to_json(part.as_built);
   reply.fields["checks"] = to_json(checks);
   reply.fields["points"] = points_json(part.as_built.points);

@@ -45,9 +45,9 @@ std::string horn_list() {
 std::string tendon_list() {
   std::string text = "  Known tendons (profiles/catalogue/tendons.toml):\n";
   for (const TendonType& type : tendon_types()) {
-    text += entry(type.name + ": diameter_mm = " + shortest(type.diameter) + ", modulus_MPa = " +
-                  shortest(type.modulus) + ", bend_ratio = " + shortest(type.bend_ratio) + "; breaks at " +
-                  shortest(type.breaking_strength) + " N. " + type.description + ". " + type.source);
+    text += entry(type.name + ": diameter_mm = " + shortest(type.diameter) +
+                  ", modulus_MPa = " + shortest(type.modulus) + ", bend_ratio = " + shortest(type.bend_ratio) +
+                  "; breaks at " + shortest(type.breaking_strength) + " N. " + type.description + ". " + type.source);
   }
   return text;
 }

@@ -35,13 +35,15 @@ Polygon counter_clockwise(Polygon polygon) {
 
 /// On floors as they were drawn, of a joint that has its declared pins and tendon.
 RewindResult rewind_drawn(const JointAsItIs& joint, Polygon floor1, Polygon floor2) {
-  return rewind(with_inset(joint), as_made(std::move(floor1), joint.outline), as_made(std::move(floor2), joint.outline));
+  return rewind(with_inset(joint), as_made(std::move(floor1), joint.outline),
+                as_made(std::move(floor2), joint.outline));
 }
 
 RewindResult rewind_drawing(const JointAsItIs& joint, const Drawing& drawing) {
   const DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
   const DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
-  if (floor1 && floor2) return rewind_drawn(joint, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
+  if (floor1 && floor2)
+    return rewind_drawn(joint, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
   const DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
   const DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
   if (!pitch1 || !pitch2) {
@@ -74,10 +76,11 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
 
 RewindResult rewind_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
   const BodyLayout layout = axial_layout(joint.mechanism);
-  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
+  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale),
+                      floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 
-// ---- a part that somebody moved --------------------------------------------------------------------------------------
+// ---- a part that somebody moved ------------------------------------------------------------------
 
 /// Half of what facets may stray by: what fits better was not moved.
 constexpr double k_as_made = 0.005;
@@ -94,7 +97,8 @@ std::optional<GrooveFloors> floors_to_find(const JointAsItIs& joint, double scal
   if (!synthesis.made()) return std::nullopt;
   draw_for_making(synthesis, joint.outline);
   const double half = 0.5 * joint.mechanism.tendon.diameter;
-  return GrooveFloors{shrunk(parallel(synthesis.p1, -half), 1.0 / scale), shrunk(parallel(synthesis.p2, -half), 1.0 / scale)};
+  return GrooveFloors{shrunk(parallel(synthesis.p1, -half), 1.0 / scale),
+                      shrunk(parallel(synthesis.p2, -half), 1.0 / scale)};
 }
 
 /// How far the floors are off where the part lies; infinite without a section there.

@@ -188,11 +188,13 @@ class Conditions {
               fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
                           rounded(width), rounded(d_)));
     const double below = layout_.z_p1 - 0.5 * width;
-    add_least("channel_floor", below, 0.4,
-              below > 0 ? fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of the lower flange",
-                                      rounded(width), rounded(below, 3))
-                        : fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), cut through the lower flange",
-                                      rounded(width)));
+    add_least(
+        "channel_floor", below, 0.4,
+        below > 0
+            ? fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of the lower flange",
+                          rounded(width), rounded(below, 3))
+            : fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), cut through the lower flange",
+                          rounded(width)));
   }
 
   // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.

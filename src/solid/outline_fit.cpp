@@ -150,8 +150,8 @@ std::vector<RatedMotion> coarse_motions(const std::vector<SupportPair>& pairs) {
   for (int k = 0; k < k_coarse_turns; ++k) {
     PlaneMotion motion{k_two_pi * k / k_coarse_turns, Vec2::Zero()};
     const Gaps unshifted = gaps(pairs, motion, k_coarse_directions);
-    motion.shift =
-        -2.0 / static_cast<double>(k_coarse_directions * pairs.size()) * unshifted.slope.rightCols<2>().transpose() * unshifted.size;
+    motion.shift = -2.0 / static_cast<double>(k_coarse_directions * pairs.size()) *
+                   unshifted.slope.rightCols<2>().transpose() * unshifted.size;
     all.push_back({motion, kept_rms(gaps(pairs, motion, k_coarse_directions).size)});
   }
   return all;

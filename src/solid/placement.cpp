@@ -14,8 +14,8 @@ namespace {
 
 // What deviates by a larger part of its radius is another pulley: 0.3 mm at 16 mm, more than a print or a scan is off.
 constexpr double k_most_deviation = 0.02;
-// A file that was scaled or mirrored by a program is so exactly: 16 µm at 16 mm, little more than facets stray by. A pulley for
-// another r1 is nearly this one in another size, to within some 0.1 %.
+// A file that was scaled or mirrored by a program is so exactly: 16 µm at 16 mm, little more than facets stray by. A
+// pulley for another r1 is nearly this one in another size, to within some 0.1 %.
 constexpr double k_most_deviation_of_copy = 0.001;
 // One size more than this off is a wrong unit or a slicer's scaling, and no material's shrinkage.
 constexpr double k_most_rescaled = 0.02;
@@ -25,8 +25,8 @@ constexpr double k_clearly_better = 0.5;
 constexpr double k_least_groove = 0.3;
 // Slices per tendon diameter. A groove's floor and walls are 1 to 2 diameters wide.
 constexpr double k_slices = 4.0;
-// A bore is round within this part of its radius, and stands at most this far from the axis (mm): else it is a hole beside
-// it. Nearer than facets are true it is at it.
+// A bore is round within this part of its radius, and stands at most this far from the axis (mm): else it is a hole
+// beside it. Nearer than facets are true it is at it.
 constexpr double k_bore_roundness = 0.01;
 constexpr double k_bore_reach = 1.0;
 constexpr double k_bore_at_axis = 0.01;
@@ -43,7 +43,7 @@ double mean_radius(const GrooveFloors& floors) {
 
 const Polygon& floor_of(const GrooveFloors& floors, Side side) { return side == Side::left ? floors.p1 : floors.p2; }
 
-// ---- a way in which grooves of the mesh may be those of the pulley ---------------------------------------------------
+// ---- a way in which grooves of the mesh may be those of the pulley -------------------------------
 
 /// A groove of the mesh that may be that of one side.
 struct Match {
@@ -159,7 +159,7 @@ std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloor
   return best;
 }
 
-// ---- the bore --------------------------------------------------------------------------------------------------------
+// ---- the bore ------------------------------------------------------------------------------------
 
 /// Corners alone: triangles of a wall leave points along its straight lines.
 Polygon corners_of(const Polygon& polygon) {
@@ -208,12 +208,14 @@ std::optional<Vec2> bore_near(const TriangleMesh& mesh, double z, const Vec2& ax
   return nearest;
 }
 
-// ---- where it lies ---------------------------------------------------------------------------------------------------
+// ---- where it lies -------------------------------------------------------------------------------
 
 Vec2 flipped(const Vec2& point, bool is_flipped) { return is_flipped ? Vec2(point.x(), -point.y()) : point; }
 
 /// Into the mesh: what the motion brings to the axis.
-Vec2 axis_of(const PlaneMotion& motion, bool is_flipped) { return flipped(turned(-motion.shift, -motion.turn), is_flipped); }
+Vec2 axis_of(const PlaneMotion& motion, bool is_flipped) {
+  return flipped(turned(-motion.shift, -motion.turn), is_flipped);
+}
 
 double within_half_a_turn(double angle) { return angle - k_two_pi * std::round(angle / k_two_pi); }
 

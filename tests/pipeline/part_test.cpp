@@ -89,7 +89,7 @@ TEST_F(MadePart, WithoutGroovesIsBadInput) {
   EXPECT_THROW(rewind_part({*mechanism_, {}}, TriangleMesh()), InputError);
 }
 
-// ---- where a slicer put it -------------------------------------------------------------------------------------------
+// ---- where a slicer put it -----------------------------------------------------------------------
 
 /// Upside down about x or not, then turned, then moved; as floats of an STL hold it.
 TriangleMesh put(TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {

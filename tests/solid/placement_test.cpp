@@ -33,8 +33,9 @@ DeclaredMechanism with_body(DeclaredMechanism mechanism) {
 
 /// Made once for all tests.
 const Made& made(const std::string& name) {
-  static const std::map<std::string, DeclaredMechanism> mechanisms = {
-      {"forearm", with_body(forearm())}, {"unsymmetric", with_body(unsymmetric())}, {"linear_wrist", with_body(linear_wrist())}};
+  static const std::map<std::string, DeclaredMechanism> mechanisms = {{"forearm", with_body(forearm())},
+                                                                      {"unsymmetric", with_body(unsymmetric())},
+                                                                      {"linear_wrist", with_body(linear_wrist())}};
   static std::map<std::string, Made> all;
   if (const auto found = all.find(name); found != all.end()) return found->second;
   const Mechanism mechanism = mechanisms.at(name);
@@ -42,7 +43,9 @@ const Made& made(const std::string& name) {
   const Pulley pulley = make_pulley(mechanism, synthesis);
   EXPECT_TRUE(pulley.made()) << pulley.brief();
   const double half = 0.5 * mechanism.tendon.diameter;
-  return all[name] = {mechanism.tendon.diameter, pulley.layout, pulley.mesh,
+  return all[name] = {mechanism.tendon.diameter,
+                      pulley.layout,
+                      pulley.mesh,
                       {parallel(synthesis.p1, -half), parallel(synthesis.p2, -half)}};
 }
 
@@ -192,13 +195,15 @@ TEST(Bores, AreWhatTurns) {
   const Vec2 bore = Vec2(40, 50) + turned(Vec2(0.2, 0), radians(30));
   EXPECT_LT((result.placement.axis - bore).norm(), 1e-4);
   // About its bore the floors stand 0.2 mm off where they should.
-  EXPECT_NEAR(outline_deviation({result.placement.grooves[0].floor, result.placement.grooves[1].floor}, part.floors), 0.2 / std::sqrt(2.0), 0.05);
+  EXPECT_NEAR(outline_deviation({result.placement.grooves[0].floor, result.placement.grooves[1].floor}, part.floors),
+              0.2 / std::sqrt(2.0), 0.05);
 }
 
 TEST(OtherParts, AreNotRecognised) {
   const Made& part = made("forearm");
   EXPECT_EQ(find_placement(TriangleMesh(), part.floors, 1).status, PlacementStatus::unknown);
-  EXPECT_EQ(find_placement(made("unsymmetric").mesh, {made("linear_wrist").floors.p1, part.floors.p2}, 1).status, PlacementStatus::unknown);
+  EXPECT_EQ(find_placement(made("unsymmetric").mesh, {made("linear_wrist").floors.p1, part.floors.p2}, 1).status,
+            PlacementStatus::unknown);
   const TriangleMesh cut = half(part.mesh, part.layout.z_p1, false);
   EXPECT_EQ(find_placement(cut, part.floors, 1).status, PlacementStatus::unknown);
   EXPECT_THAT(find_grooves(cut, 0.02, 0.25), IsEmpty());

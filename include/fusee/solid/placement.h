@@ -18,8 +18,9 @@ struct GrooveInMesh {
   double z = 0;   ///< middle of its floor
   Polygon floor;  ///< as it stands in the mesh
 };
-/// The grooves that run round the z axis, from below up: heights at which the part is thinner, by at least `least_depth`
-/// times its radius, than above and below. `step` is how finely it is looked at, less than half a groove's width.
+/// The grooves that run round the z axis, from below up: heights at which the part is thinner, by at least
+/// `least_depth` times its radius, than above and below. `step` is how finely it is looked at, less than half a
+/// groove's width.
 std::vector<GrooveInMesh> find_grooves(const TriangleMesh& mesh, double least_depth, double step);
 
 /// The groove floors of a pulley about its axis at home, mm. One may be empty: it is not looked for.
@@ -44,8 +45,8 @@ struct Placement {
   double turn = 0;                    ///< about it, counter-clockwise from +z, rad
   bool tells_turn = true;             ///< false: round, and `turn` is 0
   bool turned_over = false;
-  double deviation = 0;               ///< of the floors, as outline_deviation()
-  double bore_off_axis = 0;           ///< how far the bore stands from the axis that the floors have, mm; 0: at it, or none
+  double deviation = 0;      ///< of the floors, as outline_deviation()
+  double bore_off_axis = 0;  ///< how far the bore stands from the axis that the floors have, mm; 0: at it, or none
 };
 
 enum class PlacementStatus { found, unknown, mirrored, scaled };
@@ -59,9 +60,9 @@ struct PlacementResult {
 /// What hangs together, each a mesh of its own; in the order of their first facets.
 std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh);
 
-/// Looks for the pulley with these floors, or for one of the two where the mesh has one groove. Found is what deviates by less
-/// than 2 % of its radius; of two ways that fit alike, the one that is not turned over. One groove alone looks the same
-/// mirrored and turned over: it is never called mirrored.
+/// Looks for the pulley with these floors, or for one of the two where the mesh has one groove. Found is what deviates
+/// by less than 2 % of its radius; of two ways that fit alike, the one that is not turned over. One groove alone looks
+/// the same mirrored and turned over: it is never called mirrored.
 PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter);
 
 }  // namespace fusee

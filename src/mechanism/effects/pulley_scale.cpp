@@ -30,8 +30,9 @@ Effect pulley_scale(JointKind) {
        .shown = shown::in_percent,
        .key = key::in_percent("pulley_scale_percent", -50, 100, "the made pulley is larger than drawn by this"),
        .again = WhenFoundAgain::compounded,
-       .by_hand = {"measure two diameters of the print with a caliper and write measured per drawn as [prior] pulley_scale",
-                   k_of_a_diameter, by_diameters},
+       .by_hand =
+           {"measure two diameters of the print with a caliper and write measured per drawn as [prior] pulley_scale",
+            k_of_a_diameter, by_diameters},
        .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }

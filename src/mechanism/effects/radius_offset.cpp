@@ -29,9 +29,10 @@ Effect radius_offset(JointKind) {
        .key = key::plain("radius_offset_mm", "mm", -100, 100,
                          "tendons run this much further out on the made pulley than drawn"),
        .again = WhenFoundAgain::added,
-       .by_hand = {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and write half of "
-                   "what both are too large together (too small: negative) as [prior] radius_offset_mm",
-                   k_caliper, by_caliper},
+       .by_hand =
+           {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and write half of "
+            "what both are too large together (too small: negative) as [prior] radius_offset_mm",
+            k_caliper, by_caliper},
        .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }

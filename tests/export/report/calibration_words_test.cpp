@@ -1,7 +1,7 @@
 // Numbers that were found, in words.
-#include "fusee/export/calibration.h"
-
 #include <gtest/gtest.h>
+
+#include "fusee/export/calibration.h"
 
 namespace fusee {
 namespace {
