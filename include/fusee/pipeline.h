@@ -105,7 +105,6 @@ enum class PartPlace {
   as_made,             ///< it fits where it lies, or nowhere clearly better
   found,               ///< it was moved, and is wound where it was found
   not_recognised,      ///< it fits nowhere: wound where it lies
-  nothing_to_compare,  ///< no pulley of this mechanism can be made: wound where it lies
 };
 struct RewoundPart {
   RewindResult as_built;

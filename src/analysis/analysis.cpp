@@ -79,6 +79,9 @@ void summarise(AnalysisResult& result) {
     look_for_tension(result.largest_tension, row.rising, true);
     look_for_tension(result.largest_tension, row.falling, false);
     enlarge(result.largest_paper_tension, row.paper.Tb, alpha);
+    for (const EquilibriumPoint& point : {row.rising, row.falling}) {
+      if (held(point)) enlarge(result.largest_at_joint, std::max(point.t1.upper, point.t2.upper), alpha);
+    }
     const bool both_held = held(row.rising) && held(row.falling);
     if (!both_held) {
       if (!result.lost_at) result.lost_at = alpha;
@@ -120,13 +123,24 @@ std::optional<double> taut_pretension(const Mechanism& mechanism) {
   return taut;
 }
 
+/// At C every tendon ends in a knot that nothing relieves; on the pulley the wrap does (solid/holding.h).
+std::optional<double> breaking_place(const AnalysisResult& result) {
+  if (!result.strength) return std::nullopt;
+  if (result.largest_at_joint.value > result.strength->at_knot) return result.largest_at_joint.alpha;
+  if (result.largest_tension.tension > result.strength->tension) return result.largest_tension.alpha;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Strength> tendon_strength(const Tendon& tendon) {
-  if (tendon.strength > 0) return Strength{tendon.strength, "tendon.strength_N"};
+  const auto bears = [&tendon](double tension, const std::string& source) {
+    return Strength{tension, tension * tendon.knot_efficiency, source};
+  };
+  if (tendon.strength > 0) return bears(tendon.strength, "tendon.strength_N");
   for (const TendonType& type : tendon_types()) {
     const bool same = std::abs(type.diameter - tendon.diameter) < 0.005 && std::abs(type.modulus / tendon.modulus - 1.0) < 0.01;
-    if (same) return Strength{type.breaking_strength, type.name};
+    if (same) return bears(type.breaking_strength, type.name);
   }
   return std::nullopt;
 }
@@ -148,7 +162,7 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   summarise(result);
   if (!result.slack1.empty() || !result.slack2.empty()) result.taut_pretension = taut_pretension(mechanism);
   result.strength = tendon_strength(mechanism.tendon);
-  if (result.strength && result.largest_tension.tension > result.strength->tension) result.breaks_at = result.largest_tension.alpha;
+  result.breaks_at = breaking_place(result);
   result.sources = error_sources(mechanism);
   result.tolerances = tolerance_effects(mechanism, options);
   return result;

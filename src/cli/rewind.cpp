@@ -100,9 +100,6 @@ void add_place_notes(const std::string& file, const RewoundPart& part, Reply& re
   if (part.place == PartPlace::not_recognised)
     add(Severity::warning, "the grooves of this part fit those of the mechanism nowhere: it is wound where it lies",
         "is it the pulley of this mechanism file, its axis along z?");
-  if (part.place == PartPlace::nothing_to_compare)
-    add(Severity::note,
-        "no pulley of this mechanism can be made, so the part could not be looked for: it is wound where it lies", "");
 }
 
 Json placements_json(const RewoundPart& part) {

@@ -74,10 +74,24 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
   return shrunk(*floor, scale);
 }
 
-RewindResult rewind_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
-  const BodyLayout layout = axial_layout(joint.mechanism);
-  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale),
-                      floor_in_section(mesh, layout.z_p2, layout.scale));
+/// The right part: where its grooves are, and their floors as the mesh has them.
+struct RightPart {
+  BodyLayout layout;
+  GrooveFloors floors;
+};
+
+RightPart right_part(const JointAsItIs& joint) {
+  SynthesisResult synthesis = synthesise(joint.mechanism, {.advice = false});
+  if (!synthesis.made()) throw InputError("", "no pulley of this mechanism can be made: " + synthesis.brief());
+  draw_for_making(synthesis, joint.outline);
+  const BodyLayout layout = resolve_layout(joint.mechanism, synthesis);
+  const double half = 0.5 * joint.mechanism.tendon.diameter;
+  return {layout,
+          {shrunk(parallel(synthesis.p1, -half), 1.0 / layout.scale), shrunk(parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
+}
+
+RewindResult rewind_mesh(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
+  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 
 // ---- a part that somebody moved ------------------------------------------------------------------
@@ -88,18 +102,6 @@ constexpr double k_as_made = 0.005;
 constexpr double k_clearly_better = 0.5;
 /// A file of more pieces is no pulley on a print bed.
 constexpr std::size_t k_most_bodies = 20;
-
-/// The floors that the mesh of a right part has; none where no such pulley can be made.
-std::optional<GrooveFloors> floors_to_find(const JointAsItIs& joint, double scale) {
-  SynthesisOptions options;
-  options.advice = false;
-  SynthesisResult synthesis = synthesise(joint.mechanism, options);
-  if (!synthesis.made()) return std::nullopt;
-  draw_for_making(synthesis, joint.outline);
-  const double half = 0.5 * joint.mechanism.tendon.diameter;
-  return GrooveFloors{shrunk(parallel(synthesis.p1, -half), 1.0 / scale),
-                      shrunk(parallel(synthesis.p2, -half), 1.0 / scale)};
-}
 
 /// How far the floors are off where the part lies; infinite without a section there.
 double deviation_as_it_lies(const TriangleMesh& mesh, const BodyLayout& layout, const GrooveFloors& expected) {
@@ -188,9 +190,9 @@ bool is_finite(const TriangleMesh& mesh) {
 }
 
 /// What is recognised nowhere may have no groove where it lies either.
-RewoundPart rewind_unrecognised(const JointAsItIs& joint, const TriangleMesh& mesh) {
+RewoundPart rewind_unrecognised(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
   try {
-    return {rewind_mesh(joint, mesh), PartPlace::not_recognised, {}};
+    return {rewind_mesh(joint, layout, mesh), PartPlace::not_recognised, {}};
   } catch (const InputError& error) {
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     diagnostics.front().hint =
@@ -200,21 +202,19 @@ RewoundPart rewind_unrecognised(const JointAsItIs& joint, const TriangleMesh& me
 }
 
 RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
-  if (!is_finite(mesh)) return rewind_unrecognised(joint, mesh);
-  const BodyLayout layout = axial_layout(joint.mechanism);
-  const std::optional<GrooveFloors> expected = floors_to_find(joint, layout.scale);
-  if (!expected) return {rewind_mesh(joint, mesh), PartPlace::nothing_to_compare, {}};
-  const double as_it_lies = deviation_as_it_lies(mesh, layout, *expected);
-  if (as_it_lies <= k_as_made) return {rewind_mesh(joint, mesh), PartPlace::as_made, {}};
-  const std::vector<PlacementResult> found = find_all(mesh, *expected, joint.mechanism.tendon.diameter * layout.scale);
-  if (found.front().status == PlacementStatus::unknown) return rewind_unrecognised(joint, mesh);
+  const auto [layout, expected] = right_part(joint);
+  if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
+  const double as_it_lies = deviation_as_it_lies(mesh, layout, expected);
+  if (as_it_lies <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
+  const std::vector<PlacementResult> found = find_all(mesh, expected, joint.mechanism.tendon.diameter * layout.scale);
+  if (found.front().status == PlacementStatus::unknown) return rewind_unrecognised(joint, layout, mesh);
   std::vector<Placement> placements;
   double worst = 0;
   for (const PlacementResult& result : found) {
     worst = std::max(worst, result.placement.deviation);
     placements.push_back(result.placement);
   }
-  if (!(worst < k_clearly_better * as_it_lies)) return {rewind_mesh(joint, mesh), PartPlace::as_made, {}};
+  if (!(worst < k_clearly_better * as_it_lies)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
   for (const PlacementResult& result : found) refuse(result);
   return rewind_placed(joint, placements, layout.scale);
 }
@@ -222,7 +222,7 @@ RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh
 }  // namespace
 
 RewindResult rewind_part(const JointAsItIs& joint, const Part& part) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(joint, *mesh);
+  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(joint, right_part(joint).layout, *mesh);
   return rewind_drawing(joint, std::get<Drawing>(part));
 }
 

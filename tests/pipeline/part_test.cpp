@@ -156,7 +156,8 @@ TEST_F(MadePart, MirroredOrInInchesIsRefusedWithWords) {
 }
 
 TEST_F(MadePart, BothPulleysSideBySideAreBothFound) {
-  const double middle = 0.5 * (axial_layout(*mechanism_).z_p1 + axial_layout(*mechanism_).z_p2);
+  const BodyLayout layout = resolve_layout(*mechanism_, *synthesis_);
+  const double middle = 0.5 * (layout.z_p1 + layout.z_p2);
   // Facets between the grooves bridge the cut, and are left out.
   TriangleMesh lower{mesh_->vertices, {}}, upper = lower;
   for (const auto& triangle : mesh_->triangles) {
@@ -195,7 +196,7 @@ TEST_F(MadePart, OfAnotherMechanismIsWoundWhereItLiesAndSaidSo) {
   }
   Mechanism impossible = *mechanism_;
   impossible.pulley.r1 = 60;
-  EXPECT_EQ(rewind_moved_part({impossible, {}}, *mesh_).place, PartPlace::nothing_to_compare);
+  EXPECT_THROW(rewind_moved_part({impossible, {}}, *mesh_), InputError);
 }
 
 TEST_F(MadePart, HasItsSize) {

@@ -70,7 +70,8 @@ struct ToleranceEffect {
 
 /// What a tendon bears, where it is known.
 struct Strength {
-  double tension = 0;  ///< N
+  double tension = 0;  ///< without a knot, N
+  double at_knot = 0;  ///< N
   std::string source;  ///< "tendon.strength_N", or the tendon of the catalogue
 };
 
@@ -82,6 +83,7 @@ struct AnalysisResult {
 
   std::vector<AnalysisRow> rows;
   TensionExtreme largest_tension;    ///< full model
+  Extreme largest_at_joint;          ///< of both tendons above their pins, full model: what a knot at C bears, N
   Extreme largest_paper_tension;     ///< T_b
   Extreme largest_torque;            ///< of the motor, |.|, full model, N·mm
   Extreme hysteresis;                ///< largest |θ rising − θ falling| at one α, rad
@@ -92,7 +94,8 @@ struct AnalysisResult {
   std::optional<double> taut_pretension;
   std::optional<double> lost_at;     ///< α of the first row without equilibrium
   std::optional<Strength> strength;
-  std::optional<double> breaks_at;   ///< α of the row at which the largest tension passes the strength
+  /// α of the row at which the largest tension passes the strength, that above the pins the strength at a knot.
+  std::optional<double> breaks_at;
   std::vector<ErrorSource> sources;
   std::vector<ToleranceEffect> tolerances;  ///< by key; "all" last
 };
