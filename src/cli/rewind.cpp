@@ -92,7 +92,7 @@ void add_place_notes(const std::string& file, const RewoundPart& part, Reply& re
     add(Severity::note, "the grooves are not where they were made: the part was looked for and found",
         "--as-is winds it where it lies");
   const auto may_be_mirrored = [](const Placement& placement) {
-    return placement.grooves.size() == 1 && placement.turned_over;
+    return placement.grooves.size() == 1 && placement.turned_over && placement.tells_turn;
   };
   if (std::any_of(part.placements.begin(), part.placements.end(), may_be_mirrored))
     add(Severity::warning, "one groove alone looks the same upside down and mirrored: taken for upside down",

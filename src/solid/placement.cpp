@@ -106,13 +106,16 @@ FittedWay fitted(const Way& way, const GrooveFloors& expected) {
 std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
   std::vector<Way> ways;
   if (expected.p1.empty() || expected.p2.empty()) return ways;
-  for (std::size_t k = 0; k + 1 < grooves.size(); ++k) {
-    const std::vector<Match> upright{{Side::left, &grooves[k]}, {Side::right, &grooves[k + 1]}};
-    const std::vector<Match> upside_down{{Side::left, &grooves[k + 1]}, {Side::right, &grooves[k]}};
-    ways.push_back({upright, false, false});
-    ways.push_back({upside_down, true, false});
-    ways.push_back({upright, true, true});
-    ways.push_back({upside_down, false, true});
+  for (std::size_t low = 0; low < grooves.size(); ++low) {
+    // Between them a part may be thinner, too: where two prints meet, or under a hub.
+    for (std::size_t high = low + 1; high < grooves.size(); ++high) {
+      const std::vector<Match> upright{{Side::left, &grooves[low]}, {Side::right, &grooves[high]}};
+      const std::vector<Match> upside_down{{Side::left, &grooves[high]}, {Side::right, &grooves[low]}};
+      ways.push_back({upright, false, false});
+      ways.push_back({upside_down, true, false});
+      ways.push_back({upright, true, true});
+      ways.push_back({upside_down, false, true});
+    }
   }
   return ways;
 }
