@@ -78,7 +78,7 @@ std::string key_numbers(const CalibrationProduct& product) {
   numbers.add("Largest error", degree_words(c.before.max) + " → " + degree_words(c.after.max));
   numbers.add("Noise floor", degree_words(c.noise.rms), c.noise.from_repeats ? "from repeats" : "at least: no repeats");
   if (c.noise.rms > 0) numbers.add("What is left, per noise floor", readable(c.after.rms / c.noise.rms, 2));
-  numbers.add("Unexplained, RMS", degree_words(c.unexplained_rms));
+  numbers.add("Unexplained beyond the noise, RMS", degree_words(c.unexplained_rms));
   numbers.add("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
   if (product.correction.has_pulley)
     numbers.add("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
@@ -261,8 +261,8 @@ std::string rest_section(const CalibrationProduct& product) {
   if (plot.empty()) return "";
   const std::string words = calibration.unexplained_where.empty()
                                 ? "What is left is at the noise floor."
-                                : "Unexplained: " + degree_words(calibration.unexplained_rms) + " rms, " +
-                                      calibration.unexplained_where + ".";
+                                : "Unexplained beyond the noise: " + degree_words(calibration.unexplained_rms) +
+                                      " rms, " + calibration.unexplained_where + ".";
   const std::string colour = " Neighbouring rows of it are correlated by " +
                              readable(calibration.rest_autocorrelation, 2) +
                              "; noise would be near 0. Dashed: the noise floor of a single row.";

@@ -69,7 +69,8 @@ std::string parameter_words(const FittedParameter& parameter, const std::string&
     break;
   }
   return open_words(name) + " = " + readable_rounded(parameter.value) + unit +
-         " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")";
+         " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")" +
+         (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }
 
 std::vector<std::string> rivals_of(const FoundEffect& effect) {

@@ -18,6 +18,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -32,6 +33,7 @@
 #include "fusee/pipeline/calibrate.h"
 #include "fusee/pipeline/optimize.h"
 #include "fusee/solid/mesh.h"
+#include "fusee/solid/placement.h"
 
 namespace fusee {
 
@@ -87,9 +89,35 @@ Part read_part(const std::filesystem::path& path);
 /// check_mesh or check_drawing.
 std::vector<Check> check_part(const Part& part);
 
+struct PartSize {
+  std::optional<Vec3> extent;      ///< along x, y, z, mm; none where there is nothing
+  std::optional<double> volume;    ///< of a mesh that passed `checks`, mm³
+  std::optional<std::size_t> contours;  ///< closed paths of a drawing
+};
+/// `checks`: what check_part() says of it.
+PartSize size_of(const Part& part, const std::vector<Check>& checks);
+
 /// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them, or on a drawing's P1_FLOOR and
 /// P2_FLOOR (without them on the P*_PITCH curves). InputError when there is no such groove.
 RewindResult rewind_part(const JointAsItIs& joint, const Part& part);
+
+enum class PartPlace {
+  as_made,             ///< it fits where it lies, or nowhere clearly better
+  found,               ///< it was moved, and is wound where it was found
+  not_recognised,      ///< it fits nowhere: wound where it lies
+};
+struct RewoundPart {
+  RewindResult as_built;
+  PartPlace place = PartPlace::as_made;
+  /// Where it was found: once, or once for each of P1 and P2 in a file of both side by side.
+  std::vector<Placement> placements;
+  /// The only pulley that the file holds: its tendon alone was wound, and no slack is known.
+  std::optional<Side> alone = std::nullopt;
+};
+/// As rewind_part(), but a mesh that was moved, turned about its axis or turned over since it was made is brought back first.
+/// InputError, too, for one that is mirrored or of another size.
+RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part);
+
 /// "theta_error" and "slack" against their limits. The slack of method = "paper" is known: it is reported as "theta_error_reported"
 /// and "slack_reported", held only against 180 deg and the joint's length.
 std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built, const AsBuiltLimits& limits);

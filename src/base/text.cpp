@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fusee {
@@ -38,6 +39,30 @@ std::string rounded(double value, int digits) {
   }
   const int before_point = static_cast<int>(std::floor(std::log10(size))) + 1;
   return trimmed_fixed(value, std::max(0, digits - before_point));
+}
+
+std::size_t characters(std::string_view text) {
+  // Every byte that does not continue one.
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string wrapped(std::string_view words, std::string_view first, std::string_view indent) {
+  constexpr std::size_t k_width = 78;
+  std::string text, line(first);
+  bool has_word = false;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    const std::string_view word = words.substr(at, end - at);
+    if (has_word && characters(line) + 1 + characters(word) > k_width) {
+      text += line + "\n";
+      line = indent;
+      has_word = false;
+    }
+    line += (has_word ? " " : "") + std::string(word);
+    has_word = true;
+    at = end + 1;
+  }
+  return text + line + "\n";
 }
 
 std::string escape_html(std::string_view text) {

@@ -23,7 +23,9 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
       high = std::clamp(ranges[k].high * own.step, own.least, own.most);
     }
     const auto shown = [&](double x) { return own.shown(x, *evidence.declared); };
-    fitted.push_back({own.name, shown(value), std::min(shown(low), shown(high)), std::max(shown(low), shown(high))});
+    const std::string_view sense = value < 0 ? own.sign.below : value > 0 ? own.sign.above : "";
+    fitted.push_back({own.name, shown(value), std::min(shown(low), shown(high)), std::max(shown(low), shown(high)),
+                      std::string(sense)});
   }
   return fitted;
 }

@@ -149,10 +149,14 @@ struct Ranked {
 
 std::string sentence(const Ranked& ranked, const std::vector<const Rival*>& pairs) {
   std::string told;
+  const Effect* named = nullptr;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (ranked.apart[i] <= k_thresholds.told_apart) continue;
-    told += (told.empty() ? "" : ", ") + pairs[i]->accepted->name + " from " + pairs[i]->rival->name + " (" +
-            rounded(std::min(ranked.apart[i], 999.0), 2) + " × what it is uncertain by)";
+    const std::string unit = told.empty() ? " × what it is uncertain by)" : " ×)";
+    told += told.empty() ? "" : ", ";
+    if (pairs[i]->accepted != named) told += pairs[i]->accepted->name + " from ";
+    named = pairs[i]->accepted;
+    told += pairs[i]->rival->name + " (" + rounded(std::min(ranked.apart[i], 999.0), 2) + unit;
   }
   return ranked.words + ": it tells " + told;
 }

@@ -80,7 +80,7 @@ CalibrationVerdict verdict_of(bool walks, bool above_floor, const std::vector<Fo
 }
 
 /// What a person can act on.
-std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter) {
+std::string finding(const Calibration& calibration, const Rest& rest, const StrokeScatter& scatter, double floor) {
   const std::string names = effects_words(calibration.effects);
   switch (calibration.verdict) {
     case CalibrationVerdict::not_repeatable:
@@ -88,9 +88,11 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
              " rms from stroke to stroke: look for something loose before any correction.";
     case CalibrationVerdict::unexplained:
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
-             in_degrees(rest.structure) + " rms stay unexplained, " + rest.where + ".";
+             in_degrees(std::hypot(rest.structure, floor)) + " rms are left and noise makes " + in_degrees(floor) +
+             " of it: what is more stays unexplained, " + rest.where + ".";
     case CalibrationVerdict::confounded:
-      return "The data are explained by " + names + ", and cannot tell which.";
+      return (calibration.next_runs.empty() ? "" : "Measure this first: " + calibration.next_runs.front() + ". ") +
+             "The data are explained by " + names + ", and cannot tell which.";
     case CalibrationVerdict::explained:
       return "The data are explained by " + names + ".";
     case CalibrationVerdict::no_effect:
@@ -125,10 +127,17 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   rest.structure = std::sqrt(std::max(0.0, fit.by_run.mean_square - fit.price - evidence.floor * evidence.floor));
   rest.autocorrelation = lag_one_correlation(evidence, fit);
   Places places(evidence.measurement);
+  double squares = 0;
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
-    for (const std::size_t row : block.rows) places.add(row, direction, fit.residual[static_cast<Eigen::Index>(row)]);
+    for (const std::size_t row : block.rows) {
+      const double residual = fit.residual[static_cast<Eigen::Index>(row)];
+      places.add(row, direction, residual);
+      squares += residual * residual;
+    }
   }
+  rest.fitted = std::sqrt(
+      std::max(0.0, squares / static_cast<double>(std::max<std::size_t>(1, evidence.rows_used())) - fit.price));
   rest.where = places.largest();
   return rest;
 }
@@ -136,14 +145,16 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
 void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  const bool above_floor = !is_at_floor(selection.best, evidence.floor);
+  // Held out, a rest is larger than where it was fitted: below the floor there, it is the noise that the fit met.
+  const bool above_floor = !is_at_floor(selection.best, evidence.floor) && rest.fitted > evidence.floor;
   calibration.rest_autocorrelation = rest.autocorrelation;
   if (above_floor) {
     calibration.unexplained_rms = rest.structure;
     calibration.unexplained_where = rest.where;
   }
   calibration.verdict = verdict_of(is_walking(scatter), above_floor, calibration.effects);
-  calibration.summary = finding(calibration, rest, scatter) + " " + figures(calibration, evidence.floor);
+  calibration.summary =
+      finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
   ask_for_runs(calibration);
 }
 

@@ -114,14 +114,15 @@ Command calibrate_command() {
           "SPEC RUN.csv...",
           "measured data: what is off, why, a better pulley",
           "Holds measured runs of a joint (CSV with alpha_deg,theta_deg and, if logged,\n"
-          "time_s,load_N,temperature_C) against the mechanism file SPEC: finds the residual,\n"
-          "names the effects behind it that hold on data they were not fitted to, with those\n"
-          "that would do as well, and leaves corrected.toml (fusee build makes its pulley),\n"
-          "compensation.csv (where the motor must stand, from below and from above),\n"
-          "calibration.json and report.html. Whatever the verdict, also not_testable, the\n"
-          "exit code is 0 when the data could be read and 3 when they could not.",
+          "time_s,load_N,temperature_C) against the mechanism file SPEC: finds the\n"
+          "residual, names the effects behind it that hold on data they were not fitted\n"
+          "to, with those that would do as well, and leaves corrected.toml (fusee build\n"
+          "makes its pulley), compensation.csv (where the motor must stand, from below and\n"
+          "from above), calibration.json and report.html. Whatever the verdict, also\n"
+          "not_testable, the exit code is 0 when the data could be read and 3 when they\n"
+          "could not.",
           {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
-           {"--hold-out", "FILE", "a run to validate with only; may be given several times", true},
+           {"--hold-out", "FILE", "a run to validate with only; may be given several\ntimes", true},
            {"--column", "ROLE=NAME",
             "the column of a role: alpha, theta, time, load,\ntemperature …; may be given several times", true}},
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},

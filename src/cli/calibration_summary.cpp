@@ -1,7 +1,5 @@
 #include "cli/calibration_summary.h"
 
-#include <algorithm>
-
 #include "cli/table.h"
 #include "export/report/calibration_words.h"
 #include "fusee/base/text.h"
@@ -10,35 +8,7 @@
 namespace fusee::cli {
 namespace {
 
-constexpr std::size_t k_width = 78;
-
-/// Characters of UTF-8 text: every byte that does not continue one.
-std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-/// Words broken into lines of the terminal's usual width.
-std::string wrapped(const std::string& words, const std::string& indent) {
-  std::string text, line = indent;
-  std::size_t at = 0;
-  while (at < words.size()) {
-    const std::size_t end = std::min(words.find(' ', at), words.size());
-    const std::string word = words.substr(at, end - at);
-    if (line.size() > indent.size() && characters(line) + 1 + characters(word) > k_width) {
-      text += line + "\n";
-      line = indent;
-    }
-    line += (line.size() > indent.size() ? " " : "") + word;
-    at = end + 1;
-  }
-  return text + line + "\n";
-}
-
-std::string item(const std::string& words) {
-  std::string text = wrapped(words, "    ");
-  text.replace(0, 4, "  - ");
-  return text;
-}
+std::string item(const std::string& words) { return wrapped(words, "  - ", "    "); }
 
 std::string items(const std::string& title, const std::vector<std::string>& all) {
   std::string text = all.empty() ? "" : "\n" + title + "\n";
@@ -65,7 +35,7 @@ std::string noise_text(const Calibration& c) {
   std::string words =
       "noise floor " + deg(c.noise.rms) + (c.noise.from_repeats ? " deg, from repeats" : " deg or more: no repeats");
   if (c.noise.rms > 0) words += "; what is left is " + rounded(c.after.rms / c.noise.rms, 3) + " times that";
-  return wrapped(words, "  ");
+  return wrapped(words, "  ", "  ");
 }
 
 std::string effect_text(const FoundEffect& effect, const std::string& load_unit) {
@@ -82,7 +52,7 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   for (const FoundEffect& effect : c.effects) texts.push_back(effect_text(effect, load_unit));
   if (texts.empty()) texts.push_back("none accepted");
   if (!c.unexplained_where.empty())
-    texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms, " + c.unexplained_where);
+    texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms beyond the noise, " + c.unexplained_where);
   return texts;
 }
 
@@ -129,7 +99,7 @@ std::string tried_table(const Calibration& c) {
 std::string calibration_summary(const CalibrationProduct& product, bool verbose) {
   const Calibration& c = product.calibration;
   std::string text =
-      product.file.mechanism.name + ": " + std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ");
+      product.file.mechanism.name + ": " + std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
   if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", c.next_runs);
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
   text += items("Cannot be told apart by these data", c.null_combinations) +

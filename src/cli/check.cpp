@@ -1,5 +1,6 @@
 #include "cli/as_built.h"
 #include "cli/command.h"
+#include "fusee/base/text.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -14,19 +15,68 @@ std::string what_it_is(const Part& part) {
   return "a drawing (" + drawing.version + ") of " + std::to_string(drawing.paths.size()) + " paths";
 }
 
+/// A print smaller or larger than this is nearly always a print in another unit.
+constexpr double k_smallest = 3.0, k_largest = 1000.0;  // mm
+
+std::string by_three(const Vec3& extent, bool is_flat, double factor) {
+  std::string text = rounded(factor * extent.x()) + " × " + rounded(factor * extent.y());
+  if (!is_flat) text += " × " + rounded(factor * extent.z());
+  return text + " mm";
+}
+
+std::string size_text(const PartSize& size) {
+  if (!size.extent) return "size: none, it holds no points that can be measured";
+  if (size.contours)
+    return "size " + by_three(*size.extent, true, 1) + ", " + std::to_string(*size.contours) + " closed " +
+           (*size.contours == 1 ? "contour" : "contours");
+  const std::string extent = "size " + by_three(*size.extent, false, 1);
+  return extent +
+         (size.volume ? ", volume " + rounded(*size.volume / 1000.0) + " cm³" : ", no volume: it is not sound");
+}
+
+/// Files carry no unit, or a wrong one; their size tells.
+void add_unit_warning(const std::string& file, const PartSize& size, Reply& reply) {
+  if (!size.extent) return;
+  const bool is_flat = size.contours.has_value();
+  const double largest = size.extent->maxCoeff();
+  const auto would_be = [&](double factor) { return by_three(*size.extent, is_flat, factor); };
+  std::string guess;
+  if (largest > 0 && largest < k_smallest)
+    guess = "it looks like inches (× 25.4 = " + would_be(25.4) + ") or metres (× 1000 = " + would_be(1000) + ")";
+  if (largest > k_largest)
+    guess = "it looks like millimetres taken for inches (÷ 25.4 = " + would_be(1 / 25.4) +
+            ") or for metres (÷ 1000 = " + would_be(0.001) + ")";
+  if (guess.empty()) return;
+  Diagnostic warning = about_file(Severity::warning, file, "read in mm it measures " + would_be(1) + ": " + guess);
+  warning.hint = "export it again in millimetres, or scale it where it is sliced or cut";
+  reply.diagnostics.push_back(warning);
+}
+
+void add_size(const PartSize& size, Reply& reply) {
+  if (size.extent) {
+    reply.fields["size_mm"] = {size.extent->x(), size.extent->y()};
+    if (!size.contours) reply.fields["size_mm"].push_back(size.extent->z());
+  }
+  if (size.volume) reply.fields["volume_mm3"] = *size.volume;
+  if (size.contours) reply.fields["contours"] = *size.contours;
+}
+
 Reply run_check(const Arguments& arguments, Console& console) {
   const std::string& file = arguments.positionals().front();
   console.progress("reading the file");
   const Part part = read_part(file);
   console.progress("checking");
   const std::vector<Check> checks = check_part(part);
+  const PartSize size = size_of(part, checks);
   Reply reply;
   const bool ok = all_ok(checks);
-  reply.text =
-      file + ": " + what_it_is(part) + "\n\n" + checks_table(checks) + "\n" + (ok ? "valid" : "not valid") + "\n";
+  reply.text = file + ": " + what_it_is(part) + "\n" + size_text(size) + "\n\n" + checks_table(checks) + "\n" +
+               (ok ? "valid" : "not valid") + "\n";
   reply.fields["file"] = file;
   reply.fields["kind"] = std::holds_alternative<Drawing>(part) ? "drawing" : "mesh";
+  add_size(size, reply);
   reply.fields["checks"] = to_json(checks);
+  add_unit_warning(file, size, reply);
   if (!ok) {
     reply.exit = Exit::check_failed;
     add_failures(checks, reply);
@@ -42,7 +92,8 @@ Command check_command() {
           "a mesh or drawing: valid, or what is wrong and where",
           "Checks a mesh (stl, obj, 3mf, off, ply, drc) or a drawing (dxf) from anywhere:\n"
           "is it a closed, sound solid, or closed, clean contours? Each check is shown with\n"
-          "its value and its limit, and a failed one with the place of the fault.",
+          "its value and its limit, and a failed one with the place of the fault. Size and\n"
+          "volume are shown too, and a size that only inches or metres explain is said.",
           {},
           {{"fusee check out/arm/pulley.stl", "is the mesh a solid that can be printed?"},
            {"fusee check out/arm/plates.dxf", "are all contours closed and free of crossings?"},

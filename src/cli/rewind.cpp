@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <filesystem>
+
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/table.h"
@@ -38,13 +41,93 @@ Json points_json(const std::vector<RewindPoint>& points) {
   return list;
 }
 
+// ---- where the part lies -------------------------------------------------------------------------
+
+std::string_view word(Side side) { return side == Side::left ? "P1" : "P2"; }
+
+std::string grooves_text(const Placement& placement) {
+  std::string text;
+  for (const PlacedGroove& groove : placement.grooves)
+    text += (text.empty() ? "" : ", ") + std::string(word(groove.side)) + " at z = " + fixed(groove.z, 3) + " mm";
+  return text;
+}
+
+std::string turn_text(const Placement& placement) {
+  std::string text = placement.turned_over ? ", upside down" : "";
+  // What is round may have been turned by anything.
+  if (placement.tells_turn) text += ", turned by " + trimmed_fixed(degrees(placement.turn), 3) + "° about it";
+  return text;
+}
+
+/// "its axis at (12.3, -4) mm, turned by 90° about it; grooves P1 at z = …"
+std::string placement_text(const Placement& placement) {
+  std::string text = "its axis at (" + trimmed_fixed(placement.axis.x(), 3) + ", " +
+                     trimmed_fixed(placement.axis.y(), 3) + ") mm" + turn_text(placement) + "; " +
+                     (placement.grooves.size() == 1 ? "groove " : "grooves ") + grooves_text(placement) +
+                     "; floors within " + rounded(placement.deviation, 2) + " mm of the declared ones";
+  if (placement.bore_off_axis > 0)
+    text += "; the bore stands " + rounded(placement.bore_off_axis, 2) +
+            " mm off the grooves' axis, and it is the bore that turns";
+  return text;
+}
+
+std::string place_text(const RewoundPart& part) {
+  std::string text;
+  for (const Placement& placement : part.placements)
+    text += wrapped("found from its grooves: " + placement_text(placement), "  ", "  ");
+  if (part.alone)
+    text += wrapped("the file holds " + std::string(word(*part.alone)) + " alone: tendon " +
+                        (*part.alone == Side::left ? "1" : "2") + " alone was wound, the other's slack is not known",
+                    "  ", "  ");
+  return text;
+}
+
+void add_place_notes(const std::string& file, const RewoundPart& part, Reply& reply) {
+  const auto add = [&](Severity severity, const std::string& words, const std::string& hint) {
+    Diagnostic diagnostic = about_file(severity, file, words);
+    diagnostic.hint = hint;
+    reply.diagnostics.push_back(diagnostic);
+  };
+  if (part.place == PartPlace::found)
+    add(Severity::note, "the grooves are not where they were made: the part was looked for and found",
+        "--as-is winds it where it lies");
+  const auto may_be_mirrored = [](const Placement& placement) {
+    return placement.grooves.size() == 1 && placement.turned_over && placement.tells_turn;
+  };
+  if (std::any_of(part.placements.begin(), part.placements.end(), may_be_mirrored))
+    add(Severity::warning, "one groove alone looks the same upside down and mirrored: taken for upside down",
+        "look at the file: was it mirrored?");
+  if (part.place == PartPlace::not_recognised)
+    add(Severity::warning, "the grooves of this part fit those of the mechanism nowhere: it is wound where it lies",
+        "is it the pulley of this mechanism file, its axis along z?");
+}
+
+Json placements_json(const RewoundPart& part) {
+  Json list = Json::array();
+  for (const Placement& placement : part.placements) {
+    Json grooves = Json::array();
+    for (const PlacedGroove& groove : placement.grooves)
+      grooves.push_back({{"pulley", word(groove.side)}, {"z_mm", groove.z}});
+    list.push_back({{"axis_mm", {placement.axis.x(), placement.axis.y()}},
+                    {"turned_deg", degrees(placement.turn)},
+                    {"tells_turn", placement.tells_turn},
+                    {"turned_over", placement.turned_over},
+                    {"deviation_mm", placement.deviation},
+                    {"bore_off_axis_mm", placement.bore_off_axis},
+                    {"grooves", grooves}});
+  }
+  return list;
+}
+
+// ---- the whole -----------------------------------------------------------------------------------
+
 /// What is wrong with the part is said of its file.
-RewindResult rewind_file(const JointAsItIs& joint, const std::string& file, Console& console) {
+RewoundPart rewind_file(const JointAsItIs& joint, const std::string& file, bool as_is, Console& console) {
   console.progress("reading the part");
   const Part part = read_part(file);
   console.progress("winding tendons on it");
   try {
-    return rewind_part(joint, part);
+    return as_is ? RewoundPart{rewind_part(joint, part), PartPlace::as_made, {}} : rewind_moved_part(joint, part);
   } catch (const InputError& error) {
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     for (Diagnostic& diagnostic : diagnostics) diagnostic.place.file = file;
@@ -52,21 +135,36 @@ RewindResult rewind_file(const JointAsItIs& joint, const std::string& file, Cons
   }
 }
 
+/// One tendon alone has no slack that could be known.
+std::vector<Check> checks_of(const Mechanism& mechanism, const RewoundPart& part, const AsBuiltLimits& limits) {
+  std::vector<Check> checks = as_built_checks(mechanism, part.as_built, limits);
+  if (part.alone) checks.erase(checks.begin() + 1, checks.end());
+  return checks;
+}
+
+std::string result_text(const RewoundPart& part) {
+  if (!part.alone) return as_built_text(part.as_built);
+  return "theta within " + rounded(degrees(part.as_built.max_theta_error), 2) + " deg";
+}
+
 Reply run_rewind(const Arguments& arguments, Console& console) {
   const AsBuiltLimits limits = limits_from(arguments);
   const MechanismFile spec = read_mechanism(arguments.positionals()[0], arguments.settings());
   const std::string& file = arguments.positionals()[1];
   const JointAsItIs joint = as_it_is(spec.mechanism);
-  const RewindResult as_built = rewind_file(joint, file, console);
-  const std::vector<Check> checks = as_built_checks(joint.mechanism, as_built, limits);
+  const RewoundPart part = rewind_file(joint, file, arguments.has("--as-is"), console);
+  const std::vector<Check> checks = checks_of(joint.mechanism, part, limits);
   Reply reply;
   reply.diagnostics = spec.warnings;
-  reply.text = file + ": " + as_built_text(as_built) + "\n\n" + points_table(as_built.points, console.verbose()) +
-               "\n" + checks_table(checks);
+  add_place_notes(file, part, reply);
+  reply.text = std::filesystem::path(file).filename().string() + ": " + result_text(part) + "\n" + place_text(part) +
+               "\n" + points_table(part.as_built.points, console.verbose()) + "\n" + checks_table(checks);
   reply.fields["file"] = file;
-  reply.fields["as_built"] = to_json(as_built);
+  reply.fields["placements"] = placements_json(part);
+  reply.fields["alone"] = part.alone ? Json(word(*part.alone)) : Json();
+  reply.fields["as_built"] = to_json(part.as_built);
   reply.fields["checks"] = to_json(checks);
-  reply.fields["points"] = points_json(as_built.points);
+  reply.fields["points"] = points_json(part.as_built.points);
   if (!all_ok(checks)) {
     reply.exit = Exit::check_failed;
     add_failures(checks, reply);
@@ -77,17 +175,22 @@ Reply run_rewind(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Command rewind_command() {
+  std::vector<Option> options = limit_options();
+  options.push_back({"--as-is", "", "wind it where it lies: axis at (0, 0), as it was made"});
   return {"rewind",
           "SPEC FILE",
           "the joint angle that a made part gives",
           "Winds two tendons on the grooves of a made part (any mesh that 'fusee check'\n"
           "reads, or a dxf with the layers P1_FLOOR and P2_FLOOR), also one that was edited\n"
           "by hand, and compares the joint angle that they give with that of the mechanism\n"
-          "file SPEC.",
-          limit_options(),
+          "file SPEC. A mesh that a slicer moved, dropped onto the bed, turned about its\n"
+          "axis or turned over is found from its grooves and brought back, and what was\n"
+          "assumed is said; one that is mirrored or of another size is refused.",
+          options,
           {{"fusee rewind arm.toml out/arm/pulley.stl", "is the printed part right?"},
            {"fusee rewind arm.toml out/arm/profile.dxf", "is the drawing right?"},
-           {"fusee rewind arm.toml out/arm/pulley.stl --max-theta-error-deg 0.01", "with a tighter limit"}},
+           {"fusee rewind arm.toml out/arm/pulley.stl --max-theta-error-deg 0.01", "with a tighter limit"},
+           {"fusee rewind arm.toml out/arm/pulley.stl --as-is", "and only where it lies"}},
           run_rewind};
 }
 

@@ -30,6 +30,9 @@ std::vector<const Field*> meant(std::string_view word) {
                    nearest.empty() ? "fusee explain lists all keys" : "did you mean " + nearest + "?");
 }
 
+/// One thing of the catalogue.
+std::string entry(const std::string& words) { return wrapped(words, "    ", "      "); }
+
 std::string horn_words(const Horn& horn) {
   if (horn.spline_teeth > 0) {
     return std::to_string(horn.spline_teeth) + " teeth, " + shortest(horn.spline_diameter) + " mm over them, " +
@@ -46,7 +49,7 @@ std::string horn_words(const Horn& horn) {
 std::string horn_list() {
   std::string text = "  There are (profiles/catalogue/horns.toml):\n";
   for (const HornType& type : horns())
-    text += "    " + type.name + ": " + type.description + "; " + horn_words(type.horn) + ". " + type.source + "\n";
+    text += entry(type.name + ": " + type.description + "; " + horn_words(type.horn) + ". " + type.source);
   return text;
 }
 
@@ -62,9 +65,9 @@ std::string shaft_list() {
 std::string tendon_list() {
   std::string text = "  Known tendons (profiles/catalogue/tendons.toml):\n";
   for (const TendonType& type : tendon_types()) {
-    text += "    " + type.name + ": diameter_mm = " + shortest(type.diameter) +
-            ", modulus_MPa = " + shortest(type.modulus) + ", bend_ratio = " + shortest(type.bend_ratio) +
-            "; breaks at " + shortest(type.breaking_strength) + " N. " + type.description + ". " + type.source + "\n";
+    text += entry(type.name + ": diameter_mm = " + shortest(type.diameter) +
+                  ", modulus_MPa = " + shortest(type.modulus) + ", bend_ratio = " + shortest(type.bend_ratio) +
+                  "; breaks at " + shortest(type.breaking_strength) + " N. " + type.description + ". " + type.source);
   }
   return text;
 }
@@ -72,9 +75,8 @@ std::string tendon_list() {
 std::string material_list() {
   std::string text = "  Known materials (profiles/catalogue/materials.toml):\n";
   for (const MaterialType& type : material_types()) {
-    text += "    " + type.name + ": shrinks " + shortest(type.shrinkage_least) + " to " +
-            shortest(type.shrinkage_most) + " %, mostly " + shortest(type.shrinkage_typical) + " %. " +
-            type.description + ". " + type.source + "\n";
+    text += entry(type.name + ": shrinks " + shortest(type.shrinkage_least) + " to " + shortest(type.shrinkage_most) +
+                  " %, mostly " + shortest(type.shrinkage_typical) + " %. " + type.description + ". " + type.source);
   }
   return text;
 }
@@ -91,13 +93,13 @@ std::string catalogue_text(const Field& field) {
 std::string field_text(const Field& field) {
   std::string text = field.name();
   if (!field.symbol.empty()) text += "  (" + std::string(field.symbol) + ")";
-  text += "\n  " + std::string(field.meaning) + "\n  is       " + kind_text(field) + "\n";
+  text += "\n" + wrapped(field.meaning, "  ", "  ") + wrapped(kind_text(field), "  is       ", "           ");
   if (field.kind != FieldKind::choice && field.kind != FieldKind::boolean)
-    text += "  allowed  " + allowed_text(field) + "\n";
-  return text + "  " + default_text(field) + "\n";
+    text += wrapped(allowed_text(field), "  allowed  ", "           ");
+  return text + wrapped(default_text(field), "  ", "  ");
 }
 
-/// One line a key, by tables.
+/// Key by key, by tables.
 std::string list_text(const std::vector<const Field*>& list) {
   std::size_t width = 0;
   for (const Field* field : list) width = std::max(width, field->key.size());
@@ -106,11 +108,12 @@ std::string list_text(const std::vector<const Field*>& list) {
   for (const Field* field : list) {
     if (field->table != table) {
       const std::string head = field->table.empty() ? "at the top" : "[" + std::string(field->table) + "]";
-      text += (text.empty() ? "" : "\n") + head + "  " + std::string(table_meaning(field->table)) + "\n";
+      text += (text.empty() ? "" : "\n") + wrapped(table_meaning(field->table), head + "  ", "  ");
       table = field->table;
     }
-    text += "  " + std::string(field->key) + std::string(width - field->key.size() + 2, ' ') +
-            std::string(field->meaning) + " (" + default_text(*field) + ")\n";
+    text += wrapped(std::string(field->meaning) + " (" + default_text(*field) + ")",
+                    "  " + std::string(field->key) + std::string(width - field->key.size() + 2, ' '),
+                    std::string(width + 4, ' '));
   }
   return text;
 }

@@ -96,8 +96,9 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
   probes.push_back({"convex_floor_P" + number(side), "mm", k_least_floor_radius,
                     [=](const TakeOff& t) { return t.curve.radius - half; },
                     [=](const std::string& where, double value) {
-                      return radius_name(side) + " turns inward at " + where + ": the groove floor's radius of curvature falls to " +
-                             rounded(value, 3) + " mm there and must stay above " + rounded(k_least_floor_radius) + " mm";
+                      return radius_name(side) + " turns inward at " + where + ": the groove floor " +
+                             (value > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of ") +
+                             rounded(std::abs(value), 3) + " mm, and must bulge with more than " + rounded(k_least_floor_radius) + " mm";
                     }});
   probes.push_back({"free_span_" + number(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).lower_reach - t.curve.dh; },
                     [=](const std::string& where, double value) {

@@ -32,7 +32,7 @@ class String {
         R_(mechanism.joint.R),
         pin_(hand > 0 ? mechanism.guides.ED : -mechanism.guides.EB, -mechanism.guides.OE),
         pin_from_axis_(pin_.x(), mechanism.pulley.EF) {
-    const std::string name = hand > 0 ? "P2" : "P1";
+    const std::string name = pulley_name();
     if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
     double along = 0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -44,6 +44,8 @@ class String {
       edge_normals_.push_back(i == 0 ? normal : turned_near(normal, edge_normals_.back()));
     }
     girth_ = along;
+    turn_to(0.0);
+    home_length_ = length(0.0);
   }
 
   /// Moves the pulley; small steps, so that turns are counted.
@@ -58,13 +60,21 @@ class String {
     started_ = true;
     const double reach = (pin - corners_[corner_]).norm();
     span_ = std::sqrt((reach - (half_ - rho_)) * (reach + (half_ - rho_)));
-    if (!(span_ > 0)) throw InputError("", std::string("the groove floor of ") + (hand_ > 0 ? "P2" : "P1") + " swallows its guide pin");
+    if (!(span_ > 0)) throw InputError("", "the groove floor of " + pulley_name() + " swallows its guide pin");
   }
 
-  /// Length of the string from a fixed place of the pulley to the joint at `theta`, but for a constant.
-  double length(double theta) const { return hand_ * wound() + span_ + over_pin_and_up(theta); }
+  /// By how much the way from a fixed place of the pulley to the joint at `theta` is longer than at home.
+  double excess(double theta) const { return length(theta) - home_length_; }
+
+  double hand() const { return hand_; }
+  std::string name() const { return hand_ > 0 ? "tendon 2" : "tendon 1"; }
 
  private:
+  std::string pulley_name() const { return hand_ > 0 ? "P2" : "P1"; }
+
+  /// But for a constant.
+  double length(double theta) const { return hand_ * wound() + span_ + over_pin_and_up(theta); }
+
   /// Outward normal of the line that touches the disc about a corner and the pin's disc, both on their outer side.
   double tangent_normal(const Vec2& pin, std::size_t corner) const {
     const Vec2 away = pin - corners_[corner];
@@ -108,6 +118,7 @@ class String {
   std::vector<double> along_;         ///< length of the edges before each corner
   std::vector<double> edge_normals_;  ///< of the edge that leaves each corner, increasing
   double girth_ = 0;
+  double home_length_ = 0;
   double hand_;
   double half_;
   double rho_;
@@ -122,14 +133,15 @@ class String {
   bool started_ = false;
 };
 
-/// The joint angle at which the string is as long as at home. Its length grows with θ on the left, up to the dead centre: so
-/// the bracket starts narrow.
-double taut_theta(const String& string, double home_length, double alpha, double guess) {
+/// The joint angle at which the string is as long as at home. Its length grows with θ on the left and falls on the right,
+/// up to the dead centre: so the bracket starts narrow.
+double taut_theta(const String& string, double alpha, double guess) {
+  const auto growing = [&string](double theta) { return -string.hand() * string.excess(theta); };
   double reach = 0.005;
-  while (!(string.length(guess - reach) < home_length && string.length(guess + reach) > home_length)) {
+  while (!(growing(guess - reach) < 0 && growing(guess + reach) > 0)) {
     reach *= 2;
     if (reach > 0.7) {
-      throw InputError("", "no joint angle near the declared one makes tendon 1 taut at α = " + rounded(degrees(alpha), 4) + "°",
+      throw InputError("", "no joint angle near the declared one makes " + string.name() + " taut at α = " + rounded(degrees(alpha), 4) + "°",
                        "is this the pulley of this mechanism, in mm, its axis at the origin?");
     }
   }
@@ -137,40 +149,20 @@ double taut_theta(const String& string, double home_length, double alpha, double
   double high = guess + reach;
   for (int i = 0; i < 52; ++i) {
     const double middle = 0.5 * (low + high);
-    (string.length(middle) < home_length ? low : high) = middle;
+    (growing(middle) < 0 ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
-}  // namespace
-
-RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps) {
-  const Transmission declared(mechanism);
+Transmission law_without_dead_centre(const Mechanism& mechanism) {
+  Transmission declared(mechanism);
   if (const auto dead = declared.dead_centre()) {
     throw InputError("", "the declared law ends at a dead centre, θ = " + rounded(degrees(*dead), 4) + "°", "make the range smaller");
   }
-  String string1(mechanism, floor1, -1.0);
-  String string2(mechanism, floor2, +1.0);
-  RewindResult result;
-  const auto wind_to = [&](double alpha, double home1, double home2) {
-    string1.turn_to(alpha);
-    string2.turn_to(alpha);
-    RewindPoint point{alpha, declared.theta(alpha), 0, 0};
-    point.theta = taut_theta(string1, home1, alpha, point.theta_declared);
-    point.slack = home2 - string2.length(point.theta);
-    result.points.push_back(point);
-  };
-  string1.turn_to(0.0);
-  string2.turn_to(0.0);
-  const double home1 = string1.length(0.0);
-  const double home2 = string2.length(0.0);
+  return declared;
+}
 
-  // From home to one end and back through home to the other, so that turns are counted without a jump.
-  for (int i = 0; i < steps; ++i) {
-    string1.turn_to(declared.alpha_min() * i / steps);
-    string2.turn_to(declared.alpha_min() * i / steps);
-  }
-  for (const double alpha : alphas_over_range(declared, steps)) wind_to(alpha, home1, home2);
+void note_largest(RewindResult& result) {
   for (const RewindPoint& point : result.points) {
     const double error = std::abs(point.theta - point.theta_declared);
     if (error >= result.max_theta_error) {
@@ -182,7 +174,37 @@ RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Pol
       result.max_slack_at = point.alpha;
     }
   }
+}
+
+/// The joint held by the first string; the slack is that of the last, none where it is the first.
+RewindResult wind(const Transmission& declared, std::vector<String> strings, int steps) {
+  const auto turn_to = [&strings](double alpha) {
+    for (String& string : strings) string.turn_to(alpha);
+  };
+  RewindResult result;
+  // From home to one end and back through home to the other, so that turns are counted without a jump.
+  for (int i = 0; i < steps; ++i) turn_to(declared.alpha_min() * i / steps);
+  for (const double alpha : alphas_over_range(declared, steps)) {
+    turn_to(alpha);
+    RewindPoint point{alpha, declared.theta(alpha), 0, 0};
+    point.theta = taut_theta(strings.front(), alpha, point.theta_declared);
+    if (strings.size() > 1) point.slack = -strings.back().excess(point.theta);
+    result.points.push_back(point);
+  }
+  note_largest(result);
   return result;
+}
+
+}  // namespace
+
+RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps) {
+  const Transmission declared = law_without_dead_centre(mechanism);
+  return wind(declared, {String(mechanism, floor1, -1.0), String(mechanism, floor2, +1.0)}, steps);
+}
+
+RewindResult rewind_one(const Mechanism& mechanism, Side side, const Polygon& floor, int steps) {
+  const Transmission declared = law_without_dead_centre(mechanism);
+  return wind(declared, {String(mechanism, floor, side == Side::left ? -1.0 : +1.0)}, steps);
 }
 
 }  // namespace fusee

@@ -1,12 +1,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/solid/mesh.h"
+#include "solid/disjoint_sets.h"
 #include "solid/place.h"
 #include "solid/self_intersection.h"
 
@@ -70,25 +70,6 @@ void for_each_edge(const std::vector<EdgeSide>& sides, const Visit& visit) {
     first = last;
   }
 }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t root(std::size_t item) {
-    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-  void unite(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 struct Topology {
   Tally open, crowded, turned, pinched;

@@ -24,6 +24,11 @@ constexpr double k_least_web = 0.2;
 // Numbers that people write down are rounded.
 constexpr double k_grain = 1e-9;
 
+// What holes leave between them, or by how much they overlap.
+std::string wall_words(double wall) {
+  return wall > 0 ? "a wall of " + rounded(wall, 3) + " mm" : "no wall (they overlap by " + rounded(-wall, 3) + " mm)";
+}
+
 double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
 
 class Conditions {
@@ -89,8 +94,8 @@ class Conditions {
   void add_bore_wall(const Outline& outline) {
     const Wall wall = wall_to(floor(outline), layout_.bore);
     add_least(fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
-              fmt::format("the bore leaves a wall of {} mm to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
-                          rounded(wall.thickness, 3), pulley_name(outline.side), degrees(wall.angle),
+              fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
+                          wall_words(wall.thickness), pulley_name(outline.side), degrees(wall.angle),
                           rounded(layout_.min_wall, 3)));
   }
 
@@ -108,8 +113,8 @@ class Conditions {
                  rounded(depth, 3), apart ? "P1 (print.parts) is" : "the pulley is", rounded(height, 3)));
     const Web web = thinnest_web();
     add_least("horn_holes", web.thickness, k_least_web,
-              fmt::format("horn {}: {} mm are left between {} (with material.hole_compensation_mm), it takes {} mm: {}",
-                          horn_name(), rounded(web.thickness, 3), web.between, k_least_web, web.change));
+              fmt::format("horn {}: {} is left between {} (with material.hole_compensation_mm), it takes {} mm: {}",
+                          horn_name(), wall_words(web.thickness), web.between, k_least_web, web.change));
   }
 
   /// What is left between two holes of a horn, and what would leave more.
@@ -160,9 +165,9 @@ class Conditions {
     if (layout_.hub_radius <= 0) return;
     const double diameter = 2.0 * layout_.hub_radius, wall = layout_.hub_radius - layout_.bore.radius;
     add_least("hub_wall", wall, layout_.min_wall,
-              fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves a wall of {} mm about the bore, it takes {} mm "
+              fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves {} about the bore, it takes {} mm "
                           "(body.min_wall_mm)",
-                          rounded(diameter), rounded(wall, 3), rounded(layout_.min_wall, 3)));
+                          rounded(diameter), wall_words(wall), rounded(layout_.min_wall, 3)));
     const double limit = 2.0 * (inradius(rims_.upper) - k_hub_margin);
     add_most("hub_on_flange", diameter, limit,
              fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",
@@ -187,8 +192,8 @@ class Conditions {
                           rounded(diameter)));
     const double spare = height_to_spare(layout_.set_screw, layout_, layout_.min_wall);
     add_least("set_screw_height", spare, 0.0,
-              fmt::format("a hub {} mm high (body.hub_height_mm) has {} mm of height to spare about set screw {}",
-                          rounded(body_.hub_height), rounded(spare, 3), body_.set_screw));
+              fmt::format("a hub {} mm high (body.hub_height_mm) is {} mm too low for set screw {}",
+                          rounded(body_.hub_height), rounded(-spare, 3), body_.set_screw));
   }
 
   double hub_radius_for_named_screw() const {
@@ -221,8 +226,10 @@ class Conditions {
                                : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
                         0.5 * width;
     add_least("channel_floor", left, 0.4,
-              fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
-                          rounded(width), rounded(left, 3)));
+              left > 0 ? fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
+                                   rounded(width), rounded(left, 3))
+                       : fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), cut through a flange",
+                                   rounded(width)));
   }
 
   // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.
@@ -245,8 +252,9 @@ class Conditions {
   void add_pin(const char* condition_name, const char* pin_name, const Vec2& pin, const char* key) {
     const double clear = pin.norm() - mechanism_.guides.radius - reach_towards(pin);
     add_least(condition_name, clear, k_pin_gap,
-              fmt::format("pin {} ({}, pulley.EF_mm) comes within {} mm of the flanges, it takes {} mm", pin_name, key,
-                          rounded(clear, 3), k_pin_gap));
+              fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges, it takes {} mm beside them", pin_name, key,
+                          (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
+                          clear > 0 ? "of" : "inside", k_pin_gap));
   }
 
   const Mechanism& mechanism_;

@@ -21,5 +21,15 @@ TEST(Text, RoundedKeepsItsDigitsAndNoZerosBehindThem) {
   EXPECT_EQ(rounded(-2.0), "-2");
 }
 
+TEST(Text, WrapsByCharactersAndKeepsLongWordsWhole) {
+  EXPECT_EQ(wrapped("one two", "  - ", "    "), "  - one two\n");
+  EXPECT_EQ(wrapped("", "  ", "  "), "  \n");
+  const std::string word(40, 'x'), umlauts = "äöüäöüäöüäöüäöüäöüäöüäöüäöüäöüäöüäöü";  // 36 characters, 72 bytes
+  EXPECT_EQ(wrapped(word + " " + word, "- ", "  "), "- " + word + "\n  " + word + "\n");
+  EXPECT_EQ(wrapped(umlauts + " " + umlauts, "  ", "  "), "  " + umlauts + " " + umlauts + "\n");
+  EXPECT_EQ(wrapped(word + word + word + " y", "", ""), word + word + word + "\ny\n");
+  EXPECT_EQ(characters("3 × 4 …"), 7u);
+}
+
 }  // namespace
 }  // namespace fusee

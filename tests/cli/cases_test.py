@@ -2,6 +2,8 @@
 
 import harness
 
+# A rectangle of 1500 by 40.
+DXF = "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nCUT\n90\n4\n70\n1\n10\n0\n20\n0\n10\n1500\n20\n0\n10\n1500\n20\n40\n10\n0\n20\n40\n0\nENDSEC\n0\nEOF\n"
 # Files that the cases name, beside arm.toml.
 FILES = {
     "empty.toml": b"",
@@ -14,6 +16,7 @@ FILES = {
     "text.stl": b"this is no mesh at all\n",
     "empty.dxf": b"",
     "text.dxf": b"this is no drawing\n",
+    "contours.dxf": DXF.encode(),
     "triangle.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
 }
 OPTIMIZE = """arm.toml --set optimize.variables='["guides.ED_mm"]' --set optimize.lower='[40]' --set optimize.upper='[60]' """
@@ -129,7 +132,8 @@ CASES = [
     ("check empty.dxf", 3, "^$", "empty.dxf"),
     ("check text.dxf", 3, "^$", "text.dxf"),
     ("check arm.toml", 3, "^$", "arm.toml"),
-    ("check triangle.obj", 5, "FAILED", "check '.*' failed"),
+    ("check triangle.obj", 5, r"size 1 × 1 × 0 mm, no volume: it is not sound.*FAILED", "looks like inches \\(× 25.4 = 25.4 × 25.4 × 0 mm\\) or metres.*check '.*' failed"),
+    ("check contours.dxf", 0, r"size 1500 × 40 mm, 1 closed contour\n", r"looks like millimetres taken for inches \(÷ 25.4 = 59.06 × 1.575 mm\)"),
     ("rewind arm.toml triangle.obj", 3, "^$", "triangle.obj.*groove"),
     ("rewind arm.toml missing.stl", 3, "^$", "missing.stl"),
     # Templates and keys.

@@ -23,7 +23,7 @@ class Examples(harness.Scratch):
                     self.assertEqual(done.returncode, 0, done.stderr.decode())
 
     def test_help_fits_a_terminal(self):
-        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce"]:
+        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "calibrate"]:
             for line in self.fusee(f"{command} --help").stdout.decode().splitlines():
                 self.assertLessEqual(len(line), 80, line)
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
@@ -39,6 +40,15 @@ TEST(Explain, ATableListsItsKeysOnly) {
 
 TEST(Explain, NothingListsEverything) {
   for (const Field& field : fields()) EXPECT_THAT(explain(""), HasSubstr("  " + std::string(field.key) + " "));
+}
+
+TEST(Explain, FitsATerminal) {
+  std::vector<std::string> words{""};
+  for (const Field& field : fields()) words.push_back(field.name());
+  for (const std::string& word : words) {
+    std::istringstream lines(explain(word));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(characters(line), 80u) << word << ": " << line;
+  }
 }
 
 TEST(Explain, TheCatalogueIsShownWhereItHelps) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "fusee/pipeline.h"
+#include "fusee/solid/layout.h"
 #include "pipeline/agreement.h"
 
 namespace {
@@ -86,6 +87,134 @@ TEST_F(MadePart, TurnedOnItsShaftLeavesSlack) {
 TEST_F(MadePart, WithoutGroovesIsBadInput) {
   EXPECT_THROW(rewind_part({*mechanism_, {}}, changed([](Vec3& v) { v.z() += 1000; })), InputError);
   EXPECT_THROW(rewind_part({*mechanism_, {}}, TriangleMesh()), InputError);
+}
+
+// ---- where a slicer put it -----------------------------------------------------------------------
+
+/// Upside down about x or not, then turned, then moved; as floats of an STL hold it.
+TriangleMesh put(TriangleMesh mesh, bool over, double turn_deg, const Vec3& by) {
+  for (Vec3& v : mesh.vertices) {
+    if (over) v = Vec3(v.x(), -v.y(), -v.z());
+    v.head<2>() = turned(v.head<2>(), radians(turn_deg));
+    v += by;
+  }
+  return rounded_to_float(mesh);
+}
+
+TEST_F(MadePart, UnmovedIsWoundAsItLiesToTheBit) {
+  const RewoundPart part = rewind_moved_part({*mechanism_, {}}, *mesh_);
+  EXPECT_EQ(part.place, PartPlace::as_made);
+  EXPECT_THAT(part.placements, IsEmpty());
+  const RewindResult as_it_lies = rewind_part({*mechanism_, {}}, *mesh_);
+  EXPECT_EQ(part.as_built.max_theta_error, as_it_lies.max_theta_error);
+  EXPECT_EQ(part.as_built.max_slack, as_it_lies.max_slack);
+}
+
+TEST_F(MadePart, MovedGivesTheSameAngles) {
+  const RewindResult unmoved = rewind_part({*mechanism_, {}}, *mesh_);
+  for (const bool over : {false, true}) {
+    for (const double turn : {0.0, 90.0, 213.4}) {
+      const RewoundPart part = rewind_moved_part({*mechanism_, {}}, put(*mesh_, over, turn, Vec3(125, 105, 30)));
+      ASSERT_EQ(part.place, PartPlace::found);
+      ASSERT_EQ(part.placements.size(), 1u);
+      EXPECT_EQ(part.placements[0].turned_over, over);
+      for (std::size_t i = 0; i < unmoved.points.size(); ++i)
+        EXPECT_NEAR(degrees(part.as_built.points[i].theta), degrees(unmoved.points[i].theta), 1e-4);
+      EXPECT_NEAR(part.as_built.max_slack, unmoved.max_slack, 1e-4);
+    }
+  }
+}
+
+TEST_F(MadePart, WhatIsWrongStaysWrongWhereverItIsPut) {
+  // Small by half a per cent: what does not fit better elsewhere was not moved, and moved it is as wrong.
+  const TriangleMesh small = changed([](Vec3& v) { v.head<2>() *= 0.995; });
+  const RewindResult as_it_lies = rewind_part({*mechanism_, {}}, small);
+  EXPECT_EQ(rewind_moved_part({*mechanism_, {}}, small).place, PartPlace::as_made);
+  const RewoundPart moved = rewind_moved_part({*mechanism_, {}}, put(small, true, 40, Vec3(125, 105, 30)));
+  EXPECT_EQ(moved.place, PartPlace::found);
+  EXPECT_NEAR(degrees(moved.as_built.max_theta_error), degrees(as_it_lies.max_theta_error), 0.02);
+  EXPECT_GT(degrees(moved.as_built.max_theta_error), 0.05);
+}
+
+TEST_F(MadePart, MirroredOrInInchesIsRefusedWithWords) {
+  const auto message = [](const TriangleMesh& mesh) {
+    try {
+      rewind_moved_part({*mechanism_, {}}, mesh);
+    } catch (const InputError& error) {
+      return error.diagnostics().front().message + "; " + error.diagnostics().front().hint;
+    }
+    return std::string("taken");
+  };
+  EXPECT_THAT(message(changed([](Vec3& v) { v.x() = -v.x(); })), ::testing::HasSubstr("mirror image"));
+  EXPECT_THAT(message(put(changed([](Vec3& v) { v.z() = -v.z(); }), false, 30, Vec3(9, 9, 9))), ::testing::HasSubstr("mirror image"));
+  EXPECT_THAT(message(changed([](Vec3& v) { v /= 25.4; })), ::testing::HasSubstr("inches: scale it by 25.4"));
+  EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("1.1 times the size"));
+  // Not every other size is a unit's.
+  EXPECT_THAT(message(changed([](Vec3& v) { v *= 1.1; })), ::testing::HasSubstr("another pulley.r1_mm"));
+  EXPECT_EQ(message(*mesh_), "taken");
+  EXPECT_EQ(message(changed([](Vec3& v) { v *= 1.004; })), "taken");
+}
+
+TEST_F(MadePart, BothPulleysSideBySideAreBothFound) {
+  const BodyLayout layout = resolve_layout(*mechanism_, *synthesis_);
+  const double middle = 0.5 * (layout.z_p1 + layout.z_p2);
+  // Facets between the grooves bridge the cut, and are left out.
+  TriangleMesh lower{mesh_->vertices, {}}, upper = lower;
+  for (const auto& triangle : mesh_->triangles) {
+    const auto is_above = [&](std::uint32_t vertex) { return mesh_->vertices[vertex].z() > middle; };
+    const auto above = std::count_if(triangle.begin(), triangle.end(), is_above);
+    if (above == 0) lower.triangles.push_back(triangle);
+    if (above == 3) upper.triangles.push_back(triangle);
+  }
+  const RewoundPart p2 = rewind_moved_part({*mechanism_, {}}, put(upper, true, 70, Vec3(60, 0, 20)));
+  EXPECT_EQ(p2.alone, Side::right);
+  EXPECT_LT(degrees(p2.as_built.max_theta_error), 0.01);
+  EXPECT_EQ(p2.as_built.max_slack, 0);
+
+  TriangleMesh both = put(lower, false, 10, Vec3(-40, 7, 0));
+  const TriangleMesh other = put(upper, true, 70, Vec3(60, 0, 20));
+  const auto first = static_cast<std::uint32_t>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) both.triangles.push_back({first + a, first + b, first + c});
+  const RewoundPart part = rewind_moved_part({*mechanism_, {}}, both);
+  ASSERT_EQ(part.placements.size(), 2u);
+  EXPECT_FALSE(part.alone);
+  EXPECT_LT(degrees(part.as_built.max_theta_error), 0.01);
+  EXPECT_LT(part.as_built.max_slack, 0.01);
+}
+
+TEST_F(MadePart, OfAnotherMechanismIsWoundWhereItLiesAndSaidSo) {
+  Mechanism other = *mechanism_;
+  other.guides.ED = 62;
+  other.guides.OE = -25;
+  EXPECT_EQ(rewind_moved_part({other, {}}, *mesh_).place, PartPlace::not_recognised);
+  try {
+    rewind_moved_part({other, {}}, put(*mesh_, false, 0, Vec3(0, 0, 500)));
+    ADD_FAILURE() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.diagnostics().front().hint, ::testing::HasSubstr("nor do its grooves fit anywhere else"));
+  }
+  Mechanism impossible = *mechanism_;
+  impossible.pulley.r1 = 60;
+  EXPECT_THROW(rewind_moved_part({impossible, {}}, *mesh_), InputError);
+}
+
+TEST_F(MadePart, HasItsSize) {
+  const PartSize size = size_of(*mesh_, check_part(*mesh_));
+  const Bounds box = bounds(*mesh_);
+  EXPECT_EQ(*size.extent, box.high - box.low);
+  EXPECT_DOUBLE_EQ(*size.volume, enclosed_volume(*mesh_));
+  EXPECT_FALSE(size.contours);
+  TriangleMesh open = *mesh_;
+  open.triangles.pop_back();
+  EXPECT_FALSE(size_of(open, check_part(open)).volume);
+  EXPECT_FALSE(size_of(TriangleMesh(), {}).extent);
+  Drawing drawing;
+  drawing.paths = {{"A", "LWPOLYLINE", 1, true, {{0, 0}, {3, 0}, {3, 4}}}, {"A", "LINE", 2, false, {{0, 0}, {-1, 0}}}};
+  const PartSize flat = size_of(drawing, check_part(drawing));
+  EXPECT_EQ(*flat.extent, Vec3(4, 4, 0));
+  EXPECT_EQ(flat.contours, 1u);
+  EXPECT_FALSE(flat.volume);
 }
 
 TEST_F(MadePart, AsADrawingOfFloorsOrOfPitchCurvesGivesTheSameAngles) {

@@ -52,6 +52,15 @@ TEST(Feasibility, ReferenceTurnsInward) {
   expect_refused(mechanism, "convex_floor_P2", "r2 turns inward at α = 92");
 }
 
+TEST(Feasibility, AHollowHasASizeAndNoSign) {
+  Mechanism mechanism = testing::reference();
+  mechanism.tendon.diameter = 0.01;
+  const SynthesisResult result = synthesise(mechanism, {.advice = false});
+  const double radius = failed(result).value;
+  EXPECT_THAT(failed(result).message, HasSubstr(radius > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of "));
+  EXPECT_THAT(failed(result).message, ::testing::Not(HasSubstr("-")));
+}
+
 TEST(Feasibility, DeadCentre) {
   Mechanism mechanism = testing::forearm();
   mechanism.joint.theta_max = radians(60);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/pulley.h"
@@ -90,6 +91,35 @@ TEST(Conditions, PinInTheFlanges) {
   EXPECT_FALSE(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").ok);
   mechanism.pulley.EF = 25;
   EXPECT_TRUE(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").ok);
+}
+
+/// The words of a condition of a body with one number changed.
+std::string words_of(const char* condition, double Body::*number, double value, const std::string& screw = "none") {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.set_screw = screw;
+  mechanism.body.*number = value;
+  return condition_named(make_pulley(mechanism, round_pulley()), condition).message;
+}
+
+// What is left and what overlaps are said in different words, and no size is below nothing.
+TEST(Conditions, WordsFitTheSign) {
+  const auto says = [](const std::string& message, const std::string& words) {
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_FALSE(std::regex_search(message, std::regex("-[0-9.]+ mm"))) << message;
+  };
+  says(words_of("bore_wall_P2", &Body::bore_diameter, 34), "leaves a wall of ");
+  says(words_of("bore_wall_P2", &Body::bore_diameter, 40), "leaves no wall (they overlap by ");
+  says(words_of("hub_wall", &Body::hub_diameter, 6), "leaves a wall of ");
+  says(words_of("hub_wall", &Body::hub_diameter, 4), "leaves no wall (they overlap by ");
+  says(words_of("channel_floor", &Body::anchor_hole, 3.4), " mm of the lower flange");
+  says(words_of("channel_floor", &Body::anchor_hole, 8), "cut through the lower flange");
+  says(words_of("set_screw_height", &Body::hub_height, 4, "M4"), " mm too low for set screw M4");
+  Mechanism mechanism = plain_mechanism();
+  mechanism.guides.ED = 15;
+  mechanism.pulley.EF = 15;
+  says(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").message, " mm inside the flanges");
+  mechanism.pulley.EF = 20;
+  says(condition_named(make_pulley(mechanism, round_pulley()), "pin_clear_D").message, "comes within ");
 }
 
 TEST(Conditions, ChamferAtTheBedTakesWhatTheLipBears) {

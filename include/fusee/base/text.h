@@ -15,6 +15,11 @@ std::string fixed(double value, int decimals);
 std::string trimmed_fixed(double value, int decimals);
 /// For messages: `digits` significant digits, no exponent between 1e-4 and 1e7 ("18.9", "0.0123").
 std::string rounded(double value, int digits = 4);
+/// Characters of UTF-8 text.
+std::size_t characters(std::string_view text);
+/// Words broken into lines of the terminal's usual width, each with its end: the first begins with `first`, the others
+/// with `indent`. A word that is longer stands alone.
+std::string wrapped(std::string_view words, std::string_view first, std::string_view indent);
 /// JSON/JavaScript-safe and HTML-safe text.
 std::string escape_html(std::string_view text);
 

@@ -24,6 +24,7 @@ struct FittedParameter {
   double value = 0;  ///< in that unit
   double low = 0;    ///< 95 % interval
   double high = 0;
+  std::string sense = {};  ///< what its sign says of the joint ("pins too high"); empty where nothing has to be said
 };
 
 /// One effect that the data ask for, with all that would do as well.

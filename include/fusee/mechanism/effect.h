@@ -61,6 +61,12 @@ struct ByHand {
   std::vector<CaliperReading> (*readings)(const DeclaredMechanism& declared) = nullptr;
 };
 
+/// What a number below and above zero says of the joint, where its sign alone does not: "both pulleys too small".
+struct SignWords {
+  std::string_view below;
+  std::string_view above;
+};
+
 struct EffectParameter {
   std::string name;  ///< as reported, the unit stands in it: "EA_N"
   /// What it does to the joint: it is this number of it.
@@ -73,6 +79,7 @@ struct EffectParameter {
   IdentifiedKey key;
   WhenFoundAgain again = WhenFoundAgain::anew;
   ByHand by_hand = {};
+  SignWords sign = {};
   bool searched = false;  ///< not fitted: only the values in Effect::starts are tried
 };
 

@@ -7,13 +7,14 @@
 
 #include "fusee/base/plane.h"
 #include "fusee/mechanism/mechanism.h"
+#include "fusee/transmission/tendon_path.h"
 
 namespace fusee {
 
 struct RewindPoint {
   double alpha = 0;           ///< rad
   double theta_declared = 0;  ///< by the declared law, rad
-  double theta = 0;           ///< with tendon 1 taut, rad
+  double theta = 0;           ///< with tendon 1 taut (of one string alone: with that), rad
   double slack = 0;           ///< of tendon 2 at that θ: > 0 hangs loose, < 0 would have to stretch, mm
 };
 
@@ -28,5 +29,7 @@ struct RewindResult {
 /// `floor1`, `floor2`: the groove floors in the pulley's frame at home, axis at the origin, mm; what is not convex is bridged by
 /// the string. Throws InputError when a floor does not surround the axis or swallows a pin.
 RewindResult rewind(const Mechanism& mechanism, const Polygon& floor1, const Polygon& floor2, int steps = 180);
+/// One string alone holds the joint, that of `side`; nothing is known of the other's slack, which is given as 0.
+RewindResult rewind_one(const Mechanism& mechanism, Side side, const Polygon& floor, int steps = 180);
 
 }  // namespace fusee

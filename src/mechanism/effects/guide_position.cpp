@@ -40,7 +40,8 @@ Effect guide_position(JointKind) {
        .key = key::plain("guide_outward_mm", "mm", -10000, 10000, "added to guides.EB_mm and ED_mm"),
        .again = WhenFoundAgain::added,
        .by_hand = {"measure the pins' distance from the middle and write [prior] EB_mm and ED_mm", k_caliper,
-                   outward_by_caliper}},
+                   outward_by_caliper},
+       .sign = {"pins too near to the middle", "pins too far from the middle"}},
       {.name = "down_mm",
        .number = [](Imperfections& at) -> double& { return at.pins.place.down; },
        .least = -20,
@@ -49,8 +50,9 @@ Effect guide_position(JointKind) {
        .shown = shown::as_is,
        .key = key::plain("guide_down_mm", "mm", -10000, 10000, "added to guides.OE_mm, taken from pulley.EF_mm"),
        .again = WhenFoundAgain::added,
-       .by_hand = {"measure how far the pins lie below the joint and write [prior] OE_mm", k_caliper,
-                   down_by_caliper}}};
+       .by_hand = {"measure how far below the joint's axis the pins lie (above it: negative) and write [prior] OE_mm",
+                   k_caliper, down_by_caliper},
+       .sign = {"pins too high", "pins too low"}}};
   return effect;
 }
 

@@ -32,7 +32,9 @@ Effect guide_radius(JointKind) {
        .shown = total,
        .key = key::plain("guide_radius_mm", "mm", -500, 500, "added to guides.radius_mm"),
        .again = WhenFoundAgain::added,
-       .by_hand = {"measure the guide pins with a caliper and write [prior] guide_radius_mm", k_caliper, by_caliper}}};
+       .by_hand = {"measure the guide pins' diameter with a caliper and write half of it as [prior] guide_radius_mm",
+                   k_caliper, by_caliper},
+       .sign = {"pins thinner than declared", "pins thicker than declared"}}};
   return effect;
 }
 

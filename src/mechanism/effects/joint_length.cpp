@@ -31,7 +31,8 @@ Effect joint_length(JointKind) {
        .key = key::plain("length_mm", "mm", -10000, 10000, "added to joint.length_mm"),
        .again = WhenFoundAgain::added,
        .by_hand = {"measure from the joint's axis to the tendons' attachment and write [prior] length_mm", k_caliper,
-                   by_caliper}}};
+                   by_caliper},
+       .sign = {"shorter than declared", "longer than declared"}}};
   return effect;
 }
 

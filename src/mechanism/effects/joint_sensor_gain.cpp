@@ -24,7 +24,8 @@ Effect joint_sensor_gain(JointKind) {
        .step = 1e-3,
        .shown = shown::in_percent,
        .key = key::in_percent("gain_percent", -99, 1000, "by how much the joint sensor shows too much"),
-       .by_hand = {"read the joint's sensor against a square at two angles", k_square}}};
+       .by_hand = {"read the joint's sensor against a square at two angles", k_square},
+       .sign = {"it shows too little", "it shows too much"}}};
   return effect;
 }
 

@@ -17,7 +17,7 @@ Effect pulley_scale(JointKind) {
   effect.name = "pulley_scale";
   effect.place = ChainPlace::pulley;
   effect.rank = 2;
-  effect.signature = "smooth in alpha, no direction, no load: both pulleys too large in proportion";
+  effect.signature = "smooth in alpha, no direction, no load: both pulleys too large, or too small, in proportion";
   effect.separating_run = "measure two diameters of the printed part with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -30,8 +30,10 @@ Effect pulley_scale(JointKind) {
        .shown = shown::in_percent,
        .key = key::in_percent("pulley_scale_percent", -50, 100, "the made pulley is larger than drawn by this"),
        .again = WhenFoundAgain::compounded,
-       .by_hand = {"measure two diameters of the print with a caliper and write [prior] pulley_scale", k_of_a_diameter,
-                   by_diameters}}};
+       .by_hand =
+           {"measure two diameters of the print with a caliper and write measured per drawn as [prior] pulley_scale",
+            k_of_a_diameter, by_diameters},
+       .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }
 

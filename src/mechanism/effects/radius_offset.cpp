@@ -15,7 +15,7 @@ Effect radius_offset(JointKind) {
   effect.name = "radius_offset";
   effect.place = ChainPlace::pulley;
   effect.rank = 1;
-  effect.signature = "smooth in alpha, no direction, no load: both pulleys too large by a constant";
+  effect.signature = "smooth in alpha, no direction, no load: both pulleys too large, or too small, by a constant";
   effect.separating_run = "measure the diameter of the pulley's groove floor and of the tendon with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
@@ -29,8 +29,11 @@ Effect radius_offset(JointKind) {
        .key = key::plain("radius_offset_mm", "mm", -100, 100,
                          "tendons run this much further out on the made pulley than drawn"),
        .again = WhenFoundAgain::added,
-       .by_hand = {"measure the pulley's groove floor and the tendon with a caliper and write [prior] radius_offset_mm",
-                   k_caliper, by_caliper}}};
+       .by_hand =
+           {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and write half of "
+            "what both are too large together (too small: negative) as [prior] radius_offset_mm",
+            k_caliper, by_caliper},
+       .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }
 

@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fusee/base/text.h"
+#include "fusee/export/drawings.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/pipeline.h"
+#include "fusee/profile/rewind.h"
+#include "fusee/solid/layout.h"
+
+namespace fusee {
+namespace {
+
+/// The closed path of a layer that surrounds most; null when there is none.
+const DrawingPath* largest_path(const Drawing& drawing, const std::string& layer) {
+  const DrawingPath* largest = nullptr;
+  double largest_area = 0;
+  for (const DrawingPath& path : drawing.paths) {
+    if (path.layer != layer || !path.closed) continue;
+    const double area = std::abs(signed_area(path.points));
+    if (area > largest_area) {
+      largest = &path;
+      largest_area = area;
+    }
+  }
+  return largest;
+}
+
+Polygon counter_clockwise(Polygon polygon) {
+  if (signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+/// On floors as they were drawn, of a joint that has its declared pins and tendon.
+RewindResult rewind_drawn(const JointAsItIs& joint, Polygon floor1, Polygon floor2) {
+  return rewind(with_inset(joint), as_made(std::move(floor1), joint.outline),
+                as_made(std::move(floor2), joint.outline));
+}
+
+RewindResult rewind_drawing(const JointAsItIs& joint, const Drawing& drawing) {
+  const DrawingPath* floor1 = largest_path(drawing, "P1_FLOOR");
+  const DrawingPath* floor2 = largest_path(drawing, "P2_FLOOR");
+  if (floor1 && floor2)
+    return rewind_drawn(joint, counter_clockwise(floor1->points), counter_clockwise(floor2->points));
+  const DrawingPath* pitch1 = largest_path(drawing, "P1_PITCH");
+  const DrawingPath* pitch2 = largest_path(drawing, "P2_PITCH");
+  if (!pitch1 || !pitch2) {
+    throw InputError(
+        "", "the drawing has no closed contours on the layers P1_FLOOR and P2_FLOOR (nor on P1_PITCH and P2_PITCH)",
+        "name the layers of the two groove floors so; 'fusee build' writes such a profile.dxf");
+  }
+  // A centre line that lies on the pitch curve: a tendon without thickness, over pins thicker by its radius.
+  JointAsItIs centre_line = joint;
+  centre_line.mechanism.guides.radius = joint.mechanism.guide_pitch_radius();
+  centre_line.mechanism.tendon.diameter = 0;
+  return rewind_drawn(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
+}
+
+/// The mesh is larger than the part by the material's shrinkage.
+Polygon shrunk(Polygon outline, double scale) {
+  for (Vec2& point : outline) point /= scale;
+  return outline;
+}
+
+Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
+  const std::optional<Polygon> floor = outline_at(mesh, z * scale);
+  if (!floor) {
+    throw InputError("",
+                     "the mesh has no section at z = " + rounded(z * scale) + " mm, where the mechanism has a groove",
+                     "z must run along the pulley's axis from the bed at 0, in mm");
+  }
+  return shrunk(*floor, scale);
+}
+
+/// The right part: where its grooves are, and their floors as the mesh has them.
+struct RightPart {
+  BodyLayout layout;
+  GrooveFloors floors;
+};
+
+RightPart right_part(const JointAsItIs& joint) {
+  SynthesisResult synthesis = synthesise(joint.mechanism, {.advice = false});
+  if (!synthesis.made()) throw InputError("", "no pulley of this mechanism can be made: " + synthesis.brief());
+  draw_for_making(synthesis, joint.outline);
+  const BodyLayout layout = resolve_layout(joint.mechanism, synthesis);
+  const double half = 0.5 * joint.mechanism.tendon.diameter;
+  return {layout,
+          {shrunk(parallel(synthesis.p1, -half), 1.0 / layout.scale), shrunk(parallel(synthesis.p2, -half), 1.0 / layout.scale)}};
+}
+
+RewindResult rewind_mesh(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
+  return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
+}
+
+// ---- a part that somebody moved ------------------------------------------------------------------
+
+/// Half of what facets may stray by: what fits better was not moved.
+constexpr double k_as_made = 0.005;
+/// A move has to fit this much better than none: what is off in another way fits badly everywhere.
+constexpr double k_clearly_better = 0.5;
+/// A file of more pieces is no pulley on a print bed.
+constexpr std::size_t k_most_bodies = 20;
+
+/// How far the floors are off where the part lies; infinite without a section there.
+double deviation_as_it_lies(const TriangleMesh& mesh, const BodyLayout& layout, const GrooveFloors& expected) {
+  const std::optional<Polygon> floor1 = outline_at(mesh, layout.z_p1 * layout.scale);
+  const std::optional<Polygon> floor2 = outline_at(mesh, layout.z_p2 * layout.scale);
+  if (!floor1 || !floor2) return std::numeric_limits<double>::infinity();
+  return outline_deviation({*floor1, *floor2}, expected);
+}
+
+/// P1 and P2 printed apart and laid side by side: each is looked for in the bodies that are left.
+std::vector<PlacementResult> find_apart(const TriangleMesh& mesh, GrooveFloors expected, double tendon_diameter) {
+  std::vector<PlacementResult> found;
+  const std::vector<TriangleMesh> bodies = bodies_of(mesh);
+  if (bodies.size() < 2 || bodies.size() > k_most_bodies) return found;
+  for (const TriangleMesh& body : bodies) {
+    if (found.size() == 2) break;
+    const PlacementResult result = find_placement(body, expected, tendon_diameter);
+    if (result.status != PlacementStatus::found || result.placement.grooves.size() != 1) continue;
+    (result.placement.grooves.front().side == Side::left ? expected.p1 : expected.p2).clear();
+    found.push_back(result);
+  }
+  return found;
+}
+
+/// One placement for the whole, or one each for what is printed apart.
+std::vector<PlacementResult> find_all(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter) {
+  const PlacementResult whole = find_placement(mesh, expected, tendon_diameter);
+  if (whole.placement.grooves.size() == 2) return {whole};
+  const std::vector<PlacementResult> apart = find_apart(mesh, expected, tendon_diameter);
+  return apart.size() == 2 ? apart : std::vector{whole};
+}
+
+/// 0.0394 → "it is in inches"; "" for a size that no unit explains.
+std::string unit_words(double scale) {
+  struct Unit {
+    double scale;
+    const char* words;
+  };
+  static constexpr Unit k_units[] = {{1 / 25.4, "its numbers are inches: scale it by 25.4"},
+                                     {0.1, "its numbers are centimetres: scale it by 10"},
+                                     {0.001, "its numbers are metres: scale it by 1000"},
+                                     {25.4, "millimetres were read as inches: scale it by 1/25.4"},
+                                     {10, "millimetres were read as centimetres: scale it by 0.1"},
+                                     {1000, "millimetres were read as metres: scale it by 0.001"}};
+  for (const Unit& unit : k_units) {
+    if (std::abs(scale / unit.scale - 1) < 0.02) return unit.words;
+  }
+  return "scale it by " + rounded(1 / scale, 4) + ", or was it made for another pulley.r1_mm?";
+}
+
+void refuse(const PlacementResult& result) {
+  if (result.status == PlacementStatus::scaled)
+    throw InputError("", "the part is " + rounded(result.scale, 4) + " times the size of this mechanism's pulley",
+                     unit_words(result.scale) + " (--as-is winds it as it lies)");
+  if (result.status == PlacementStatus::mirrored)
+    throw InputError("", "the part is the mirror image of this mechanism's pulley",
+                     "take the mirroring out where the part was moved (--as-is winds it as it lies)");
+}
+
+const PlacedGroove* groove_of(const std::vector<Placement>& placements, Side side) {
+  for (const Placement& placement : placements) {
+    for (const PlacedGroove& groove : placement.grooves) {
+      if (groove.side == side) return &groove;
+    }
+  }
+  return nullptr;
+}
+
+RewoundPart rewind_placed(const JointAsItIs& joint, std::vector<Placement> placements, double scale) {
+  const PlacedGroove* p1 = groove_of(placements, Side::left);
+  const PlacedGroove* p2 = groove_of(placements, Side::right);
+  RewoundPart result{{}, PartPlace::found, {}};
+  if (p1 && p2) {
+    result.as_built = rewind_drawn(joint, shrunk(p1->floor, scale), shrunk(p2->floor, scale));
+  } else {
+    const PlacedGroove& only = p1 ? *p1 : *p2;
+    result.alone = only.side;
+    result.as_built = rewind_one(with_inset(joint), only.side, as_made(shrunk(only.floor, scale), joint.outline));
+  }
+  result.placements = std::move(placements);
+  return result;
+}
+
+bool is_finite(const TriangleMesh& mesh) {
+  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& vertex) { return vertex.allFinite(); });
+}
+
+/// What is recognised nowhere may have no groove where it lies either.
+RewoundPart rewind_unrecognised(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
+  try {
+    return {rewind_mesh(joint, layout, mesh), PartPlace::not_recognised, {}};
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    diagnostics.front().hint =
+        "nor do its grooves fit anywhere else: is it this mechanism's pulley, closed, its axis along z, in mm?";
+    throw InputError(std::move(diagnostics));
+  }
+}
+
+RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
+  const auto [layout, expected] = right_part(joint);
+  if (!is_finite(mesh)) return rewind_unrecognised(joint, layout, mesh);
+  const double as_it_lies = deviation_as_it_lies(mesh, layout, expected);
+  if (as_it_lies <= k_as_made) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
+  const std::vector<PlacementResult> found = find_all(mesh, expected, joint.mechanism.tendon.diameter * layout.scale);
+  if (found.front().status == PlacementStatus::unknown) return rewind_unrecognised(joint, layout, mesh);
+  std::vector<Placement> placements;
+  double worst = 0;
+  for (const PlacementResult& result : found) {
+    worst = std::max(worst, result.placement.deviation);
+    placements.push_back(result.placement);
+  }
+  if (!(worst < k_clearly_better * as_it_lies)) return {rewind_mesh(joint, layout, mesh), PartPlace::as_made, {}};
+  for (const PlacementResult& result : found) refuse(result);
+  return rewind_placed(joint, placements, layout.scale);
+}
+
+}  // namespace
+
+RewindResult rewind_part(const JointAsItIs& joint, const Part& part) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(joint, right_part(joint).layout, *mesh);
+  return rewind_drawing(joint, std::get<Drawing>(part));
+}
+
+RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
+  return {rewind_drawing(joint, std::get<Drawing>(part)), PartPlace::as_made, {}};
+}
+
+std::vector<Check> as_built_checks(const Mechanism& mechanism, const RewindResult& as_built,
+                                   const AsBuiltLimits& limits) {
+  const double error = degrees(as_built.max_theta_error);
+  const std::string error_at = "at alpha = " + rounded(degrees(as_built.max_theta_error_at)) + " deg";
+  const std::string slack_at = "at alpha = " + rounded(degrees(as_built.max_slack_at)) + " deg";
+  if (mechanism.pulley.method == Method::paper) {
+    return {at_most("theta_error_reported", error, 180.0, "deg", error_at),
+            at_most("slack_reported", as_built.max_slack, mechanism.joint.R, "mm", slack_at)};
+  }
+  return {at_most("theta_error", error, limits.theta_error, "deg", error_at),
+          at_most("slack", as_built.max_slack, limits.slack, "mm", slack_at)};
+}
+
+}  // namespace fusee

@@ -1,0 +1,304 @@
+#include "fusee/solid/placement.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fusee/base/units.h"
+#include "solid/disjoint_sets.h"
+#include "solid/outline_fit.h"
+
+namespace fusee {
+namespace {
+
+// What deviates by a larger part of its radius is another pulley: 0.3 mm at 16 mm, more than a print or a scan is off.
+constexpr double k_most_deviation = 0.02;
+// A file that was scaled or mirrored by a program is so exactly: 16 µm at 16 mm, little more than facets stray by. A
+// pulley for another r1 is nearly this one in another size, to within some 0.1 %.
+constexpr double k_most_deviation_of_copy = 0.001;
+// One size more than this off is a wrong unit or a slicer's scaling, and no material's shrinkage.
+constexpr double k_most_rescaled = 0.02;
+// A way that needs more doing has to fit this much better: curves that are their own mirror image fit both ways.
+constexpr double k_clearly_better = 0.5;
+// Grooves shallower than this part of the tendon's diameter hold none.
+constexpr double k_least_groove = 0.3;
+// Slices per tendon diameter. A groove's floor and walls are 1 to 2 diameters wide.
+constexpr double k_slices = 4.0;
+// A bore is round within this part of its radius, and stands at most this far from the axis (mm): else it is a hole
+// beside it. Nearer than facets are true it is at it.
+constexpr double k_bore_roundness = 0.01;
+constexpr double k_bore_reach = 1.0;
+constexpr double k_bore_at_axis = 0.01;
+// Below this turn (rad) points are along one straight line.
+constexpr double k_straight = 0.002;
+
+double radius_of(const Polygon& outline) { return std::sqrt(std::abs(signed_area(convex_hull(outline))) / k_pi); }
+
+/// Of those that are looked for.
+double mean_radius(const GrooveFloors& floors) {
+  if (floors.p1.empty()) return radius_of(floors.p2);
+  return floors.p2.empty() ? radius_of(floors.p1) : 0.5 * (radius_of(floors.p1) + radius_of(floors.p2));
+}
+
+const Polygon& floor_of(const GrooveFloors& floors, Side side) { return side == Side::left ? floors.p1 : floors.p2; }
+
+// ---- a way in which grooves of the mesh may be those of the pulley -------------------------------
+
+/// A groove of the mesh that may be that of one side.
+struct Match {
+  Side side = Side::left;
+  const GrooveInMesh* groove = nullptr;
+};
+
+struct Way {
+  std::vector<Match> matches;
+  bool flipped = false;  ///< outlines seen from below: turned over, or mirrored
+  bool mirrored = false;
+};
+
+/// (x, y) → (x, −y), counter-clockwise again: the outline of a part that was turned over about x.
+Polygon seen_from_below(Polygon outline) {
+  for (Vec2& point : outline) point.y() = -point.y();
+  std::reverse(outline.begin(), outline.end());
+  return outline;
+}
+
+Polygon seen(const Polygon& outline, bool flipped) { return flipped ? seen_from_below(outline) : outline; }
+
+std::vector<OutlinePair> pairs_of(const Way& way, const GrooveFloors& expected, double scale) {
+  std::vector<OutlinePair> pairs;
+  for (const Match& match : way.matches) {
+    OutlinePair pair{seen(match.groove->floor, way.flipped), floor_of(expected, match.side)};
+    for (Vec2& point : pair.found) point /= scale;
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+double scale_of(const Way& way, const GrooveFloors& expected) {
+  double found = 0, wanted = 0;
+  for (const OutlinePair& pair : pairs_of(way, expected, 1.0)) {
+    found += perimeter(convex_hull(pair.found));
+    wanted += perimeter(convex_hull(pair.expected));
+  }
+  return found / wanted;
+}
+
+struct FittedWay {
+  Way way;
+  OutlineFit fit;
+  double scale = 1;
+  double deviation = std::numeric_limits<double>::infinity();  ///< in units of the expected part
+};
+
+/// A part of another size is laid on as if it had the right one.
+FittedWay fitted(const Way& way, const GrooveFloors& expected) {
+  const double scale = scale_of(way, expected);
+  FittedWay result{way, {}, std::abs(scale - 1) > k_most_rescaled ? scale : 1.0};
+  const std::vector<OutlinePair> pairs = pairs_of(way, expected, result.scale);
+  result.fit = lay_on(pairs);
+  result.deviation = deviation(pairs, result.fit.motion);
+  return result;
+}
+
+/// P1 below P2 is how it is made; seen from below the upper one is P1. The other two orders are mirror images.
+std::vector<Way> ways_of_both(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
+  std::vector<Way> ways;
+  if (expected.p1.empty() || expected.p2.empty()) return ways;
+  for (std::size_t low = 0; low < grooves.size(); ++low) {
+    // Between them a part may be thinner, too: where two prints meet, or under a hub.
+    for (std::size_t high = low + 1; high < grooves.size(); ++high) {
+      const std::vector<Match> upright{{Side::left, &grooves[low]}, {Side::right, &grooves[high]}};
+      const std::vector<Match> upside_down{{Side::left, &grooves[high]}, {Side::right, &grooves[low]}};
+      ways.push_back({upright, false, false});
+      ways.push_back({upside_down, true, false});
+      ways.push_back({upright, true, true});
+      ways.push_back({upside_down, false, true});
+    }
+  }
+  return ways;
+}
+
+std::vector<Way> ways_of_one(const std::vector<GrooveInMesh>& grooves, const GrooveFloors& expected) {
+  std::vector<Way> ways;
+  // Of two grooves one alone may be that of many pulleys.
+  if (grooves.size() != 1) return ways;
+  for (const bool flipped : {false, true}) {
+    for (const Side side : {Side::left, Side::right}) {
+      if (!floor_of(expected, side).empty()) ways.push_back({{{side, &grooves.front()}}, flipped, false});
+    }
+  }
+  return ways;
+}
+
+bool fits(const FittedWay& fitted, double radius) {
+  // A circle is every other circle in another size.
+  if (fitted.scale != 1.0 && !fitted.fit.tells_turn) return false;
+  const bool is_copy = fitted.scale != 1.0 || fitted.way.mirrored;
+  return fitted.deviation < (is_copy ? k_most_deviation_of_copy : k_most_deviation) * radius;
+}
+
+/// A size of its own, a mirror, a turn upside down: each needs more doing than the one before.
+int effort(const FittedWay& fitted) {
+  return 4 * static_cast<int>(fitted.scale != 1.0) + 2 * static_cast<int>(fitted.way.mirrored) +
+         static_cast<int>(fitted.way.flipped && !fitted.way.mirrored);
+}
+
+/// None where no way fits.
+std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloors& expected) {
+  std::vector<FittedWay> all;
+  for (const Way& way : ways) {
+    FittedWay one = fitted(way, expected);
+    if (fits(one, mean_radius(expected))) all.push_back(std::move(one));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const FittedWay& a, const FittedWay& b) { return effort(a) < effort(b); });
+  std::optional<FittedWay> best;
+  for (const FittedWay& one : all) {
+    const double better = best && effort(one) != effort(*best) ? k_clearly_better : 1.0;
+    if (!best || one.deviation < better * best->deviation) best = one;
+  }
+  return best;
+}
+
+// ---- the bore ------------------------------------------------------------------------------------
+
+/// Corners alone: triangles of a wall leave points along its straight lines.
+Polygon corners_of(const Polygon& polygon) {
+  Polygon corners;
+  for (std::size_t i = 0, n = polygon.size(); i < n; ++i) {
+    const Vec2 before = polygon[i] - polygon[(i + n - 1) % n], after = polygon[(i + 1) % n] - polygon[i];
+    if (std::abs(cross(before, after)) > k_straight * before.norm() * after.norm()) corners.push_back(polygon[i]);
+  }
+  return corners;
+}
+
+/// The circle through the corners, by least squares; none where they are on no circle. A flat is a chord, and its ends
+/// are on the circle too.
+std::optional<Vec2> centre_of_round(const Polygon& hole) {
+  const Polygon corners = corners_of(hole);
+  if (corners.size() < 4) return std::nullopt;
+  const auto rows = static_cast<Eigen::Index>(corners.size());
+  Eigen::MatrixX3d lines(rows, 3);
+  Eigen::VectorXd squares(rows);
+  const Vec2 near = corners.front();
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Vec2 point = corners[static_cast<std::size_t>(i)] - near;
+    lines.row(i) << 2 * point.x(), 2 * point.y(), 1;
+    squares[i] = point.squaredNorm();
+  }
+  const Eigen::Vector3d solution = lines.colPivHouseholderQr().solve(squares);
+  const Vec2 centre = near + solution.head<2>();
+  const double radius = std::sqrt(std::max(0.0, solution[2] + solution.head<2>().squaredNorm()));
+  const bool is_round = std::all_of(corners.begin(), corners.end(), [&](const Vec2& corner) {
+    return std::abs((corner - centre).norm() - radius) < k_bore_roundness * radius;
+  });
+  return is_round ? std::optional(centre) : std::nullopt;
+}
+
+/// The round hole about an axis that is known nearly; it is smaller than the outline.
+std::optional<Vec2> bore_near(const TriangleMesh& mesh, double z, const Vec2& axis) {
+  std::optional<Vec2> nearest;
+  const std::vector<Polygon> loops = section(mesh, z);
+  const std::optional<Polygon> outline = outline_at(mesh, z);
+  for (const Polygon& loop : loops) {
+    if (std::abs(signed_area(loop)) >= signed_area(*outline)) continue;
+    const std::optional<Vec2> centre = centre_of_round(loop);
+    if (!centre || (*centre - axis).norm() > k_bore_reach) continue;
+    if (!nearest || (*centre - axis).norm() < (*nearest - axis).norm()) nearest = centre;
+  }
+  return nearest;
+}
+
+// ---- where it lies -------------------------------------------------------------------------------
+
+Vec2 flipped(const Vec2& point, bool is_flipped) { return is_flipped ? Vec2(point.x(), -point.y()) : point; }
+
+/// Into the mesh: what the motion brings to the axis.
+Vec2 axis_of(const PlaneMotion& motion, bool is_flipped) {
+  return flipped(turned(-motion.shift, -motion.turn), is_flipped);
+}
+
+double within_half_a_turn(double angle) { return angle - k_two_pi * std::round(angle / k_two_pi); }
+
+Placement placement_of(const TriangleMesh& mesh, const FittedWay& fitted) {
+  const bool upside_down = fitted.way.flipped;
+  PlaneMotion motion = fitted.fit.motion;
+  motion.shift *= fitted.scale;
+  Placement placement;
+  placement.turned_over = upside_down;
+  placement.tells_turn = fitted.fit.tells_turn;
+  placement.deviation = fitted.deviation;
+  placement.turn = within_half_a_turn(upside_down ? motion.turn : -motion.turn);
+  placement.axis = axis_of(motion, upside_down);
+  if (const auto bore = bore_near(mesh, fitted.way.matches.front().groove->z, placement.axis)) {
+    const double off = (*bore - placement.axis).norm();
+    if (off > k_bore_at_axis) {
+      // What turns is the bore: a groove that runs out of true beside it does so on the joint.
+      placement.bore_off_axis = off;
+      placement.axis = *bore;
+      motion.shift = -turned(flipped(*bore, upside_down), motion.turn);
+    }
+  }
+  for (const Match& match : fitted.way.matches) {
+    PlacedGroove groove{match.side, match.groove->z, seen(match.groove->floor, upside_down)};
+    for (Vec2& point : groove.floor) point = motion(point);
+    placement.grooves.push_back(std::move(groove));
+  }
+  return placement;
+}
+
+PlacementStatus status_of(const FittedWay& fitted) {
+  if (fitted.scale != 1.0) return PlacementStatus::scaled;
+  return fitted.way.mirrored ? PlacementStatus::mirrored : PlacementStatus::found;
+}
+
+}  // namespace
+
+double outline_deviation(const GrooveFloors& found, const GrooveFloors& expected) {
+  return deviation({{found.p1, expected.p1}, {found.p2, expected.p2}}, PlaneMotion());
+}
+
+std::vector<TriangleMesh> bodies_of(const TriangleMesh& mesh) {
+  const TriangleMesh welded = weld(mesh);
+  DisjointSets sets(welded.vertices.size());
+  const auto is_whole = [&](const std::array<std::uint32_t, 3>& triangle) {
+    return *std::max_element(triangle.begin(), triangle.end()) < welded.vertices.size();
+  };
+  for (const auto& triangle : welded.triangles) {
+    if (!is_whole(triangle)) continue;
+    sets.unite(triangle[0], triangle[1]);
+    sets.unite(triangle[0], triangle[2]);
+  }
+  std::vector<TriangleMesh> bodies;
+  std::vector<std::optional<std::size_t>> body_of(welded.vertices.size());
+  for (const auto& triangle : welded.triangles) {
+    if (!is_whole(triangle)) continue;
+    std::optional<std::size_t>& body = body_of[sets.root(triangle[0])];
+    if (!body) {
+      body = bodies.size();
+      bodies.emplace_back();
+    }
+    TriangleMesh& part = bodies[*body];
+    const auto first = static_cast<std::uint32_t>(part.vertices.size());
+    for (const std::uint32_t vertex : triangle) part.vertices.push_back(welded.vertices[vertex]);
+    part.triangles.push_back({first, first + 1, first + 2});
+  }
+  return bodies;
+}
+
+PlacementResult find_placement(const TriangleMesh& mesh, const GrooveFloors& expected, double tendon_diameter) {
+  const double radius = mean_radius(expected);
+  const Bounds box = bounds(mesh);
+  // In another unit the part is as many slices high.
+  const double unit_here = (box.high - box.low).head<2>().maxCoeff() / (2.0 * radius);
+  const std::vector<GrooveInMesh> grooves =
+      find_grooves(mesh, k_least_groove * tendon_diameter / radius, unit_here * tendon_diameter / k_slices);
+  for (const std::vector<Way>& ways : {ways_of_both(grooves, expected), ways_of_one(grooves, expected)}) {
+    if (const auto best = best_of(ways, expected)) return {status_of(*best), placement_of(mesh, *best), best->scale};
+  }
+  return {};
+}
+
+}  // namespace fusee

@@ -1,0 +1,227 @@
+// Parts that a slicer moved are found where they were put; what was broken on purpose is called so.
+#include "fusee/solid/placement.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+
+#include "fusee/base/units.h"
+#include "fusee/solid/pulley.h"
+#include "support/mechanisms.h"
+#include "support/shapes.h"
+
+namespace fusee::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// A pulley as it is made, and the floors by which it is looked for.
+struct Made {
+  double tendon = 0;
+  BodyLayout layout;
+  TriangleMesh mesh;
+  GrooveFloors floors;
+};
+
+DeclaredMechanism with_body(DeclaredMechanism mechanism) {
+  mechanism.body = plain_mechanism().body;
+  return mechanism;
+}
+
+/// Made once for all tests.
+const Made& made(const std::string& name) {
+  static const std::map<std::string, DeclaredMechanism> mechanisms = {{"forearm", with_body(forearm())},
+                                                                      {"unsymmetric", with_body(unsymmetric())},
+                                                                      {"linear_wrist", with_body(linear_wrist())}};
+  static std::map<std::string, Made> all;
+  if (const auto found = all.find(name); found != all.end()) return found->second;
+  const Mechanism mechanism = mechanisms.at(name);
+  const SynthesisResult synthesis = synthesise(mechanism);
+  const Pulley pulley = make_pulley(mechanism, synthesis);
+  EXPECT_TRUE(pulley.made()) << pulley.brief();
+  const double half = 0.5 * mechanism.tendon.diameter;
+  return all[name] = {mechanism.tendon.diameter,
+                      pulley.layout,
+                      pulley.mesh,
+                      {parallel(synthesis.p1, -half), parallel(synthesis.p2, -half)}};
+}
+
+/// What a slicer does, in its order; written as floats, as an STL is.
+struct Move {
+  bool turned_over = false;
+  double turn_deg = 0;
+  Vec3 by = Vec3::Zero();
+  double scale = 1;
+  bool mirrored = false;
+};
+
+TriangleMesh moved(TriangleMesh mesh, const Move& move) {
+  for (Vec3& v : mesh.vertices) {
+    if (move.mirrored) v.x() = -v.x();
+    if (move.turned_over) v = Vec3(v.x(), -v.y(), -v.z());
+    v.head<2>() = turned(v.head<2>(), radians(move.turn_deg));
+    v = move.scale * v + move.by;
+  }
+  if (move.mirrored) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return rounded_to_float(mesh);
+}
+
+PlacementResult found(const Made& part, const Move& move) {
+  return find_placement(moved(part.mesh, move), part.floors, part.tendon);
+}
+
+/// Facets that lie on one side of a height: half a part, without the facets that bridge it.
+TriangleMesh half(const TriangleMesh& mesh, double z, bool upper) {
+  TriangleMesh kept{mesh.vertices, {}};
+  for (const auto& triangle : mesh.triangles) {
+    const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
+      return upper ? mesh.vertices[vertex].z() > z : mesh.vertices[vertex].z() < z;
+    });
+    if (inside) kept.triangles.push_back(triangle);
+  }
+  return kept;
+}
+
+double between(const BodyLayout& layout) { return 0.5 * (layout.z_p1 + layout.z_p2); }
+
+double largest_distance(const Polygon& a, const Polygon& b) {
+  double largest = 0;
+  for (const Vec2& corner : convex_hull(a)) largest = std::max(largest, distance_to_edges(convex_hull(b), corner));
+  return largest;
+}
+
+class EveryPulley : public ::testing::TestWithParam<const char*> {
+ protected:
+  const Made& part = made(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(Of, EveryPulley, ::testing::Values("forearm", "unsymmetric"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+TEST_P(EveryPulley, HasTwoGroovesWhereTheLayoutPutsThem) {
+  const std::vector<GrooveInMesh> grooves = find_grooves(part.mesh, 0.3 * part.tendon / 16, part.tendon / 4);
+  ASSERT_THAT(grooves, SizeIs(2));
+  EXPECT_NEAR(grooves[0].z, part.layout.z_p1, 0.01);
+  EXPECT_NEAR(grooves[1].z, part.layout.z_p2, 0.01);
+}
+
+TEST_P(EveryPulley, IsFoundWhereverItWasPut) {
+  for (const bool over : {false, true}) {
+    for (const double turn : {0.0, 90.0, -37.3, 181.7}) {
+      const Move move{over, turn, Vec3(123.4, -41.5, 17)};
+      const PlacementResult result = found(part, move);
+      SCOPED_TRACE("turned by " + std::to_string(turn) + (over ? ", upside down" : ""));
+      ASSERT_EQ(result.status, PlacementStatus::found);
+      const Placement& placement = result.placement;
+      EXPECT_EQ(placement.turned_over, over);
+      // What floats of 123 mm keep: 8 µm / 2.
+      EXPECT_LT((placement.axis - move.by.head<2>()).norm(), 2e-6);
+      EXPECT_NEAR(std::remainder(degrees(placement.turn) - turn, 360.0), 0, 2e-5);
+      EXPECT_LT(placement.deviation, 1e-5);
+      EXPECT_EQ(placement.bore_off_axis, 0);
+      ASSERT_THAT(placement.grooves, SizeIs(2));
+      EXPECT_EQ(placement.grooves[0].side, Side::left);
+      EXPECT_NEAR(placement.grooves[0].z, 17 + (over ? -1 : 1) * part.layout.z_p1, 0.01);
+      EXPECT_NEAR(placement.grooves[1].z, 17 + (over ? -1 : 1) * part.layout.z_p2, 0.01);
+      const Polygon unmoved = *outline_at(part.mesh, part.layout.z_p2);
+      EXPECT_LT(largest_distance(placement.grooves[1].floor, unmoved), 2e-5);
+    }
+  }
+}
+
+TEST_P(EveryPulley, IsCalledMirroredHoweverItLies) {
+  for (const bool over : {false, true})
+    EXPECT_EQ(found(part, {over, 65, Vec3(10, 20, 0), 1, true}).status, PlacementStatus::mirrored);
+}
+
+TEST_P(EveryPulley, IsCalledByItsSize) {
+  for (const double scale : {1 / 25.4, 0.9, 1.05, 25.4}) {
+    const PlacementResult result = found(part, {true, 65, Vec3(10, 20, 0), scale});
+    EXPECT_EQ(result.status, PlacementStatus::scaled);
+    EXPECT_NEAR(result.scale / scale, 1, 1e-3);
+  }
+  // A print that shrank is no other pulley.
+  EXPECT_EQ(found(part, {false, 0, Vec3(10, 20, 0), 0.995}).status, PlacementStatus::found);
+}
+
+TEST_P(EveryPulley, TellsP2AloneByItsTurn) {
+  const TriangleMesh upper = half(part.mesh, between(part.layout), true);
+  for (const bool over : {false, true}) {
+    const PlacementResult result = find_placement(moved(upper, {over, -70, Vec3(-30, 9, 0)}), part.floors, part.tendon);
+    ASSERT_EQ(result.status, PlacementStatus::found);
+    ASSERT_THAT(result.placement.grooves, SizeIs(1));
+    EXPECT_EQ(result.placement.grooves[0].side, Side::right);
+    EXPECT_EQ(result.placement.turned_over, over);
+    EXPECT_NEAR(degrees(result.placement.turn), -70, 1e-4);
+    EXPECT_LT((result.placement.axis - Vec2(-30, 9)).norm(), 1e-5);
+  }
+}
+
+TEST(RoundP1, SaysNothingOfItsTurn) {
+  const Made& part = made("forearm");
+  const TriangleMesh lower = half(part.mesh, between(part.layout), false);
+  const PlacementResult result = find_placement(moved(lower, {false, -70, Vec3(-30, 9, 0)}), part.floors, part.tendon);
+  ASSERT_EQ(result.status, PlacementStatus::found);
+  ASSERT_THAT(result.placement.grooves, SizeIs(1));
+  EXPECT_EQ(result.placement.grooves[0].side, Side::left);
+  EXPECT_FALSE(result.placement.tells_turn);
+  EXPECT_EQ(result.placement.turn, 0);
+  EXPECT_LT((result.placement.axis - Vec2(-30, 9)).norm(), 1e-4);
+  EXPECT_TRUE(found(part, {false, -70, Vec3(-30, 9, 0)}).placement.tells_turn);
+}
+
+// P1 is the mirror image of P2: upside down it is the same pulley.
+TEST(MirrorTwins, AreNotCalledTurnedOver) {
+  const PlacementResult result = found(made("linear_wrist"), {true, 40, Vec3(50, 60, 70)});
+  EXPECT_EQ(result.status, PlacementStatus::found);
+  EXPECT_FALSE(result.placement.turned_over);
+  EXPECT_LT(result.placement.deviation, 1e-5);
+}
+
+TEST(Bores, AreWhatTurns) {
+  const Made& part = made("forearm");
+  TriangleMesh mesh = part.mesh;
+  // The bore alone, walls and all, beside the grooves' axis.
+  for (Vec3& v : mesh.vertices) {
+    if (v.head<2>().norm() < part.layout.bore.radius + 0.1) v.x() += 0.2;
+  }
+  const PlacementResult result = find_placement(moved(mesh, {true, 30, Vec3(40, 50, 0)}), part.floors, part.tendon);
+  ASSERT_EQ(result.status, PlacementStatus::found);
+  EXPECT_NEAR(result.placement.bore_off_axis, 0.2, 1e-4);
+  const Vec2 bore = Vec2(40, 50) + turned(Vec2(0.2, 0), radians(30));
+  EXPECT_LT((result.placement.axis - bore).norm(), 1e-4);
+  // About its bore the floors stand 0.2 mm off where they should.
+  EXPECT_NEAR(outline_deviation({result.placement.grooves[0].floor, result.placement.grooves[1].floor}, part.floors),
+              0.2 / std::sqrt(2.0), 0.05);
+}
+
+TEST(OtherParts, AreNotRecognised) {
+  const Made& part = made("forearm");
+  EXPECT_EQ(find_placement(TriangleMesh(), part.floors, 1).status, PlacementStatus::unknown);
+  EXPECT_EQ(find_placement(made("unsymmetric").mesh, {made("linear_wrist").floors.p1, part.floors.p2}, 1).status,
+            PlacementStatus::unknown);
+  const TriangleMesh cut = half(part.mesh, part.layout.z_p1, false);
+  EXPECT_EQ(find_placement(cut, part.floors, 1).status, PlacementStatus::unknown);
+  EXPECT_THAT(find_grooves(cut, 0.02, 0.25), IsEmpty());
+}
+
+TEST(Bodies, ComeApart) {
+  const Made& part = made("forearm");
+  TriangleMesh both = moved(part.mesh, {});
+  const TriangleMesh other = moved(part.mesh, {false, 0, Vec3(100, 0, 0)});
+  const auto first = static_cast<std::uint32_t>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) both.triangles.push_back({first + a, first + b, first + c});
+  const std::vector<TriangleMesh> bodies = bodies_of(both);
+  ASSERT_THAT(bodies, SizeIs(2));
+  EXPECT_THAT(bodies[0].triangles, SizeIs(part.mesh.triangles.size()));
+  EXPECT_NEAR(enclosed_volume(bodies[1]) / enclosed_volume(part.mesh), 1, 1e-6);
+  EXPECT_THAT(bodies_of(part.mesh), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace fusee::testing
