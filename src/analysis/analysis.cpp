@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/stroke.h"
+#include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"
 #include "transmission/alpha_range.h"
@@ -122,6 +124,15 @@ std::optional<double> taut_pretension(const Mechanism& mechanism) {
 
 }  // namespace
 
+TensionExtreme largest_tension(const Mechanism& mechanism, const std::vector<double>& alphas) {
+  TensionExtreme largest;
+  for (const StrokePoint& point : settled_stroke(mechanism, alphas)) {
+    look_for_tension(largest, point.rising, true);
+    look_for_tension(largest, point.falling, false);
+  }
+  return largest;
+}
+
 std::optional<Strength> tendon_strength(const Tendon& tendon) {
   if (tendon.strength > 0) return Strength{tendon.strength, "tendon.strength_N"};
   for (const TendonType& type : tendon_types()) {
@@ -129,6 +140,34 @@ std::optional<Strength> tendon_strength(const Tendon& tendon) {
     if (same) return Strength{type.breaking_strength, type.name};
   }
   return std::nullopt;
+}
+
+std::optional<Strength> likely_strength(const Tendon& tendon) {
+  if (const auto known = tendon_strength(tendon)) return known;
+  // Fibre and lay set modulus and strength alike: within a factor of two in modulus it may be the same kind of tendon,
+  // and strength goes with the section. Braids of one kind differ by 1.4 (profiles/catalogue/tendons.toml).
+  constexpr double alike = 2.0;
+  const auto times = [](double one, double other) { return std::max(one / other, other / one); };
+  const TendonType* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const TendonType& type : tendon_types()) {
+    const double stiffer = times(type.modulus, tendon.modulus);
+    const double apart = stiffer * times(type.diameter, tendon.diameter);
+    if (stiffer > alike || apart >= least) continue;
+    nearest = &type;
+    least = apart;
+  }
+  if (nearest == nullptr) return std::nullopt;
+  return Strength{nearest->breaking_strength * std::pow(tendon.diameter / nearest->diameter, 2),
+                  "an estimate from " + nearest->name + " of the catalogue by its section; tendon.strength_N is not set"};
+}
+
+Diagnostic tendon_breaks(const TensionExtreme& largest, const Strength& strength) {
+  return {Severity::error,
+          {},
+          "the tendon breaks at alpha = " + fixed(degrees(largest.alpha), 1) + " deg: " + rounded(largest.tension) +
+              " N, and it bears " + rounded(strength.tension) + " N (" + strength.source + ")",
+          "a smaller [load], less friction, a thicker tendon, or a longer lever (joint.length_mm, guides.ED_mm)"};
 }
 
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options) {

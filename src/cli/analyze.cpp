@@ -152,10 +152,8 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
         "a smaller [load], or stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
   }
   if (result.breaks_at) {
-    say(Severity::error,
-        "the tendon breaks at " + alpha_text(*result.breaks_at) + ": " + rounded(result.largest_tension.tension) + " N, and it bears " +
-            rounded(result.strength->tension) + " N (" + result.strength->source + ")",
-        "a smaller [load], less friction, a thicker tendon, or a longer lever (joint.length_mm, guides.ED_mm)");
+    const Diagnostic breaks = tendon_breaks(result.largest_tension, *result.strength);
+    say(breaks.severity, breaks.message, breaks.hint);
   }
   const bool declared_loose = result.largest_tension.tension < 1e-6;
   if (!result.untensioned.empty()) {
@@ -193,6 +191,7 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
   reply.diagnostics = file.warnings;
   console.progress("moving the joint through its range");
   const AnalysisResult result = analyze(file, options);
+  reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.exists) {
     reply.exit = Exit::infeasible;
     add_obstacles(file.path, result.obstacles, reply);

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "fusee/analysis/plausibility.h"
 #include "fusee/joint/as_it_is.h"
 #include "pipeline/law_table_copy.h"
 
@@ -114,7 +115,7 @@ void publish(const Bench& bench, OutputFolder& folder) {
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
                           const CalibrateOptions& options) {
   CalibrateResult result;
-  result.product.file = file;
+  result.product.file = with_doubts(file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);
   target.claim(output_names(file));  // before the work: a refusal should not cost a wait

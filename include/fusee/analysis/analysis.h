@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fusee/base/diagnostics.h"
 #include "fusee/profile/synthesis.h"
 #include "fusee/joint/equilibrium.h"
 #include "fusee/transmission/tension.h"
@@ -95,6 +96,7 @@ struct AnalysisResult {
   std::optional<double> breaks_at;   ///< α of the row at which the largest tension passes the strength
   std::vector<ErrorSource> sources;
   std::vector<ToleranceEffect> tolerances;  ///< by key; "all" last
+  std::vector<Diagnostic> warnings;         ///< by the verb: what plausibility.h doubts in the file
 };
 
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {});
@@ -103,7 +105,14 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
 /// Both roads for every dimension of the mechanism.
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options);
+/// The largest tension of the full model on the way up and down through `alphas` (increasing, both ends of the range
+/// among them).
+TensionExtreme largest_tension(const Mechanism& mechanism, const std::vector<double>& alphas);
 /// The declared strength, or that of the catalogue's tendon with this diameter and modulus.
 std::optional<Strength> tendon_strength(const Tendon& tendon);
+/// The same, or else an estimate that says so: the nearest tendon of the catalogue, by its section.
+std::optional<Strength> likely_strength(const Tendon& tendon);
+/// What to say of a tendon under more than it bears. An error, of no place.
+Diagnostic tendon_breaks(const TensionExtreme& largest, const Strength& strength);
 
 }  // namespace fusee
