@@ -25,7 +25,8 @@ Unevenness unevenness(const Mechanism& mechanism) {
   const SynthesisResult synthesis = synthesise(mechanism, options);
   Unevenness worst;
   worst.made = synthesis.made();
-  for (const auto& [tendon, pulley] : {std::pair(&TransmissionPoint::t1, "P1"), std::pair(&TransmissionPoint::t2, "P2")}) {
+  for (const auto& [tendon, pulley] :
+       {std::pair(&TransmissionPoint::t1, "P1"), std::pair(&TransmissionPoint::t2, "P2")}) {
     Unevenness here{worst.made, std::numeric_limits<double>::infinity(), 0, pulley};
     for (const TransmissionPoint& point : synthesis.stroke) {
       here.least = std::min(here.least, (point.*tendon).p);
@@ -36,9 +37,9 @@ Unevenness unevenness(const Mechanism& mechanism) {
   return worst;
 }
 
-/// With the pins below the joint, moment arms fall faster towards the ends of the range, so that a radius varies by this
-/// many times; what is meant to be so does less. Signs turned on the profiles: 2.8 to 10.5 times, for 1.1 to 2.3 times
-/// as they are. Random joints (tests/laws) as they are: 5.2 times at most, one in fifty above 3.5.
+/// With the pins below the joint, moment arms fall faster towards the ends of the range, so that a radius varies by
+/// this many times; what is meant to be so does less. Signs turned on the profiles: 2.8 to 10.5 times, for 1.1 to 2.3
+/// times as they are. Random joints (tests/laws) as they are: 5.2 times at most, one in fifty above 3.5.
 constexpr double k_uneven = 4.0;
 /// … and with the other sign it would be evener by this much,
 constexpr double k_evener = 3.0;
@@ -65,13 +66,13 @@ std::vector<LikelySlip> slipped_sign(const DeclaredMechanism& mechanism) {
   const Unevenness declared = unevenness(mechanism), other = unevenness(turned);
   if (!is_likelier(other, declared)) return {};
   const char* key = "guides.OE_mm";
-  const std::string what =
-      declared.made
-          ? "there the radius of " + std::string(declared.pulley) + " varies " + fold_text(declared) + ", " +
-                rounded(declared.least, 3) + " to " + rounded(declared.most, 3) + " mm"
-          : "there no such pulley can be made";
+  const std::string what = declared.made ? "there the radius of " + std::string(declared.pulley) + " varies " +
+                                               fold_text(declared) + ", " + rounded(declared.least, 3) + " to " +
+                                               rounded(declared.most, 3) + " mm"
+                                         : "there no such pulley can be made";
   return {{key, setting_text(key, OE) + " mm: positive is below the joint, away from C, and " + what,
-           "did you mean " + rounded(-OE) + "? Above the joint it varies " + fold_text(other)}};
+           "did you mean " + rounded(-OE) + "? Above the joint " +
+               (declared.made ? "it varies " : "one can, of a radius that varies ") + fold_text(other)}};
 }
 
 }  // namespace fusee

@@ -17,8 +17,8 @@ namespace {
 
 /// A range within this, in degrees, is no joint's; in radians it is ±92°, wider than most.
 constexpr double k_narrow_range = 1.6;
-/// A groove whose walls stand within this, in degrees, holds a tendon as well as parallel walls do; in radians 120°, the
-/// widest that there is.
+/// A groove whose walls stand within this, in degrees, holds a tendon as well as parallel walls do; in radians 120°,
+/// the widest that there is.
 constexpr double k_narrow_groove = 2.1;
 
 double in_degrees(double written) { return degrees(written); }
@@ -49,22 +49,20 @@ LikelySlip radians_for_degrees(const std::string& key, double written) {
 // ---- lengths --------------------------------------------------------------------------------------------------------
 
 /// A length of the mechanism and how large it may be beside OC before it is odd. The profiles and 300 random joints
-/// from finger to arm (tests/laws) lie within half of these all the way, and a tenth or tenfold of theirs beyond: EB and
-/// ED 0.3 … 0.75, |OE| up to 0.5, EF 0.5 … 1.6, r1 0.11 … 0.2. A pulley may stand far off from its joint.
+/// from finger to arm (tests/laws) lie within half of these all the way, and a tenth or tenfold of theirs beyond: EB
+/// and ED 0.3 … 0.75, |OE| up to 0.5, EF 0.5 … 1.6, r1 0.11 … 0.2. A pulley may stand far off from its joint.
 struct Proportion {
   const char* key;
   double least;
   double most;
 };
 constexpr Proportion k_proportions[] = {
-    {"guides.EB_mm", 0.09, 3.0}, {"guides.ED_mm", 0.09, 3.0},   {"guides.OE_mm", 0.0, 3.0},
+    {"guides.EB_mm", 0.09, 3.0},  {"guides.ED_mm", 0.09, 3.0},  {"guides.OE_mm", 0.0, 3.0},
     {"pulley.EF_mm", 0.15, 30.0}, {"pulley.r1_mm", 0.025, 1.0},
 };
 constexpr const char* k_length = "joint.length_mm";
 
-bool has_length(const DeclaredMechanism& mechanism, const char* key) {
-  return is_used(*find_field(key), mechanism);
-}
+bool has_length(const DeclaredMechanism& mechanism, const char* key) { return is_used(*find_field(key), mechanism); }
 
 /// Per joint.length_mm.
 double proportion(const DeclaredMechanism& mechanism, const char* key) {
@@ -184,8 +182,8 @@ std::vector<LikelySlip> all_lengths_slipped(const DeclaredMechanism& mechanism) 
 
 // ---- modulus --------------------------------------------------------------------------------------------------------
 
-/// The softest tendon of the catalogue, nylon, has 2000 MPa; rubber has a hundred at most. In GPa the stiffest fibres have
-/// some hundred.
+/// The softest tendon of the catalogue, nylon, has 2000 MPa; rubber has a hundred at most. In GPa the stiffest fibres
+/// have some hundred.
 constexpr double k_softest_tendon = 100.0;  // MPa
 
 }  // namespace

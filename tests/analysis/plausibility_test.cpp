@@ -88,11 +88,12 @@ TEST(Plausibility, a_joint_declared_by_its_ratio_has_nothing_to_doubt) {
   EXPECT_THAT(tight_bends(file), IsEmpty());
 }
 
-// Of 300 random joints, OE between −0.5 R and 0.2 R, the only ones that are doubted have their pins below the joint and
-// would do far better with them above.
+// OE lies between −0.5 R and 0.2 R. The only ones that are doubted have their pins below the joint and a radius that
+// varies fourfold and more, at most 1.6-fold with them above: 3 of 300, 13 of 2000.
 TEST(Plausibility, random_joints_are_doubted_for_good_reasons_only) {
-  int doubted = 0;
+  int doubted = 0, cases = 0;
   testing::expect_law(300, [&](const Mechanism& mechanism) {
+    ++cases;
     for (const Diagnostic& doubt : doubts(file_of(mechanism))) {
       ++doubted;
       RC_ASSERT(doubt.message.find("guides.OE_mm") == 0);
@@ -100,8 +101,7 @@ TEST(Plausibility, random_joints_are_doubted_for_good_reasons_only) {
     }
     return synthesise(mechanism, {.advice = false}).made();
   });
-  EXPECT_LE(doubted, 6);
-  std::cout << doubted << " doubted\n";
+  EXPECT_LE(doubted, cases / 50);
 }
 
 // What a slip does to them: most are seen.
@@ -113,12 +113,19 @@ TEST(Plausibility, slips_of_random_joints_are_seen) {
     int seen = 0;
   };
   std::vector<Kind> kinds = {
-      {"range in radians", [](Mechanism& m) { m.joint.theta_min = radians(m.joint.theta_min), m.joint.theta_max = radians(m.joint.theta_max); }, 1.0},
+      {"range in radians",
+       [](Mechanism& m) {
+         m.joint.theta_min = radians(m.joint.theta_min), m.joint.theta_max = radians(m.joint.theta_max);
+       },
+       1.0},
       {"EB in cm", [](Mechanism& m) { m.guides.EB /= 10; }, 1.0},
       {"joint in cm", [](Mechanism& m) { m.joint.R /= 10; }, 0.9},
-      {"all in cm", [](Mechanism& m) {
-         for (double* length : {&m.joint.R, &m.guides.EB, &m.guides.ED, &m.guides.OE, &m.pulley.EF, &m.pulley.r1}) *length /= 10;
-       }, 0.75},
+      {"all in cm",
+       [](Mechanism& m) {
+         for (double* length : {&m.joint.R, &m.guides.EB, &m.guides.ED, &m.guides.OE, &m.pulley.EF, &m.pulley.r1})
+           *length /= 10;
+       },
+       0.75},
       {"modulus in GPa", [](Mechanism& m) { m.tendon.modulus /= 1000; }, 1.0},
   };
   int cases = 0;
@@ -149,7 +156,8 @@ TEST(SignOfOE, is_doubted_where_only_the_other_makes_a_pulley) {
   MechanismFile file = read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/linear_wrist.toml");
   file.mechanism.guides.OE *= -1;
   ASSERT_FALSE(synthesise(file.mechanism, {.advice = false}).made());
-  EXPECT_THAT(said(file), ElementsAre(AllOf(HasSubstr("no such pulley can be made"), HasSubstr("did you mean -37.5?"))));
+  EXPECT_THAT(said(file),
+              ElementsAre(AllOf(HasSubstr("no such pulley can be made"), HasSubstr("did you mean -37.5?"))));
 }
 
 TEST(SignOfOE, is_left_alone_where_pins_below_do_well) {
@@ -189,7 +197,8 @@ TEST(Radians, in_the_groove) {
 
 TEST(Lengths, one_in_cm_is_named_with_what_was_meant) {
   const auto expect = [](const std::string& key, const char* value, const std::string& meant) {
-    EXPECT_THAT(said({{key, value}}), ElementsAre(AllOf(HasSubstr(key + " = " + value + " mm"), HasSubstr(key + " = " + meant + " mm"))));
+    EXPECT_THAT(said({{key, value}}),
+                ElementsAre(AllOf(HasSubstr(key + " = " + value + " mm"), HasSubstr(key + " = " + meant + " mm"))));
   };
   expect("guides.EB_mm", "5", "50");
   expect("guides.ED_mm", "5", "50");
@@ -217,13 +226,14 @@ TEST(Lengths, unusual_proportions_are_a_wish) {
 
 std::vector<Setting> all_times(double factor) {
   const auto text = [factor](double value) { return std::to_string(value * factor); };
-  return {{"joint.length_mm", text(100)}, {"guides.EB_mm", text(50)},  {"guides.ED_mm", text(50)},
+  return {{"joint.length_mm", text(100)}, {"guides.EB_mm", text(50)}, {"guides.ED_mm", text(50)},
           {"guides.OE_mm", text(-40)},    {"pulley.EF_mm", text(80)}, {"pulley.r1_mm", text(16)}};
 }
 
 TEST(Lengths, all_in_cm_are_small_for_tendon_and_pins) {
-  EXPECT_THAT(said(all_times(0.1)), ElementsAre(AllOf(HasSubstr("joint.length_mm = 10 mm is small for a tendon of 1 mm"),
-                                                      HasSubstr("in cm?"), HasSubstr("joint.length_mm = 100"))));
+  EXPECT_THAT(said(all_times(0.1)),
+              ElementsAre(AllOf(HasSubstr("joint.length_mm = 10 mm is small for a tendon of 1 mm"), HasSubstr("in cm?"),
+                                HasSubstr("joint.length_mm = 100"))));
   std::vector<Setting> thin = all_times(0.1);
   thin.push_back({"tendon.diameter_mm", "0.2"});
   EXPECT_THAT(said(thin), ElementsAre(HasSubstr("a pin of 2 mm (guides.radius_mm)")));

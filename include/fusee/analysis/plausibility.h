@@ -1,6 +1,6 @@
 /// \file
-/// A word in time: numbers of a mechanism file that are likelier a slip than a wish. Nothing is refused; a warning names
-/// the key, what is odd about it and what may have been meant.
+/// A word in time: numbers of a mechanism file that are likelier a slip than a wish. Nothing is refused; a warning
+/// names the key, what is odd about it and what may have been meant.
 #pragma once
 
 #include <optional>
