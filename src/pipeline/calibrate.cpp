@@ -55,11 +55,15 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   const DeclaredMechanism& declared = bench.file.mechanism;
   const DeclaredMechanism expected = expected_joint(declared);
   bench.step("reading the runs");
-  product.measurement = read_measurement(runs.all, expected, bench.options.columns);
+  const Measurement as_read = read_measurement(runs.all, bench.options.columns);
+  product.measurement = as_read;
+  compare_with_declared(expected, product.measurement);
   CalibrationOptions options;
   options.hold_out = names_from(product.measurement, runs.fitted);
   options.progress = [&](const std::string& what, double share) { bench.step(what, share); };
   product.calibration = calibrate(expected, product.measurement, options);
+  bench.step("looking for slips of the file");
+  product.slips = slips_that_explain(declared, as_read, product.calibration);
   bench.step("working out the correction");
   product.correction.identified = declared.identified;
   if (product.calibration.verdict != CalibrationVerdict::not_testable)
