@@ -13,6 +13,9 @@
 namespace fusee {
 namespace {
 
+/// Ten times as many as a fit looks at.
+constexpr std::size_t k_rows_a_run = 2000;
+
 Measurement as_meant(Measurement data, const Suspect& suspect) {
   for (Run& run : data.runs) {
     for (Sample& sample : run.samples) {
@@ -33,11 +36,11 @@ struct Trial {
   double floor = 0;                                       ///< rad
 };
 
-Trial tried(Suspect suspect, const Measurement& as_read, double floor) {
+Trial tried(Suspect suspect, const Measurement& read, double floor) {
   Trial trial{std::move(suspect)};
   trial.floor = floor * std::abs(trial.suspect.theta);
   if (!DeclaredLaw(trial.suspect.joint).exists() || !DeclaredLaw(trial.suspect.drawn).exists()) return trial;
-  const Measurement data = as_meant(as_read, trial.suspect);
+  const Measurement data = as_meant(read, trial.suspect);
   if (!data.not_testable.empty()) return trial;
   const Evidence evidence = gather(trial.suspect.joint, data, trial.floor);
   if (evidence.blocks.size() < 2) return trial;
@@ -47,10 +50,9 @@ Trial tried(Suspect suspect, const Measurement& as_read, double floor) {
   return trial;
 }
 
-std::vector<Trial> trials(const DeclaredMechanism& declared, const Measurement& as_read) {
-  const double floor = std::max(noise_floor(as_read).rms, 1e-9);
+std::vector<Trial> trials(const DeclaredMechanism& declared, const Measurement& read, double floor) {
   std::vector<Trial> all;
-  for (Suspect& suspect : suspects(declared)) all.push_back(tried(std::move(suspect), as_read, floor));
+  for (Suspect& suspect : suspects(declared)) all.push_back(tried(std::move(suspect), read, floor));
   std::stable_sort(all.begin(), all.end(), [](const Trial& a, const Trial& b) { return a.left < b.left; });
   return all;
 }
@@ -89,13 +91,13 @@ bool is_clear(const Trial& trial, const Stakes& stakes) {
 }
 
 /// Whether the joint as meant explains the data, at once or with effects beside it: by the rule of every calibration.
-bool explains(Trial& trial, const Measurement& as_read, const Stakes& stakes) {
+bool explains(Trial& trial, const Measurement& read, const Stakes& stakes) {
   UndoneSlip& slip = trial.suspect.slip;
   slip.rms = trial.left;
   if (is_simpler(trial, stakes)) return true;
   if (stakes.explained || k_thresholds.slip_gain * trial.left > stakes.by_effects) return false;
   if (slip.pulley_as_declared || !is_within(trial, k_thresholds.slip_far)) return is_clear(trial, stakes);
-  const Calibration found = calibrate(trial.suspect.joint, as_meant(as_read, trial.suspect));
+  const Calibration found = calibrate(trial.suspect.joint, as_meant(read, trial.suspect));
   if (!is_explained(found)) return is_clear(trial, stakes);
   for (const FoundEffect& effect : found.effects) slip.beside.push_back(effect.name);
   slip.rms = found.after.held_out_rms;
@@ -123,11 +125,13 @@ std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, co
   if (!can_be_tested || found.verdict == CalibrationVerdict::no_effect || declared.identified != Imperfections{})
     return {};
   const Stakes stakes = stakes_of(found);
+  const double floor = std::max(noise_floor(as_read).rms, 1e-9);
+  const Measurement data = with_fewer_rows(as_read, k_rows_a_run);
   std::vector<UndoneSlip> slips;
   double best = 0;  // held-out rms of the first
-  for (Trial& trial : trials(declared, as_read)) {
+  for (Trial& trial : trials(declared, data, floor)) {
     const bool ties = slips.empty() || trial.left <= k_thresholds.slip_tie * best;
-    if (!ties || !explains(trial, as_read, stakes)) break;
+    if (!ties || !explains(trial, data, stakes)) break;
     if (slips.empty()) best = trial.left;
     slips.push_back(trial.suspect.slip);
   }
