@@ -213,7 +213,7 @@ std::vector<LikelySlip> slipped_lengths(const DeclaredMechanism& mechanism) {
 
 std::vector<LikelySlip> slipped_modulus(const DeclaredMechanism& mechanism) {
   const double modulus = mechanism.tendon.modulus;
-  if (modulus >= k_softest_tendon) return {};
+  if (mechanism.transmission || modulus >= k_softest_tendon) return {};
   const char* key = "tendon.modulus_MPa";
   return {{key, setting_text(key, modulus) + " MPa is softer than any tendon",
            "is it in GPa? " + setting_text(key, 1000.0 * modulus) + " MPa would be that"}};

@@ -190,8 +190,8 @@ void hold_against_law(const Mechanism& declared, Measurement& measurement) {
   const DeclaredLaw law(declared);
   if (!law.exists()) {
     measurement.not_testable.push_back(
-        "The declared joint has no law over its range (a dead centre, or a tendon's end meets a pin): there is nothing "
-        "to hold the data against; fusee build says where.");
+        "the declared joint has no law over its range (a dead centre, or C meets a pin): there is nothing to hold the "
+        "data against; 'fusee build' says where");
     return;
   }
   if (!std::isfinite(law.slope()) || law.slope() == 0) return;
