@@ -44,7 +44,7 @@ BodyLayout layout_to_cut(const Product& product) {
   mechanism.material.hole_compensation = 0;
   mechanism.material.elephant_foot = 0;
   BodyLayout layout = resolve_layout(mechanism, product.synthesis);
-  if (layout.bore.kind == Bore::round || layout.bore.kind == Bore::horn)
+  if (layout.bore.kind == Bore::round || (layout.bore.kind == Bore::horn && layout.bore.spline_teeth == 0))
     layout.bore.outline = circle_within(layout.bore.outline);
   for (Polygon& hole : layout.bore.screw_holes) hole = circle_within(hole);
   return layout;

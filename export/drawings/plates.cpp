@@ -15,6 +15,7 @@
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "solid/body.h"
+#include "solid/dowels.h"
 
 namespace fusee {
 namespace {
@@ -42,9 +43,20 @@ struct Stock {
                          mechanism.body.flange)),
         floor1(parallel(made.synthesis.p1, -0.5 * mechanism.tendon.diameter)),
         floor2(parallel(made.synthesis.p2, -0.5 * mechanism.tendon.diameter)),
-        wall(std::max(layout.min_wall, k_least_wall)) {}
+        wall(std::max(layout.min_wall, k_least_wall)) {
+    // A recess goes through all plates, and takes the centre hole above it with it.
+    if (layout.bore.horn_recess > 0) layout.bore.screw_holes.erase(layout.bore.screw_holes.begin());
+  }
 
   Polygon pocket(const Anchor& anchor) const { return circle_polygon(anchor.pocket, layout.pocket_radius); }
+  /// What is cut into the plate of the groove: channel and pocket, or the notch that a hole to the face leaves.
+  std::vector<Polygon> in_core(const Anchor& anchor) const {
+    std::vector<Polygon> parts{anchor.channel};
+    if (!anchor.seat) parts.push_back(pocket(anchor));
+    return parts;
+  }
+  /// And through its flange.
+  Polygon in_flange(const Anchor& anchor) const { return anchor.seat ? anchor.channel : pocket(anchor); }
 };
 
 // Dowels
@@ -59,37 +71,15 @@ Material2d common_material(const Stock& stock) {
   for (const Polygon& hole : stock.layout.bore.screw_holes) material.add_hole(hole);
   for (const Anchor& anchor : stock.product.pulley.anchors) {
     if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
-    if (stock.layout.pocket_radius > 0) material.add_hole(stock.pocket(anchor));
+    if (stock.layout.pocket_radius > 0) material.add_hole(stock.in_flange(anchor));
   }
   return material;
 }
 
-/// Two places as far apart as can be, at radii that differ by half a dowel at least and not in line with the axis: no
-/// turning or flipping that leaves the bore in place maps them onto themselves.
 std::optional<std::pair<Vec2, Vec2>> dowel_places(const Stock& stock, const Material2d& material, double diameter) {
-  constexpr int k_directions = 48;
-  constexpr int k_radii = 24;
-  double reach = 0;
-  for (const Vec2& p : stock.floor1) reach = std::max(reach, p.norm());
-  std::vector<Vec2> free;
-  for (int r = 1; r < k_radii; ++r) {
-    for (int a = 0; a < k_directions; ++a) {
-      const Vec2 p = reach * r / k_radii * unit(k_two_pi * a / k_directions);
-      if (material.holds(p, 0.5 * diameter + stock.wall)) free.push_back(p);
-    }
-  }
-  std::optional<std::pair<Vec2, Vec2>> best;
-  double widest = diameter + stock.wall;
-  for (const Vec2& a : free) {
-    for (const Vec2& b : free) {
-      const double apart = (a - b).norm();
-      const bool in_line = std::abs(cross(a, b)) < std::sin(radians(20)) * a.norm() * b.norm();
-      if (apart <= widest || in_line || a.norm() < b.norm() + 0.5 * diameter) continue;
-      widest = apart;
-      best = {a, b};
-    }
-  }
-  return best;
+  return pin_places(circumradius(stock.floor1), diameter, stock.wall, [&](const Vec2& place) {
+    return material.holds(place, 0.5 * diameter + stock.wall);
+  });
 }
 
 void place_dowels(Plates& plates, const Stock& stock) {
@@ -141,7 +131,7 @@ class LayerMaker {
     for (const Polygon& hole : stock_.layout.bore.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
       add_hole(layer, circle_polygon(dowel, 0.5 * plates_.dowel_diameter), "dowel hole");
-    for (const Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
+    for (const Anchor* anchor : pockets) add_fine_hole(layer, stock_.in_flange(*anchor));
     plates_.layers.push_back(std::move(layer));
   }
 
@@ -156,12 +146,20 @@ class LayerMaker {
     layer.cut_holes.push_back(*path);
   }
 
+  /// Of a knot or of a tendon: it can be drilled.
+  void add_fine_hole(PlateLayer& layer, const Polygon& hole) {
+    const auto path = cut_hole(hole, kerf_);
+    if (path && bounding_box(*path).size().minCoeff() >= k_least_feature) return add_hole(layer, hole, "knot pocket");
+    note_once(plates_, fmt::format("{}: the knot's hole of {} mm is left out, the cut would be narrower than {} mm: drill it",
+                                   layer.name, rounded(bounding_box(hole).size().minCoeff(), 3), rounded(k_least_feature)));
+  }
+
   /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and
   /// their corners are the mitres.
   void cut_channel(PlateLayer& layer, const Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
-    for (const Polygon& part : {anchor.channel, stock_.pocket(anchor)}) {
+    for (const Polygon& part : stock_.in_core(anchor)) {
       const auto inner = part.size() > 2 && is_simple(part) ? cut_hole(part, kerf_) : std::nullopt;
       if (!inner) {
         note_once(plates_, fmt::format("a tendon channel is left out: a kerf of {} mm is wider", rounded(kerf_)));
@@ -304,6 +302,9 @@ void describe_stack(Plates& plates, const Stock& stock) {
   lines.push_back(fmt::format("the grooves are {} mm wide for a tendon of {} mm", rounded(room), rounded(d)));
   if (stock.layout.set_screw.present)
     lines.push_back("the set screw is no part of the plates: drill it across the hub");
+  if (std::any_of(stock.product.pulley.anchors.begin(), stock.product.pulley.anchors.end(),
+                  [](const Anchor& anchor) { return anchor.tail.has_value(); }))
+    lines.push_back("the slots for the tendons' tails are no part of the plates: glue the tails down");
   if (stock.layout.bore.horn_recess > 0)
     lines.push_back(fmt::format("the horn's recess goes through all plates; it would be {} mm deep",
                                 rounded(stock.layout.bore.horn_recess)));

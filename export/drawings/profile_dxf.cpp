@@ -93,10 +93,11 @@ void add_active_ends(DxfDocument& drawing, const Outline& outline, double d, dou
   }
 }
 
-void add_anchors(DxfDocument& drawing, const std::vector<Anchor>& anchors, double pocket_radius) {
+void add_anchors(DxfDocument& drawing, const std::vector<Anchor>& anchors, const BodyLayout& layout) {
   for (const Anchor& anchor : anchors) {
     if (anchor.channel.size() > 2) drawing.closed("MARK_ANCHOR", anchor.channel);
-    if (pocket_radius > 0) drawing.closed("MARK_ANCHOR", circle_polygon(anchor.pocket, pocket_radius));
+    const double radius = pocket_radius(anchor, layout);
+    if (radius > 0) drawing.closed("MARK_ANCHOR", circle_polygon(anchor.pocket, radius));
   }
 }
 
@@ -134,7 +135,7 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
   }
   add_active_ends(drawing, synthesis.p1, d, layout.groove_depth);
   add_active_ends(drawing, synthesis.p2, d, layout.groove_depth);
-  add_anchors(drawing, product.pulley.anchors, layout.pocket_radius);
+  add_anchors(drawing, product.pulley.anchors, layout);
   add_legend(drawing, legend);
   return dxf_text(drawing, version);
 }

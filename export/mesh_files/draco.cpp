@@ -15,6 +15,7 @@
 
 #include "export/mesh_files/mesh_formats.h"
 #include "fusee/export/mesh_files.h"
+#include "solid/self_intersection.h"
 
 namespace fusee {
 namespace {
@@ -38,29 +39,37 @@ struct Grid {
   }
 };
 
+TriangleMesh snapped(TriangleMesh mesh, const Grid& grid) {
+  for (Vec3& vertex : mesh.vertices) vertex = grid.snapped(vertex);
+  return mesh;
+}
+
 /// Does every face still look to its side? Thin ones collapse or turn over on a grid that is fine enough for the
 /// tolerance.
-bool keeps_faces(const TriangleMesh& mesh, const Grid& grid) {
+bool keeps_faces(const TriangleMesh& mesh, const TriangleMesh& on_grid) {
   constexpr double k_least_share = 0.1;  // of its area
-  std::vector<Vec3> snapped;
-  snapped.reserve(mesh.vertices.size());
-  for (const Vec3& vertex : mesh.vertices) snapped.push_back(grid.snapped(vertex));
   const auto area_vector = [](const std::vector<Vec3>& v, const std::array<std::uint32_t, 3>& t) {
     return Vec3((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]));
   };
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
     const Vec3 before = area_vector(mesh.vertices, triangle);
     const double size = before.squaredNorm();
-    return size == 0 || before.dot(area_vector(snapped, triangle)) > k_least_share * size;
+    return size == 0 || before.dot(area_vector(on_grid.vertices, triangle)) > k_least_share * size;
   });
 }
 
-/// The coarsest grid that is within the tolerance and leaves every face its side.
+/// Faces that lie close together can come to cross, all on their sides still.
+bool keeps_solid(const TriangleMesh& mesh, const Grid& grid) {
+  const TriangleMesh on_grid = rounded_to_float(snapped(mesh, grid));
+  return keeps_faces(mesh, on_grid) && !find_crossing(on_grid).facets;
+}
+
+/// The coarsest grid that is within the tolerance and leaves the mesh a solid; the finest where the mesh is none.
 Grid grid_for(const TriangleMesh& mesh, double tolerance) {
   const Bounds box = bounds(mesh);
   Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
   while (grid.bits < k_most_bits && grid.reach() > tolerance) ++grid.bits;
-  while (grid.bits < k_most_bits && !keeps_faces(mesh, grid)) ++grid.bits;
+  while (grid.bits < k_most_bits && !keeps_solid(mesh, grid)) ++grid.bits;
   return grid;
 }
 

@@ -140,6 +140,8 @@ TriangleMesh read_ascii_stl(const Source& source) {
 
 }  // namespace
 
+std::string part_file_name(Side side) { return side == Side::left ? "pulley_p1.stl" : "pulley_p2.stl"; }
+
 std::string stl_bytes(const TriangleMesh& mesh, const std::string& name) {
   std::string bytes(k_facets_start + k_facet_size * mesh.triangles.size(), '\0');
   const std::string header = fmt::format("{}, {}, unit mm", k_tool, printable(name));

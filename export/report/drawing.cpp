@@ -216,7 +216,12 @@ std::string anchors(const View& view, const Pulley& pulley, Side side) {
   for (const Anchor& anchor : pulley.anchors) {
     if (anchor.side != side) continue;
     svg += curve("hole", view, anchor.channel, true) +
-           svg_circle("hole", view(anchor.pocket), pulley.layout.pocket_radius * view.scale);
+           svg_circle("hole", view(anchor.pocket), pocket_radius(anchor, pulley.layout) * view.scale);
+    if (anchor.tail) {
+      svg += curve("hole", view, anchor.tail->outline(), true);
+      if (anchor.tail->pilot_diameter > 0)
+        svg += svg_circle("hole", view(anchor.tail->to), 0.5 * anchor.tail->pilot_diameter * view.scale);
+    }
     const Vec2 place = view(anchor.pocket);
     svg += svg_words("soft halo middle", place + Vec2(0, 4), anchor.wound_end ? "a" : "s");
   }

@@ -9,6 +9,7 @@
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/units.h"
+#include "fusee/export/mesh_files.h"
 #include "fusee/export/report.h"
 #include "fusee/mechanism/fields.h"
 
@@ -103,15 +104,13 @@ Json grooves_json(const BodyLayout& layout) {
 }
 
 Json tendons_json(const Product& product) {
-  /// To tie a knot with at each end.
-  constexpr double k_tail = 50.0;
   Json list = Json::array();
   for (const TendonLength& tendon : tendon_lengths(product)) {
     const bool left = tendon.side == Side::left;
     list.push_back({{"tendon", left ? 1 : 2},
                     {"pulley", pulley_name(tendon.side)},
                     {"between_knots_mm", to_micrometre(tendon.between_knots)},
-                    {"cut_length_mm", number(std::ceil(tendon.between_knots + 2 * k_tail))},
+                    {"cut_length_mm", number(tendon.cut)},
                     {"joint_knot_mm", {to_micrometre(tendon.joint_knot.x()), to_micrometre(tendon.joint_knot.y())}},
                     {"pulley_knot_mm",
                      {to_micrometre(tendon.pulley_knot.x()), to_micrometre(tendon.pulley_knot.y()),
@@ -121,10 +120,39 @@ Json tendons_json(const Product& product) {
   return list;
 }
 
+/// What goes to the printer, each as it lies there.
+Json print_json(const Pulley& pulley) {
+  Json list = Json::array();
+  if (pulley.parts.empty()) list.push_back({{"file", "pulley.stl"}});
+  for (const PrintedPart& part : pulley.parts)
+    list.push_back({{"file", part_file_name(part.side)}, {"part", pulley_name(part.side)}});
+  return list;
+}
+
+/// What the knots on the pulley bear, where that is most.
+Json knots_json(const Product& product) {
+  const Holding& holding = product.holding;
+  const auto known = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
+  Json list = Json::array();
+  for (const KnotHold& knot : holding.knots) {
+    list.push_back({{"tendon", knot.side == Side::left ? 1 : 2},
+                    {"alpha_deg", number(degrees(knot.alpha))},
+                    {"wrap_left_deg", number(degrees(knot.wrap_left))},
+                    {"tension_N", number(knot.tension)},
+                    {"at_knot_N", number(knot.at_knot)},
+                    {"strength_N", holding.strength ? number(holding.strength->tension) : Json(nullptr)},
+                    {"strength_source", holding.strength ? Json(holding.strength->source) : Json(nullptr)},
+                    {"efficiency", number(product.joint.mechanism.tendon.knot_efficiency)},
+                    {"share", known(holding.share(knot))}});
+  }
+  return list;
+}
+
 Json notes_json(const Product& product) {
   Json notes = Json::array();
   for (const Diagnostic& warning : product.file.warnings) notes.push_back(warning.message);
   for (const std::string& warning : product.synthesis.warnings) notes.push_back(warning);
+  for (const std::string& warning : product.holding.warnings) notes.push_back(warning);
   for (const std::string& note : product.pulley.layout.notes) notes.push_back(note);
   return notes;
 }
@@ -141,8 +169,10 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
                        {"sha256", product.file.sha256}};
   manifest["grooves"] = grooves_json(product.pulley.layout);
   manifest["tendon"] = {{"diameter_mm", number(product.joint.mechanism.tendon.diameter)}};
+  manifest["print"] = print_json(product.pulley);
   manifest["as_built"] = as_built_json(product.as_built);
   manifest["tendons_at_home"] = tendons_json(product);
+  manifest["knots"] = knots_json(product);
   manifest["mechanism"] = mechanism_json(product.file.mechanism);
   if (const Json derived = derived_json(product); !derived.empty()) manifest["derived"] = derived;
   manifest["notes"] = notes_json(product);

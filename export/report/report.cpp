@@ -18,6 +18,7 @@
 #include "export/report/tendon_lengths.h"
 #include "export/tool.h"
 #include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
 
 namespace fusee {
 namespace {
@@ -80,6 +81,7 @@ Verdict verdict_of(const Product& product) {
 
 std::string warnings(const Product& product) {
   std::vector<std::string> all = product.synthesis.warnings;
+  all.insert(all.end(), product.holding.warnings.begin(), product.holding.warnings.end());
   for (const Diagnostic& diagnostic : product.file.warnings) {
     all.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : ": " + diagnostic.hint));
   }
@@ -179,8 +181,9 @@ std::string key_numbers(const Product& product) {
 std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z()); }
 
 /// Plane, half height and least radius of a groove, for its tint.
-std::string groove_words(const BodyLayout& layout, double z) {
-  return vector_words(layout.scale * Vec3(z, 0.98 * layout.groove_half_width, 1.1 * layout.bore.radius));
+std::string groove_words(const BodyLayout& layout, double z, const GrooveWalls& walls) {
+  const double half = std::min(walls.below_width(), walls.above_width());
+  return vector_words(layout.scale * Vec3(z, 0.98 * half, 1.1 * layout.bore.radius));
 }
 
 std::string part_view(const Product& product) {
@@ -190,8 +193,8 @@ std::string part_view(const Product& product) {
   std::string html =
       "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
       vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(layout, layout.z_p1) +
-      "\" data-groove2=\"" + groove_words(layout, layout.z_p2) + "\"></canvas>";
+      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(layout, layout.z_p1, layout.p1) +
+      "\" data-groove2=\"" + groove_words(layout, layout.z_p2, layout.p2) + "\"></canvas>";
   html +=
       "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button "
       "data-view=\"top\">Top</button>"
@@ -253,12 +256,10 @@ std::string forces_section(const Product& product) {
 // Making --------------------------------------------------------------------------------------------------------------
 
 std::string tendon_row(const TendonLength& tendon) {
-  constexpr double k_knot_allowance = 60;  // mm at each end: a bowline with something to hold
   const bool left = tendon.side == Side::left;
-  const double cut = std::ceil((tendon.between_knots + 2 * k_knot_allowance) / 5) * 5;
   return "<tr><td>" + std::string(left ? "Tendon 1" : "Tendon 2") + "</td><td>" +
          (left ? "C → pin B → P1, lower groove" : "C → pin D → P2, upper groove") + "</td><td class=\"number\">" +
-         readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" + readable(cut, 0) +
+         readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" + readable(tendon.cut, 0) +
          " mm</td><td class=\"number\">" + readable(degrees(tendon.spare_lap), 0) + "°</td></tr>";
 }
 
@@ -272,7 +273,58 @@ std::string tendon_table(const Product& product) {
          "pay-out</th></tr></thead><tbody>" +
          rows +
          "</tbody></table></div><p class=\"hint\">From C to the knot’s pocket, taut, with the joint and the pulley at "
-         "home. The cut leaves 60 mm at each end for knots.</p>";
+         "home. The cut holds that, both knots, and a tail of 50 mm at each end to pull them tight with, rounded up to 5 mm.</p>";
+}
+
+std::string knot_row(const KnotHold& knot, const Holding& holding) {
+  const std::optional<double> share = holding.share(knot);
+  const bool left = knot.side == Side::left;
+  const auto cell = [](const std::string& words) { return "<td class=\"number\">" + words + "</td>"; };
+  return "<tr><td>" + std::string(left ? "Tendon 1, on P1" : "Tendon 2, on P2") + "</td>" +
+         cell(readable(degrees(knot.alpha), 1) + "°") + cell(with_unit(knot.tension, "N", 3)) +
+         cell(readable(degrees(knot.wrap_left), 0) + "°") + cell(with_unit(knot.at_knot, "N", 3)) +
+         cell(share ? readable(100 * *share, 1) + " %" : "not known") + "</tr>";
+}
+
+std::string strength_words(const Product& product) {
+  const std::optional<Strength>& strength = product.holding.strength;
+  if (!strength) return "What the tendon bears is not known: set tendon.strength_N.";
+  const bool declared = strength->source == "tendon.strength_N";
+  return "It bears " + with_unit(strength->tension, "N") + " without a knot (" +
+         (declared ? "" : "an estimate: the catalogue’s ") + safe_text(strength->source) + ") and " +
+         with_unit(strength->at_knot, "N") + " at one (tendon.knot_efficiency " +
+         readable_rounded(product.joint.mechanism.tendon.knot_efficiency) + "); half of that is safe.";
+}
+
+std::string knot_table(const Product& product) {
+  std::string rows;
+  for (const KnotHold& knot : product.holding.knots) rows += knot_row(knot, product.holding);
+  if (rows.empty()) return "";
+  return "<h3>Knots on the pulley</h3><div class=\"scroll\"><table><thead><tr><th></th><th class=\"number\">Most at "
+         "α</th><th class=\"number\">Tendon carries</th><th class=\"number\">Wrap left</th><th "
+         "class=\"number\">Knot bears</th><th class=\"number\">Of its strength</th></tr></thead><tbody>" +
+         rows +
+         "</tbody></table></div><p class=\"hint\">The wrap φ between take-off and tie-off leaves T·e<sup>−μφ</sup> to "
+         "the knot, μ = " +
+         readable_rounded(product.joint.mechanism.pulley.mu) +
+         " (pulley.friction): the most over the stroke, in both directions, with the load and without. " +
+         strength_words(product) + "</p>";
+}
+
+/// How the pulley gets onto what turns it.
+std::string mounting(const Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const std::string home = " with P1 below and the home mark pointing to +y: the way that C lies from O at home.";
+  if (mechanism.body.bore != Bore::horn) return "Put the pulley on its shaft" + home;
+  const Horn& horn = horn_of(mechanism);
+  if (horn.spline_teeth > 0) {
+    return "Turn the servo to where its home shall be. Push the pulley onto its toothed shaft" + home +
+           " It goes on every " + readable(360.0 / horn.spline_teeth, 1) +
+           "°: the controller’s zero takes up the rest. The screw comes from above.";
+  }
+  return "Put the horn on the servo at its home, the first screw " + readable(degrees(horn.first_bolt), 1) +
+         "° from +x towards +y, and its own screw in the middle. Screw the pulley onto it (" +
+         std::to_string(horn.bolt_count) + " holes on " + readable_rounded(horn.bolt_circle) + " mm)" + home;
 }
 
 std::vector<std::string> steps(const Product& product) {
@@ -286,9 +338,7 @@ std::vector<std::string> steps(const Product& product) {
                     ": do not scale again.");
   }
   items.push_back("Measure the bore and the groove with callipers before going on.");
-  items.push_back(
-      "Put the pulley on its shaft with P1 below and the home mark pointing to +y: the way that C lies from O at "
-      "home.");
+  items.push_back(mounting(product));
   items.push_back(
       "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
       "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
@@ -332,7 +382,7 @@ std::string files_table() {
 }
 
 std::string making(const Product& product) {
-  std::string html = html_list(steps(product), "ol") + tendon_table(product) + derived_table(product);
+  std::string html = html_list(steps(product), "ol") + tendon_table(product) + knot_table(product) + derived_table(product);
   if (!product.pulley.layout.notes.empty())
     html += "<h3>Sizes chosen automatically</h3>" + html_list(product.pulley.layout.notes);
   return html + files_table();

@@ -224,10 +224,26 @@ print_scale = {};     // a print shrinks by as much
       decimal(screw.nut_thickness), decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
   text += "horn_recess = " + decimal(bore.horn_recess) +
           ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
+  text += "horn_teeth = " + (bore.spline_teeth > 0 ? points_text(bore.outline) : "[]") +
+          ";     // outline around a servo's toothed shaft\n";
   text += "horn_holes = [";
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k)
     text += (k == 0 ? "" : ",\n  ") + points_text(bore.screw_holes[k]);
   return text + "];\n\n";
+}
+
+/// Countersink, slot and pilot of a tie-off, each [] where there is none.
+std::string at_face_text(const Anchor& anchor) {
+  const auto& tail = anchor.tail;
+  const std::string seat =
+      anchor.seat ? fmt::format("[{}, {}]", decimal(anchor.seat->radius), decimal(anchor.seat->depth)) : "[]";
+  const std::string slot = tail ? fmt::format("[{}, {}]", points_text(tail->outline()), decimal(tail->depth)) : "[]";
+  const std::string pilot =
+      tail && tail->pilot_diameter > 0
+          ? fmt::format("[{}, {}, {}, {}]", decimal(tail->to.x()), decimal(tail->to.y()), decimal(tail->pilot_diameter),
+                        decimal(tail->pilot_depth))
+          : "[]";
+  return seat + ", " + slot + ", " + pilot;
 }
 
 std::string arrays(const Product& product) {
@@ -243,11 +259,12 @@ std::string arrays(const Product& product) {
   text += floor_array("P2", synthesis.p2, d, kept);
   text +=
       "\n// Where tendons are tied off: groove (1 or 2), middle of the knot pocket, outline of channel and "
-      "pocket.\ntie_offs = [";
+      "pocket,\n// countersink of a hole to the face in their place [radius, depth], slot for the tail [outline, depth], "
+      "pilot of its screw [x, y, diameter, depth].\ntie_offs = [";
   bool first = true;
   for (const Anchor& anchor : product.pulley.anchors) {
-    text += fmt::format("{}\n  [{}, {}, {}]", first ? "" : ",", anchor.side == Side::left ? 1 : 2,
-                        point_text(anchor.pocket), points_text(anchor.channel));
+    text += fmt::format("{}\n  [{}, {}, {}, {}]", first ? "" : ",", anchor.side == Side::left ? 1 : 2,
+                        point_text(anchor.pocket), points_text(anchor.channel), at_face_text(anchor));
     first = false;
   }
   return text + "];\n\n";
@@ -336,7 +353,8 @@ module polyhole(d, sides) {
 
 module bore_outline() {
   d = bore + hole_compensation;
-  if (bore_shape == "hex") polyhole(d, 6);
+  if (len(horn_teeth) > 0) polygon(horn_teeth);
+  else if (bore_shape == "hex") polyhole(d, 6);
   else if (bore_shape == "square") polyhole(d, 4);
   else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, -2 * d + bore_top]) square(2 * d); }
   else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key_width / 2, 0]) square([key_width, bore_top]); }
@@ -349,12 +367,37 @@ module bore_hole() {
 }
 
 // The channel in the groove's plane, and the pocket from the nearer face up to it.
-module tie_off(t) {
+module channel(t) {
   z = t[0] == 1 ? z_p1 : z_p2;
   translate([0, 0, z - channel_width / 2]) linear_extrude(channel_width) polygon(t[2]);
   low = t[0] == 1 ? -1 : z - channel_width / 2;
   high = t[0] == 1 ? z + channel_width / 2 : z_hub + 1;
   translate([t[1][0], t[1][1], low]) cylinder(d = knot_pocket, h = high - low, $fn = facets);
+}
+
+// Seen from its face, which lies at 0 and looks down: a countersunk hole to the groove.
+module face_hole(t, to_groove) {
+  translate([0, 0, -z_hub]) linear_extrude(z_hub + to_groove + channel_width / 2) polygon(t[2]);
+  translate([t[1][0], t[1][1], -z_hub + z_top - 1]) cylinder(r = t[3][0], h = z_hub - z_top + 1, $fn = facets);
+  hull() {
+    translate([t[1][0], t[1][1], -0.01]) cylinder(r = t[3][0], h = 0.01, $fn = facets);
+    translate([0, 0, t[3][1]]) linear_extrude(0.01) polygon(t[2]);
+  }
+}
+
+// What lies flush in the face, seen in the same way: the tail, and its screw.
+module tail(t) {
+  if (len(t[4]) > 0) translate([0, 0, -1]) linear_extrude(t[4][1] + 1) polygon(t[4][0]);
+  if (len(t[5]) > 0) translate([t[5][0], t[5][1], 0]) cylinder(d = t[5][2], h = t[5][3], $fn = facets);
+}
+
+module tie_off(t) {
+  on_p1 = t[0] == 1;
+  if (len(t[3]) == 0) channel(t);
+  translate([0, 0, on_p1 ? 0 : z_top]) mirror([0, 0, on_p1 ? 0 : 1]) {
+    if (len(t[3]) > 0) face_hole(t, on_p1 ? z_p1 : z_top - z_p2);
+    tail(t);
+  }
 }
 
 // Round below, a roof above: it prints lying down without support.

@@ -10,11 +10,13 @@
 
 namespace fusee {
 
+/// What a person measures off, the same wherever it is said.
 struct TendonLength {
   Side side = Side::left;
   Vec2 joint_knot;           ///< C, in the frame of the mechanism, mm
   Vec3 pulley_knot;          ///< middle of the knot pocket, in the frame of the mesh, mm
   double between_knots = 0;  ///< along the tendon's centre line, mm
+  double cut = 0;            ///< between the knots, both knots, and a tail of 50 mm at each end to pull with; whole 5 mm
   double spare_lap = 0;      ///< on the groove between the anchor and the last point of contact at full pay-out, rad
 };
 

@@ -35,11 +35,11 @@ std::optional<Diagnostic> overloaded_tendon(const MechanismFile& file) {
   const Transmission transmission(mechanism);
   const std::optional<Strength> strength = likely_strength(mechanism.tendon);
   if (transmission.dead_centre() || !strength) return std::nullopt;
-  const TensionExtreme largest = largest_tension(mechanism, alphas_over_range(transmission, k_load_steps));
-  if (largest.tension <= strength->tension) return std::nullopt;
-  Diagnostic warning = tendon_breaks(largest, *strength);
-  warning.severity = Severity::warning;
-  warning.place = file.place_of("tendon.strength_N");
+  std::optional<Diagnostic> warning =
+      tendon_breaks(largest_tensions(mechanism, alphas_over_range(transmission, k_load_steps)), *strength);
+  if (!warning) return std::nullopt;
+  warning->severity = Severity::warning;
+  warning->place = file.place_of("tendon.strength_N");
   return warning;
 }
 

@@ -44,7 +44,9 @@ std::string strength_line(const AnalysisResult& result) {
   const std::string source = result.strength->source == "tendon.strength_N" ? result.strength->source : result.strength->source + " of the catalogue";
   std::string margin;
   if (result.largest_tension.tension > 0) margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
-  return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin);
+  return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
+         line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency); at C it carries up to " +
+                      rounded(result.largest_at_joint.value) + " N");
 }
 
 std::string slack_lines(const AnalysisResult& result) {
@@ -108,7 +110,8 @@ Json summary_json(const AnalysisResult& result) {
                              {"place", most.below_pin ? "below_pin" : "above_pin"},
                              {"direction", most.rising ? "rising" : "falling"}};
   json["largest_paper_Tb"] = {{"value_N", result.largest_paper_tension.value}, {"alpha_deg", degrees(result.largest_paper_tension.alpha)}};
-  json["strength"] = result.strength ? Json{{"value_N", result.strength->tension}, {"source", result.strength->source}} : Json();
+  json["strength"] = result.strength ? Json{{"value_N", result.strength->tension}, {"at_knot_N", result.strength->at_knot}, {"source", result.strength->source}} : Json();
+  json["largest_at_joint_knot"] = {{"value_N", result.largest_at_joint.value}, {"alpha_deg", degrees(result.largest_at_joint.alpha)}};
   json["slack1_alpha_deg"] = ranges_json(result.slack1);
   json["slack2_alpha_deg"] = ranges_json(result.slack2);
   json["taut_pretension_N"] = optional_json(result.taut_pretension);
@@ -152,8 +155,8 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
         "a smaller [load], or stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
   }
   if (result.breaks_at) {
-    const Diagnostic breaks = tendon_breaks(result.largest_tension, *result.strength);
-    say(breaks.severity, breaks.message, breaks.hint);
+    const auto breaks = tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
+    say(breaks->severity, breaks->message, breaks->hint);
   }
   const bool declared_loose = result.largest_tension.tension < 1e-6;
   if (!result.untensioned.empty()) {

@@ -6,6 +6,7 @@
 #include "cli/interrupt.h"
 #include "cli/pins.h"
 #include "cli/table.h"
+#include "export/report/tendon_lengths.h"
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
 
@@ -69,6 +70,23 @@ std::string checks_line(const std::vector<Check>& checks) {
   return line("checks", std::to_string(passed) + " of " + std::to_string(checks.size()) + " passed");
 }
 
+std::string tendons_text(const Product& product) {
+  std::string text;
+  for (const TendonLength& tendon : tendon_lengths(product))
+    text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == Side::left ? "1" : "2") + " at " + fixed(tendon.cut, 0) + " mm";
+  return text.empty() ? text : line("tendons", text + ": between the knots, both knots, two tails of 50 mm");
+}
+
+std::string knots_text(const Holding& holding) {
+  std::string text;
+  for (const KnotHold& knot : holding.knots) {
+    const std::optional<double> share = holding.share(knot);
+    text += (text.empty() ? "" : ", ") + std::string(knot.side == Side::left ? "1" : "2") + " bears up to " + rounded(knot.at_knot, 3) +
+            " N" + (share ? " (" + rounded(100.0 * *share, 2) + " % of its strength)" : "");
+  }
+  return text.empty() ? text : line("knots", text);
+}
+
 std::string summary(const BuildResult& built, const BuildOptions& options, bool verbose) {
   const Product& product = built.product;
   const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
@@ -77,6 +95,7 @@ std::string summary(const BuildResult& built, const BuildOptions& options, bool 
   text += line("theta", range_text(ranges.theta, 2, "deg at the joint"));
   text += line("r1", range_text(ranges.r1, 3, "mm"));
   text += line("r2", range_text(ranges.r2, 3, "mm"));
+  text += tendons_text(product) + knots_text(product.holding);
   text += line("as built", as_built_text(product.as_built));
   text += checks_line(product.checks);
   text += files_text(built, options);
@@ -131,6 +150,7 @@ void add_warnings(const Product& product, Reply& reply) {
     for (const std::string& text : texts) reply.diagnostics.push_back(about_file(severity, product.file.path, text));
   };
   add(Severity::warning, product.synthesis.warnings);
+  add(Severity::warning, product.holding.warnings);
   if (product.pulley.made()) add(Severity::note, product.pulley.layout.notes);
 }
 

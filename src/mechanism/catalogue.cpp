@@ -2,15 +2,18 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
+
 #include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/fields.h"
 #include "mechanism/embedded.h"
 
 namespace fusee {
 namespace {
 
-double number(const toml::table& item, const char* key) {
+double number(const toml::table& item, std::string_view key) {
   const std::optional<double> value = item[key].value<double>();
-  demand(value.has_value(), std::string("the catalogue lacks ") + key);
+  demand(value.has_value(), "the catalogue lacks " + std::string(key));
   return *value;
 }
 
@@ -20,14 +23,21 @@ std::string text(const toml::table& item, const char* key) {
   return *value;
 }
 
-Horn make(const toml::table& item, Horn horn) {
-  horn.hub_diameter = number(item, "hub_diameter_mm");
-  horn.recess_depth = number(item, "recess_depth_mm");
-  horn.centre_hole = number(item, "centre_hole_mm");
-  horn.hole_count = static_cast<int>(number(item, "hole_count"));
-  horn.hole_circle = number(item, "hole_circle_mm");
-  horn.hole_diameter = number(item, "hole_diameter_mm");
-  return horn;
+/// The keys of a horn are those of [horn] in a mechanism file, in its units.
+HornType make(const toml::table& item, HornType type) {
+  DeclaredMechanism mechanism;
+  for (const Field& field : fields()) {
+    if (field.table == "horn" && item.contains(field.key)) field.set(mechanism, 0, number(item, field.key));
+  }
+  type.horn = mechanism.horn;
+  return type;
+}
+
+ShaftType make(const toml::table& item, ShaftType type) {
+  type.flat = item.contains("flat_mm") ? number(item, "flat_mm") : 0;
+  type.bore = type.flat > 0 ? Bore::d : Bore::round;
+  type.diameter = number(item, "diameter_mm");
+  return type;
 }
 
 TendonType make(const toml::table& item, TendonType type) {
@@ -67,10 +77,21 @@ std::vector<Item> load(std::string_view file_name, const char* key) {
   return items;
 }
 
+template <class Item>
+const Item* find(const std::vector<Item>& items, std::string_view name) {
+  const auto found = std::find_if(items.begin(), items.end(), [name](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
-const std::vector<Horn>& horns() {
-  static const std::vector<Horn> all = load<Horn>("horns", "horn");
+const std::vector<HornType>& horns() {
+  static const std::vector<HornType> all = load<HornType>("horns", "horn");
+  return all;
+}
+
+const std::vector<ShaftType>& shafts() {
+  static const std::vector<ShaftType> all = load<ShaftType>("shafts", "shaft");
   return all;
 }
 
@@ -84,11 +105,17 @@ const std::vector<MaterialType>& material_types() {
   return all;
 }
 
-const Horn* find_horn(const std::string& name) {
-  for (const Horn& horn : horns()) {
-    if (horn.name == name) return &horn;
+const HornType* find_horn(std::string_view name) { return find(horns(), name); }
+const ShaftType* find_shaft(std::string_view name) { return find(shafts(), name); }
+
+const Horn& horn_of(const Mechanism& mechanism) {
+  if (mechanism.body.horn == k_own_horn) return mechanism.horn;
+  const HornType* type = find_horn(mechanism.body.horn);
+  if (type == nullptr) {
+    throw InputError("", "body.horn: there is no servo horn \"" + mechanism.body.horn + "\"",
+                     "`fusee explain body.horn` lists them");
   }
-  return nullptr;
+  return type->horn;
 }
 
 }  // namespace fusee

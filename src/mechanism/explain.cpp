@@ -30,11 +30,31 @@ std::vector<const Field*> meant(std::string_view word) {
                    nearest.empty() ? "fusee explain lists all keys" : "did you mean " + nearest + "?");
 }
 
+std::string horn_words(const Horn& horn) {
+  if (horn.spline_teeth > 0) {
+    return std::to_string(horn.spline_teeth) + " teeth, " + shortest(horn.spline_diameter) + " mm over them, " +
+           shortest(horn.spline_depth) + " mm deep";
+  }
+  std::string text = std::to_string(horn.bolt_count) + " holes of " + shortest(horn.bolt_hole) + " mm on " +
+                     shortest(horn.bolt_circle) + " mm";
+  if (horn.boss_height > 0) {
+    text += ", a boss of " + shortest(horn.boss_diameter) + " mm, " + shortest(horn.boss_height) + " mm high";
+  }
+  return text;
+}
+
 std::string horn_list() {
   std::string text = "  There are (profiles/catalogue/horns.toml):\n";
-  for (const Horn& horn : horns()) {
-    text += "    " + horn.name + ": " + horn.description + "; " + std::to_string(horn.hole_count) + " holes of " +
-            shortest(horn.hole_diameter) + " mm on " + shortest(horn.hole_circle) + " mm. " + horn.source + "\n";
+  for (const HornType& type : horns())
+    text += "    " + type.name + ": " + type.description + "; " + horn_words(type.horn) + ". " + type.source + "\n";
+  return text;
+}
+
+std::string shaft_list() {
+  std::string text = "  There are (profiles/catalogue/shafts.toml):\n";
+  for (const ShaftType& type : shafts()) {
+    text += "    " + type.name + ": " + type.description + "; " + shortest(type.diameter) + " mm" +
+            (type.flat > 0 ? ", " + shortest(type.flat) + " mm over the flat" : "") + ". " + type.source + "\n";
   }
   return text;
 }
@@ -62,6 +82,7 @@ std::string material_list() {
 /// What of the catalogue helps with a key.
 std::string catalogue_text(const Field& field) {
   if (field.name() == "body.horn") return horn_list();
+  if (field.name() == "body.shaft") return shaft_list();
   if (field.table == "tendon" && field.key != "pretension_N") return tendon_list();
   if (field.name() == "material.name" || field.name() == "material.shrinkage_percent") return material_list();
   return {};
@@ -117,16 +138,21 @@ Json field_json(const Field& field) {
 
 Json catalogue_json() {
   Json json;
-  for (const Horn& horn : horns()) {
-    json["horns"].push_back({{"name", horn.name},
-                             {"description", horn.description},
-                             {"source", horn.source},
-                             {"hub_diameter_mm", horn.hub_diameter},
-                             {"recess_depth_mm", horn.recess_depth},
-                             {"centre_hole_mm", horn.centre_hole},
-                             {"hole_count", horn.hole_count},
-                             {"hole_circle_mm", horn.hole_circle},
-                             {"hole_diameter_mm", horn.hole_diameter}});
+  for (const HornType& type : horns()) {
+    Json horn = {{"name", type.name}, {"description", type.description}, {"source", type.source}};
+    Mechanism mechanism;
+    mechanism.horn = type.horn;
+    for (const Field& field : fields()) {
+      if (field.table == "horn") horn[std::string(field.key)] = number_of(mechanism, field);
+    }
+    json["horns"].push_back(std::move(horn));
+  }
+  for (const ShaftType& type : shafts()) {
+    json["shafts"].push_back({{"name", type.name},
+                              {"description", type.description},
+                              {"source", type.source},
+                              {"diameter_mm", type.diameter},
+                              {"flat_mm", type.flat}});
   }
   for (const TendonType& type : tendon_types()) {
     json["tendons"].push_back({{"name", type.name},

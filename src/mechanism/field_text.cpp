@@ -78,7 +78,7 @@ std::string kind_text(const Field& field) {
   const std::string in_unit = field.unit.empty() ? "" : " in " + std::string(field.unit);
   switch (field.kind) {
     case FieldKind::number:
-      return "a number" + in_unit;
+      return (field.whole ? "a whole number" : "a number") + in_unit;
     case FieldKind::range:
       return "two numbers [lowest, highest]" + in_unit;
     case FieldKind::choice:

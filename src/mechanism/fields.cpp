@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/effect.h"
 
 namespace fusee {
@@ -29,7 +31,9 @@ constexpr std::array<std::string_view, 2> names(Method) { return {"exact", "pape
 constexpr std::array<std::string_view, 3> names(Groove) { return {"u", "v", "flat"}; }
 constexpr std::array<std::string_view, 2> names(Flange) { return {"follow", "round"}; }
 constexpr std::array<std::string_view, 6> names(Bore) { return {"round", "d", "hex", "square", "keyway", "horn"}; }
+constexpr std::array<std::string_view, 3> names(Parts) { return {"auto", "one", "two"}; }
 constexpr std::array<std::string_view, 3> names(Marks) { return {"engraved", "raised", "none"}; }
+constexpr std::array<std::string_view, 2> names(Tail) { return {"slot", "none"}; }
 
 template <auto Part, auto Member>
 struct ChoiceAccess {
@@ -100,6 +104,19 @@ Field number(const Row& row, std::string_view unit, double least, double most) {
 }
 
 template <auto Part, auto Member>
+Field whole_number(const Row& row, int least, int most) {
+  Field field = base_field(row, FieldKind::number);
+  field.whole = true;
+  field.least = least;
+  field.most = most;
+  field.get = [](const DeclaredMechanism& mechanism, int) { return static_cast<double>(mechanism.*Part.*Member); };
+  field.set = [](DeclaredMechanism& mechanism, int, double value) {
+    mechanism.*Part.*Member = static_cast<int>(std::lround(value));
+  };
+  return field;
+}
+
+template <auto Part, auto Member>
 Field choice(const Row& row) {
   using Access = ChoiceAccess<Part, Member>;
   Field field = base_field(row, FieldKind::choice);
@@ -142,6 +159,12 @@ Field texts(const Row& row, std::vector<std::string_view> choices = {}) {
   field.choices = std::move(choices);
   field.texts = &member_of<Part, Member>;
   return field;
+}
+
+std::vector<std::string_view> shaft_names() {
+  std::vector<std::string_view> names{"none"};
+  for (const ShaftType& type : shafts()) names.push_back(type.name);
+  return names;
 }
 
 // ---- rows that are not one member -----------------------------------------------------------------------------------
@@ -259,6 +282,10 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(choice<pulley, &PulleyDrive::method>({"pulley.method", "", "\"exact\"",
                                                         "exact: the envelope of the tendon lines over the real pins; "
                                                         "paper: point pins, r2 drawn in polar coordinates"}));
+  table.push_back(number<pulley, &PulleyDrive::mu>(
+      {"pulley.friction", "mu", "0.2",
+       "effective friction between tendon and groove: what lies on the pulley slides as far as this lets it"},
+      "", 0, 2));
   table.push_back(
       number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));
   table.push_back(number<tendon, &Tendon::modulus>(
@@ -269,8 +296,14 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(number<tendon, &Tendon::bend_ratio>(
       {"tendon.bend_ratio", "D/d", "8", "smallest bend diameter per tendon diameter before a warning"}, "", 1, 1000));
   table.push_back(number<tendon, &Tendon::strength>(
-      {"tendon.strength_N", "", "0", "the tension at which a tendon breaks, knots included; 0: not known"}, "N", 0,
-      1000000));
+      {"tendon.strength_N", "", "0",
+       "the tension at which a tendon breaks without a knot, as makers state it; 0: that of "
+       "the catalogue's tendon of this diameter and modulus, if there is one"},
+      "N", 0, 1000000));
+  table.push_back(number<tendon, &Tendon::knot_efficiency>(
+      {"tendon.knot_efficiency", "", "0.5",
+       "share of its strength that a tendon keeps at a knot: 0.5 is assumed, what braided HMPE keeps"},
+      "", 0.05, 1));
   add_load(table);
 }
 
@@ -307,7 +340,13 @@ void add_body(std::vector<Field>& table) {
       {"body.bore_flat_mm", "", "0", "from the flat of a D shaft to its far side; 0: 0.9 times the diameter",
        "body.bore=d"},
       "mm", 0, 500));
-  table.push_back(text<body, &Body::horn>({"body.horn", "", "", "which servo horn is screwed on", "body.bore=horn"}));
+  table.push_back(text<body, &Body::horn>({"body.horn", "", "\"own\"",
+                                           "which servo horn is screwed on; own: the one that [horn] describes",
+                                           "body.bore=horn"}));
+  table.push_back(text<body, &Body::shaft>(
+      {"body.shaft", "", "\"none\"",
+       "which motor's shaft the bore is for, in place of bore, bore_diameter_mm and bore_flat_mm"},
+      shaft_names()));
   table.push_back(text<body, &Body::set_screw>(
       {"body.set_screw", "", "\"auto\"",
        "screw through the hub onto the shaft; auto: M3 where the hub has room for it, else none"},
@@ -323,6 +362,17 @@ void add_body(std::vector<Field>& table) {
       {"body.knot_pocket_mm", "", "0",
        "diameter of the pocket for a tendon's knot; 0: 3.5 tendon diameters, or what there is room for"},
       "mm", 0, 100));
+  table.push_back(number<body, &Body::wrap, degrees, radians>(
+      {"body.wrap_deg", "", "0",
+       "least wrap of a tendon past the arc that it leaves from, before its tie-off: relieves the knot; 0: as much as "
+       "there is room for"},
+      "deg", 0, 330));
+  table.push_back(choice<body, &Body::tail>({"body.tail", "", "\"slot\"",
+                                             "where a tendon's end lies beyond its knot; slot: in a straight slot of "
+                                             "the face, where there is room for one"}));
+  table.push_back(text<body, &Body::clamp_screw>(
+      {"body.clamp_screw", "", "\"none\"", "screw whose head clamps the tail at the end of its slot"},
+      {"none", "M2", "M2.5", "M3"}));
   table.push_back(choice<body, &Body::marks>(
       {"body.marks", "", "\"engraved\"", "home mark, clocking mark and labels on the faces"}));
   table.push_back(number<body, &Body::mark_depth>({"body.mark_depth_mm", "", "0.4", "depth or height of the marks"},
@@ -330,6 +380,51 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::min_wall>(
       {"body.min_wall_mm", "", "0", "no wall of the part may be thinner; 0: 1.2 mm, thinner on small pulleys"}, "mm", 0,
       50));
+}
+
+void add_horn(std::vector<Field>& table) {
+  constexpr auto horn = &Mechanism::horn;
+  constexpr std::string_view k_when = "body.horn=own";
+  table.push_back(number<horn, &Horn::bolt_circle>(
+      {"horn.bolt_circle_mm", "", "0", "diameter of the circle through the centres of the screws", k_when}, "mm", 0,
+      500));
+  table.push_back(whole_number<horn, &Horn::bolt_count>(
+      {"horn.bolt_count", "", "0", "screws, evenly on that circle", k_when}, 0, 24));
+  table.push_back(number<horn, &Horn::bolt_hole>(
+      {"horn.bolt_hole_mm", "", "0",
+       "diameter of the holes that they pass through; material.hole_compensation_mm is added", k_when},
+      "mm", 0, 50));
+  table.push_back(number<horn, &Horn::first_bolt, degrees, radians>(
+      {"horn.first_bolt_deg", "", "0", "where on the circle the first screw stands at home, from +x towards +y",
+       k_when},
+      "deg", -360, 360));
+  table.push_back(number<horn, &Horn::centre_hole>(
+      {"horn.centre_hole_mm", "", "0",
+       "diameter of the hole for the screw in the middle: wide enough for its head and the driver, where it holds the "
+       "horn",
+       k_when},
+      "mm", 0, 500));
+  table.push_back(number<horn, &Horn::boss_diameter>(
+      {"horn.boss_diameter_mm", "", "0", "diameter of the boss on the horn's face, which sinks into the pulley",
+       k_when},
+      "mm", 0, 500));
+  table.push_back(number<horn, &Horn::boss_height>(
+      {"horn.boss_height_mm", "", "0", "how far the boss stands above the face; 0: the horn is flat", k_when}, "mm", 0,
+      100));
+  table.push_back(whole_number<horn, &Horn::spline_teeth>(
+      {"horn.spline_teeth", "", "0",
+       "teeth of the servo's output shaft, where the pulley is pushed onto that and not screwed onto a horn", k_when},
+      0, 120));
+  table.push_back(number<horn, &Horn::spline_diameter>(
+      {"horn.spline_diameter_mm", "", "0", "diameter of that shaft over its teeth", k_when}, "mm", 0, 100));
+  table.push_back(
+      number<horn, &Horn::spline_depth>({"horn.spline_depth_mm", "", "0", "depth of its teeth", k_when}, "mm", 0, 20));
+  table.push_back(number<horn, &Horn::spline_length>(
+      {"horn.spline_length_mm", "", "0",
+       "how far that shaft reaches into the pulley, where a shoulder and horn.centre_hole_mm follow; 0: the teeth go "
+       "through",
+       k_when},
+      "mm", 0, 100));
 }
 
 void add_making(std::vector<Field>& table) {
@@ -346,6 +441,18 @@ void add_making(std::vector<Field>& table) {
       {"material.elephant_foot_mm", "", "0.4",
        "chamfer at the edge that lies on the printer's bed, smaller on a thin lip; 0: none"},
       "mm", 0, 3));
+  constexpr auto print = &Mechanism::print;
+  table.push_back(choice<print, &Print::parts>(
+      {"print.parts", "", "\"auto\"",
+       "one: P1 and P2 in one piece, with a cone under the middle flange where it stands out over P1; two: each printed "
+       "for itself and pinned together; auto: one, unless that cone would be high"}));
+  table.push_back(number<print, &Print::overhang, degrees, radians>(
+      {"print.overhang_deg", "", "45",
+       "the flattest slope above the horizontal that a face looking down may have; 90 is upright"},
+      "deg", 20, 75));
+  table.push_back(boolean<print, &Print::supports>(
+      {"print.supports", "", "false",
+       "true: the printer makes supports, and the part is not shaped to need none"}));
   table.push_back(
       number<cut, &Cut::kerf>({"cut.kerf_mm", "", "0.2", "width of what the cutter takes away"}, "mm", 0, 10));
   table.push_back(number<cut, &Cut::plate>(
@@ -466,6 +573,7 @@ std::vector<Field> make_table() {
   table.push_back(name_field());
   add_mechanism(table);
   add_body(table);
+  add_horn(table);
   add_making(table);
   add_optimize(table);
   add_identified(table);
@@ -557,7 +665,9 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "tendon") return "both tendons";
   if (table == "load") return "what the joint carries";
   if (table == "body") return "the body of the pulley";
+  if (table == "horn") return "a servo's horn of your own, or its toothed shaft (body.bore = \"horn\")";
   if (table == "material") return "what it is printed of";
+  if (table == "print") return "how the part is printed";
   if (table == "cut") return "cutting it as a stack of plates";
   if (table == "optimize") return "what fusee optimize may change, and what it is after";
   if (table == "identified") return "what fusee calibrate found the joint to be, against what is declared";
@@ -572,7 +682,7 @@ bool is_used(const Field& field, const DeclaredMechanism& mechanism) {
   const std::size_t equals = field.only_when.find('=');
   const Field* other = find_field(field.only_when.substr(0, equals));
   demand(other != nullptr, "only_when of " + field.name());
-  return other->get_text(mechanism) == field.only_when.substr(equals + 1);
+  return is_used(*other, mechanism) && other->get_text(mechanism) == field.only_when.substr(equals + 1);
 }
 
 DeclaredMechanism default_mechanism() {

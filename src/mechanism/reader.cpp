@@ -13,6 +13,7 @@
 #include "fusee/mechanism/fields.h"
 #include "fusee/mechanism/file.h"
 #include "mechanism/field_text.h"
+#include "mechanism/horn_faults.h"
 #include "mechanism/law_table.h"
 #include "mechanism/nesting.h"
 #include "mechanism/optimize_table.h"
@@ -84,12 +85,14 @@ class MechanismReader {
   void take_text(const Field& field, const Entry& entry);
   void take_numbers(const Field& field, const Entry& entry);
   void take_texts(const Field& field, const Entry& entry);
+  void take_shaft();
   bool is_needed(const Field& field) const;
   void look_for_missing();
   // Step 4
   void check_transmission();
   void check_unused();
   void check_bore();
+  void check_horn();
   void check_optimize();
   void check_prior();
   void load_table();
@@ -274,8 +277,9 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
     return fail(place, field.name() + " must be " + kind_text(field) + ", not " + described(node),
                 "allowed: " + allowed_text(field));
   }
-  if (!std::isfinite(*value))
-    return fail(place, field.name() + " must be a finite number, not " + shortest(*value),
+  const bool whole = !field.whole || std::trunc(*value) == *value;
+  if (!std::isfinite(*value) || !whole)
+    return fail(place, field.name() + " must be a " + (whole ? "finite" : "whole") + " number, not " + shortest(*value),
                 "allowed: " + allowed_text(field));
   if (*value < field.least || *value > field.most) {
     return fail(place, field.name() + " = " + with_unit(*value, field.unit) + " is out of range",
@@ -442,20 +446,15 @@ void MechanismReader::check_unused() {
   for (const Field& field : fields()) {
     const auto entry = entries_.find(field.name());
     if (entry == entries_.end() || is_used(field, mechanism_)) continue;
-    warn(entry->second.place, field.name() + " is not used: it is for " + condition_text(field) + " only");
+    // Where the key that decides has no use itself, that is why.
+    const Field* decider = find_field(field.only_when.substr(0, field.only_when.find('=')));
+    const Field& unmet = is_used(*decider, mechanism_) ? field : *decider;
+    warn(entry->second.place, field.name() + " is not used: it is for " + condition_text(unmet) + " only");
   }
 }
 
 void MechanismReader::check_bore() {
   const Body& body = mechanism_.body;
-  if (body.bore == Bore::horn && good_["body.horn"] && find_horn(body.horn) == nullptr) {
-    std::vector<std::string> names;
-    for (const Horn& horn : horns()) names.push_back(horn.name);
-    const std::string nearest = nearest_word(body.horn, names);
-    fail(entries_["body.horn"].place, "body.horn = " + in_quotes(body.horn) + " is not known",
-         (nearest.empty() ? "" : "did you mean \"" + nearest + "\"? ") +
-             std::string("fusee explain body.horn lists the horns"));
-  }
   if (body.bore == Bore::d && body.bore_flat > 0 && body.bore_diameter > 0 &&
       (body.bore_flat <= 0.5 * body.bore_diameter || body.bore_flat > body.bore_diameter) && has("body.bore_flat_mm")) {
     fail(entries_["body.bore_flat_mm"].place,
@@ -463,6 +462,65 @@ void MechanismReader::check_bore() {
              " mm does not go with bore_diameter_mm = " + shortest(body.bore_diameter) + " mm",
          "from the flat to the far side: more than half the diameter and at most all of it");
   }
+}
+
+void MechanismReader::check_horn() {
+  const Body& body = mechanism_.body;
+  if (body.bore != Bore::horn || !good_["body.bore"]) return;
+  const auto described = std::find_if(fields().begin(), fields().end(), [this](const Field& field) {
+    return field.table == "horn" && has(field.name()) && (!good_[field.name()] || field.get(mechanism_, 0) != 0);
+  });
+  if (body.horn != k_own_horn) {
+    if (find_horn(body.horn) == nullptr) {
+      std::vector<std::string> names;
+      for (const HornType& type : horns()) names.push_back(type.name);
+      const std::string nearest = nearest_word(body.horn, names);
+      fail(entries_["body.horn"].place, "body.horn = " + in_quotes(body.horn) + " is not known",
+           (nearest.empty() ? "" : "did you mean \"" + nearest + "\"? ") +
+               std::string("fusee explain body.horn lists the horns; [horn] describes one of your own"));
+    }
+    if (described != fields().end()) {
+      fail(entries_[described->name()].place,
+           described->name() + " describes a horn, and body.horn = " + in_quotes(body.horn) + " names another",
+           "leave out either body.horn or [horn]");
+    }
+    return;
+  }
+  if (described == fields().end()) {
+    return fail(entries_["body.bore"].place, "body.bore = \"horn\" does not say which horn",
+                "name one with body.horn (fusee explain body.horn lists them), or describe yours under [horn]");
+  }
+  const bool all_read = std::all_of(fields().begin(), fields().end(), [this](const Field& field) {
+    return field.table != "horn" || !has(field.name()) || good_[field.name()];
+  });
+  if (!all_read) return;
+  for (const HornFault& fault : faults_of(mechanism_.horn)) {
+    const auto entry = entries_.find("horn." + std::string(fault.key));
+    fail(entry == entries_.end() ? table_place("horn") : entry->second.place, fault.message, fault.hint);
+  }
+}
+
+/// A shaft fills in what is not written; what is written must agree with it.
+void MechanismReader::take_shaft() {
+  const ShaftType* shaft = find_shaft(mechanism_.body.shaft);
+  if (shaft == nullptr) return;
+  DeclaredMechanism with_shaft = mechanism_;
+  with_shaft.body.bore = shaft->bore;
+  with_shaft.body.bore_diameter = shaft->diameter;
+  with_shaft.body.bore_flat = shaft->flat;
+  for (const char* key : {"body.bore", "body.bore_diameter_mm", "body.bore_flat_mm"}) {
+    const Field& field = *find_field(key);
+    if (!has(key) || !good_[key]) continue;
+    const auto value_in = [&field](const DeclaredMechanism& mechanism) {
+      return field.get ? with_unit(field.get(mechanism, 0), field.unit) : in_quotes(field.get_text(mechanism));
+    };
+    if (value_in(mechanism_) == value_in(with_shaft)) continue;
+    fail(entries_[key].place,
+         std::string(key) + " = " + value_in(mechanism_) + " is not that of body.shaft = " + in_quotes(shaft->name) +
+             ", which is " + value_in(with_shaft),
+         "leave out " + std::string(key) + ", which the shaft says, or body.shaft");
+  }
+  mechanism_.body = with_shaft.body;
 }
 
 /// Places of the items of a list of [optimize]; of the whole value where it is a single text or came from --set.
@@ -537,10 +595,12 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
     const auto entry = entries_.find(field.name());
     if (entry != entries_.end()) take(field, entry->second);
   }
+  take_shaft();
   look_for_missing();
   check_transmission();
   check_unused();
   check_bore();
+  check_horn();
   check_optimize();
   check_prior();
   load_table();

@@ -28,7 +28,7 @@ Json field_schema(const Field& field) {
   json["title"] = field.symbol.empty() ? field.name() : field.name() + " (" + std::string(field.symbol) + ")";
   json["description"] = std::string(field.meaning) + (field.unit.empty() ? "" : ", " + std::string(field.unit)) + "; " +
                         default_text(field);
-  const Json number = {{"type", "number"}, {"minimum", field.least}, {"maximum", field.most}};
+  const Json number = {{"type", field.whole ? "integer" : "number"}, {"minimum", field.least}, {"maximum", field.most}};
   switch (field.kind) {
     case FieldKind::number:
       json.update(number);
@@ -58,7 +58,8 @@ Json field_schema(const Field& field) {
     }
   }
   if (field.name() == "body.horn") {
-    for (const Horn& horn : horns()) json["enum"].push_back(horn.name);
+    json["enum"] = {k_own_horn};
+    for (const HornType& type : horns()) json["enum"].push_back(type.name);
   }
   if (!field.fallback.empty()) json["default"] = fallback_json(field);
   return json;

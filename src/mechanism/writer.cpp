@@ -70,10 +70,12 @@ std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
   return {};
 }
 
-/// A key that has no use here and holds nothing is written as a comment.
+/// A key that has no use here and holds nothing, or its default, is written as a comment.
 bool is_blank(const Field& field, const DeclaredMechanism& mechanism) {
   if (field.only_when.empty() || is_used(field, mechanism)) return false;
-  return field.get != nullptr ? field.get(mechanism, 0) == 0 : field.get_text(mechanism).empty();
+  if (field.get != nullptr) return field.get(mechanism, 0) == 0;
+  const std::string text = field.get_text(mechanism);
+  return text.empty() || toml_string(text) == field.fallback;
 }
 
 std::string comment(const Field& field) {

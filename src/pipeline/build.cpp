@@ -69,7 +69,10 @@ bool design(Workshop& shop) {
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
   if (!product.pulley.made()) product.pulley.advice = body_advice(mechanism);
-  return product.pulley.made();
+  if (!product.pulley.made()) return false;
+  shop.step("moving the joint to see what its knots bear");
+  product.holding = tendon_holding(mechanism, product.synthesis, product.pulley);
+  return true;
 }
 
 void write_parts(Workshop& shop) {
@@ -79,7 +82,8 @@ void write_parts(Workshop& shop) {
   shop.step("writing meshes and drawings");
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   shop.stage("pulley.obj", obj_text(mesh, name));
-  shop.stage("pulley.3mf", threemf_bytes(mesh, name));
+  shop.stage("pulley.3mf", threemf_bytes(plate_of(product.pulley), name));
+  for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
   shop.stage("pulley.drc", draco_bytes(mesh, shop.options.tolerance));
   shop.stage("pulley.scad", scad_text(product));
   shop.stage("profile.dxf", profile_dxf(product, shop.options.dxf));
@@ -98,10 +102,13 @@ void check_parts(Workshop& shop) {
   product.as_built = rewind_part(product.joint, written);
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
-  for (const std::string format : {"obj", "3mf"}) {
-    const Part other = shop.read_back("pulley." + format);
-    shop.add(same_mesh(mesh, std::get<TriangleMesh>(other)), format + "_");
+  for (const PrintedPart& part : product.pulley.parts) {
+    const Part piece = shop.read_back(part_file_name(part.side));
+    const std::string prefix = part.side == Side::left ? "p1_" : "p2_";
+    shop.add(check_printed_part(std::get<TriangleMesh>(piece), part), prefix);
   }
+  shop.add(same_mesh(mesh, std::get<TriangleMesh>(shop.read_back("pulley.obj"))), "obj_");
+  shop.add(same_mesh(plate_of(product.pulley), std::get<TriangleMesh>(shop.read_back("pulley.3mf"))), "3mf_");
   const Part decoded = shop.read_back("pulley.drc");
   shop.add(near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance), "drc_");
   shop.add(check_part(decoded), "drc_");
@@ -142,8 +149,8 @@ void work(Workshop& shop) {
 }  // namespace
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"pulley.stl",       "pulley.obj",  "pulley.3mf",   "pulley.drc",
-                                                 "pulley.scad",      "profile.dxf", "plates.dxf",   "profile.csv",
+  static const std::vector<std::string> names = {"pulley.stl",       "pulley_p1.stl", "pulley_p2.stl", "pulley.obj",
+                                                 "pulley.3mf",       "pulley.drc",    "pulley.scad",      "profile.dxf", "plates.dxf",   "profile.csv",
                                                  "transmission.csv", "report.html", "manifest.json"};
   return names;
 }

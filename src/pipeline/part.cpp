@@ -98,7 +98,9 @@ Polygon floor_in_section(const TriangleMesh& mesh, double z, double scale) {
 }
 
 RewindResult rewind_mesh(const JointAsItIs& joint, const TriangleMesh& mesh) {
-  const BodyLayout layout = axial_layout(joint.mechanism);
+  const SynthesisResult synthesis = synthesise(joint.mechanism, {.advice = false});
+  if (!synthesis.made()) throw InputError("", "no pulley of this mechanism can be made: " + synthesis.brief());
+  const BodyLayout layout = resolve_layout(joint.mechanism, synthesis);
   return rewind_drawn(joint, floor_in_section(mesh, layout.z_p1, layout.scale), floor_in_section(mesh, layout.z_p2, layout.scale));
 }
 

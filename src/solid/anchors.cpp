@@ -11,22 +11,16 @@
 namespace fusee {
 namespace {
 
-// The mouth begins this many tendon diameters past the arc that the tendon leaves from.
-constexpr double k_lap_ratio = 1.6;
+// The mouth begins this many tendon diameters past the arc that the tendon leaves from, or past what is asked for.
+constexpr std::array<double, 5> k_laps{1.6, 2.5, 4.0, 6.0, 9.0};
 // What counts as a tendon's diameter there is at least this share of the channel's width.
 constexpr double k_least_lap = 0.6;
-constexpr int k_fillet_steps = 6;
 // The straight of a near tie-off is at most this many fillets long.
 constexpr double k_near_fillets = 6.0;
 // Between a channel and the floor that a tendon lies on.
 constexpr double k_floor_gap = 0.05;
 // Pockets are placed against a floor of about this many points: no more are needed to keep a wall.
 constexpr std::size_t k_floor_points = 256;
-
-struct Station {
-  Vec2 position;
-  Vec2 normal;
-};
 
 // Walks the closing arc from one end of the active arc to the other.
 class ClosingArc {
@@ -38,10 +32,13 @@ class ClosingArc {
     const std::size_t to = from_last ? outline.active_first : outline.active_last;
     const std::size_t n = outline.points.size();
     reach_.push_back(0.0);
+    wrap_.push_back(0.0);
     index_.push_back(from);
     while (index_.back() != to) {
       const std::size_t next = from_last ? (index_.back() + 1) % n : (index_.back() + n - 1) % n;
-      reach_.push_back(reach_.back() + (outline.points[next].position - outline.points[index_.back()].position).norm());
+      const OutlinePoint &here = outline.points[index_.back()], &there = outline.points[next];
+      reach_.push_back(reach_.back() + (there.position - here.position).norm());
+      wrap_.push_back(wrap_.back() + std::abs(std::remainder(there.psi - here.psi, k_two_pi)));
       index_.push_back(next);
     }
   }
@@ -50,24 +47,41 @@ class ClosingArc {
   double length() const { return reach_.back(); }
 
   Station at(double s) const {
-    const auto above = std::upper_bound(reach_.begin() + 1, reach_.end() - 1, s);
-    const auto k = static_cast<std::size_t>(above - reach_.begin());
+    const auto [k, share] = place(reach_, s);
     const OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
-    const double share = std::clamp((s - reach_[k - 1]) / (reach_[k] - reach_[k - 1]), 0.0, 1.0);
-    return {a.position + share * (b.position - a.position), (a.normal + share * (b.normal - a.normal)).normalized()};
+    return {s, wrap_[k - 1] + share * (wrap_[k] - wrap_[k - 1]), a.position + share * (b.position - a.position),
+            (a.normal + share * (b.normal - a.normal)).normalized()};
+  }
+
+  // Infinite where the arc turns by less.
+  double lap_at(double wrap) const {
+    if (wrap > wrap_.back()) return std::numeric_limits<double>::infinity();
+    const auto [k, share] = place(wrap_, wrap);
+    return reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
   }
 
  private:
+  struct Place {
+    std::size_t above;
+    double share;
+  };
+  static Place place(const std::vector<double>& increasing, double value) {
+    const auto above = std::upper_bound(increasing.begin() + 1, increasing.end() - 1, value);
+    const auto k = static_cast<std::size_t>(above - increasing.begin());
+    return {k, std::clamp((value - increasing[k - 1]) / (increasing[k] - increasing[k - 1]), 0.0, 1.0)};
+  }
+
   const Outline& outline_;
   double sense_ = 1;
   std::vector<double> reach_;
+  std::vector<double> wrap_;
   std::vector<std::size_t> index_;
 };
 
 class AnchorSearch {
  public:
-  AnchorSearch(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach)
-      : site_(site), arc_(site.outline, wound_end), wanted_(wanted), reach_(reach) {
+  AnchorSearch(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach, const LapRange& laps)
+      : site_(site), arc_(site.outline, wound_end), wanted_(wanted), reach_(reach), laps_(laps) {
     const Outline& outline = site.outline;
     const Polygon all = parallel(outline, -0.5 * site.tendon_diameter);
     const std::size_t stride = std::max<std::size_t>(1, all.size() / k_floor_points);
@@ -86,10 +100,12 @@ class AnchorSearch {
   std::optional<AnchorPath> run() {
     constexpr std::array<double, 6> turns{70, 85, 55, 100, 115, 40};
     const double d = std::max(site_.tendon_diameter, k_least_lap * site_.width);
-    for (const double lap : {k_lap_ratio, 2.5, 4.0, 6.0, 9.0}) {
-      if (lap * d > arc_.length()) break;
+    const double first = std::max(k_laps.front() * d, laps_.least), last = std::min(arc_.length(), laps_.most);
+    for (const double lap : k_laps) {
+      const Station station = arc_.at(first + (lap - k_laps.front()) * d);
+      if (station.lap > last) break;
       for (const double turn : turns) {
-        if (try_straights(arc_.at(lap * d), radians(turn))) return best_;
+        if (try_straights(station, radians(turn))) return best_;
       }
     }
     return best_;
@@ -101,7 +117,8 @@ class AnchorSearch {
     const double step = 0.5 * site_.width;
     const double longest = reach_ == AnchorReach::near ? k_near_fillets * site_.fillet : 2.0 * floor_radius();
     for (double straight = 0.6 * site_.width; straight < longest; straight += step) {
-      AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, straight, 0};
+      AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, straight, 0,
+                      station.lap,      station.wrap};
       const Vec2 pocket = path.pocket();
       const double depth = depth_of(pocket);
       if (depth < -site_.width) break;
@@ -160,6 +177,7 @@ class AnchorSearch {
   ClosingArc arc_;
   double wanted_;
   AnchorReach reach_;
+  LapRange laps_;
   Polygon floor_;
   std::vector<Vec2> active_floor_;
   std::vector<Side> sides_;
@@ -188,10 +206,22 @@ std::vector<Bar> AnchorPath::bars(double width) const {
   return result;
 }
 
-std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach) {
+LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap) {
+  const ClosingArc arc(outline, wound_end);
+  return {arc.lap_at(least_wrap), arc.length()};
+}
+
+Station closing_station(const Outline& outline, bool wound_end, double lap) {
+  return ClosingArc(outline, wound_end).at(lap);
+}
+
+double closing_length(const Outline& outline) { return ClosingArc(outline, true).length(); }
+
+std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
+                                      const LapRange& laps) {
   demand(site.fillet > 0.5 * site.width,
          "a channel of " + std::to_string(site.width) + " mm with a fillet of " + std::to_string(site.fillet));
-  return AnchorSearch(site, wound_end, wanted, reach).run();
+  return AnchorSearch(site, wound_end, wanted, reach, laps).run();
 }
 
 int pocket_facets(double radius) {

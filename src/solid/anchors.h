@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,18 @@
 #include "solid/plane_distance.h"
 
 namespace fusee {
+
+/// Chords of a channel's arc.
+inline constexpr int k_fillet_steps = 6;
+/// A place of the closing arc.
+struct Station {
+  double lap = 0;   ///< along the pitch curve from the end of the active arc
+  double wrap = 0;  ///< by how much the pitch curve turns over that
+  Vec2 position;
+  Vec2 normal;
+};
+/// At `lap` from the wound end or from the other one.
+Station closing_station(const Outline& outline, bool wound_end, double lap);
 
 /// The channel's centre line: from `start` on the pitch curve along the tangent, an arc that turns inward by `turn`, a
 /// straight to the pocket.
@@ -22,6 +35,8 @@ struct AnchorPath {
   double turn = 0;  ///< > 0
   double straight = 0;
   double room = 0;  ///< radius of the largest pocket, up to the one wanted
+  double lap = 0;   ///< along the pitch curve from the end of the active arc to `start`
+  double wrap = 0;  ///< by how much the pitch curve turns over that
 
   Vec2 heading() const;  ///< along the straight
   Vec2 outer() const;    ///< unit vector across the straight, away from the fillet's centre
@@ -42,10 +57,38 @@ struct AnchorSite {
   std::vector<Bar> above_pocket;  ///< the pocket alone keeps clear of these: what stands on the face it opens at
 };
 
+/// Where a channel and its pocket have no room: a hole along the axis at the groove's floor, through the outer flange.
+/// The knot lies in a countersink of the face.
+struct FaceHole {
+  Vec2 start;  ///< on the pitch curve beside the hole
+  Vec2 normal;
+  Vec2 hole;
+  double hole_radius = 0;
+  double room = 0;  ///< radius of the countersink at the face
+  double lap = 0;
+  double wrap = 0;
+
+  /// Middle of the countersink: it and the hole touch on the outer side, where the flange ends.
+  Vec2 pocket() const { return hole - (room - hole_radius) * normal; }
+  std::vector<Bar> bars(double) const { return {{hole, hole, hole_radius}}; }
+};
+
+/// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm
+struct LapRange {
+  double least = 0;
+  double most = std::numeric_limits<double>::infinity();
+};
+/// All that leaves at least this much wrap past the active arc, rad. Empty (least > most) where the closing arc ends
+/// before.
+LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap);
+/// Of the closing arc.
+double closing_length(const Outline& outline);
+
 /// The path with the most room for a pocket of radius `wanted`, the shortest of those with all of it; null when no
 /// channel fits at all. `near`: only short channels that do not pass the axis.
 enum class AnchorReach { near, anywhere };
-std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach);
+std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
+                                      const LapRange& laps = {});
 
 /// The keyhole in the groove's plane: channel and pocket of `radius`, counter-clockwise. `facets` on the pocket.
 struct Keyhole {

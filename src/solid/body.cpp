@@ -5,6 +5,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
+#include "solid/bore.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {
@@ -88,56 +89,99 @@ class StackBuilder {
         kind_(kind),
         rims_(flange_rims(p1, p2, tendon_diameter, layout.groove_depth, kind)) {}
 
-  RingStack build() {
-    const double half = layout_.groove_half_width;
-    add_lower_flange(layout_.z_p1 - half);
-    add_groove(p1_, layout_.z_p1);
-    add(layout_.z_p1 + half, rims_.middle);
-    add(layout_.z_p2 - half, rims_.middle);
-    add_groove(p2_, layout_.z_p2);
-    if (kind_ == Flange::round) add(layout_.z_p2 + half, rims_.upper);
-    add(layout_.z_top, rims_.upper);
-    if (layout_.hub_radius > 0) {
+  RingStack build(Piece piece) {
+    if (piece != Piece::p2) add_p1();
+    if (piece != Piece::p1) add_p2();
+    const double low = piece == Piece::p2 ? layout_.z_mate : 0.0;
+    const double high = piece == Piece::p1 ? layout_.z_mate : layout_.z_hub;
+    if (piece != Piece::p1 && layout_.hub_radius > 0) {
       stack_.hub = Shaft{circle(layout_.hub_radius), layout_.z_top, layout_.z_hub};
     }
-    add_bore();
+    add_bore(low, high);
     return std::move(stack_);
   }
 
  private:
-  void add(double z, Polygon points) { stack_.rings.push_back({z, std::move(points)}); }
+  bool apart() const { return layout_.parts == Parts::two; }
 
-  // The edge on the bed is chamfered by the width to which a first layer spreads.
-  void add_lower_flange(double top) {
-    if (layout_.elephant_foot > 0) {
-      const double foot = layout_.elephant_foot;
-      add(0.0, kind_ == Flange::round ? circle_like(p1_, circumradius(rims_.lower) - foot)
-                                      : parallel(p1_, -0.5 * d_ + layout_.groove_depth - foot));
-    }
-    add(layout_.elephant_foot, rims_.lower);
-    if (kind_ == Flange::round) add(top, rims_.lower);
+  // A ring that is already there is not added again.
+  void add(double z, Polygon points) {
+    if (!stack_.rings.empty() && stack_.rings.back().z == z && stack_.rings.back().points == points) return;
+    stack_.rings.push_back({z, std::move(points)});
   }
 
-  void add_groove(const Outline& outline, double z) {
-    const auto& half = layout_.groove;
+  // Up to the middle flange: its bottom where the part is one, the face that P2 lies on where it is two.
+  void add_p1() {
+    if (apart()) {
+      add(0.0, rims_.lower);
+    } else {
+      add_foot(0.0, rims_.lower);
+    }
+    const double lip_low = layout_.z_p1 - layout_.p1.below_width(), lip_high = layout_.z_p1 + layout_.p1.above_width();
+    if (kind_ == Flange::round) add(lip_low - layout_.lower_cone, rims_.lower);
+    add_groove(p1_, layout_.z_p1, layout_.p1);
+    add(lip_high + layout_.middle_cone, rims_.middle);
+    if (!apart()) return;
+    add(layout_.z_mate - rise_of(layout_, layout_.elephant_foot), rims_.middle);
+    add(layout_.z_mate, foot_of(rims_.middle));
+  }
+
+  void add_p2() {
+    const double lip_low = layout_.z_p2 - layout_.p2.below_width(), lip_high = layout_.z_p2 + layout_.p2.above_width();
+    if (apart()) {
+      add_foot(layout_.z_mate, rims_.under2);
+      if (kind_ == Flange::round) add(lip_low, rims_.under2);
+    } else {
+      add(lip_low, rims_.middle);
+    }
+    add_groove(p2_, layout_.z_p2, layout_.p2);
+    if (kind_ == Flange::round) add(lip_high + layout_.upper_cone, rims_.upper);
+    add(layout_.z_top, rims_.upper);
+  }
+
+  // The edge on the bed is chamfered by the width to which a first layer spreads.
+  void add_foot(double bed, const Polygon& rim) {
+    add(bed, foot_of(rim));
+    add(bed + rise_of(layout_, layout_.elephant_foot), rim);
+  }
+
+  // Every point moved inward along the normal that all rings share.
+  Polygon foot_of(Polygon rim) const {
+    for (std::size_t i = 0; i < rim.size(); ++i) rim[i] -= layout_.elephant_foot * p1_.points[i].normal;
+    return rim;
+  }
+
+  void add_groove(const Outline& outline, double z, const GrooveWalls& walls) {
     const auto add_point = [&](const GroovePoint& point, double sign) {
       add(z + sign * point.dz, parallel(outline, -0.5 * d_ + point.offset));
     };
-    for (std::size_t k = half.size(); k-- > 1;) add_point(half[k], -1.0);
-    for (std::size_t k = 1; k < half.size(); ++k) add_point(half[k], 1.0);
+    for (std::size_t k = walls.below.size(); k-- > 1;) add_point(walls.below[k], -1.0);
+    for (std::size_t k = 1; k < walls.above.size(); ++k) add_point(walls.above[k], 1.0);
   }
 
-  void add_bore() {
+  void add_bore(double low, double high) {
     const BoreLayout& bore = layout_.bore;
-    if (bore.horn_recess > 0) {
-      stack_.recess = Shaft{bore.outline, 0.0, bore.horn_recess};
-    } else {
-      stack_.through.push_back({bore.outline, 0.0, layout_.z_hub});
+    const bool recessed = low == 0.0 && bore.horn_recess > 0;
+    if (recessed) {
+      stack_.recess = recess();
+    } else if (bore.horn_recess <= 0) {
+      stack_.through.push_back({bore.outline, low, high});
     }
     for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
-      const bool in_recess = bore.horn_recess > 0 && k == 0;
-      stack_.through.push_back({bore.screw_holes[k], in_recess ? bore.horn_recess : 0.0, layout_.z_hub});
+      const bool from_recess = recessed && k == 0;
+      stack_.through.push_back({bore.screw_holes[k], from_recess ? stack_.recess.back().z : low, high});
     }
+  }
+
+  // Its ceiling would be a ring about the centre screw's hole, which no printer bridges: a cone leads up to the hole.
+  std::vector<Ring> recess() const {
+    const BoreLayout& bore = layout_.bore;
+    std::vector<Ring> rings{{0.0, bore.outline}, {bore.horn_recess, bore.outline}};
+    if (bore.horn_roof <= 0) return rings;
+    Polygon roof = bore.outline;
+    for (Vec2& point : roof) point *= recess_roof_share(bore);
+    rings.push_back({bore.horn_recess + bore.horn_roof, std::move(roof)});
+    return rings;
   }
 
   const Outline& p1_;
@@ -148,6 +192,11 @@ class StackBuilder {
   FlangeRims rims_;
   RingStack stack_;
 };
+
+// Of a point from the line through an edge.
+double gap_to_line(const Vec2& point, const Vec2& a, const Vec2& b) {
+  return std::abs(cross(b - a, point - a)) / (b - a).norm();
+}
 
 }  // namespace
 
@@ -161,6 +210,7 @@ FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diame
   if (kind == Flange::follow) {
     rims.lower = rims.lip1;
     rims.upper = rims.lip2;
+    rims.under2 = rims.lip2;
     rims.middle =
         grown_until_outside([&](double margin) { return around_both(p1, p2, lip, margin); }, rims.lip1, rims.lip2);
     return rims;
@@ -170,14 +220,27 @@ FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diame
     return grown_until_outside([&](double margin) { return circle_like(p1, radius + margin); }, a, b);
   };
   rims.lower = circle_around(rims.lip1, rims.lip1);
-  rims.middle = circle_around(rims.lip1, rims.lip2);
   rims.upper = circle_around(rims.lip2, rims.lip2);
+  rims.under2 = rims.upper;
+  rims.middle = circle_around(rims.lip1, rims.under2);
   return rims;
 }
 
+double cone_height(const Polygon& inner, const Polygon& outer, double slope) {
+  const std::size_t n = inner.size();
+  double widest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    // A strip's quad may be cut along either diagonal.
+    for (const Vec2& corner : {outer[i], outer[j]}) widest = std::max(widest, gap_to_line(corner, inner[i], inner[j]));
+    for (const Vec2& corner : {inner[i], inner[j]}) widest = std::max(widest, gap_to_line(corner, outer[i], outer[j]));
+  }
+  return widest * std::tan(slope);
+}
+
 RingStack body_stack(const Outline& p1, const Outline& p2, double tendon_diameter, Flange kind,
-                     const BodyLayout& layout) {
-  return StackBuilder(p1, p2, tendon_diameter, kind, layout).build();
+                     const BodyLayout& layout, Piece piece) {
+  return StackBuilder(p1, p2, tendon_diameter, kind, layout).build(piece);
 }
 
 double inradius(const Polygon& convex) { return depth_inside(convex, Vec2::Zero()); }

@@ -2,6 +2,7 @@
 #include <array>
 #include <iterator>
 
+#include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/pulley.h"
 #include "solid/plan.h"
@@ -12,15 +13,22 @@ namespace {
 constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_mm", "body.hub_diameter_mm",
                                  "body.hub_height_mm",   "body.bore_diameter_mm",    "body.anchor_hole_mm",
                                  "body.knot_pocket_mm",  "body.min_wall_mm"};
+// Of a horn of one's own; 0 is none of these and never "automatic".
+constexpr std::array k_horn_keys{"horn.bolt_circle_mm",   "horn.bolt_hole_mm",   "horn.centre_hole_mm",
+                                 "horn.boss_diameter_mm", "horn.boss_height_mm", "horn.spline_length_mm"};
 
-double number_of(const Mechanism& mechanism, const std::string& key) { return fusee::number_of(mechanism, *find_field(key)); }
+double number_of(const Mechanism& mechanism, const std::string& key) {
+  return fusee::number_of(mechanism, *find_field(key));
+}
 
 // Numbers that were written: a change of what is automatic would be no advice, and 0 is not a small number but
 // "automatic".
 std::vector<std::string> written_keys(const Mechanism& mechanism) {
   std::vector<std::string> keys;
-  std::copy_if(k_body_keys.begin(), k_body_keys.end(), std::back_inserter(keys),
-               [&mechanism](const std::string& key) { return number_of(mechanism, key) > 0; });
+  const auto is_written = [&mechanism](const std::string& key) { return number_of(mechanism, key) > 0; };
+  std::copy_if(k_body_keys.begin(), k_body_keys.end(), std::back_inserter(keys), is_written);
+  if (mechanism.body.bore == Bore::horn && mechanism.body.horn == k_own_horn)
+    std::copy_if(k_horn_keys.begin(), k_horn_keys.end(), std::back_inserter(keys), is_written);
   return keys;
 }
 
@@ -48,7 +56,9 @@ std::vector<Change> body_advice(const Mechanism& mechanism) {
     return written_keys(changed).size() == keys.size() && body_possible(changed);
   };
   std::vector<Change> changes = nearest_changes(mechanism, possible, keys);
-  for (const std::string& key : keys) add_automatic(changes, mechanism, key);
+  for (const std::string& key : keys) {
+    if (key.starts_with("body.")) add_automatic(changes, mechanism, key);
+  }
   return changes;
 }
 

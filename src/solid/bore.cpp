@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "fusee/base/diagnostics.h"
 #include "fusee/mechanism/catalogue.h"
 
 namespace fusee {
@@ -14,6 +13,11 @@ namespace {
 constexpr int k_least_facets = 8;
 // Sagitta of the arcs of D and keyway bores.
 constexpr double k_arc_sagitta = 0.01;
+// A recess is deeper by this (one printed layer) than what sinks into it, so that the pulley lies on the horn's face.
+constexpr double k_recess_play = 0.2;
+// A tooth's crest and the ground between two are flat over this share of the pitch: 0.1 mm of 0.74 mm on the shaft of a
+// Futaba 3F servo (hugokernel/OpenSCAD_ServoArms). Sharper ones would be rounded by the printer.
+constexpr double k_tooth_flat = 0.125;
 
 int facets_of(double diameter) { return std::max(k_least_facets, static_cast<int>(std::lround(2.0 * diameter))); }
 
@@ -72,19 +76,42 @@ Polygon keyway_outline(double diameter, double compensation) {
   return points;
 }
 
-// The hub of the horn sinks into a recess below; its own screw and those on the circle pass through.
-void add_horn(BoreLayout& bore, const Horn& horn, double compensation) {
-  const Polygon centre_hole = polyhole(horn.centre_hole + compensation, Vec2::Zero());
-  bore.horn_recess = horn.recess_depth;
-  if (horn.recess_depth > 0) {
-    bore.outline = polyhole(horn.hub_diameter + compensation, Vec2::Zero());
-    bore.screw_holes.push_back(centre_hole);
-  } else {
-    bore.outline = centre_hole;
+// A shaft's serration as a hole: straight flanks between the circles of crests and grounds, four corners a tooth.
+Polygon toothed_outline(const Horn& horn, double compensation) {
+  const double pitch = k_two_pi / horn.spline_teeth, half_flat = 0.5 * k_tooth_flat * pitch;
+  const double crest = 0.5 * (horn.spline_diameter + compensation);  // of the shaft's teeth, which point outward
+  Polygon points;
+  for (int k = 0; k < horn.spline_teeth; ++k) {
+    const double tooth = 0.5 * k_pi + k * pitch;
+    // The shaft's crest touches the middle of the flat that stands over it, as a shaft touches a polyhole's side.
+    for (const double side : {-1.0, 1.0})
+      points.push_back(crest / std::cos(half_flat) * unit(tooth + side * half_flat));
+    for (const double side : {-1.0, 1.0})
+      points.push_back((crest - horn.spline_depth) * unit(tooth + 0.5 * pitch + side * half_flat));
   }
-  for (int k = 0; k < horn.hole_count; ++k) {
-    const Vec2 centre = 0.5 * horn.hole_circle * unit(k_two_pi * k / horn.hole_count);
-    bore.screw_holes.push_back(polyhole(horn.hole_diameter + compensation, centre));
+  return points;
+}
+
+// What sinks in from below: the horn's boss, or the servo's own shaft. Empty where the horn's face is flat.
+Polygon sunk_outline(const Horn& horn, double compensation) {
+  if (horn.spline_teeth > 0) return toothed_outline(horn, compensation);
+  return horn.boss_height > 0 ? polyhole(horn.boss_diameter + compensation, Vec2::Zero()) : Polygon();
+}
+
+void add_horn(BoreLayout& bore, const Horn& horn, double compensation) {
+  const Polygon sunk = sunk_outline(horn, compensation);
+  const double depth = std::max(horn.boss_height, horn.spline_length);
+  bore.spline_teeth = horn.spline_teeth;
+  if (depth > 0) {
+    bore.outline = sunk;
+    bore.horn_recess = depth + k_recess_play;
+    bore.screw_holes.push_back(polyhole(horn.centre_hole + compensation, Vec2::Zero()));
+  } else {
+    bore.outline = sunk.empty() ? polyhole(horn.centre_hole + compensation, Vec2::Zero()) : sunk;
+  }
+  for (int k = 0; k < horn.bolt_count; ++k) {
+    const Vec2 centre = 0.5 * horn.bolt_circle * unit(horn.first_bolt + k_two_pi * k / horn.bolt_count);
+    bore.screw_holes.push_back(polyhole(horn.bolt_hole + compensation, centre));
   }
 }
 
@@ -112,21 +139,22 @@ Polygon polyhole(double diameter, const Vec2& centre) {
   return tangent_polygon(0.5 * diameter, facets_of(diameter), 0.5 * k_pi, centre);
 }
 
-BoreLayout bore_layout(const Body& body, double diameter, double compensation) {
+BoreLayout bore_layout(const Mechanism& mechanism, double diameter) {
+  const double compensation = mechanism.material.hole_compensation;
   BoreLayout bore;
-  bore.kind = body.bore;
-  if (body.bore == Bore::horn) {
-    const Horn* horn = find_horn(body.horn);
-    if (horn == nullptr) {
-      throw InputError("", "body.horn: there is no servo horn \"" + body.horn + "\"",
-                       "`fusee explain body.horn` lists them");
-    }
-    add_horn(bore, *horn, compensation);
-  } else {
-    bore.outline = outline_of(body, diameter, compensation);
-  }
+  bore.kind = mechanism.body.bore;
+  if (bore.kind == Bore::horn)
+    add_horn(bore, horn_of(mechanism), compensation);
+  else
+    bore.outline = outline_of(mechanism.body, diameter, compensation);
   for (const Vec2& point : bore.outline) bore.radius = std::max(bore.radius, point.norm());
   return bore;
+}
+
+double recess_roof_share(const BoreLayout& bore) {
+  // What remains of the ceiling: less than a slicer sees.
+  constexpr double k_ledge = 0.05;
+  return std::min(1.0, (circumradius(bore.screw_holes.front()) + k_ledge) / distance_to_edges(bore.outline, Vec2::Zero()));
 }
 
 }  // namespace fusee

@@ -10,8 +10,12 @@ namespace fusee {
 /// of diameter).
 Polygon polyhole(double diameter, const Vec2& centre);
 
-/// The bore for a shaft of `diameter` (across flats for hex and square; of no meaning for a horn). Flats and keyways
-/// face +y, towards the joint at home. Nothing is checked: make_pulley's conditions do that.
-BoreLayout bore_layout(const Body& body, double diameter, double compensation);
+/// The bore for a shaft of `diameter` (across flats for hex and square; of no meaning for a horn). Flats, keyways and
+/// one tooth of a toothed shaft face +y, towards the joint at home. Nothing is checked: make_pulley's conditions do
+/// that.
+BoreLayout bore_layout(const Mechanism& mechanism, double diameter);
+
+/// A horn's recess narrows in a cone to this share of its outline, just wider than the centre screw's hole.
+double recess_roof_share(const BoreLayout& bore);
 
 }  // namespace fusee

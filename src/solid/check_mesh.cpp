@@ -7,14 +7,11 @@
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/solid/mesh.h"
+#include "solid/place.h"
 #include "solid/self_intersection.h"
 
 namespace fusee {
 namespace {
-
-std::string place_of(const Vec3& point) {
-  return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ", " + fixed(point.z(), 3) + ") mm";
-}
 
 std::string facet_at(const TriangleMesh& mesh, std::size_t facet) {
   const auto& [a, b, c] = mesh.triangles[facet];

@@ -7,13 +7,12 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/solid/pulley.h"
+#include "solid/nearest_float.h"
 #include "solid/nearest_segment.h"
 
 namespace fusee {
 namespace {
 
-// What rounding to float moves a coordinate by, and a section of such a mesh a little more.
-constexpr double k_float_grain = 1e-5;
 // The features' vertices are rounded too: far below any feature, far above the rounding.
 constexpr double k_volume_tolerance = 1e-6;
 
@@ -150,9 +149,10 @@ class GrooveGauge {
   }
 
   double depth() const {
-    const double side = left_ ? -1.0 : 1.0;
+    // Just past the lip, in the flange that is P1's or P2's alone.
+    const double past = 0.5 * std::min(0.2, layout_.flange_thickness);
     const std::vector<Polygon> flange =
-        loops_at(z() + side * (layout_.groove_half_width + 0.5 * std::min(0.2, layout_.flange_thickness)));
+        loops_at(left_ ? z() - layout_.p1.below_width() - past : z() + layout_.p2.above_width() + past);
     if (flange.empty()) return 0;
     const NearestSegment to_flange({outer_loop(flange)});
     double least = std::numeric_limits<double>::infinity();
@@ -191,23 +191,34 @@ class GrooveGauge {
   std::vector<Polygon> holes_;
 };
 
+// Are indices, coordinates and edges so that anything else can be measured?
+bool is_measurable(const std::vector<Check>& checks) { return checks[0].ok && checks[1].ok && checks[2].ok; }
+
+std::vector<Check> check_body(const TriangleMesh& mesh, int expected_euler, double expected_volume) {
+  std::vector<Check> checks = check_mesh(mesh);
+  if (!is_measurable(checks)) return checks;
+  checks.push_back(exactly("euler_number", euler_number(mesh), expected_euler, "1",
+                           "a hole is missing or closed, or there is one too many"));
+  const double volume = enclosed_volume(mesh);
+  checks.push_back(at_most("volume_deviation", std::abs(volume / expected_volume - 1.0), k_volume_tolerance, "1",
+                           fmt::format("{} mm³ in place of {} mm³", rounded(volume, 9), rounded(expected_volume, 9))));
+  return checks;
+}
+
 }  // namespace
 
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
                                 const Pulley& pulley, double tolerance) {
   demand(pulley.made(), "check of a pulley that was not made");
-  std::vector<Check> checks = check_mesh(mesh);
-  const bool measurable = checks[0].ok && checks[1].ok && checks[2].ok;
-  if (!measurable) return checks;
-  checks.push_back(exactly("euler_number", euler_number(mesh), pulley.expected_euler, "1",
-                           "a hole is missing or closed, or there is one too many"));
-  const double volume = enclosed_volume(mesh);
-  checks.push_back(
-      at_most("volume_deviation", std::abs(volume / pulley.expected_volume - 1.0), k_volume_tolerance, "1",
-              fmt::format("{} mm³ in place of {} mm³", rounded(volume, 9), rounded(pulley.expected_volume, 9))));
+  std::vector<Check> checks = check_body(mesh, pulley.expected_euler, pulley.expected_volume);
+  if (!is_measurable(checks)) return checks;
   GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
   GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
   return checks;
+}
+
+std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPart& part) {
+  return check_body(mesh, part.expected_euler, part.expected_volume);
 }
 
 }  // namespace fusee

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
 #include "solid/hub.h"
 #include "solid/plane_distance.h"
 #include "solid/set_screw.h"
@@ -16,6 +17,9 @@ namespace {
 
 // Between a flange and a pin that must not touch: print tolerance and a pulley that runs out a little.
 constexpr double k_pin_gap = 0.5;
+
+// Between the holes of a horn: half a line of a nozzle of 0.4 mm. Less is no web, and the holes run into one another.
+constexpr double k_least_web = 0.2;
 
 // Numbers that people write down are rounded.
 constexpr double k_grain = 1e-9;
@@ -90,40 +94,66 @@ class Conditions {
                           rounded(layout_.min_wall, 3)));
   }
 
+  std::string horn_name() const { return body_.horn == k_own_horn ? "of [horn]" : body_.horn; }
+
   void add_horn() {
     if (body_.bore != Bore::horn) return;
-    add_most("horn_recess", layout_.bore.horn_recess, layout_.z_hub - layout_.min_wall,
-             fmt::format("the recess of horn {} is {} mm deep, the pulley {} mm high", body_.horn,
-                         rounded(layout_.bore.horn_recess), rounded(layout_.z_hub)));
-    const double gap = horn_gap();
-    add_least("horn_holes", gap, 0.2,
-              fmt::format("the holes of horn {} leave {} mm between them (material.hole_compensation_mm)", body_.horn,
-                          rounded(gap, 3)));
+    const bool apart = layout_.parts == Parts::two;
+    const double depth = layout_.bore.horn_recess > 0 ? layout_.bore.horn_recess + layout_.bore.horn_roof : 0.0;
+    const double height = apart ? layout_.z_mate : layout_.z_hub;
+    add_most("horn_recess", depth, height - layout_.min_wall,
+             fmt::format(
+                 "horn {}: {} takes a recess {} mm deep with its roof, {} {} mm high", horn_name(),
+                 layout_.bore.spline_teeth > 0 ? "the shaft (horn.spline_length_mm)" : "the boss (horn.boss_height_mm)",
+                 rounded(depth, 3), apart ? "P1 (print.parts) is" : "the pulley is", rounded(height, 3)));
+    const Web web = thinnest_web();
+    add_least("horn_holes", web.thickness, k_least_web,
+              fmt::format("horn {}: {} mm are left between {} (with material.hole_compensation_mm), it takes {} mm: {}",
+                          horn_name(), rounded(web.thickness, 3), web.between, k_least_web, web.change));
   }
 
-  // The thinnest web between a horn's holes, as circles.
-  double horn_gap() const {
+  /// What is left between two holes of a horn, and what would leave more.
+  struct Web {
+    double thickness = std::numeric_limits<double>::infinity();
+    const char* between = "its holes";
+    const char* change = "";
+  };
+
+  // Holes as circles: around the boss or the centre hole, around each screw.
+  Web thinnest_web() const {
     struct Circle {
       Vec2 centre;
       double radius;
     };
-    const auto circle = [](const Polygon& hole) {
-      Vec2 centre = Vec2::Zero();
-      for (const Vec2& point : hole) centre += point / static_cast<double>(hole.size());
-      return Circle{centre, (hole.front() - centre).norm()};
+    const auto around = [](const Polygon& hole) {
+      Circle circle{Vec2::Zero(), 0};
+      for (const Vec2& point : hole) circle.centre += point / static_cast<double>(hole.size());
+      for (const Vec2& point : hole) circle.radius = std::max(circle.radius, (point - circle.centre).norm());
+      return circle;
     };
-    std::vector<Circle> circles{circle(layout_.bore.outline)};
-    const std::size_t first = layout_.bore.horn_recess > 0 ? 1 : 0;
-    for (std::size_t k = first; k < layout_.bore.screw_holes.size(); ++k)
-      circles.push_back(circle(layout_.bore.screw_holes[k]));
-    double gap = std::numeric_limits<double>::infinity();
-    if (first == 1) gap = circles[0].radius - circle(layout_.bore.screw_holes[0]).radius;
-    for (std::size_t a = 0; a < circles.size(); ++a) {
-      for (std::size_t b = a + 1; b < circles.size(); ++b) {
-        gap = std::min(gap, (circles[a].centre - circles[b].centre).norm() - circles[a].radius - circles[b].radius);
+    const BoreLayout& bore = layout_.bore;
+    const bool sunk = bore.horn_recess > 0;
+    Web least;
+    const auto take = [&least](const Web& web) {
+      if (web.thickness < least.thickness) least = web;
+    };
+    if (sunk) {
+      take({distance_to_edges(bore.outline, Vec2::Zero()) - around(bore.screw_holes[0]).radius,
+            "what sinks in and the centre hole", "a smaller horn.centre_hole_mm leaves a shoulder"});
+    }
+    std::vector<Circle> bolts;
+    for (std::size_t k = sunk ? 1 : 0; k < bore.screw_holes.size(); ++k) bolts.push_back(around(bore.screw_holes[k]));
+    for (std::size_t a = 0; a < bolts.size(); ++a) {
+      take({bolts[a].centre.norm() - bolts[a].radius - bore.radius,
+            sunk ? "the screws and the boss" : "the screws and the centre hole",
+            sunk ? "a larger horn.bolt_circle_mm, or a smaller horn.bolt_hole_mm or horn.boss_diameter_mm"
+                 : "a larger horn.bolt_circle_mm, or a smaller horn.bolt_hole_mm or horn.centre_hole_mm"});
+      for (std::size_t b = a + 1; b < bolts.size(); ++b) {
+        take({(bolts[a].centre - bolts[b].centre).norm() - bolts[a].radius - bolts[b].radius, "two screws",
+              "a larger horn.bolt_circle_mm, fewer in horn.bolt_count, or a smaller horn.bolt_hole_mm"});
       }
     }
-    return gap;
+    return least;
   }
 
   void add_hub() {
@@ -182,10 +212,14 @@ class Conditions {
     add_least("channel_width", width, d_,
               fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
                           rounded(width), rounded(d_)));
-    const double below = layout_.z_p1 - 0.5 * width;
-    add_least("channel_floor", below, 0.4,
-              fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of the lower flange",
-                          rounded(width), rounded(below, 3)));
+    // On the side of the roof the flange is made as thick as it needs.
+    const bool apart = layout_.parts == Parts::two;
+    const double left = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
+                               : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
+                        0.5 * width;
+    add_least("channel_floor", left, 0.4,
+              fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
+                          rounded(width), rounded(left, 3)));
   }
 
   // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.

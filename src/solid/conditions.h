@@ -13,13 +13,6 @@ struct Wall {
 };
 Wall wall_between(const Polygon& floor, const Polygon& hole);
 
-/// What the planner found about the tie-offs at the wound ends.
-struct AnchorRoom {
-  Side side = Side::left;
-  double room = 0;   ///< radius of the largest pocket found, 0: not even the channel fits
-  double least = 0;  ///< radius below which there is no use in it
-};
-
 /// All conditions of a planned body. Those of the tie-offs are added from `rooms`.
 std::vector<Condition> conditions_of(const Mechanism& mechanism, const SynthesisResult& synthesis,
                                      const BodyLayout& layout, const FlangeRims& rims,

@@ -40,10 +40,9 @@ void finish_at_lip(std::vector<GroovePoint>& points, double depth, double lean) 
 
 }  // namespace
 
-std::vector<GroovePoint> groove_section(const Body& body, double tendon_diameter, double depth) {
+std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendon_diameter, double depth) {
   demand(tendon_diameter > 0 && depth > 0,
          "groove of a tendon of " + std::to_string(tendon_diameter) + " mm, depth " + std::to_string(depth));
-  const double lean = 0.5 * body.groove_angle;
   std::vector<GroovePoint> points{{0.0, 0.0}};
   switch (body.groove) {
     case Groove::u: {

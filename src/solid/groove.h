@@ -1,5 +1,5 @@
 /// \file
-/// The cross-section of a groove: half of it, from floor to lip. mm, rad.
+/// The cross-section of a groove: one half of it, from floor to lip. mm, rad.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace fusee {
 
 /// Points from the groove's plane outward; the first is {0, 0}, the second has offset 0 too: the floor is a short flat
 /// band, so that a section at the groove's plane cuts faces and never a vertex. The tendon's centre line lies d/2 above
-/// that band in every kind of groove.
-std::vector<GroovePoint> groove_section(const Body& body, double tendon_diameter, double depth);
+/// that band in every kind of groove. `lean`: of the wall, from the direction outward to that of the axis, rad.
+std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendon_diameter, double depth);
 
 }  // namespace fusee

@@ -61,12 +61,16 @@ class Face {
     const double middle = std::max(layout.bore.radius, on_top ? layout.hub_radius : 0.0);
     bars_.push_back({Vec2::Zero(), Vec2::Zero(), middle});
     edge_ = on_top ? 0.0 : layout.elephant_foot;
+    if (!on_top) {
+      for (const Vec2& place : layout.dowels.places) bars_.push_back({place, place, 0.5 * layout.dowels.hole_diameter});
+    }
     for (const Polygon& hole : layout.bore.screw_holes) {
       for (const Vec2& corner : hole) bars_.push_back({corner, corner, 0.0});
     }
     for (const PlannedAnchor& anchor : plan.anchors) {
-      if ((anchor.side == Side::right) == on_top)
-        bars_.push_back({anchor.path.pocket(), anchor.path.pocket(), layout.pocket_radius});
+      if ((anchor.side == Side::right) != on_top) continue;
+      bars_.push_back({anchor.pocket(), anchor.pocket(), anchor.pocket_radius(layout)});
+      if (anchor.tail) bars_.push_back({anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->head_or_width()});
     }
   }
 

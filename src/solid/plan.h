@@ -6,20 +6,15 @@
 #include <vector>
 
 #include "fusee/solid/pulley.h"
-#include "solid/anchors.h"
 #include "solid/body.h"
+#include "solid/tie_offs.h"
 
 namespace fusee {
-
-struct PlannedAnchor {
-  Side side = Side::left;
-  bool wound_end = true;
-  AnchorPath path;
-};
 
 struct BodyPlan {
   BodyLayout layout;
   FlangeRims rims;
+  Polygon floor1, floor2;  ///< of the grooves, coarse: nowhere outside them
   std::vector<PlannedAnchor> anchors;
   std::vector<Condition> conditions;
 

@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "fusee/base/diagnostics.h"
+#include "solid/body.h"
 #include "solid/boolean.h"
+#include "solid/bore.h"
+#include "solid/face_holes.h"
 #include "solid/gate.h"
 #include "solid/marks.h"
 #include "solid/plan.h"
 #include "solid/rings.h"
+#include "solid/tie_off_tools.h"
 #include "solid/tools.h"
 
 namespace fusee {
@@ -21,6 +24,8 @@ namespace {
 constexpr double k_overshoot = 1.0;
 // A cut whose rounding to float left a fault is tried again with other facets on the tools.
 constexpr int k_variants = 8;
+// Room between two parts on the printer.
+constexpr double k_between_parts = 5.0;
 
 // A body with its features, and what it must measure.
 struct Featured {
@@ -28,15 +33,34 @@ struct Featured {
   double volume = 0;
 };
 
+// From where a piece stands in the whole to where it lies on the printer: P1 is turned over about the x axis.
+TriangleMesh laid_on_bed(TriangleMesh mesh, Piece piece, double mate) {
+  if (piece == Piece::whole) return mesh;
+  for (Vec3& vertex : mesh.vertices) {
+    vertex.z() -= mate;
+    if (piece == Piece::p1) vertex.tail<2>() = -vertex.tail<2>();
+  }
+  return rounded_to_float(std::move(mesh));
+}
+
 class FeatureCutter {
  public:
-  FeatureCutter(const Mechanism& mechanism, const BodyPlan& plan, const std::vector<Mark>& marks)
-      : mechanism_(mechanism), plan_(plan), layout_(plan.layout), marks_(marks) {}
+  FeatureCutter(const Mechanism& mechanism, const BodyPlan& plan, const std::vector<Mark>& marks, Piece piece)
+      : mechanism_(mechanism),
+        plan_(plan),
+        layout_(plan.layout),
+        marks_(marks),
+        piece_(piece),
+        has_p1_(piece != Piece::p2),
+        has_p2_(piece != Piece::p1) {}
 
   // Null when the result is no solid: the next variant may do better.
   std::optional<Featured> cut(const TriangleMesh& body, double volume, int variant) const {
     Featured result{body, volume};
-    if (const TriangleMesh tool = placed(cuts(variant)); !tool.triangles.empty()) {
+    // What overlaps is cut one after the other.
+    for (const auto& tools : {cuts(variant), tail_slots(), clamp_pilots()}) {
+      const TriangleMesh tool = placed(tools);
+      if (tool.triangles.empty()) continue;
       const auto outcome = subtract(result.mesh, tool);
       if (!outcome) return std::nullopt;
       result = {outcome->mesh, result.volume - outcome->common_volume};
@@ -47,6 +71,7 @@ class FeatureCutter {
       if (!outcome) return std::nullopt;
       result = {outcome->mesh, result.volume + added - outcome->common_volume};
     }
+    result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
     if (!all_ok(check_mesh(result.mesh))) return std::nullopt;
     return result;
   }
@@ -61,21 +86,44 @@ class FeatureCutter {
 
   std::vector<TriangleMesh> cuts(int variant) const {
     std::vector<TriangleMesh> tools;
-    for (const PlannedAnchor& anchor : plan_.anchors) tools.push_back(anchor_tool(anchor, variant));
-    if (layout_.set_screw.present)
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (has(anchor)) tools.push_back(tie_off_tool(plan_, anchor, variant));
+    }
+    for (const Vec2& place : layout_.dowels.places)
+      tools.push_back(prism({polyhole(layout_.dowels.hole_diameter, place)}, -k_overshoot, layout_.dowels.z_end));
+    if (has_p2_ && layout_.set_screw.present)
       tools.push_back(set_screw_tool(layout_.set_screw, layout_.hub_radius, layout_.z_hub, variant));
     const double depth = layout_.mark_depth;
     for (const Mark& mark : marks_) {
-      if (!mark.on_top) tools.push_back(prism(mark.loops, -k_overshoot, depth));
-      if (mark.on_top && mechanism_.body.marks == Marks::engraved)
+      if (has_p1_ && !mark.on_top) tools.push_back(prism(mark.loops, -k_overshoot, depth));
+      if (has_p2_ && mark.on_top && mechanism_.body.marks == Marks::engraved)
         tools.push_back(prism(mark.loops, layout_.z_top - depth, layout_.z_top + k_overshoot));
+    }
+    return tools;
+  }
+
+  bool has(const PlannedAnchor& anchor) const { return anchor.side == Side::left ? has_p1_ : has_p2_; }
+
+  std::vector<TriangleMesh> tail_slots() const {
+    std::vector<TriangleMesh> tools;
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (anchor.tail && has(anchor)) tools.push_back(tail_slot_tool(layout_, anchor.side, *anchor.tail));
+    }
+    return tools;
+  }
+
+  std::vector<TriangleMesh> clamp_pilots() const {
+    std::vector<TriangleMesh> tools;
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (anchor.tail && anchor.tail->pilot_diameter > 0 && has(anchor))
+        tools.push_back(clamp_pilot_tool(layout_, anchor.side, *anchor.tail));
     }
     return tools;
   }
 
   std::vector<TriangleMesh> raised_marks() const {
     std::vector<TriangleMesh> raised;
-    if (mechanism_.body.marks != Marks::raised) return raised;
+    if (mechanism_.body.marks != Marks::raised || !has_p2_) return raised;
     for (const Mark& mark : marks_) {
       if (mark.on_top)
         raised.push_back(
@@ -84,49 +132,71 @@ class FeatureCutter {
     return raised;
   }
 
-  TriangleMesh anchor_tool(const PlannedAnchor& anchor, int variant) const {
-    AnchorPath path = anchor.path;
-    path.straight *= 1.0 - 0.003 * variant;
-    const double radius = layout_.pocket_radius;
-    const Keyhole shape = keyhole(path, layout_.channel_width, radius, pocket_facets(radius) + variant);
-    const double half = channel_half_height(variant);
-    if (anchor.side == Side::left) return keyhole_tool(shape, -k_overshoot, layout_.z_p1 - half, layout_.z_p1 + half);
-    return keyhole_tool(shape, layout_.z_hub + k_overshoot, layout_.z_p2 + half, layout_.z_p2 - half);
-  }
-
-  // The channel's floor and roof must not lie in the plane of a ring.
-  double channel_half_height(int variant) const {
-    double half = 0.5 * layout_.channel_width * (1.0 + 0.002 * variant);
-    const auto on_ring = [&half](const GroovePoint& point) { return std::abs(point.dz - half) < 0.01; };
-    while (std::any_of(layout_.groove.begin(), layout_.groove.end(), on_ring)) half += 0.013;
-    return half;
-  }
-
   const Mechanism& mechanism_;
   const BodyPlan& plan_;
   const BodyLayout& layout_;
   const std::vector<Mark>& marks_;
+  Piece piece_;
+  bool has_p1_, has_p2_;
 };
 
-// Every way through the body is a handle. The bore's holes, one tunnel for each tie-off, and for the set screw a branch
-// from the bore to the hub's side and, with a nut trap, another to its top.
-int handles(const RingStack& stack, const BodyPlan& plan) {
-  const int screw = plan.layout.set_screw.present ? (plan.layout.set_screw.nut_trap ? 2 : 1) : 0;
-  return static_cast<int>(stack.through.size() + plan.anchors.size()) + screw;
+// Every way through the body is a handle. The bore's holes, one tunnel for each tie-off, for the set screw a branch from
+// the bore to the hub's side and, with a nut trap, another to its top; and P1's pins, which end in P2.
+int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
+  const SetScrewLayout& screw = plan.layout.set_screw;
+  std::size_t count = stack.through.size();
+  for (const PlannedAnchor& anchor : plan.anchors) {
+    if (piece == Piece::whole || (anchor.side == Side::left) == (piece == Piece::p1)) ++count;
+  }
+  if (piece == Piece::p1) count += plan.layout.dowels.places.size();
+  if (piece != Piece::p1 && screw.present) count += screw.nut_trap ? 2 : 1;
+  return static_cast<int>(count);
 }
 
-std::vector<Anchor> anchors_of(const BodyPlan& plan) {
-  std::vector<Anchor> anchors;
-  for (const PlannedAnchor& planned : plan.anchors) {
-    const BodyLayout& layout = plan.layout;
-    const Keyhole shape =
-        keyhole(planned.path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius));
-    anchors.push_back({planned.side, planned.wound_end, planned.path.start, outline_of(shape), planned.path.pocket()});
+struct Made {
+  TriangleMesh mesh;
+  double volume = 0;
+  int euler = 0;
+};
+
+Made make_piece(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
+                const std::vector<Mark>& marks, Piece piece) {
+  const RingStack stack = scaled_to_float(
+      body_stack(synthesis.p1, synthesis.p2, mechanism.tendon.diameter, mechanism.body.flange, plan.layout, piece),
+      plan.layout.scale);
+  const TriangleMesh body = mesh_of(stack);
+  demand_solid(body, "body");
+  const FeatureCutter cutter(mechanism, plan, marks, piece);
+  std::optional<Featured> featured;
+  for (int variant = 0; variant < k_variants && !featured; ++variant)
+    featured = cutter.cut(body, volume_of(stack), variant);
+  demand(featured.has_value(), "the features cannot be cut into the body of " + mechanism.name);
+  return {std::move(featured->mesh), featured->volume, 2 - 2 * handles(stack, plan, piece)};
+}
+
+Anchor anchor_of(const PlannedAnchor& planned, const BodyLayout& layout) {
+  Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, planned.pocket(), {}, planned.tail};
+  if (const auto* path = std::get_if<AnchorPath>(&planned.way)) {
+    anchor.channel =
+        outline_of(keyhole(*path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
+  } else {
+    const auto& hole = std::get<FaceHole>(planned.way);
+    anchor.channel = hole_outline(hole, 0);
+    anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top};
   }
-  return anchors;
+  return anchor;
 }
 
 }  // namespace
+
+Polygon TailSlot::outline() const {
+  const Vec2 across = 0.5 * width * turned_left((to - from).normalized());
+  return {from - across, to - across, to + across, from + across};
+}
+
+double pocket_radius(const Anchor& anchor, const BodyLayout& layout) {
+  return anchor.seat ? anchor.seat->radius : layout.pocket_radius;
+}
 
 std::string Pulley::brief() const {
   if (made()) {
@@ -150,22 +220,27 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
   if (!plan.possible()) return pulley;
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   pulley.layout = plan.layout;
-  pulley.anchors = anchors_of(plan);
-  const RingStack stack = scaled_to_float(
-      body_stack(synthesis.p1, synthesis.p2, mechanism.tendon.diameter, mechanism.body.flange, plan.layout),
-      plan.layout.scale);
-  const TriangleMesh body = mesh_of(stack);
-  demand_solid(body, "body");
-  const FeatureCutter cutter(mechanism, plan, marks);
-  std::optional<Featured> featured;
-  for (int variant = 0; variant < k_variants && !featured; ++variant)
-    featured = cutter.cut(body, volume_of(stack), variant);
-  demand(featured.has_value(), "the features cannot be cut into the body of " + mechanism.name);
-  pulley.mesh = std::move(featured->mesh);
-  pulley.expected_volume = featured->volume;
-  pulley.expected_euler = 2 - 2 * handles(stack, plan);
+  for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan.layout));
+  Made whole = make_piece(mechanism, synthesis, plan, marks, Piece::whole);
+  pulley.mesh = std::move(whole.mesh);
+  pulley.expected_volume = whole.volume;
+  pulley.expected_euler = whole.euler;
+  if (plan.layout.parts == Parts::two) {
+    for (const auto& [side, piece] : {std::pair{Side::left, Piece::p1}, std::pair{Side::right, Piece::p2}}) {
+      Made part = make_piece(mechanism, synthesis, plan, marks, piece);
+      pulley.parts.push_back({side, std::move(part.mesh), part.volume, part.euler});
+    }
+  }
   pulley.status = PulleyStatus::made;
   return pulley;
+}
+
+TriangleMesh plate_of(const Pulley& pulley) {
+  if (pulley.parts.empty()) return pulley.mesh;
+  TriangleMesh plate = pulley.parts[0].mesh, other = pulley.parts[1].mesh;
+  const double shift = bounds(plate).high.x() + k_between_parts - bounds(other).low.x();
+  for (Vec3& vertex : other.vertices) vertex.x() += shift;
+  return together({plate, rounded_to_float(std::move(other))});
 }
 
 }  // namespace fusee

@@ -66,7 +66,7 @@ class StackMesher {
     std::uint32_t below = 0;
     for (std::size_t k = 0; k < stack_.rings.size(); ++k) {
       const std::uint32_t above = add_loop(stack_.rings[k].points, stack_.rings[k].z);
-      if (k > 0) join_rings(k, below, above);
+      if (k > 0) join_rings(stack_.rings[k - 1], stack_.rings[k], below, above);
       below = above;
     }
     add_holes(below);
@@ -80,12 +80,14 @@ class StackMesher {
     return first;
   }
 
-  void join_rings(std::size_t k, std::uint32_t below, std::uint32_t above) {
-    const Ring& a = stack_.rings[k - 1];
-    const Ring& b = stack_.rings[k];
+  enum class Facing { outward, inward };
+
+  void join_rings(const Ring& a, const Ring& b, std::uint32_t below, std::uint32_t above,
+                  Facing facing = Facing::outward) {
     const std::size_t n = a.points.size();
     demand(b.points.size() == n,
            "rings of " + std::to_string(n) + " and " + std::to_string(b.points.size()) + " points");
+    const std::size_t first = mesh_.triangles.size();
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
       const auto ai = below + static_cast<std::uint32_t>(i), aj = below + static_cast<std::uint32_t>(j);
@@ -98,6 +100,9 @@ class StackMesher {
         mesh_.triangles.push_back({aj, bj, bi});
       }
     }
+    if (facing == Facing::outward) return;
+    for (std::size_t k = first; k < mesh_.triangles.size(); ++k)
+      std::swap(mesh_.triangles[k][1], mesh_.triangles[k][2]);
   }
 
   // Walls of a hole face its inside.
@@ -130,18 +135,25 @@ class StackMesher {
     return {{&hub.outline}, {high}};
   }
 
+  // The recess' walls; what remains open is its ceiling.
+  FlatFace add_recess(FlatFace& bottom) {
+    std::uint32_t below = add_loop(stack_.recess.front().points, stack_.recess.front().z);
+    bottom.add(stack_.recess.front().points, below);
+    for (std::size_t k = 1; k < stack_.recess.size(); ++k) {
+      const Ring& ring = stack_.recess[k];
+      const std::uint32_t above = add_loop(ring.points, ring.z);
+      join_rings(stack_.recess[k - 1], ring, below, above, Facing::inward);
+      below = above;
+    }
+    return {{&stack_.recess.back().points}, {below}};
+  }
+
   // Every flat face with a hole in it: the top, the bottom, and the recess' ceiling.
   void add_holes(std::uint32_t top_ring) {
     FlatFace top = stack_.hub ? add_hub(*stack_.hub, top_ring) : FlatFace{{&stack_.rings.back().points}, {top_ring}};
     FlatFace bottom{{&stack_.rings.front().points}, {0}};
     FlatFace ceiling;
-    if (stack_.recess) {
-      const Shaft& recess = *stack_.recess;
-      const std::uint32_t mouth = add_loop(recess.outline, recess.low);
-      bottom.add(recess.outline, mouth);
-      ceiling.add(recess.outline, add_loop(recess.outline, recess.high));
-      join_shaft(mouth, ceiling.firsts.front(), recess.outline.size());
-    }
+    if (!stack_.recess.empty()) ceiling = add_recess(bottom);
     for (const Shaft& shaft : stack_.through) {
       const std::uint32_t low = add_loop(shaft.outline, shaft.low);
       const std::uint32_t high = add_loop(shaft.outline, shaft.high);
@@ -151,7 +163,7 @@ class StackMesher {
     }
     close(top, true);
     close(bottom, false);
-    if (stack_.recess) close(ceiling, false);
+    if (!stack_.recess.empty()) close(ceiling, false);
   }
 
   double bottom_height() const { return stack_.rings.front().z; }
@@ -193,6 +205,18 @@ Polygon middle_section(const Ring& a, const Ring& b) {
   return middle;
 }
 
+// Between consecutive rings. The section's area is a quadratic in z, so Simpson's rule has no error.
+double stacked_volume(const std::vector<Ring>& rings) {
+  double volume = 0;
+  for (std::size_t k = 1; k < rings.size(); ++k) {
+    const Ring& a = rings[k - 1];
+    const Ring& b = rings[k];
+    const double areas = signed_area(a.points) + 4.0 * signed_area(middle_section(a, b)) + signed_area(b.points);
+    volume += (b.z - a.z) * areas / 6.0;
+  }
+  return volume;
+}
+
 double prism_volume(const Shaft& shaft) { return signed_area(shaft.outline) * (shaft.high - shaft.low); }
 
 }  // namespace
@@ -203,12 +227,12 @@ RingStack scaled_to_float(RingStack stack, double scale) {
     z = nearest_float(scale * z);
   };
   for (Ring& ring : stack.rings) round(ring.points, ring.z);
+  for (Ring& ring : stack.recess) round(ring.points, ring.z);
   const auto round_shaft = [&](Shaft& shaft) {
     round(shaft.outline, shaft.low);
     shaft.high = nearest_float(scale * shaft.high);
   };
   for (Shaft& shaft : stack.through) round_shaft(shaft);
-  if (stack.recess) round_shaft(*stack.recess);
   if (stack.hub) round_shaft(*stack.hub);
   return stack;
 }
@@ -219,15 +243,8 @@ TriangleMesh mesh_of(const RingStack& stack) {
 }
 
 double volume_of(const RingStack& stack) {
-  double volume = 0;
-  for (std::size_t k = 1; k < stack.rings.size(); ++k) {
-    const Ring& a = stack.rings[k - 1];
-    const Ring& b = stack.rings[k];
-    const double areas = signed_area(a.points) + 4.0 * signed_area(middle_section(a, b)) + signed_area(b.points);
-    volume += (b.z - a.z) * areas / 6.0;
-  }
+  double volume = stacked_volume(stack.rings) - stacked_volume(stack.recess);
   for (const Shaft& shaft : stack.through) volume -= prism_volume(shaft);
-  if (stack.recess) volume -= prism_volume(*stack.recess);
   if (stack.hub) volume += prism_volume(*stack.hub);
   return volume;
 }

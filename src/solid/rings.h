@@ -29,7 +29,7 @@ struct Shaft {
 struct RingStack {
   std::vector<Ring> rings;
   std::optional<Shaft> hub;     ///< stands on the highest ring
-  std::optional<Shaft> recess;  ///< open at the bottom
+  std::vector<Ring> recess;     ///< from its mouth in the bottom face up to its ceiling, which is flat; empty: none
   std::vector<Shaft> through;   ///< up to the top of all, from the bottom or, within the recess, from its ceiling
 };
 

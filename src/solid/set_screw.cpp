@@ -5,16 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "fusee/base/units.h"
+
 namespace fusee {
 namespace {
 
-// Clearance: ISO 273 medium. Tapping: ISO 2306. Nuts: ISO 4032, width s and thickness m.
-constexpr std::array<Screw, 6> k_screws{{{"M2", 2.4, 1.6, 4.0, 1.6},
-                                         {"M2.5", 2.9, 2.05, 5.0, 2.0},
-                                         {"M3", 3.4, 2.5, 5.5, 2.4},
-                                         {"M4", 4.5, 3.3, 7.0, 3.2},
-                                         {"M5", 5.5, 4.2, 8.0, 4.7},
-                                         {"M6", 6.6, 5.0, 10.0, 5.2}}};
+// Clearance: ISO 273 medium. Tapping: ISO 2306. Nuts: ISO 4032, width s and thickness m. Heads: ISO 7045, dk.
+constexpr std::array<Screw, 6> k_screws{{{"M2", 2, 2.4, 1.6, 4.0, 1.6, 4.0},
+                                         {"M2.5", 2.5, 2.9, 2.05, 5.0, 2.0, 5.0},
+                                         {"M3", 3, 3.4, 2.5, 5.5, 2.4, 5.6},
+                                         {"M4", 4, 4.5, 3.3, 7.0, 3.2, 8.0},
+                                         {"M5", 5, 5.5, 4.2, 8.0, 4.7, 9.5},
+                                         {"M6", 6, 6.6, 5.0, 10.0, 5.2, 12.0}}};
 
 // Between the nut's slot and the axis of a wall that carries the screw's thrust.
 double nut_wall(double wall) { return std::max(wall, 1.5); }
@@ -28,7 +30,7 @@ const Screw* find_screw(const std::string& name) {
 }
 
 double nut_corner(const SetScrewLayout& screw) { return screw.nut_width / std::numbers::sqrt3; }
-double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter * std::numbers::sqrt2; }
+double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter / std::cos(screw.roof_slope); }
 
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout) {
@@ -37,6 +39,7 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
   result.nut_trap = nut_trap;
   result.hole_diameter = (nut_trap ? screw.clearance : screw.tapping) + compensation;
   result.angle = 0.5 * k_pi;
+  result.roof_slope = layout.roof_slope > 0 ? layout.roof_slope : radians(45);
   const double middle = 0.5 * (layout.z_top + layout.z_hub);
   result.z = middle;
   if (nut_trap) {

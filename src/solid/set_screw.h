@@ -11,10 +11,12 @@ namespace fusee {
 /// Sizes of one thread.
 struct Screw {
   const char* name;
+  double nominal;    ///< diameter
   double clearance;  ///< hole that the screw passes
   double tapping;    ///< hole that the screw's thread is cut into
   double nut_width;  ///< across flats
   double nut_thickness;
+  double head;       ///< diameter of a pan head
 };
 
 /// "M2" … "M6"; null for any other name.
@@ -33,7 +35,7 @@ double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, do
 
 /// From the nut's middle (the screw's axis) to the corner that points down.
 double nut_corner(const SetScrewLayout& screw);
-/// A horizontal hole's roof rises to a corner, 45° on both sides, so that it prints without support.
+/// A horizontal hole's roof rises to a corner, at roof_slope on both sides, so that it prints without support.
 double teardrop_top(const SetScrewLayout& screw);
 
 }  // namespace fusee

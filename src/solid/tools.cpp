@@ -76,21 +76,18 @@ class Levels {
   TriangleMesh mesh_;
 };
 
-void turn_inside_out(TriangleMesh& mesh) {
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-}
-
-// Round below, a 45° roof above; x across, y up, about the hole's axis. The roof's corner stands where the tangents at
-// both ends meet.
-Polygon teardrop(double radius, int facets) {
+// Round below, a roof above; x across, y up, about the hole's axis. The roof's corner stands where the tangents at both
+// ends meet.
+Polygon teardrop(double radius, double roof_slope, int facets) {
   Polygon points;
-  for (int k = 0; k <= facets; ++k) points.push_back(radius * unit(0.75 * k_pi + 1.5 * k_pi * k / facets));
-  points.push_back(radius * std::sqrt(2.0) * unit(0.5 * k_pi));
+  const double round = k_two_pi - 2.0 * roof_slope;
+  for (int k = 0; k <= facets; ++k) points.push_back(radius * unit(0.5 * k_pi + roof_slope + round * k / facets));
+  points.push_back(radius / std::cos(roof_slope) * unit(0.5 * k_pi));
   return points;
 }
 
 TriangleMesh screw_hole(const SetScrewLayout& screw, double reach, int facets) {
-  TriangleMesh hole = prism({teardrop(0.5 * screw.hole_diameter, facets)}, 0.0, reach);
+  TriangleMesh hole = prism({teardrop(0.5 * screw.hole_diameter, screw.roof_slope, facets)}, 0.0, reach);
   // (across, up, out) is right-handed like the prism's (x, y, z).
   const Vec2 out = unit(screw.angle), across = turned_left(out);
   for (Vec3& v : hole.vertices) {
@@ -130,17 +127,28 @@ TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high) {
   return levels.mesh();
 }
 
-TriangleMesh keyhole_tool(const Keyhole& keyhole, double open, double near, double far) {
-  const bool upside_down = open > near;
-  demand(upside_down ? near > far : near < far, "a keyhole whose pocket opens on the wrong side");
-  Levels levels(keyhole.points);
-  levels.face({keyhole.pocket}, open, false);
-  levels.wall(keyhole.pocket, open, near);
-  levels.face({keyhole.channel}, near, false);
-  levels.wall(keyhole.outline, near, far);
-  levels.face({keyhole.outline}, far, true);
-  TriangleMesh mesh = levels.mesh();
-  if (upside_down) turn_inside_out(mesh);
+void turn_inside_out(TriangleMesh& mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections) {
+  TriangleMesh mesh;
+  const auto corners = static_cast<std::uint32_t>(sections.front().size());
+  for (const std::vector<Vec3>& section : sections)
+    mesh.vertices.insert(mesh.vertices.end(), section.begin(), section.end());
+  const auto last = static_cast<std::uint32_t>(sections.size() - 1) * corners;
+  for (std::uint32_t c = 1; c + 1 < corners; ++c) {
+    mesh.triangles.push_back({0, c + 1, c});
+    mesh.triangles.push_back({last, last + c, last + c + 1});
+  }
+  for (std::uint32_t k = 0; k < last; k += corners) {
+    for (std::uint32_t c = 0; c < corners; ++c) {
+      const std::uint32_t a = k + c, b = k + (c + 1) % corners;
+      mesh.triangles.push_back({a, b, b + corners});
+      mesh.triangles.push_back({a, b + corners, a + corners});
+    }
+  }
+  if (enclosed_volume(mesh) < 0) turn_inside_out(mesh);
   return mesh;
 }
 

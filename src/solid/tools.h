@@ -6,16 +6,15 @@
 
 #include "fusee/solid/layout.h"
 #include "fusee/solid/mesh.h"
-#include "solid/anchors.h"
 
 namespace fusee {
 
 /// loops[0] without the others, from `low` to `high`.
 TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high);
 
-/// A keyhole between `far` and `near`, its pocket open to `open` (below both, or above both; `near` lies between the
-/// others).
-TriangleMesh keyhole_tool(const Keyhole& keyhole, double open, double near, double far);
+/// The body between convex outlines of equally many corners, one over the other.
+TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections);
+void turn_inside_out(TriangleMesh& mesh);
 
 /// The set screw's hole from the axis through the hub, with the slot its nut is slid into. Another `variant` has other
 /// facets.

@@ -92,7 +92,7 @@ TEST(Analysis, SaysWhereTheTendonBreaks) {
   mechanism.tendon.strength = 150.0;
   const AnalysisResult result = analyse(mechanism, quick());
   ASSERT_TRUE(result.breaks_at.has_value());
-  EXPECT_EQ(*result.breaks_at, result.largest_tension.alpha);
+  EXPECT_EQ(*result.breaks_at, result.largest_at_joint.alpha);
   mechanism.tendon.strength = 1500.0;
   EXPECT_FALSE(analyse(mechanism, quick()).breaks_at.has_value());
 }

@@ -2,19 +2,60 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
+
+#include "fusee/base/files.h"
+#include "fusee/mechanism/fields.h"
+#include "mechanism/horn_faults.h"
+
 namespace fusee {
 namespace {
 
-TEST(Catalogue, HornsCanBeScrewedOn) {
+using testing::Contains;
+using testing::IsEmpty;
+
+TEST(Catalogue, HornsAreWhatAFileCouldSay) {
   ASSERT_FALSE(horns().empty());
-  for (const Horn& horn : horns()) {
-    EXPECT_GE(horn.hole_count, 2) << horn.name;
-    // The screws stand clear of the hole in the middle.
-    EXPECT_GT(horn.hole_circle - horn.hole_diameter, horn.centre_hole) << horn.name;
-    EXPECT_GE(horn.recess_depth, 0) << horn.name;
-    EXPECT_EQ(find_horn(horn.name), &horn);
+  for (const HornType& type : horns()) {
+    EXPECT_THAT(faults_of(type.horn), IsEmpty()) << type.name;
+    EXPECT_EQ(find_horn(type.name), &type);
+    Mechanism mechanism;
+    mechanism.horn = type.horn;
+    for (const Field& field : fields()) {
+      if (field.table != "horn") continue;
+      EXPECT_GE(number_of(mechanism, field), field.least) << type.name << " " << field.key;
+      EXPECT_LE(number_of(mechanism, field), field.most) << type.name << " " << field.key;
+    }
   }
-  EXPECT_EQ(find_horn("none such"), nullptr);
+  EXPECT_EQ(find_horn(k_own_horn), nullptr);
+}
+
+// A misspelt key of an optional number would be 0 without a word.
+TEST(Catalogue, EveryKeyOfAHornOrShaftIsKnown) {
+  const auto lines = [](const char* file) {
+    std::istringstream text(read_file(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/catalogue" / file, 1 << 20));
+    std::vector<std::string> keys;
+    for (std::string line; std::getline(text, line);) {
+      if (const std::size_t equals = line.find(" = "); equals != std::string::npos && line[0] != '#')
+        keys.push_back(line.substr(0, equals));
+    }
+    return keys;
+  };
+  const std::vector<std::string> words{"name", "description", "source"};
+  for (const std::string& key : lines("horns.toml"))
+    EXPECT_TRUE(find_field("horn." + key) != nullptr || testing::Value(words, Contains(key))) << key;
+  for (const std::string& key : lines("shafts.toml"))
+    EXPECT_TRUE(key == "diameter_mm" || key == "flat_mm" || testing::Value(words, Contains(key))) << key;
+}
+
+TEST(Catalogue, ShaftsAreRoundOrFlattened) {
+  ASSERT_FALSE(shafts().empty());
+  for (const ShaftType& type : shafts()) {
+    EXPECT_EQ(find_shaft(type.name), &type);
+    EXPECT_EQ(type.bore == Bore::d, type.flat > 0.5 * type.diameter) << type.name;
+    EXPECT_LT(type.flat, type.diameter) << type.name;
+  }
+  EXPECT_EQ(find_shaft("none"), nullptr);
 }
 
 TEST(Catalogue, TendonsArePhysical) {

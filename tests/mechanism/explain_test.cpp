@@ -5,6 +5,7 @@
 
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/mechanism/file.h"
 
@@ -41,7 +42,17 @@ TEST(Explain, NothingListsEverything) {
 }
 
 TEST(Explain, TheCatalogueIsShownWhereItHelps) {
-  EXPECT_THAT(explain("body.horn"), HasSubstr("lynxmotion-ses"));
+  for (const HornType& type : horns()) {
+    EXPECT_THAT(explain("body.horn"), HasSubstr("    " + type.name + ": " + type.description + "; "));
+    EXPECT_THAT(explain("body.horn"), HasSubstr(". " + type.source + "\n"));
+  }
+  EXPECT_THAT(explain("body.horn"), HasSubstr("8 holes of 2.2 mm on 16 mm, a boss of 8 mm, 1.9 mm high"));
+  EXPECT_THAT(explain("body.horn"), HasSubstr("25 teeth, 5.92 mm over them, 0.3 mm deep"));
+  for (const ShaftType& type : shafts()) {
+    EXPECT_THAT(explain("body.shaft"), HasSubstr("    " + type.name + ": " + type.description + "; "));
+    EXPECT_THAT(explain("body.shaft"), HasSubstr(". " + type.source + "\n"));
+  }
+  EXPECT_THAT(explain("body.shaft"), HasSubstr("3 mm, 2.5 mm over the flat"));
   EXPECT_THAT(explain("tendon.modulus_MPa"), HasSubstr("steel-7x19-2.4"));
   EXPECT_THAT(explain("material.name"), HasSubstr("PETG"));
 }
@@ -58,7 +69,9 @@ TEST(Explain, AMisspeltKeyNamesTheNearest) {
 TEST(Explain, JsonHoldsEveryField) {
   const nlohmann::json json = nlohmann::json::parse(explain_json(""));
   EXPECT_EQ(json["fields"].size(), fields().size());
-  EXPECT_FALSE(json["catalogue"]["horns"].empty());
+  EXPECT_EQ(json["catalogue"]["horns"].size(), horns().size());
+  EXPECT_EQ(json["catalogue"]["horns"][0]["bolt_circle_mm"], 16.66);
+  EXPECT_EQ(json["catalogue"]["shafts"].size(), shafts().size());
   EXPECT_EQ(nlohmann::json::parse(explain_json("EF_mm"))["fields"][0]["unit"], "mm");
 }
 

@@ -36,8 +36,9 @@ TEST(Fields, EachRowReachesAMemberOfItsOwn) {
     for (int end = 0; end < (field.kind == FieldKind::range ? 2 : 1); ++end) {
       DeclaredMechanism mechanism = start;
       if (field.set != nullptr) {
-        field.set(mechanism, end, 0.25 * field.least + 0.75 * field.most - 0.125);
-        EXPECT_NEAR(field.get(mechanism, end), 0.25 * field.least + 0.75 * field.most - 0.125, 1e-9) << field.name();
+        const double fraction = field.whole ? 0.0 : 0.125, value = 0.25 * field.least + 0.75 * field.most - fraction;
+        field.set(mechanism, end, value);
+        EXPECT_NEAR(field.get(mechanism, end), value, 1e-9) << field.name();
       } else if (field.kind == FieldKind::numbers) {
         field.numbers(mechanism).push_back(1.5);
       } else if (field.kind == FieldKind::texts) {

@@ -161,7 +161,7 @@ TEST(Reader, WarnsOfKeysWithoutUse) {
 
 TEST(Reader, BoreAndHorn) {
   EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\n"),
-              HasSubstr("missing key body.horn (needed with bore = \"horn\")"));
+              HasSubstr("16:8 body.bore = \"horn\" does not say which horn"));
   EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion\"\n"),
               HasSubstr("17:8 body.horn = \"lynxmotion\" is not known | did you mean \"lynxmotion-ses\"?"));
   EXPECT_THAT(errors_of(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion-ses\"\n"), IsEmpty());

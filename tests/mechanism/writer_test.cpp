@@ -67,6 +67,8 @@ DeclaredMechanism random_mechanism() {
   }
   if (mechanism.pulley.law == Law::table) mechanism.pulley.law = Law::linear;
   mechanism.body.horn = "lynxmotion-ses";
+  mechanism.horn = {};
+  mechanism.body.shaft = "none";
   if (mechanism.body.bore == Bore::d) mechanism.body.bore_flat = 0;
   return mechanism;
 }
@@ -78,6 +80,17 @@ TEST(Writer, WhatIsWrittenReadsBackExactly) {
     RC_ASSERT(parse_mechanism(write_mechanism(mechanism), "written") == mechanism);
   });
   EXPECT_TRUE(holds);
+}
+
+TEST(Writer, AHornOfOnesOwnAndAShaftReadBack) {
+  for (const char* body : {"bore = \"horn\"\n[horn]\nbolt_circle_mm = 16\nbolt_count = 8\nbolt_hole_mm = 2.2\n"
+                           "first_bolt_deg = 22.5\ncentre_hole_mm = 5\nboss_diameter_mm = 8\nboss_height_mm = 1.9\n",
+                           "bore = \"horn\"\n[horn]\nspline_teeth = 25\nspline_diameter_mm = 5.92\n"
+                           "spline_depth_mm = 0.3\nspline_length_mm = 4\ncentre_hole_mm = 3.2\n",
+                           "shaft = \"n20-d3\"\n"}) {
+    const DeclaredMechanism mechanism = parse_mechanism(k_good_file + "[body]\n" + body, "f.toml");
+    EXPECT_TRUE(parse_mechanism(write_mechanism(mechanism), "written") == mechanism) << body;
+  }
 }
 
 TEST(Writer, ATableIsWrittenByItsName) {

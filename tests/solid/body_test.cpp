@@ -25,7 +25,7 @@ double frustum(int n, double a, double b, double height) {
 
 BodyLayout layout_of(const Mechanism& mechanism, double hub_radius = 0) {
   BodyLayout layout = axial_layout(mechanism);
-  layout.bore = bore_layout(mechanism.body, 5, mechanism.material.hole_compensation);
+  layout.bore = bore_layout(mechanism, 5);
   layout.hub_radius = hub_radius;
   if (hub_radius > 0) layout.z_hub = layout.z_top + 8;
   return layout;
@@ -122,11 +122,11 @@ TEST(Groove, ShallowSeatEndsAtTheLip) {
 }
 
 TEST(Bore, EveryShapePassesItsShaft) {
-  Body body = plain_mechanism().body;
+  Mechanism mechanism = plain_mechanism();
   for (const Bore kind : {Bore::round, Bore::d, Bore::hex, Bore::square, Bore::keyway}) {
-    body.bore = kind;
+    mechanism.body.bore = kind;
     for (const double diameter : {2.0, 6.0, 25.0}) {
-      const BoreLayout bore = bore_layout(body, diameter, 0.2);
+      const BoreLayout bore = bore_layout(mechanism, diameter);
       EXPECT_GT(signed_area(bore.outline), 0);
       const double least = kind == Bore::d ? 0.4 * diameter + 0.1 - 0.011 : 0.5 * diameter + 0.1 - 0.011;
       EXPECT_GE(inradius(bore.outline), (kind == Bore::keyway ? -1e9 : least))
@@ -137,10 +137,11 @@ TEST(Bore, EveryShapePassesItsShaft) {
 }
 
 TEST(Bore, KeywayOfDin6885) {
-  Body body = plain_mechanism().body;
-  body.bore = Bore::keyway;
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.bore = Bore::keyway;
+  mechanism.material.hole_compensation = 0;
   // 20 mm shaft: key 6 mm wide, 2.8 mm into the hub.
-  const BoreLayout bore = bore_layout(body, 20, 0);
+  const BoreLayout bore = bore_layout(mechanism, 20);
   const Vec2& corner = bore.outline[bore.outline.size() - 2];
   EXPECT_NEAR(corner.x(), 3.0, 1e-12);
   EXPECT_NEAR(corner.y(), 12.8, 1e-12);

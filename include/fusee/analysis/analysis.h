@@ -71,7 +71,8 @@ struct ToleranceEffect {
 
 /// What a tendon bears, where it is known.
 struct Strength {
-  double tension = 0;  ///< N
+  double tension = 0;  ///< without a knot, N
+  double at_knot = 0;  ///< N
   std::string source;  ///< "tendon.strength_N", or the tendon of the catalogue
 };
 
@@ -83,6 +84,7 @@ struct AnalysisResult {
 
   std::vector<AnalysisRow> rows;
   TensionExtreme largest_tension;    ///< full model
+  Extreme largest_at_joint;          ///< of both tendons above their pins, full model: what a knot at C bears, N
   Extreme largest_paper_tension;     ///< T_b
   Extreme largest_torque;            ///< of the motor, |.|, full model, N·mm
   Extreme hysteresis;                ///< largest |θ rising − θ falling| at one α, rad
@@ -93,7 +95,8 @@ struct AnalysisResult {
   std::optional<double> taut_pretension;
   std::optional<double> lost_at;     ///< α of the first row without equilibrium
   std::optional<Strength> strength;
-  std::optional<double> breaks_at;   ///< α of the row at which the largest tension passes the strength
+  /// α of the row at which the largest tension passes the strength, that above the pins the strength at a knot.
+  std::optional<double> breaks_at;
   std::vector<ErrorSource> sources;
   std::vector<ToleranceEffect> tolerances;  ///< by key; "all" last
   std::vector<Diagnostic> warnings;         ///< by the verb: what plausibility.h doubts in the file
@@ -105,14 +108,18 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
 /// Both roads for every dimension of the mechanism.
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options);
-/// The largest tension of the full model on the way up and down through `alphas` (increasing, both ends of the range
-/// among them).
-TensionExtreme largest_tension(const Mechanism& mechanism, const std::vector<double>& alphas);
+/// What the tendons bear at most.
+struct LargestTensions {
+  TensionExtreme anywhere;
+  Extreme at_joint;  ///< of both tendons above their pins: at the knots at C, N
+};
+/// Of the full model on the way up and down through `alphas` (increasing, both ends of the range among them).
+LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<double>& alphas);
 /// The declared strength, or that of the catalogue's tendon with this diameter and modulus.
 std::optional<Strength> tendon_strength(const Tendon& tendon);
 /// The same, or else an estimate that says so: the nearest tendon of the catalogue, by its section.
 std::optional<Strength> likely_strength(const Tendon& tendon);
-/// What to say of a tendon under more than it bears. An error, of no place.
-Diagnostic tendon_breaks(const TensionExtreme& largest, const Strength& strength);
+/// What to say of a tendon that breaks, at its knot at C or elsewhere: an error, of no place. Nothing where it holds.
+std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const Strength& strength);
 
 }  // namespace fusee

@@ -7,10 +7,13 @@
 #include <string_view>
 
 #include "fusee/solid/mesh.h"
+#include "fusee/transmission/tendon_path.h"
 
 namespace fusee {
 
 std::string stl_bytes(const TriangleMesh& mesh, const std::string& name);  ///< binary, true normals, "mm" in the header
+/// "pulley_p1.stl": of P1 or P2 where they are printed apart.
+std::string part_file_name(Side side);
 std::string obj_text(const TriangleMesh& mesh, const std::string& name);
 std::string threemf_bytes(const TriangleMesh& mesh, const std::string& name);  ///< unit, named object, metadata
 /// Quantised so that no vertex moves by more than `tolerance` (mm).

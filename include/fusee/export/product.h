@@ -9,6 +9,7 @@
 #include "fusee/mechanism/file.h"
 #include "fusee/profile/rewind.h"
 #include "fusee/profile/synthesis.h"
+#include "fusee/solid/holding.h"
 #include "fusee/solid/pulley.h"
 
 namespace fusee {
@@ -19,6 +20,7 @@ struct Product {
   JointAsItIs joint;   ///< what was made, and what for
   SynthesisResult synthesis;
   Pulley pulley;
+  Holding holding;  ///< of its tendons
   RewindResult as_built;
   std::vector<Check> checks;
 };

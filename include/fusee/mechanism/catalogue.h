@@ -3,21 +3,28 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "fusee/mechanism/mechanism.h"
 
 namespace fusee {
 
-/// A servo horn that the pulley is screwed onto. mm.
-struct Horn {
+struct HornType {
   std::string name;
   std::string description;
   std::string source;
-  double hub_diameter = 0;     ///< of the horn's round hub, which sinks into the recess
-  double recess_depth = 0;     ///< how far the hub stands above the face that the pulley lies on; 0: the horn is flat
-  double centre_hole = 0;      ///< for the screw that holds the horn on the servo, and its head
-  int hole_count = 0;          ///< screw holes, evenly spaced on hole_circle, the first on +x
-  double hole_circle = 0;      ///< diameter of the circle through the holes' centres
-  double hole_diameter = 0;    ///< clearance of the screws
+  Horn horn;
+};
+
+/// A motor's shaft.
+struct ShaftType {
+  std::string name;
+  std::string description;
+  std::string source;
+  Bore bore = Bore::round;
+  double diameter = 0;  ///< mm
+  double flat = 0;      ///< d: from the flat to the far side, mm
 };
 
 struct TendonType {
@@ -39,11 +46,18 @@ struct MaterialType {
   double shrinkage_most = 0;
 };
 
-const std::vector<Horn>& horns();
+const std::vector<HornType>& horns();
+const std::vector<ShaftType>& shafts();
 const std::vector<TendonType>& tendon_types();
 const std::vector<MaterialType>& material_types();
 
 /// By name, or null.
-const Horn* find_horn(const std::string& name);
+const HornType* find_horn(std::string_view name);
+const ShaftType* find_shaft(std::string_view name);
+
+/// The body.horn that stands for Mechanism::horn.
+inline constexpr std::string_view k_own_horn = "own";
+/// The horn that the pulley is made for, where body.bore = "horn". InputError for a name that is not known.
+const Horn& horn_of(const Mechanism& mechanism);
 
 }  // namespace fusee

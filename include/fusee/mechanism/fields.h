@@ -24,14 +24,15 @@ struct Field {
   std::string_view unit;  ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
   /// Must be written. Where [transmission] stands in place of the mechanism, only its own keys must.
   bool required = false;
-  /// "pulley.law=compensate": the key is used only then (a warning otherwise), and must be written then if it has no
-  /// default.
+  /// "pulley.law=compensate": the key is used only then, and where pulley.law itself is (a warning otherwise), and must
+  /// be written then if it has no default.
   std::string_view only_when;
   /// Default as it would be written in the file ("0.12", "\"u\"", "true"); "" when there is none.
   std::string_view fallback;
   /// Inclusive bounds in the file's unit for numbers and both ends of ranges.
   double least = 0;
   double most = 0;
+  bool whole = false;                     ///< a number without a fraction
   std::vector<std::string_view> choices;  ///< of a choice
   std::string_view meaning;               ///< one line
 

@@ -58,6 +58,7 @@ struct PulleyDrive {
   std::string table;         ///< the CSV of law = table, as written in the file
   std::vector<LawRow> rows;  ///< its contents, by increasing α
   Method method = Method::exact;
+  double mu = 0;             ///< friction between tendon and groove, effective
 
   bool operator==(const PulleyDrive&) const = default;
 };
@@ -67,7 +68,8 @@ struct Tendon {
   double modulus = 0;     ///< Young's modulus, MPa
   double pretension = 0;  ///< of tendon 1 at home, N
   double bend_ratio = 0;  ///< smallest D/d before a warning
-  double strength = 0;    ///< the tension at which it breaks, N; 0: not known
+  double strength = 0;    ///< the tension at which it breaks without a knot, N; 0: not known
+  double knot_efficiency = 1;  ///< share of it that is left at a knot
 
   bool operator==(const Tendon&) const = default;
 };
@@ -94,6 +96,7 @@ enum class Groove { u, v, flat };
 enum class Flange { follow, round };
 enum class Bore { round, d, hex, square, keyway, horn };
 enum class Marks { engraved, raised, none };
+enum class Tail { slot, none };
 
 /// The printed body. 0 stands for "automatic" where the field table says so; solid/layout.h resolves it.
 struct Body {
@@ -108,16 +111,37 @@ struct Body {
   Bore bore = Bore::round;
   double bore_diameter = 0;  ///< shaft diameter, across flats for hex and square; 0: 5, or what there is room for
   double bore_flat = 0;      ///< D bore: from the flat to the far side; 0: 0.9 × the diameter
-  std::string horn;          ///< bore = horn: a name of catalogue.h
+  std::string horn = "own";    ///< bore = horn: a name of catalogue.h; own: Mechanism::horn
+  std::string shaft = "none";  ///< a name of catalogue.h; the reader gave bore, bore_diameter and bore_flat its numbers
   std::string set_screw;     ///< "auto" (M3 where the hub has room for it, else none), "none", "M2" … "M6"
   bool nut_trap = false;
   double anchor_hole = 0;       ///< width of the tie-off channel; 0: d + 0.3 mm, at least 0.6 mm
   double knot_pocket = 0;       ///< diameter; 0: 3.5 d, or what there is room for
+  double wrap = 0;              ///< least wrap between the active arc and a tie-off, rad; 0: as much as there is room for
+  Tail tail = Tail::slot;       ///< where the end of a tendon lies beyond its knot
+  std::string clamp_screw;      ///< over the tail: "none", "M2" … "M3"
   Marks marks = Marks::engraved;
   double mark_depth = 0;
   double min_wall = 0;          ///< 0: 1.2 mm, thinner on small pulleys
 
   bool operator==(const Body&) const = default;
+};
+
+/// A servo's horn that the pulley is screwed onto, or (with `spline_teeth`) the servo's toothed output shaft itself.
+struct Horn {
+  double bolt_circle = 0;      ///< diameter of the circle through the screws' centres
+  int bolt_count = 0;          ///< screws, evenly on that circle
+  double bolt_hole = 0;        ///< diameter of the holes that they pass through
+  double first_bolt = 0;       ///< direction of the first, from +x, rad
+  double centre_hole = 0;      ///< for the screw that holds the horn on the servo, its head and its driver
+  double boss_diameter = 0;    ///< of what stands above the horn's face and sinks into the pulley
+  double boss_height = 0;      ///< how far it stands above that face; 0: the horn is flat
+  int spline_teeth = 0;        ///< of the output shaft
+  double spline_diameter = 0;  ///< over the teeth
+  double spline_depth = 0;     ///< of a tooth
+  double spline_length = 0;    ///< how far the shaft reaches into the pulley; 0: its teeth go through
+
+  bool operator==(const Horn&) const = default;
 };
 
 struct Material {
@@ -127,6 +151,17 @@ struct Material {
   double elephant_foot = 0;      ///< chamfer at the bed, at most; a thin lip gets a smaller one, mm
 
   bool operator==(const Material&) const = default;
+};
+
+enum class Parts { automatic, one, two };
+
+/// How the part is printed.
+struct Print {
+  Parts parts = Parts::automatic;  ///< one: P1 and P2 in one piece; two: each for itself, pinned together
+  double overhang = 0;             ///< the flattest slope above the horizontal that a face looking down may have, rad
+  bool supports = false;           ///< true: the printer makes supports, nothing is shaped to need none
+
+  bool operator==(const Print&) const = default;
 };
 
 /// Cutting the part as a stack of plates.
@@ -177,7 +212,9 @@ struct Mechanism {
   Tendon tendon;
   Load load;
   Body body;
+  Horn horn;  ///< of [horn], one's own; horn_of() (catalogue.h) says which one is mounted
   Material material;
+  Print print;
   Cut cut;
   std::optional<RatioTransmission> transmission;  ///< set: joint, guides and pulley are not declared
 

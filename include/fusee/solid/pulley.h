@@ -2,6 +2,7 @@
 /// Two pitch curves → one compound body, as a mesh.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,50 @@
 
 namespace fusee {
 
-/// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket.
+/// Where a knot lies that is drawn against the outer face of its pulley.
+struct FaceSeat {
+  double radius = 0;  ///< of the countersink at the face, mm
+  double depth = 0;   ///< over which it narrows to the hole
+  double z = 0;       ///< of the face
+};
+
+/// A straight slot in the face, from the knot's pocket outwards: the tail lies flush in it, under a screw's head at its end
+/// where one is asked for. mm
+struct TailSlot {
+  Vec2 from;
+  Vec2 to;
+  double width = 0;
+  double depth = 0;
+  double pilot_diameter = 0;  ///< of the hole that the screw's thread is cut into, at `to`; 0: no screw
+  double pilot_depth = 0;     ///< below the face
+  double head_diameter = 0;
+
+  Polygon outline() const;
+  double head_or_width() const { return head_diameter > width ? head_diameter : width; }
+};
+
+/// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket, or
+/// through a hole along the axis to the outer face.
 struct Anchor {
   Side side = Side::left;
   bool wound_end = true;       ///< the end that carries load; false: the spare one at the other end of the arc
   Vec2 exit;                   ///< where the channel's centre line leaves the floor, mm
-  Polygon channel;             ///< outline of the channel in the groove's plane, ccw
-  Vec2 pocket;                 ///< centre of the knot pocket
+  Polygon channel;             ///< outline of the channel, or of the hole, in the groove's plane, ccw
+  Vec2 pocket;                 ///< centre of the knot pocket, or of the countersink
+  std::optional<FaceSeat> seat;  ///< of a tie-off through the face
+  std::optional<TailSlot> tail;
+};
+
+/// Of the knot pocket, or of the countersink, mm.
+double pocket_radius(const Anchor& anchor, const BodyLayout& layout);
+
+/// P1 or P2 where they are printed apart: as it lies on the printer, the face that meets the other at z = 0, the axis at
+/// the origin.
+struct PrintedPart {
+  Side side = Side::left;
+  TriangleMesh mesh;           ///< coordinates are floats already
+  double expected_volume = 0;  ///< mm³
+  int expected_euler = 0;
 };
 
 enum class PulleyStatus { made, impossible };
@@ -24,7 +62,8 @@ enum class PulleyStatus { made, impossible };
 struct Pulley {
   PulleyStatus status = PulleyStatus::impossible;
   BodyLayout layout;
-  TriangleMesh mesh;                  ///< coordinates are floats already
+  TriangleMesh mesh;                  ///< the whole; coordinates are floats already
+  std::vector<PrintedPart> parts;     ///< P1 and P2 of a pulley in two parts; empty: the whole is printed as it stands
   std::vector<Anchor> anchors;
   std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too
   std::vector<Change> advice;         ///< body_advice() of an impossible one, when somebody asked for it
@@ -34,6 +73,9 @@ struct Pulley {
   bool made() const { return status == PulleyStatus::made; }
   std::string brief() const;
 };
+
+/// What goes to the printer: the whole as it stands, or P1 and P2 side by side.
+TriangleMesh plate_of(const Pulley& pulley);
 
 Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis);
 
@@ -46,5 +88,7 @@ std::vector<Change> body_advice(const Mechanism& mechanism);
 /// from the analytic surface within `tolerance`, smallest wall, groove depth and width.
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
                                 const Pulley& pulley, double tolerance);
+/// The same of one part of two: check_mesh, Euler number and volume.
+std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPart& part);
 
 }  // namespace fusee

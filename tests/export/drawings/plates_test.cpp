@@ -102,6 +102,36 @@ TEST(Plates, NoRoomForDowelsIsSaid) {
   EXPECT_THAT(plates.notes, Contains(HasSubstr("no room for two of 6 mm")));
 }
 
+// A recess cannot be cut to a depth: it goes through, and what stood above it is gone.
+TEST(Plates, AHornsRecessTakesItsCentreHoleWithIt) {
+  Product product = product_of(testing::circle(22), testing::circle(22));
+  Mechanism& mechanism = product.joint.mechanism;
+  mechanism.body.bore = Bore::horn;
+  mechanism.body.horn = "dynamixel-xl430";
+  const Plates plates = make_plates(product);
+  EXPECT_THAT(plates.notes, Contains(HasSubstr("the horn's recess goes through all plates; it would be 2.1 mm deep")));
+  for (const PlateLayer& layer : plates.layers) {
+    EXPECT_EQ(layer.holes.size(), 1 + 8 + plates.dowels.size()) << layer.name;
+    EXPECT_NEAR(circumradius(layer.holes[0]), 4.0, 1e-3) << "the boss";
+    for (std::size_t i = 0; i < layer.holes.size(); ++i) {
+      for (std::size_t j = 0; j < layer.holes.size(); ++j)
+        EXPECT_TRUE(i == j || !contains(layer.holes[i], layer.holes[j][0])) << layer.name << i << " " << j;
+    }
+  }
+}
+
+TEST(Plates, TeethAreCutWhereTheKerfIsNotWiderThanThey) {
+  Product product = product_of(testing::circle(22), testing::circle(22));
+  Mechanism& mechanism = product.joint.mechanism;
+  mechanism.body.bore = Bore::horn;
+  mechanism.horn = {.spline_teeth = 12, .spline_diameter = 18, .spline_depth = 1.5};
+  const Polygon coarse = layer_named(make_plates(product), "P1 CORE").cut_holes[0];
+  ASSERT_EQ(coarse.size(), 4u * 12);
+  EXPECT_NEAR(circumradius(coarse), 9 - 0.1, 0.05);
+  mechanism.horn = {.spline_teeth = 25, .spline_diameter = 5.92, .spline_depth = 0.3};
+  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is left out: a kerf of 0.2 mm is wider")));
+}
+
 TEST(Plates, AChannelIsCutIntoItsCoreAlone) {
   const Product product = egg_with_anchor();
   const Plates with = make_plates(product), without = make_plates(egg());

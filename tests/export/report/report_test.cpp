@@ -163,6 +163,20 @@ TEST(Report, SaysHowLongToCutTheTendon) {
   EXPECT_THAT(words, HasSubstr("Left on the pulley at full pay-out"));
 }
 
+TEST(Report, SaysHowThePulleyGetsOntoWhatTurnsIt) {
+  const auto making = [](const Mechanism& mechanism) {
+    return words_of(parsed(report_html(sample(mechanism))).select_node("//section[@id='making']").node());
+  };
+  Mechanism mechanism = testing::forearm();
+  EXPECT_THAT(making(mechanism), HasSubstr("Put the pulley on its shaft with P1 below"));
+  mechanism.body.bore = Bore::horn;
+  mechanism.body.horn = "feetech-sts3215";
+  EXPECT_THAT(making(mechanism), HasSubstr("the first screw 45.0° from +x towards +y"));
+  EXPECT_THAT(making(mechanism), HasSubstr("(4 holes on 14 mm) with P1 below"));
+  mechanism.body.horn = "spline-25T-futaba";
+  EXPECT_THAT(making(mechanism), HasSubstr("It goes on every 14.4°"));
+}
+
 TEST(Report, ShowsForcesOnlyUnderLoad) {
   Mechanism mechanism = testing::forearm();
   EXPECT_TRUE(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']").empty());

@@ -66,6 +66,19 @@ TEST(Scad, ParametersStandAtTheTopForTheCustomizer) {
   EXPECT_LT(text.find("\nbore = "), text.find("/* [Hidden] */"));
 }
 
+TEST(Scad, TeethOfAServosShaftAreInIt) {
+  Product product = product_of();
+  EXPECT_THAT(scad_text(product), HasSubstr("\nhorn_teeth = [];"));
+  product.joint.mechanism.body.bore = Bore::horn;
+  product.joint.mechanism.body.horn = "spline-25T-futaba";
+  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
+  const std::string text = scad_text(product);
+  const std::size_t from = text.find("\nhorn_teeth = [["), to = text.find("]];", from);
+  ASSERT_NE(from, std::string::npos);
+  EXPECT_EQ(std::count(text.begin() + from, text.begin() + to, '['), 1 + 4 * 25);
+  EXPECT_THAT(text, HasSubstr("\nhorn_recess = 4.2;"));
+}
+
 TEST(Scad, AnyNameStaysInItsComment) {
   Product product = product_of();
   product.joint.mechanism.name = "two\nlines(); cube(9);";

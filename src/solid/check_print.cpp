@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "fusee/base/text.h"
+#include "fusee/solid/print.h"
+#include "solid/bridging.h"
+#include "solid/hanging.h"
+#include "solid/nearest_float.h"
+#include "solid/place.h"
+
+namespace fusee {
+namespace {
+
+// Why the usual limits are what they are. A line of plastic is about 0.45 mm wide and stands safely on half of the line
+// below: at layers of 0.2 mm that is 45°, and the word of every slicer. The same half line is the step. Bridges sag
+// from about 5 mm on. The first layer is up to 0.3 mm thick and is pressed onto the bed.
+//
+// A face drawn at exactly the limit comes back as floats, and its facets cut the curve's corners: far less than this.
+constexpr double k_slope_tolerance = radians(0.1);
+
+PrintLimits with_tolerances(PrintLimits limits) {
+  limits.overhang -= k_slope_tolerance;
+  limits.step += k_float_grain;
+  limits.bridge += k_float_grain;
+  return limits;
+}
+
+// The worst of many, and how much is like it.
+struct Worst {
+  double value = 0;
+  Vec3 at = Vec3::Zero();
+  int places = 0;
+  double area = 0;
+
+  void look(double candidate, const Vec3& place) {
+    if (candidate > value) std::tie(value, at) = std::pair(candidate, place);
+  }
+  void count(const HangingPatch& patch) {
+    ++places;
+    area += patch.area;
+  }
+  std::string where() const {
+    return fmt::format("{}; {} mm² in {} place{}", place_of(at), rounded(area, 3), places, places == 1 ? "" : "s");
+  }
+};
+
+bool measurable(const TriangleMesh& mesh) {
+  const auto known = [&mesh](const std::array<std::uint32_t, 3>& triangle) {
+    return std::max({triangle[0], triangle[1], triangle[2]}) < mesh.vertices.size();
+  };
+  return !mesh.triangles.empty() && std::all_of(mesh.triangles.begin(), mesh.triangles.end(), known) &&
+         std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& v) { return v.allFinite(); });
+}
+
+Check island_check(const TriangleMesh& mesh, const PrintLimits& limits) {
+  const std::vector<Vec3> islands = find_islands(mesh, limits.first_layer);
+  return exactly("island", static_cast<double>(islands.size()), 0, "1",
+                 islands.empty() ? std::string() : "begins in mid-air at " + place_of(islands.front()));
+}
+
+std::vector<Check> checks_within(const PrintLimits& limits, const TriangleMesh& mesh) {
+  if (!measurable(mesh)) {
+    const std::string why = "not looked at: the mesh is no solid";
+    return {{"overhang", 0, degrees(limits.overhang), "deg", false, why},
+            {"unsupported_step", 0, limits.step, "mm", false, why},
+            {"bridge", 0, limits.bridge, "mm", false, why},
+            {"island", 0, 0, "1", false, why}};
+  }
+  const Overhangs overhangs = find_overhangs(mesh, limits.overhang, limits.first_layer);
+  Worst flatness{-overhangs.flattest_other, overhangs.flattest_other_at}, step, bridge;
+  for (const HangingPatch& patch : overhangs.patches) {
+    const Reach reach = reach_of(patch, limits);
+    step.look(reach.step, reach.step_at);
+    bridge.look(reach.bridge, reach.bridge_at);
+    if (reach.step > limits.step) step.count(patch);
+    if (reach.bridge > limits.bridge) bridge.count(patch);
+    if (reach.within(limits)) continue;
+    flatness.look(-patch.flattest, patch.flattest_at);
+    flatness.count(patch);
+  }
+  return {at_least("overhang", degrees(-flatness.value), degrees(limits.overhang), "deg", flatness.where()),
+          at_most("unsupported_step", step.value, limits.step, "mm", step.where()),
+          at_most("bridge", bridge.value, limits.bridge, "mm", bridge.where()), island_check(mesh, limits)};
+}
+
+}  // namespace
+
+std::vector<Check> check_print(const TriangleMesh& mesh, const PrintLimits& limits) {
+  return checks_within(with_tolerances(limits), mesh);
+}
+
+}  // namespace fusee

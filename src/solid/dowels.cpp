@@ -1,0 +1,103 @@
+#include "solid/dowels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "fusee/base/units.h"
+#include "solid/plane_distance.h"
+
+namespace fusee {
+namespace {
+
+// Pins to try, from the one to be preferred.
+constexpr std::array<double, 4> k_pins{3.0, 2.5, 2.0, 1.5};
+// A pin that is held over less of its length than this locates nothing.
+constexpr double k_least_hold = 1.5;
+
+class DowelChooser {
+ public:
+  DowelChooser(const Mechanism& mechanism, const BodyPlan& plan)
+      : layout_(plan.layout),
+        compensation_(mechanism.material.hole_compensation),
+        floor1_(plan.floor1),
+        floor2_(plan.floor2) {
+    for (auto* bars : {&in_p1_, &in_both_}) {
+      bars->push_back({Vec2::Zero(), Vec2::Zero(), layout_.bore.radius});
+      for (const Polygon& hole : layout_.bore.screw_holes) {
+        for (const Vec2& corner : hole) bars->push_back({corner, corner, 0.0});
+      }
+    }
+    for (const PlannedAnchor& anchor : plan.anchors) {
+      const std::vector<Bar> bars = anchor.bars(layout_);
+      in_both_.insert(in_both_.end(), bars.begin(), bars.end());
+      if (anchor.side == Side::left) in_p1_.insert(in_p1_.end(), bars.begin(), bars.end());
+    }
+  }
+
+  DowelLayout choose() const {
+    // Clear of P2's tie-offs too, or ending below them.
+    const double deep = layout_.z_p2 + layout_.p2.above_width();
+    const double shallow = layout_.z_p2 - 0.5 * layout_.channel_width - layout_.min_wall;
+    for (const double pin : k_pins) {
+      if (const auto places = places_for(pin, in_both_)) return layout_of(pin, *places, deep);
+      if (shallow - layout_.z_mate < k_least_hold) continue;
+      if (const auto places = places_for(pin, in_p1_)) return layout_of(pin, *places, shallow);
+    }
+    return {};
+  }
+
+ private:
+  std::optional<std::pair<Vec2, Vec2>> places_for(double pin, const std::vector<Bar>& obstacles) const {
+    const double radius = 0.5 * (pin + compensation_), room = radius + layout_.min_wall;
+    return pin_places(circumradius(floor1_), 2.0 * radius, layout_.min_wall, [&](const Vec2& place) {
+      return std::all_of(obstacles.begin(), obstacles.end(),
+                         [&](const Bar& bar) { return gap({place, place, room}, bar) >= 0; }) &&
+             depth_inside(floor1_, place) >= room && depth_inside(floor2_, place) >= room;
+    });
+  }
+
+  DowelLayout layout_of(double pin, const std::pair<Vec2, Vec2>& places, double z_end) const {
+    return {{places.first, places.second}, pin + compensation_, pin, z_end};
+  }
+
+  const BodyLayout& layout_;
+  double compensation_;
+  const Polygon& floor1_;
+  const Polygon& floor2_;
+  std::vector<Bar> in_p1_, in_both_;
+};
+
+}  // namespace
+
+std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, double wall,
+                                                const std::function<bool(const Vec2&)>& is_free) {
+  constexpr int k_directions = 48;
+  constexpr int k_radii = 24;
+  std::vector<Vec2> free;
+  for (int r = 1; r < k_radii; ++r) {
+    for (int a = 0; a < k_directions; ++a) {
+      const Vec2 place = reach * r / k_radii * unit(k_two_pi * a / k_directions);
+      if (is_free(place)) free.push_back(place);
+    }
+  }
+  std::optional<std::pair<Vec2, Vec2>> best;
+  double widest = diameter + wall;
+  for (const Vec2& a : free) {
+    for (const Vec2& b : free) {
+      const double apart = (a - b).norm();
+      const bool in_line = std::abs(cross(a, b)) < std::sin(radians(20)) * a.norm() * b.norm();
+      if (apart <= widest || in_line || a.norm() < b.norm() + 0.5 * diameter) continue;
+      widest = apart;
+      best = {a, b};
+    }
+  }
+  return best;
+}
+
+DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan) {
+  return DowelChooser(mechanism, plan).choose();
+}
+
+}  // namespace fusee

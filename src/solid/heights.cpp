@@ -1,0 +1,114 @@
+#include "solid/heights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "solid/bore.h"
+#include "solid/groove.h"
+#include "solid/mouths.h"
+#include "solid/tie_offs.h"
+
+namespace fusee {
+namespace {
+
+// Roofs are made steeper than the flattest slope by this: slicers take a slope of up to a degree more for too flat
+// (PrusaSlicer 2.5 supports 45.5° at a threshold of 45°, and 46° no longer), and coordinates are floats.
+constexpr double k_slope_margin = radians(1.5);
+// What the chamfer at the bed leaves of the lip, outwards and upwards.
+constexpr double k_lip_left = 0.2;
+
+// What a channel's roof leaves of the flange over it.
+constexpr double k_over_channel = 0.3;
+
+// A printing aid, no dimension: as much of it as the flange's lip bears.
+void choose_elephant_foot(BodyLayout& layout, double wanted) {
+  const double outward = layout.groove_depth - k_lip_left;
+  const double upward = (layout.flange_thickness - k_lip_left) / rise_of(layout, 1.0);
+  layout.elephant_foot = std::clamp(std::min(outward, upward), 0.0, wanted);
+  if (layout.elephant_foot < wanted) {
+    layout.notes.push_back(fmt::format("the lip is too small for a chamfer of {} mm at the bed: made {} mm",
+                                       rounded(wanted), rounded(layout.elephant_foot, 3)));
+  }
+}
+
+// P1 is printed turned over where it is printed for itself.
+void choose_walls(BodyLayout& layout, const Mechanism& mechanism) {
+  const double lean = 0.5 * mechanism.body.groove_angle;
+  const auto half = [&](double angle) {
+    return groove_half(mechanism.body, angle, mechanism.tendon.diameter, layout.groove_depth);
+  };
+  const std::vector<GroovePoint> ground = half(lean), roof = half(std::max(lean, layout.roof_slope));
+  layout.p2 = {ground, roof};
+  layout.p1 = layout.parts == Parts::two ? GrooveWalls{roof, ground} : GrooveWalls{ground, roof};
+}
+
+void choose_cones(BodyLayout& layout, const FlangeRims& rims) {
+  if (layout.roof_slope <= 0) return;
+  layout.upper_cone = cone_height(rims.lip2, rims.upper, layout.roof_slope);
+  if (layout.parts == Parts::two) {
+    layout.lower_cone = cone_height(rims.lip1, rims.lower, layout.roof_slope);
+  } else {
+    layout.middle_cone = cone_height(rims.lip1, rims.middle, layout.roof_slope);
+  }
+}
+
+// A flange is as thick as it must be at the lip, and thicker where a channel's roof needs it.
+void stack_up(BodyLayout& layout) {
+  const double flange = layout.flange_thickness;
+  const bool apart = layout.parts == Parts::two;
+  const double over_mouth = layout.roof_slope > 0 ? mouth_rise(layout) + k_over_channel : 0.0;
+  const double roof_flange = std::max(flange, over_mouth);
+  const double over_channel = 0.5 * layout.channel_width + layout.channel_roof + k_over_channel;
+  layout.z_p1 = (apart ? roof_flange : flange) + layout.lower_cone + layout.p1.below_width();
+  if (apart) layout.z_p1 = std::max(layout.z_p1, over_channel);
+  layout.z_middle = layout.z_p1 + layout.p1.above_width() + layout.middle_cone;
+  layout.z_mate = layout.z_middle + (apart ? flange : roof_flange);
+  if (!apart) layout.z_mate = std::max(layout.z_mate, layout.z_p1 + over_channel);
+  layout.z_p2 = layout.z_mate + (apart ? flange : 0.0) + layout.p2.below_width();
+  layout.z_top = layout.z_p2 + std::max(layout.p2.above_width() + layout.upper_cone + roof_flange, over_channel);
+  layout.z_hub = layout.z_top;
+}
+
+// Moves all that stands on the middle flange up.
+void thicken_middle(BodyLayout& layout, double by) {
+  if (by <= 0) return;
+  for (double* z : {&layout.z_mate, &layout.z_p2, &layout.z_top, &layout.z_hub}) *z += by;
+  if (layout.set_screw.present) layout.set_screw.z += by;
+}
+
+}  // namespace
+
+BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts) {
+  BodyLayout layout;
+  layout.parts = parts;
+  layout.tendon_diameter = mechanism.tendon.diameter;
+  layout.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
+  layout.groove_depth = mechanism.groove_depth();
+  layout.flange_thickness = mechanism.body.flange_thickness;
+  layout.mark_depth = mechanism.body.mark_depth;
+  layout.scale = 1.0 / (1.0 - mechanism.material.shrinkage);
+  choose_walls(layout, mechanism);
+  choose_cones(layout, rims);
+  choose_channel(layout, mechanism);
+  if (layout.roof_slope > 0) layout.channel_roof = rise_of(layout, layout.channel_width);
+  choose_elephant_foot(layout, mechanism.material.elephant_foot);
+  stack_up(layout);
+  return layout;
+}
+
+void roof_pockets(BodyLayout& layout) {
+  if (layout.parts == Parts::two || layout.roof_slope <= 0) return;
+  layout.pocket_roof = rise_of(layout, 2.0 * layout.pocket_radius);
+  thicken_middle(layout, layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_roof + layout.min_wall - layout.z_mate);
+}
+
+void roof_recess(BodyLayout& layout) {
+  const BoreLayout& bore = layout.bore;
+  if (layout.roof_slope <= 0 || bore.horn_recess <= 0) return;
+  layout.bore.horn_roof = rise_of(layout, circumradius(bore.outline) * (1.0 - recess_roof_share(bore)));
+}
+
+}  // namespace fusee

@@ -1,0 +1,18 @@
+/// \file
+/// The sections of both grooves and where everything lies along the axis. mm, rad.
+#pragma once
+
+#include "solid/body.h"
+
+namespace fusee {
+
+/// Groove walls, channels, flanges, cones, chamfer and heights of a part that is printed in one piece or in two; no bore, no hub.
+BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts);
+
+/// The roof over P1's knot pockets, which open on the bed where the part is printed in one piece; the middle flange becomes
+/// as thick as it needs.
+void roof_pockets(BodyLayout& layout);
+/// The cone over a horn's recess.
+void roof_recess(BodyLayout& layout);
+
+}  // namespace fusee

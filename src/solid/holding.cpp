@@ -1,0 +1,179 @@
+#include "fusee/solid/holding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "analysis/stroke.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "solid/plan.h"
+#include "solid/wrap.h"
+
+namespace fusee {
+namespace {
+
+// What a take-off bears, and how far the tendon lies on the active arc behind it.
+struct TakeOffLoad {
+  double alpha = 0;
+  double tension = 0;
+  double turn = 0;
+};
+using StrokeLoads = std::array<std::vector<TakeOffLoad>, 2>;  // of P1, of P2
+
+std::size_t index_of(Side side) { return side == Side::left ? 0 : 1; }
+
+// From the take-off at each place of the stroke to where the active arc ends: where the tendon is paid out furthest, at
+// α_max on P1 and α_min on P2. The direction of the line in the pulley's own frame is that in the world plus α.
+std::vector<double> turns_to_end(const std::vector<TransmissionPoint>& stroke, Side side) {
+  const auto direction = [&](std::size_t i) {
+    return (side == Side::left ? stroke[i].t1 : stroke[i].t2).lower_normal + stroke[i].alpha;
+  };
+  std::vector<double> turns(stroke.size(), 0.0);
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    turns[i] = turns[i - 1] + std::abs(std::remainder(direction(i) - direction(i - 1), k_two_pi));
+  if (side == Side::left) {
+    for (double& turn : turns) turn = turns.back() - turn;
+  }
+  return turns;
+}
+
+void raise(StrokeLoads& loads, std::size_t i, const EquilibriumPoint& point) {
+  if (point.status == EquilibriumStatus::no_equilibrium) return;
+  for (const Side side : {Side::left, Side::right}) {
+    double& tension = loads[index_of(side)][i].tension;
+    tension = std::max(tension, (side == Side::left ? point.t1 : point.t2).lower);
+  }
+}
+
+// The largest tension at each take-off. A load that relieves one tendon loads the other, so the joint moves without it
+// too.
+StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<TransmissionPoint>& stroke) {
+  StrokeLoads loads;
+  std::vector<double> alphas;
+  for (const TransmissionPoint& point : stroke) alphas.push_back(point.alpha);
+  for (const Side side : {Side::left, Side::right}) {
+    const std::vector<double> turns = turns_to_end(stroke, side);
+    for (std::size_t i = 0; i < stroke.size(); ++i) loads[index_of(side)].push_back({alphas[i], 0.0, turns[i]});
+  }
+  Mechanism unloaded = mechanism;
+  unloaded.load = {};
+  for (const Mechanism* moved : {&mechanism, static_cast<const Mechanism*>(&unloaded)}) {
+    const std::vector<StrokePoint> points = settled_stroke(*moved, alphas);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      raise(loads, i, points[i].rising);
+      raise(loads, i, points[i].falling);
+    }
+  }
+  return loads;
+}
+
+// What lies on the pulley keeps any tension between T e^(−μφ) and T e^(μφ), and slides when it would leave these
+// bounds: the knot's rises only when T e^(−μφ) passes all that it has seen, so the stroke's largest T e^(−μφ) is what
+// it ends with.
+KnotHold hardest(Side side, const std::vector<TakeOffLoad>& loads, double mu, double lap) {
+  KnotHold most{side, 0, 0, 0, -1};
+  for (const TakeOffLoad& load : loads) {
+    const double wrap = lap + load.turn;
+    const double at_knot = load.tension * std::exp(-mu * wrap);
+    if (at_knot > most.at_knot) most = {side, load.alpha, wrap, load.tension, at_knot};
+  }
+  return most;
+}
+
+bool all_hold(const Holding& holding) {
+  return std::all_of(holding.knots.begin(), holding.knots.end(),
+                     [&holding](const KnotHold& knot) { return holding.share(knot).value_or(0) <= k_safe_knot_share; });
+}
+
+// Null when no such body can be made.
+std::optional<Holding> with_planned_tie_offs(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                                             const StrokeLoads& loads) {
+  const BodyPlan plan = plan_body(mechanism, synthesis);
+  if (!plan.possible()) return std::nullopt;
+  Holding holding;
+  holding.strength = tendon_strength(mechanism.tendon);
+  for (const PlannedAnchor& anchor : plan.anchors) {
+    if (!anchor.wound_end) continue;
+    holding.knots.push_back(hardest(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, anchor.wrap()));
+  }
+  return holding;
+}
+
+// Changes that were tried, each alone, and with which every knot holds.
+std::vector<std::string> what_helps(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                                    const StrokeLoads& loads, const Holding& holding) {
+  std::vector<std::string> helps;
+  for (double wrap = 30; wrap <= 330; wrap += 15) {
+    Mechanism changed = mechanism;
+    changed.body.wrap = radians(wrap);
+    const auto better = with_planned_tie_offs(changed, synthesis, loads);
+    if (!better || !all_hold(*better)) continue;
+    helps.push_back(fmt::format("body.wrap_deg = {}", rounded(wrap)));
+    break;
+  }
+  // A larger radius turns by less over the stroke and leaves more of the pulley to wrap.
+  for (const double factor : {1.1, 1.2, 1.35, 1.5}) {
+    if (mechanism.pulley.law != Law::compensate) break;
+    Mechanism changed = mechanism;
+    changed.pulley.r1 = std::ceil(10.0 * factor * mechanism.pulley.r1) / 10.0;
+    const SynthesisResult other = synthesise(changed, {.advice = false});
+    if (!other.made()) continue;
+    const auto better = with_planned_tie_offs(changed, other, stroke_loads(changed, other.stroke));
+    if (!better || !all_hold(*better)) continue;
+    helps.push_back(fmt::format("pulley.r1_mm = {}", rounded(changed.pulley.r1)));
+    break;
+  }
+  // The forces know nothing of the strength: what it takes follows.
+  double needed = 0;
+  for (const KnotHold& knot : holding.knots)
+    needed = std::max(needed, knot.at_knot / (k_safe_knot_share * mechanism.tendon.knot_efficiency));
+  helps.push_back(fmt::format("a tendon that bears {} N (tendon.strength_N)", std::ceil(0.1 * needed) * 10.0));
+  return helps;
+}
+
+std::string joined_by_or(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " or ") + parts[i];
+  return text;
+}
+
+std::string warning_of(const KnotHold& knot, const Holding& holding, const std::vector<std::string>& helps) {
+  const Strength& strength = *holding.strength;
+  return fmt::format(
+      "the knot of tendon {} on {} bears up to {} N, at alpha = {} deg: {:.0f} % of the {} N at which it breaks there "
+      "({} "
+      "x tendon.knot_efficiency), where half is safe; with {} it is",
+      knot.side == Side::left ? 1 : 2, pulley_name(knot.side), rounded(knot.at_knot, 3), fixed(degrees(knot.alpha), 1),
+      100.0 * *holding.share(knot), rounded(strength.at_knot), strength.source, joined_by_or(helps));
+}
+
+}  // namespace
+
+std::optional<double> Holding::share(const KnotHold& knot) const {
+  if (!strength || strength->at_knot <= 0) return std::nullopt;
+  return knot.at_knot / strength->at_knot;
+}
+
+Holding tendon_holding(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pulley& pulley) {
+  const StrokeLoads loads = stroke_loads(mechanism, synthesis.stroke);
+  Holding holding;
+  holding.strength = tendon_strength(mechanism.tendon);
+  for (const Anchor& anchor : pulley.anchors) {
+    if (!anchor.wound_end) continue;
+    const Outline& outline = anchor.side == Side::left ? synthesis.p1 : synthesis.p2;
+    const double lap = wound_arc(outline, outline.anchor_end(), index_at_place(outline, anchor.exit)).turn;
+    holding.knots.push_back(hardest(anchor.side, loads[index_of(anchor.side)], mechanism.pulley.mu, lap));
+  }
+  if (all_hold(holding)) return holding;
+  const std::vector<std::string> helps = what_helps(mechanism, synthesis, loads, holding);
+  for (const KnotHold& knot : holding.knots) {
+    if (*holding.share(knot) > k_safe_knot_share) holding.warnings.push_back(warning_of(knot, holding, helps));
+  }
+  return holding;
+}
+
+}  // namespace fusee

@@ -1,0 +1,17 @@
+/// \file
+/// A place on a part, in words.
+#pragma once
+
+#include <string>
+
+#include "fusee/base/plane.h"
+#include "fusee/base/text.h"
+
+namespace fusee {
+
+/// "(3.100, 4.200, 0.000) mm"
+inline std::string place_of(const Vec3& point) {
+  return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ", " + fixed(point.z(), 3) + ") mm";
+}
+
+}  // namespace fusee

@@ -1,0 +1,174 @@
+#include "solid/tails.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "solid/plane_distance.h"
+#include "solid/set_screw.h"
+#include "solid/tie_off_tools.h"
+
+namespace fusee {
+namespace {
+
+// A slot's depth in tendon diameters, so that the tail lies below the face.
+constexpr double k_depth_ratio = 1.2;
+// Beyond the pocket's edge a slot is as long as there is room, up to what a thumb presses down, and not shorter than
+// what glue holds.
+constexpr double k_longest_ratio = 10.0;
+constexpr double k_shortest_ratio = 3.0;
+// Below a slot's floor, above a channel's roof: two layers.
+constexpr double k_least_ground = 0.4;
+constexpr int k_directions = 72;
+// Turns of thread that hold a screw: its length in the part per nominal diameter.
+constexpr double k_thread_ratio = 2.5;
+
+class TailPlacer {
+ public:
+  TailPlacer(const BodyPlan& plan, const Mechanism& mechanism, const SynthesisResult& synthesis)
+      : plan_(plan),
+        layout_(plan.layout),
+        d_(mechanism.tendon.diameter),
+        compensation_(mechanism.material.hole_compensation),
+        screw_(find_screw(mechanism.body.clamp_screw)),
+        floor1_(parallel(synthesis.p1, -0.5 * d_)),
+        floor2_(parallel(synthesis.p2, -0.5 * d_)) {}
+
+  std::optional<TailSlot> place(const PlannedAnchor& anchor) const {
+    const bool left = anchor.side == Side::left;
+    // Its ceiling would hang in the air where it opens into the pocket.
+    if (on_bed(layout_, anchor.side)) return std::nullopt;
+    TailSlot slot;
+    slot.width = layout_.channel_width;
+    slot.depth = k_depth_ratio * d_;
+    const double to_channel = (left ? layout_.z_p1 : layout_.z_top - layout_.z_p2) - 0.5 * layout_.channel_width;
+    if (to_channel - slot.depth < k_least_ground) return std::nullopt;
+    add_screw(slot);
+    slot.from = anchor.pocket();
+    const double edge = anchor.pocket_radius(layout_);
+    const std::vector<Bar> at_face = obstacles_at_face(anchor);
+    std::optional<TailSlot> best;
+    double longest = edge + k_shortest_ratio * d_ - 0.5 * d_;
+    // From the direction in which the channel leads, to both sides in turn.
+    const Vec2 ahead = heading(anchor);
+    for (int k = 0; k < k_directions; ++k) {
+      const double turn = (k % 2 == 0 ? 1.0 : -1.0) * k_two_pi / k_directions * ((k + 1) / 2);
+      const Vec2 direction = turned(ahead, turn);
+      for (double length = edge + k_longest_ratio * d_; length > longest; length -= 0.5 * d_) {
+        slot.to = slot.from + length * direction;
+        if (!is_free(slot, anchor.side, at_face)) continue;
+        longest = length;
+        best = slot;
+        break;
+      }
+    }
+    return best;
+  }
+
+ private:
+  void add_screw(TailSlot& slot) const {
+    if (screw_ == nullptr) return;
+    slot.pilot_diameter = screw_->tapping + compensation_;
+    slot.pilot_depth = slot.depth + k_thread_ratio * screw_->nominal;
+    slot.head_diameter = screw_->head;
+  }
+
+  static Vec2 heading(const PlannedAnchor& anchor) {
+    if (const auto* path = std::get_if<AnchorPath>(&anchor.way)) return path->heading();
+    return -std::get<FaceHole>(anchor.way).normal;
+  }
+
+  std::vector<Bar> obstacles_at_face(const PlannedAnchor& own) const {
+    const bool left = own.side == Side::left;
+    std::vector<Bar> bars{
+        {Vec2::Zero(), Vec2::Zero(), left ? layout_.bore.radius : std::max(layout_.bore.radius, layout_.hub_radius)}};
+    add_holes(bars);
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (&anchor == &own || anchor.side != own.side) continue;
+      bars.push_back({anchor.pocket(), anchor.pocket(), anchor.pocket_radius(layout_)});
+      if (anchor.tail) bars.push_back({anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->head_or_width()});
+    }
+    return bars;
+  }
+
+  void add_holes(std::vector<Bar>& bars) const {
+    for (const Polygon& hole : layout_.bore.screw_holes) {
+      for (const Vec2& corner : hole) bars.push_back({corner, corner, 0.0});
+    }
+    for (const Vec2& place : layout_.dowels.places) bars.push_back({place, place, 0.5 * layout_.dowels.hole_diameter});
+  }
+
+  bool is_free(const TailSlot& slot, Side side, const std::vector<Bar>& at_face) const {
+    const double half = 0.5 * slot.width, wall = layout_.min_wall;
+    const Polygon& floor = side == Side::left ? floor1_ : floor2_;
+    if (depth_inside(floor, slot.to) < half + wall) return false;
+    const auto clear = [&](const Bar& bar) {
+      return std::all_of(at_face.begin(), at_face.end(), [&](const Bar& other) { return gap(bar, other) >= wall; });
+    };
+    if (!clear({slot.from, slot.to, half})) return false;
+    return slot.pilot_diameter <= 0 || (clear({slot.to, slot.to, 0.5 * slot.head_diameter}) && takes_pilot(slot, side));
+  }
+
+  // The pilot hole goes deep: it keeps clear of all that is cut into either pulley, and ends within the part.
+  bool takes_pilot(const TailSlot& slot, Side side) const {
+    const double radius = 0.5 * slot.pilot_diameter, wall = layout_.min_wall;
+    const double ground = layout_.parts == Parts::one ? layout_.z_top
+                          : side == Side::left        ? layout_.z_mate
+                                                      : layout_.z_top - layout_.z_mate;
+    if (slot.pilot_depth > ground - k_least_ground) return false;
+    if (std::min(depth_inside(floor1_, slot.to), depth_inside(floor2_, slot.to)) < radius + wall) return false;
+    std::vector<Bar> bars{{Vec2::Zero(), Vec2::Zero(), layout_.bore.radius}};
+    add_holes(bars);
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      const std::vector<Bar> cut = anchor.bars(layout_);
+      bars.insert(bars.end(), cut.begin(), cut.end());
+    }
+    return std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
+      return gap({slot.to, slot.to, radius}, bar) >= wall;
+    });
+  }
+
+  const BodyPlan& plan_;
+  const BodyLayout& layout_;
+  double d_;
+  double compensation_;
+  const Screw* screw_;
+  Polygon floor1_, floor2_;
+};
+
+Condition clamp_condition(const std::string& screw, Side side, bool placed) {
+  Condition condition;
+  condition.name = fmt::format("clamp_screw_{}", pulley_name(side));
+  condition.ok = placed;
+  condition.value = placed ? 1 : 0;
+  condition.limit = 1;
+  condition.unit = "1";
+  condition.message = fmt::format(
+      "{} has no room for clamp screw {} (body.clamp_screw) at the end of a tail's slot: a smaller screw, or \"none\"",
+      pulley_name(side), screw);
+  return condition;
+}
+
+}  // namespace
+
+std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, const SynthesisResult& synthesis) {
+  const std::string& screw = mechanism.body.clamp_screw;
+  const bool clamps = find_screw(screw) != nullptr;
+  std::vector<Condition> conditions;
+  if (mechanism.body.tail == Tail::none && !clamps) return conditions;
+  const TailPlacer placer(plan, mechanism, synthesis);
+  for (PlannedAnchor& anchor : plan.anchors) {
+    if (!anchor.wound_end) continue;
+    anchor.tail = placer.place(anchor);
+    if (clamps) conditions.push_back(clamp_condition(screw, anchor.side, anchor.tail.has_value()));
+    if (!anchor.tail && !clamps && !on_bed(plan.layout, anchor.side)) {
+      plan.layout.notes.push_back(
+          fmt::format("no room on {}'s face for a slot for the tendon's tail: left out", pulley_name(anchor.side)));
+    }
+  }
+  return conditions;
+}
+
+}  // namespace fusee

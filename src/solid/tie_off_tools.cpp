@@ -1,0 +1,173 @@
+#include "solid/tie_off_tools.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
+#include "solid/boolean.h"
+#include "solid/bore.h"
+#include "solid/face_holes.h"
+#include "solid/mouths.h"
+#include "solid/tools.h"
+
+namespace fusee {
+namespace {
+
+// Tools stand out of the body by this, so that no two of their faces coincide.
+constexpr double k_overshoot = 1.0;
+// A pocket's closed end is this much deeper than its channel, for the same reason.
+constexpr double k_deeper = 0.07;
+
+// A hole to the bed ends this far past the groove's plane, in the floor's band.
+constexpr double k_past_plane = 0.03;
+
+/// Where a tie-off lies along the axis, seen as it is printed: its own heights run upwards from the groove's plane.
+struct Heights {
+  double plane = 0;
+  double up = 1;            ///< −1: printed upside down
+  double half = 0;          ///< of the channel
+  double channel_roof = 0;  ///< how far its ceiling rises
+  double open = 0;          ///< where the pocket ends in the air; below the plane: on the bed
+  double pocket_roof = 0;   ///< height of the roof over a pocket that is open to the bed
+};
+
+// The channel's floor must not lie in the plane of a ring.
+double channel_half_height(const BodyLayout& layout, int variant) {
+  double half = 0.5 * layout.channel_width * (1.0 + 0.002 * variant);
+  const auto on_ring = [&half](const std::vector<GroovePoint>& wall) {
+    return std::any_of(wall.begin(), wall.end(),
+                       [&half](const GroovePoint& point) { return std::abs(point.dz - half) < 0.01; });
+  };
+  // P2's groove has the same two walls as P1's.
+  while (on_ring(layout.p1.below) || on_ring(layout.p1.above)) half += 0.013;
+  return half;
+}
+
+Heights heights_of(const BodyLayout& layout, Side side, int variant) {
+  Heights heights;
+  const bool left = side == Side::left, turned = left && layout.parts == Parts::two;
+  heights.plane = left ? layout.z_p1 : layout.z_p2;
+  heights.up = turned ? -1.0 : 1.0;
+  heights.half = channel_half_height(layout, variant);
+  heights.channel_roof = layout.channel_roof;
+  heights.open = left ? layout.z_p1 + k_overshoot : layout.z_hub - layout.z_p2 + k_overshoot;
+  if (left && !turned) {
+    heights.open = -heights.open;
+    heights.pocket_roof = layout.pocket_roof;
+  }
+  return heights;
+}
+
+// The ceiling is one slope that rises from the inner wall, which holds it all along, to the outer one: where that one
+// ends, at the mouth, it runs on into the groove's own roof. A flat ceiling would be bridged only if it were closed all
+// round, and a gable's strips end in mid-air at a mouth as slanted as this.
+TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& heights) {
+  std::vector<std::vector<Vec3>> sections;
+  for (std::size_t k = 0; k < edges.outer.size(); ++k) {
+    const Vec2 &o = edges.outer[k], &i = edges.inner[k];
+    const double ridge = heights.half + heights.channel_roof * (o - i).norm() / width;
+    sections.push_back({{i.x(), i.y(), -heights.half},
+                        {o.x(), o.y(), -heights.half},
+                        {o.x(), o.y(), ridge},
+                        {i.x(), i.y(), heights.half}});
+  }
+  return strip(sections);
+}
+
+// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under it,
+// and no keel hangs down between the two.
+TriangleMesh pocket(const AnchorPath& path, double radius, int facets, const Heights& heights) {
+  const Vec2 centre = path.pocket(), outer = path.outer();
+  const double closed = std::copysign(heights.half + k_deeper, -heights.open);
+  std::vector<Vec3> mouth, end;
+  for (int k = 0; k < facets; ++k) {
+    const Vec2 aside = radius * unit(k_two_pi * (k + 0.3) / facets), point = centre + aside;
+    mouth.emplace_back(point.x(), point.y(), heights.open);
+    end.emplace_back(point.x(), point.y(), closed + heights.pocket_roof * 0.5 * (1.0 + aside.dot(outer) / radius));
+  }
+  return strip({mouth, end});
+}
+
+TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int variant) {
+  const BodyLayout& layout = plan.layout;
+  path.straight *= 1.0 - 0.003 * variant;
+  const double width = layout.channel_width, radius = layout.pocket_radius;
+  const Heights heights = heights_of(layout, side, variant);
+  const Polygon& floor = side == Side::left ? plan.floor1 : plan.floor2;
+  const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
+  const double beyond = layout.groove_depth + cones + k_overshoot;
+  const ChannelEdges edges =
+      layout.channel_roof > 0 ? flared_edges(path, width, floor, beyond) : plain_edges(path, width);
+  const auto both = unite(rounded_to_float(channel(edges, width, heights)),
+                          rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
+  demand(both.has_value(), "channel and knot pocket do not join");
+  TriangleMesh tool = both->mesh;
+  for (Vec3& vertex : tool.vertices) vertex.z() = heights.plane + heights.up * vertex.z();
+  if (heights.up < 0) turn_inside_out(tool);
+  return tool;
+}
+
+// The hole's end in the groove, with a roof where the face lies on the bed.
+std::vector<Vec3> hole_end(const BodyLayout& layout, Side side, const FaceHole& hole, const Polygon& outline,
+                           double half) {
+  std::vector<Vec3> end;
+  for (const Vec2& point : outline) {
+    double z = side == Side::left ? layout.z_p1 + half : layout.z_p2 - half;
+    if (on_bed(layout, side))
+      z = layout.z_p1 + k_past_plane + rise_of(layout, (point - hole.hole).dot(hole.normal) + hole.hole_radius);
+    end.emplace_back(point.x(), point.y(), z);
+  }
+  return end;
+}
+
+// The countersink begins a little outside of the face, so that no edge of it lies in the face.
+TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole& hole, int variant) {
+  constexpr double k_outside = 0.02;
+  const Polygon inner = hole_outline(hole, variant);
+  Polygon outer = inner;
+  const double wider = std::max(hole.room, hole.hole_radius + k_outside) / hole.hole_radius;
+  for (Vec2& point : outer) point = hole.pocket() + wider * (point - hole.hole);
+  const auto at = [](const Polygon& outline, double z) {
+    std::vector<Vec3> points;
+    for (const Vec2& point : outline) points.emplace_back(point.x(), point.y(), z);
+    return points;
+  };
+  const double depth = std::max(countersink_depth(layout, hole), k_outside);
+  const std::vector<Vec3> end = hole_end(layout, side, hole, inner, channel_half_height(layout, variant));
+  if (side == Side::left) return strip({at(outer, -k_overshoot), at(outer, -k_outside), at(inner, depth), end});
+  return strip({at(outer, layout.z_hub + k_overshoot), at(outer, layout.z_top + k_outside),
+                at(inner, layout.z_top - depth), end});
+}
+
+}  // namespace
+
+bool on_bed(const BodyLayout& layout, Side side) {
+  return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;
+}
+
+Polygon hole_outline(const FaceHole& hole, int variant) {
+  const int facets = pocket_facets(hole.hole_radius) + variant;
+  Polygon points;
+  for (int k = 0; k < facets; ++k)
+    points.push_back(hole.hole + hole.hole_radius * unit(k_two_pi * (k + 0.31) / facets));
+  return points;
+}
+
+TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant) {
+  if (const auto* path = std::get_if<AnchorPath>(&anchor.way)) return channel_tool(plan, anchor.side, *path, variant);
+  return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.way), variant);
+}
+
+TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
+  if (side == Side::left) return prism({slot.outline()}, -k_overshoot, slot.depth);
+  return prism({slot.outline()}, layout.z_top - slot.depth, layout.z_top + k_overshoot);
+}
+
+TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
+  const Polygon hole = polyhole(slot.pilot_diameter, slot.to);
+  if (side == Side::left) return prism({hole}, 0.5 * slot.depth, slot.pilot_depth);
+  return prism({hole}, layout.z_top - slot.pilot_depth, layout.z_top - 0.5 * slot.depth);
+}
+
+}  // namespace fusee

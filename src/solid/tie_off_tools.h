@@ -1,0 +1,23 @@
+/// \file
+/// What is cut out of the body for a tie-off. mm, not yet scaled.
+#pragma once
+
+#include "fusee/solid/mesh.h"
+#include "solid/plan.h"
+
+namespace fusee {
+
+/// Channel and knot pocket, the pocket open to the nearest face, or the hole through it. Another `variant` has other
+/// facets.
+TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant);
+Polygon hole_outline(const FaceHole& hole, int variant);
+
+/// Open to the face, out of a body that has its tie-off …
+TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
+/// … and open to the slot.
+TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
+
+/// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over it?
+bool on_bed(const BodyLayout& layout, Side side);
+
+}  // namespace fusee

@@ -1,0 +1,234 @@
+#include "solid/tie_offs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "fusee/base/units.h"
+#include "solid/face_holes.h"
+
+namespace fusee {
+namespace {
+
+// Below it an automatic channel would close in printing.
+constexpr double k_least_channel = 0.6;
+// A pocket narrower than this many channel widths is none: the knot would be pulled through.
+constexpr double k_least_pocket = 0.55;
+// An automatic pocket on a thin tendon, in channel widths.
+constexpr double k_thin_pocket = 0.85;
+// A pocket beside the hub leaves this gap to it rather than a sliver.
+constexpr double k_hub_gap = 0.4;
+
+// A wound tie-off is tried at steps of this, from the far end of the closing arc.
+constexpr double k_wrap_step = radians(5);
+
+// Near its end of the arc where there is room; a wound one anywhere else.
+std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, double wanted, const LapRange& laps) {
+  auto path = find_anchor(site, wound_end, wanted, AnchorReach::near, laps);
+  if (!wound_end || (path && path->room >= wanted)) return path;
+  return find_anchor(site, wound_end, wanted, AnchorReach::anywhere, laps);
+}
+
+template <typename Member>
+auto of(const TieOff& way, const Member& member) {
+  return std::visit(member, way);
+}
+double room_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.room; });
+}
+double lap_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.lap; });
+}
+double wrap_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.wrap; });
+}
+Vec2 pocket_of(const TieOff& way) {
+  return of(way, [](const auto& found) { return found.pocket(); });
+}
+bool is_channel(const TieOff& way) { return std::holds_alternative<AnchorPath>(way); }
+
+double pocket_radius_of(const TieOff& way, const BodyLayout& layout) {
+  return is_channel(way) ? layout.pocket_radius : room_of(way);
+}
+
+std::vector<Bar> bars_of(const TieOff& way, const BodyLayout& layout) {
+  std::vector<Bar> bars = of(way, [&layout](const auto& found) { return found.bars(layout.channel_width); });
+  bars.push_back({pocket_of(way), pocket_of(way), pocket_radius_of(way, layout)});
+  return bars;
+}
+
+int cuts_into_hub(const BodyLayout& layout, const TieOffPair& pair) {
+  const auto cuts = [&layout](const TieOff& way) {
+    return pocket_of(way).norm() < layout.hub_radius + pocket_radius_of(way, layout);
+  };
+  return int{cuts(pair.wound)} + int{pair.spare && cuts(*pair.spare)};
+}
+
+// On a shaft with a flat the set screw cannot be turned out of a pocket's way.
+bool blocks_set_screw(const BodyLayout& layout, const TieOffPair& pair) {
+  if (!layout.set_screw.present || layout.bore.kind == Bore::round) return false;
+  const auto blocks = [&layout](const TieOff& way) { return !clears_set_screw(layout, layout.set_screw.angle, way); };
+  return blocks(pair.wound) || (pair.spare && blocks(*pair.spare));
+}
+
+}  // namespace
+
+Vec2 PlannedAnchor::start() const {
+  return of(way, [](const auto& found) { return found.start; });
+}
+Vec2 PlannedAnchor::pocket() const { return pocket_of(way); }
+double PlannedAnchor::pocket_radius(const BodyLayout& layout) const { return pocket_radius_of(way, layout); }
+double PlannedAnchor::wrap() const { return wrap_of(way); }
+std::vector<Bar> PlannedAnchor::bars(const BodyLayout& layout) const { return bars_of(way, layout); }
+
+bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& way) {
+  const SetScrewLayout& screw = layout.set_screw;
+  const Bar bar{Vec2::Zero(), layout.hub_radius * unit(angle), 0.5 * std::max(screw.hole_diameter, screw.nut_width)};
+  return gap({pocket_of(way), pocket_of(way), pocket_radius_of(way, layout)}, bar) >= std::min(layout.min_wall, 1.0);
+}
+
+void choose_channel(BodyLayout& layout, const Mechanism& mechanism) {
+  const double d = mechanism.tendon.diameter;
+  layout.channel_width =
+      mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel);
+  layout.channel_fillet = std::max(2.0 * d, 0.75 * layout.channel_width);
+}
+
+double TieOffPlanner::wanted_pocket(const BodyLayout& layout) const {
+  if (mechanism_.body.knot_pocket > 0) return 0.5 * mechanism_.body.knot_pocket;
+  return std::max(1.75 * mechanism_.tendon.diameter, k_thin_pocket * layout.channel_width);
+}
+
+double TieOffPlanner::least_pocket(const BodyLayout& layout) const {
+  return mechanism_.body.knot_pocket > 0 ? wanted_pocket(layout) : k_least_pocket * layout.channel_width;
+}
+
+AnchorSite TieOffPlanner::site(const BodyLayout& layout, const Outline& outline) const {
+  AnchorSite site{outline, mechanism_.tendon.diameter, layout.channel_width, layout.channel_fillet, layout.min_wall, {},
+                  {}};
+  site.holes.push_back({Vec2::Zero(), Vec2::Zero(), layout.bore.radius});
+  for (const Polygon& hole : layout.bore.screw_holes) {
+    Vec2 centre = Vec2::Zero();
+    for (const Vec2& point : hole) centre += point / static_cast<double>(hole.size());
+    site.holes.push_back({centre, centre, (hole.front() - centre).norm()});
+  }
+  return site;
+}
+
+std::optional<AnchorPath> TieOffPlanner::channel(AnchorSite site, const BodyLayout& layout, bool wound_end,
+                                                 double wanted, const LapRange& laps) const {
+  // P2's pockets open on the face that the hub stands on. They avoid it where they can, and cut into its side where
+  // they cannot.
+  if (site.outline.side == Side::right && layout.hub_radius > 0) {
+    site.above_pocket.push_back({Vec2::Zero(), Vec2::Zero(), layout.hub_radius + k_hub_gap - layout.min_wall});
+    if (auto path = anchor_at(site, wound_end, wanted, laps); path && path->room >= least_pocket(layout)) return path;
+    site.above_pocket.clear();
+  }
+  return anchor_at(site, wound_end, wanted, laps);
+}
+
+std::optional<TieOff> TieOffPlanner::tie_off(const AnchorSite& site, const BodyLayout& layout, bool wound_end,
+                                             double wanted, const LapRange& laps) const {
+  const auto path = channel(site, layout, wound_end, wanted, laps);
+  if (face_holes_ && !(path && path->room >= least_pocket(layout))) {
+    if (const auto hole = find_face_hole(site, layout, wound_end, wanted, laps)) return hole;
+  }
+  return path;
+}
+
+WoundTieOffs TieOffPlanner::wound(const BodyLayout& layout) const {
+  const auto at_wound_end = [&](const Outline& outline) {
+    const LapRange laps = lap_range(outline, true, mechanism_.body.wrap);
+    return tie_off(site(layout, outline), layout, true, wanted_pocket(layout), laps);
+  };
+  return {at_wound_end(synthesis_.p1), at_wound_end(synthesis_.p2)};
+}
+
+bool TieOffPlanner::has_room(const BodyLayout& layout, const WoundTieOffs& wound) const {
+  const auto enough = [&](const TieOff& way) { return !is_channel(way) || room_of(way) >= least_pocket(layout); };
+  return wound.both() && enough(*wound.p1) && enough(*wound.p2);
+}
+
+void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound) const {
+  const double wanted = wanted_pocket(layout);
+  layout.pocket_radius = wanted;
+  if (!wound.both()) return;
+  for (const TieOff& way : {*wound.p1, *wound.p2}) {
+    if (is_channel(way)) layout.pocket_radius = std::min(layout.pocket_radius, room_of(way));
+  }
+  if (mechanism_.body.knot_pocket <= 0 && layout.pocket_radius < wanted) {
+    layout.notes.push_back(
+        fmt::format("no room for knot pockets of {:.2f} mm: made {:.2f} mm", 2.0 * wanted, 2.0 * layout.pocket_radius));
+  }
+}
+
+std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTieOffs& wound) const {
+  std::vector<PlannedAnchor> anchors;
+  if (!wound.both()) return anchors;
+  add(anchors, layout, synthesis_.p1, *wound.p1);
+  add(anchors, layout, synthesis_.p2, *wound.p2);
+  return anchors;
+}
+
+void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline,
+                        const TieOff& first) const {
+  const TieOffPair pair = wrapped_furthest(layout, outline, first);
+  anchors.push_back({outline.side, true, pair.wound, {}});
+  if (!is_channel(first)) {
+    layout.notes.push_back(
+        fmt::format("no room on {} for a tie-off's channel and pocket: the tendon goes through a hole "
+                    "to the face",
+                    pulley_name(outline.side)));
+  }
+  if (pair.spare) {
+    anchors.push_back({outline.side, false, *pair.spare, {}});
+  } else {
+    layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(outline.side)));
+  }
+}
+
+// Wrap takes e^(−μφ) off what the knot bears, so the tie-off goes as far round the closing arc as leaves room for the
+// spare one, but not into the hub, where the set screw is.
+TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outline& outline,
+                                           const TieOff& first) const {
+  const TieOffPair nearest{first, spare_beside(layout, outline, first)};
+  if (mechanism_.body.wrap > 0) return nearest;
+  const double radius = pocket_radius_of(first, layout);
+  for (double wrap = k_two_pi; wrap > wrap_of(first); wrap -= k_wrap_step) {
+    LapRange there = lap_range(outline, true, wrap);
+    there.most = there.least;
+    const auto wound = tie_off(site(layout, outline), layout, true, radius, there);
+    if (!wound || is_channel(*wound) != is_channel(first) || room_of(*wound) < radius) continue;
+    const TieOffPair further{*wound, spare_beside(layout, outline, *wound)};
+    const bool in_the_way =
+        outline.side == Side::right &&
+        (cuts_into_hub(layout, further) > cuts_into_hub(layout, nearest) || blocks_set_screw(layout, further));
+    if (further.spare && !in_the_way) return further;
+  }
+  return nearest;
+}
+
+// At the other end of the arc, its mouth beyond all that the tendon of the first lies on.
+std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, const Outline& outline,
+                                                  const TieOff& first) const {
+  const double radius = pocket_radius_of(first, layout);
+  AnchorSite beside = site(layout, outline);
+  const std::vector<Bar> bars = bars_of(first, layout);
+  beside.holes.insert(beside.holes.end(), bars.begin(), bars.end());
+  const auto spare = tie_off(beside, layout, false, radius, {0.0, closing_length(outline) - lap_of(first)});
+  const bool as_good = spare && is_channel(*spare) == is_channel(first) && room_of(*spare) >= radius;
+  return as_good ? spare : std::nullopt;
+}
+
+std::vector<AnchorRoom> TieOffPlanner::rooms(const BodyLayout& layout, const WoundTieOffs& wound) const {
+  std::vector<AnchorRoom> rooms;
+  const auto add_room = [&](Side side, const std::optional<TieOff>& found) {
+    if (found && !is_channel(*found)) return;
+    rooms.push_back({side, found ? room_of(*found) : 0.0, least_pocket(layout)});
+  };
+  add_room(Side::left, wound.p1);
+  add_room(Side::right, wound.p2);
+  return rooms;
+}
+
+}  // namespace fusee

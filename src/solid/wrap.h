@@ -1,0 +1,20 @@
+/// \file
+/// Arcs of an outline in the sense in which its tendon is wound: counter-clockwise on P1, clockwise on P2. mm, rad.
+#pragma once
+
+#include "fusee/profile/outline.h"
+
+namespace fusee {
+
+/// The point whose normal is nearest to `normal`.
+std::size_t index_at_normal(const Outline& outline, double normal);
+/// The point nearest to `place`.
+std::size_t index_at_place(const Outline& outline, const Vec2& place);
+
+struct WoundArc {
+  double length = 0;
+  double turn = 0;
+};
+WoundArc wound_arc(const Outline& outline, std::size_t from, std::size_t to);
+
+}  // namespace fusee

@@ -1,0 +1,302 @@
+// Every horn and shaft of the catalogue, and horns of one's own: a pulley is made for each, and what a screw or a shaft
+// will find is measured on the mesh alone, by a slicer that shares no code with the program.
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "fusee/mechanism/catalogue.h"
+#include "fusee/mechanism/file.h"
+#include "fusee/solid/pulley.h"
+#include "solid/broken.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using testing::circle;
+using testing::failed;
+using ::testing::HasSubstr;
+using testing::plain_mechanism;
+using testing::pulley_of;
+
+/// A closed line in a plane z = const, as it was cut out of a mesh.
+struct Loop {
+  std::vector<Vec2> points;
+  Vec2 middle = Vec2::Zero();  ///< its centroid
+  double room = 0;             ///< diameter of the circle about `middle` that touches the nearest side
+  double reach = 0;            ///< of the circle through the furthest corner
+};
+
+double side_distance(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (a + t * (b - a) - p).norm();
+}
+
+Loop measured(std::vector<Vec2> points) {
+  Loop loop{std::move(points)};
+  const std::size_t n = loop.points.size();
+  double area = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 &a = loop.points[i], &b = loop.points[(i + 1) % n];
+    const double part = a.x() * b.y() - a.y() * b.x();
+    area += part;
+    loop.middle += part * (a + b) / 3;
+  }
+  loop.middle /= area;
+  loop.room = 1e9;
+  for (std::size_t i = 0; i < n; ++i) {
+    loop.room = std::min(loop.room, 2 * side_distance(loop.middle, loop.points[i], loop.points[(i + 1) % n]));
+    loop.reach = std::max(loop.reach, 2 * (loop.points[i] - loop.middle).norm());
+  }
+  return loop;
+}
+
+/// Each facet that crosses the plane gives one side; sides are joined at equal mesh edges.
+std::vector<Loop> sliced(const TriangleMesh& mesh, double z) {
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::map<Edge, std::vector<Edge>> next;
+  const auto at = [&](const Edge& edge) -> Vec2 {
+    const Vec3 &a = mesh.vertices[edge.first], &b = mesh.vertices[edge.second];
+    return (a + (z - a.z()) / (b.z() - a.z()) * (b - a)).head<2>();
+  };
+  for (const auto& triangle : mesh.triangles) {
+    std::vector<Edge> cut;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
+      if ((mesh.vertices[a].z() < z) != (mesh.vertices[b].z() < z)) cut.push_back(std::minmax(a, b));
+    }
+    if (cut.size() != 2) continue;
+    next[cut[0]].push_back(cut[1]);
+    next[cut[1]].push_back(cut[0]);
+  }
+  std::vector<Loop> loops;
+  while (!next.empty()) {
+    std::vector<Vec2> points;
+    Edge edge = next.begin()->first;
+    while (next.count(edge) > 0) {
+      points.push_back(at(edge));
+      const std::vector<Edge> neighbours = next[edge];
+      next.erase(edge);
+      for (const Edge& neighbour : neighbours) {
+        if (next.count(neighbour) > 0) edge = neighbour;
+      }
+    }
+    loops.push_back(measured(points));
+  }
+  return loops;
+}
+
+/// The bore: what surrounds the axis and is smallest.
+Loop bore_of(const std::vector<Loop>& loops) {
+  Loop bore;
+  for (const Loop& loop : loops) {
+    if (loop.middle.norm() < 0.5 * loop.room && (bore.points.empty() || loop.reach < bore.reach)) bore = loop;
+  }
+  return bore;
+}
+
+std::vector<Loop> round_holes(const std::vector<Loop>& loops, double diameter) {
+  std::vector<Loop> holes;
+  for (const Loop& loop : loops) {
+    if (loop.middle.norm() > 0.5 * diameter && std::abs(loop.room - diameter) < 0.002) holes.push_back(loop);
+  }
+  return holes;
+}
+
+/// How often a loop's outline turns from going outward to going inward: the teeth that fit into it.
+int teeth_of(const Loop& loop) {
+  const double between = 0.25 * (loop.room + loop.reach);
+  int crossings = 0;
+  for (std::size_t i = 0; i < loop.points.size(); ++i) {
+    const Vec2 &a = loop.points[i], &b = loop.points[(i + 1) % loop.points.size()];
+    if ((a.norm() < between) != (b.norm() < between)) ++crossings;
+  }
+  return crossings / 2;
+}
+
+constexpr double k_compensation = 0.2;  // of plain_mechanism()
+
+struct Made {
+  Mechanism mechanism;
+  SynthesisResult shape = pulley_of(circle(30), circle(28, {2, 1}));
+  Pulley pulley;
+  explicit Made(Mechanism m) : mechanism(std::move(m)), pulley(make_pulley(mechanism, shape)) {}
+};
+
+Mechanism with_horn(const std::string& name) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.bore = Bore::horn;
+  mechanism.body.horn = name;
+  mechanism.body.marks = Marks::none;
+  return mechanism;
+}
+
+Mechanism with_horn(const Horn& horn) {
+  Mechanism mechanism = with_horn("own");
+  mechanism.horn = horn;
+  return mechanism;
+}
+
+void expect_holes(const Made& made, const Horn& horn) {
+  ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
+  EXPECT_EQ(failed(check_pulley(made.pulley.mesh, made.mechanism, made.shape, made.pulley, 0.01)), "");
+  const double top = bounds(made.pulley.mesh).high.z();
+  const double sinks = std::max(horn.boss_height, horn.spline_length);
+  // Below, where the horn lies or the shaft comes in; and above all that sinks in.
+  for (const double z : {0.71, top - 0.31}) {
+    SCOPED_TRACE(z);
+    const std::vector<Loop> loops = sliced(made.pulley.mesh, z);
+    const Loop bore = bore_of(loops);
+    const bool low = z < sinks;
+    if (horn.spline_teeth > 0 && (low || sinks == 0)) {
+      EXPECT_EQ(teeth_of(bore), horn.spline_teeth);
+      // The shaft's crests touch the sides over them, its grounds the crests of the bore.
+      EXPECT_NEAR(bore.reach, horn.spline_diameter + k_compensation, 0.01);
+      EXPECT_NEAR(bore.room, horn.spline_diameter - 2 * horn.spline_depth + k_compensation, 0.01);
+    } else {
+      EXPECT_NEAR(bore.room, (low ? horn.boss_diameter : horn.centre_hole) + k_compensation, 1e-3);
+    }
+    if (horn.bolt_count == 0) continue;
+    const std::vector<Loop> screws = round_holes(loops, horn.bolt_hole + k_compensation);
+    ASSERT_EQ(screws.size(), static_cast<std::size_t>(horn.bolt_count));
+    for (int k = 0; k < horn.bolt_count; ++k) {
+      const double angle = horn.first_bolt + k_two_pi * k / horn.bolt_count;
+      const Vec2 wanted = 0.5 * horn.bolt_circle * Vec2(std::cos(angle), std::sin(angle));
+      double nearest = 1e9;
+      for (const Loop& screw : screws) nearest = std::min(nearest, (screw.middle - wanted).norm());
+      EXPECT_LT(nearest, 1e-3) << "screw " << k;
+    }
+  }
+  // The pulley lies on the horn's face: what sinks in has play above it, and not much.
+  if (sinks > 0) {
+    EXPECT_GT(bore_of(sliced(made.pulley.mesh, sinks + 0.1)).reach, horn.centre_hole + k_compensation + 0.2);
+    EXPECT_NEAR(bore_of(sliced(made.pulley.mesh, sinks + 1.6)).room, horn.centre_hole + k_compensation, 1e-3);
+  }
+}
+
+TEST(Horn, EveryOneOfTheCatalogueFindsItsHoles) {
+  for (const HornType& type : horns()) {
+    SCOPED_TRACE(type.name);
+    expect_holes(Made(with_horn(type.name)), type.horn);
+  }
+}
+
+TEST(Horn, OneOfOnesOwn) {
+  const Horn star{.bolt_circle = 21,
+                  .bolt_count = 3,
+                  .bolt_hole = 2.2,
+                  .first_bolt = radians(25),
+                  .centre_hole = 7,
+                  .boss_diameter = 12,
+                  .boss_height = 2.5};
+  expect_holes(Made(with_horn(star)), star);
+  const Horn through{.spline_teeth = 21, .spline_diameter = 8, .spline_depth = 0.6};
+  expect_holes(Made(with_horn(through)), through);
+}
+
+TEST(Horn, ACatalogueHornIsWhatItsOwnNumbersGive) {
+  const Pulley named = Made(with_horn("dynamixel-xl430")).pulley;
+  const Pulley described = Made(with_horn(find_horn("dynamixel-xl430")->horn)).pulley;
+  EXPECT_EQ(named.mesh.vertices, described.mesh.vertices);
+}
+
+TEST(Horn, ScrewsTurnWithTheFirst) {
+  Horn horn{.bolt_circle = 20, .bolt_count = 4, .bolt_hole = 3.2, .centre_hole = 8};
+  const Pulley straight = Made(with_horn(horn)).pulley;
+  horn.first_bolt = radians(90);  // a quarter of a turn of four screws is none
+  const Pulley turned = Made(with_horn(horn)).pulley;
+  EXPECT_NEAR(straight.expected_volume, turned.expected_volume, 1e-9 * straight.expected_volume);
+}
+
+/// A horn of one's own that is refused for one condition, and the same horn with one number mended.
+void expect_refused(const Horn& bad, const Horn& good, const std::string& condition, const std::string& words) {
+  SCOPED_TRACE(words);
+  const Pulley refused = Made(with_horn(bad)).pulley;
+  ASSERT_FALSE(refused.made());
+  for (const Condition& one : refused.conditions) {
+    EXPECT_EQ(one.ok, one.name != condition) << one.name;
+    if (one.name == condition) {
+      EXPECT_THAT(one.message, HasSubstr(words));
+    }
+  }
+  const Pulley made = Made(with_horn(good)).pulley;
+  EXPECT_TRUE(made.made()) << made.brief();
+}
+
+TEST(Horn, HolesThatRunIntoOneAnotherAreRefused) {
+  const Horn good{
+      .bolt_circle = 16, .bolt_count = 4, .bolt_hole = 2.2, .centre_hole = 5, .boss_diameter = 8, .boss_height = 2};
+  Horn bad = good;
+  bad.bolt_circle = 10.4;  // 5.2 − 1.2 − 4.1 < 0
+  expect_refused(bad, good, "horn_holes",
+                 "a larger horn.bolt_circle_mm, or a smaller horn.bolt_hole_mm or horn.boss_diameter_mm");
+  bad = good;
+  bad.bolt_count = 24;  // 16 sin(7.5°) = 2.09 < 2.4
+  expect_refused(bad, good, "horn_holes", "fewer in horn.bolt_count");
+  bad = good;
+  bad.centre_hole = 7.9;
+  expect_refused(bad, good, "horn_holes", "a smaller horn.centre_hole_mm leaves a shoulder");
+  Horn flat = good, wide = good;
+  flat.boss_diameter = flat.boss_height = wide.boss_diameter = wide.boss_height = 0;
+  wide.centre_hole = 14;
+  expect_refused(wide, flat, "horn_holes", "a smaller horn.bolt_hole_mm or horn.centre_hole_mm");
+  bad = good;
+  bad.boss_height = 30;
+  expect_refused(bad, good, "horn_recess", "horn.boss_height_mm");
+  const Horn shaft{
+      .centre_hole = 3.2, .spline_teeth = 25, .spline_diameter = 5.92, .spline_depth = 0.3, .spline_length = 4};
+  Horn deep = shaft;
+  deep.spline_length = 40;
+  expect_refused(deep, shaft, "horn_recess", "horn.spline_length_mm");
+}
+
+TEST(Horn, AdviceOnOnesOwnIsTried) {
+  Mechanism mechanism = parse_mechanism(find_template("linear_wrist"), "linear_wrist.toml", ".",
+                                        {{"body.bore", "horn"},
+                                         {"horn.bolt_circle_mm", "10"},
+                                         {"horn.bolt_count", "4"},
+                                         {"horn.bolt_hole_mm", "2.2"},
+                                         {"horn.centre_hole_mm", "5"},
+                                         {"horn.boss_diameter_mm", "8"},
+                                         {"horn.boss_height_mm", "2"}});
+  ASSERT_FALSE(body_possible(mechanism));
+  const std::vector<Change> advice = body_advice(mechanism);
+  const auto wider =
+      std::find_if(advice.begin(), advice.end(), [](const Change& c) { return c.key == "horn.bolt_circle_mm"; });
+  ASSERT_NE(wider, advice.end());
+  mechanism.horn.bolt_circle = wider->to;
+  EXPECT_TRUE(body_possible(mechanism));
+  for (const Change& change : advice) EXPECT_FALSE(change.key.starts_with("horn.") && change.to == 0) << change.text;
+}
+
+TEST(Shaft, EveryOneOfTheCataloguePasses) {
+  const std::string joint =
+      "schema = 1\n[joint]\nlength_mm = 100\nrange_deg = [-30, 30]\n[guides]\nEB_mm = 50\nED_mm = 50\nOE_mm = -40\n"
+      "[pulley]\nEF_mm = 80\nr1_mm = 16\n[tendon]\ndiameter_mm = 1\n[body]\nshaft = \"";
+  for (const ShaftType& type : shafts()) {
+    SCOPED_TRACE(type.name);
+    Mechanism mechanism = plain_mechanism();
+    mechanism.body = parse_mechanism(joint + type.name + "\"\n", "shaft.toml").body;
+    mechanism.body.marks = Marks::none;
+    const Made made(mechanism);
+    ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
+    EXPECT_EQ(failed(check_pulley(made.pulley.mesh, made.mechanism, made.shape, made.pulley, 0.01)), "");
+    const std::vector<Vec2> bore = bore_of(sliced(made.pulley.mesh, 0.71)).points;
+    double low = 0, high = 0, reach = 0, least = 1e9;
+    for (std::size_t i = 0; i < bore.size(); ++i) {
+      low = std::min(low, bore[i].y());
+      high = std::max(high, bore[i].y());
+      reach = std::max(reach, bore[i].norm());
+      least = std::min(least, side_distance(Vec2::Zero(), bore[i], bore[(i + 1) % bore.size()]));
+    }
+    if (type.flat > 0) {
+      EXPECT_NEAR(high - low, type.flat + k_compensation, 0.01);
+      EXPECT_NEAR(2 * reach, type.diameter + k_compensation, 0.001);
+    } else {
+      EXPECT_NEAR(2 * least, type.diameter + k_compensation, 0.001);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fusee
