@@ -50,7 +50,7 @@ TEST(Doubts, OfABuildStandInManifestAndReport) {
   EXPECT_THAT(messages(result.product.file.warnings),
               ElementsAre(HasSubstr("guides.OE_mm = 40"), HasSubstr("the tendon breaks")));
   EXPECT_THAT(text_of(result.outputs, "manifest.json"),
-              AllOf(HasSubstr("guides.OE_mm = 40 mm"), HasSubstr("(tendon.strength_N)")));
+              AllOf(HasSubstr("guides.OE_mm = 40 mm"), HasSubstr("(tendon.strength_N")));
   EXPECT_THAT(text_of(result.outputs, "report.html"), HasSubstr("guides.OE_mm = 40 mm"));
 }
 
