@@ -81,7 +81,7 @@ struct Thresholds {
   /// sign of OE leaves a tendon slack towards the ends of the range, where rig and model are apart by 1.8.
   double slip_alone = 2.0;
   /// Else a slip undone, with nothing fitted, must leave this many times less than all effects that were found. Right
-  /// files: none of rig data nor of the matrix, seed 1, is doubted. Slips of rig joints do 3 to 7 times better (both
+  /// files: none of rig data nor of the matrix, seeds 1 and 2, is doubted. Slips of rig joints do 3 to 7 times better (both
   /// signs of a nearly symmetric joint), 30 to 90 times (sign of OE), 700 times (a range in radians).
   double slip_gain = 3.0;
   /// Beyond this many times the floor effects beside the slip are not looked for: faults of the matrix are 3 to 15
