@@ -72,6 +72,28 @@ Json effects_json(const Calibration& calibration) {
   return list;
 }
 
+/// A list where two keys have a number each.
+Json numbers_json(const std::vector<double>& values) {
+  if (values.size() == 1) return number(values.front());
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number(value));
+  return list;
+}
+
+Json slips_json(const std::vector<UndoneSlip>& slips) {
+  Json list = Json::array();
+  for (const UndoneSlip& slip : slips) {
+    list.push_back({{"key", slip.key},
+                    {"declared", numbers_json(slip.declared)},
+                    {"would_be", numbers_json(slip.would_be)},
+                    {"rms_deg", angle(slip.rms)},
+                    {"pulley_as_declared", slip.pulley_as_declared},
+                    {"beside", slip.beside},
+                    {"words", slip_words(slip)}});
+  }
+  return list;
+}
+
 Json detectable_json(const Calibration& calibration) {
   Json list = Json::array();
   for (const Detectable& detectable : calibration.detectable)
@@ -110,6 +132,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["rest_autocorrelation"] = number(calibration.rest_autocorrelation);
   json["unexplained_rms_deg"] = angle(calibration.unexplained_rms);
   json["unexplained_where"] = calibration.unexplained_where;
+  json["slips"] = slips_json(product.slips);
   json["detectable"] = detectable_json(calibration);
   json["next_runs"] = calibration.next_runs;
   json["null_combinations"] = calibration.null_combinations;

@@ -70,6 +70,13 @@ std::string verdict_section(const Calibration& calibration) {
          safe_text(calibration.summary) + "</p></section>\n";
 }
 
+std::string slips_section(const CalibrationProduct& product) {
+  if (product.slips.empty()) return "";
+  return section("slips", "A slip of the file or of the log?",
+                 "<p class=\"lead\">No effect explains these data. What follows would: look there first.</p>" +
+                     html_list(slips_words(product)));
+}
+
 std::string key_numbers(const CalibrationProduct& product) {
   const Calibration& c = product.calibration;
   KeyNumbers numbers;
@@ -377,7 +384,7 @@ std::string page_head(const CalibrationProduct& product, const std::string& name
 std::string calibration_report_html(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
-  std::string html = page_head(product, name) + verdict_section(calibration);
+  std::string html = page_head(product, name) + verdict_section(calibration) + slips_section(product);
   if (calibration.verdict != CalibrationVerdict::not_testable) {
     html += key_numbers(product) + action_section(product) + effects_section(product) + residuals_section(product) +
             rest_section(product) + figures_section(product) + evidence_section(calibration) +

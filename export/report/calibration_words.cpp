@@ -117,6 +117,12 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const
   return groups;
 }
 
+std::vector<std::string> slips_words(const CalibrationProduct& product) {
+  std::vector<std::string> all;
+  for (const UndoneSlip& slip : product.slips) all.push_back(slip_words(slip));
+  return all;
+}
+
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes) {
   constexpr std::size_t k_shown_alike = 2;
   std::map<std::string, std::size_t> count;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/stroke.h"
+#include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"
 #include "transmission/alpha_range.h"
@@ -43,19 +45,20 @@ std::vector<AnalysisRow> rows_of(const Mechanism& mechanism, const std::vector<T
 
 bool held(const EquilibriumPoint& point) { return point.status != EquilibriumStatus::no_equilibrium; }
 
-void look_for_tension(TensionExtreme& largest, const EquilibriumPoint& point, bool rising) {
+void enlarge(Extreme& extreme, double value, double alpha) {
+  if (value > extreme.value) extreme = {value, alpha};
+}
+
+void look_for_tensions(LargestTensions& largest, const EquilibriumPoint& point, bool rising) {
   if (!held(point)) return;
+  enlarge(largest.at_joint, std::max(point.t1.upper, point.t2.upper), point.alpha);
   for (const Side side : {Side::left, Side::right}) {
     const TendonState& tendon = side == Side::left ? point.t1 : point.t2;
     for (const bool below : {false, true}) {
       const double tension = below ? tendon.lower : tendon.upper;
-      if (tension > largest.tension) largest = {tension, point.alpha, side, below, rising};
+      if (tension > largest.anywhere.tension) largest.anywhere = {tension, point.alpha, side, below, rising};
     }
   }
-}
-
-void enlarge(Extreme& extreme, double value, double alpha) {
-  if (value > extreme.value) extreme = {value, alpha};
 }
 
 template <typename Predicate>
@@ -74,14 +77,12 @@ std::vector<AlphaRange> ranges_where(const std::vector<AnalysisRow>& rows, Predi
 bool is_slack(const TendonState& tendon) { return tendon.upper <= k_least_tension; }
 
 void summarise(AnalysisResult& result) {
+  LargestTensions tensions;
   for (const AnalysisRow& row : result.rows) {
     const double alpha = row.declared.alpha;
-    look_for_tension(result.largest_tension, row.rising, true);
-    look_for_tension(result.largest_tension, row.falling, false);
+    look_for_tensions(tensions, row.rising, true);
+    look_for_tensions(tensions, row.falling, false);
     enlarge(result.largest_paper_tension, row.paper.Tb, alpha);
-    for (const EquilibriumPoint& point : {row.rising, row.falling}) {
-      if (held(point)) enlarge(result.largest_at_joint, std::max(point.t1.upper, point.t2.upper), alpha);
-    }
     const bool both_held = held(row.rising) && held(row.falling);
     if (!both_held) {
       if (!result.lost_at) result.lost_at = alpha;
@@ -90,6 +91,8 @@ void summarise(AnalysisResult& result) {
     enlarge(result.largest_torque, std::max(std::abs(row.rising.motor_torque), std::abs(row.falling.motor_torque)), alpha);
     enlarge(result.hysteresis, std::abs(row.rising.theta - row.falling.theta), alpha);
   }
+  result.largest_tension = tensions.anywhere;
+  result.largest_at_joint = tensions.at_joint;
   result.slack1 = ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t1); });
   result.slack2 = ranges_where(result.rows, [](const AnalysisRow& row) { return held(row.rising) && is_slack(row.rising.t2); });
   result.untensioned = ranges_where(result.rows, [](const AnalysisRow& row) {
@@ -123,6 +126,10 @@ std::optional<double> taut_pretension(const Mechanism& mechanism) {
   return taut;
 }
 
+Strength with_knots(double tension, const Tendon& tendon, const std::string& source) {
+  return {tension, tension * tendon.knot_efficiency, source};
+}
+
 /// At C every tendon ends in a knot that nothing relieves; on the pulley the wrap does (solid/holding.h).
 std::optional<double> breaking_place(const AnalysisResult& result) {
   if (!result.strength) return std::nullopt;
@@ -133,16 +140,58 @@ std::optional<double> breaking_place(const AnalysisResult& result) {
 
 }  // namespace
 
+LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<double>& alphas) {
+  LargestTensions largest;
+  for (const StrokePoint& point : settled_stroke(mechanism, alphas)) {
+    look_for_tensions(largest, point.rising, true);
+    look_for_tensions(largest, point.falling, false);
+  }
+  return largest;
+}
+
 std::optional<Strength> tendon_strength(const Tendon& tendon) {
-  const auto bears = [&tendon](double tension, const std::string& source) {
-    return Strength{tension, tension * tendon.knot_efficiency, source};
-  };
-  if (tendon.strength > 0) return bears(tendon.strength, "tendon.strength_N");
+  if (tendon.strength > 0) return with_knots(tendon.strength, tendon, "tendon.strength_N");
   for (const TendonType& type : tendon_types()) {
     const bool same = std::abs(type.diameter - tendon.diameter) < 0.005 && std::abs(type.modulus / tendon.modulus - 1.0) < 0.01;
-    if (same) return bears(type.breaking_strength, type.name);
+    if (same) return with_knots(type.breaking_strength, tendon, type.name);
   }
   return std::nullopt;
+}
+
+std::optional<Strength> likely_strength(const Tendon& tendon) {
+  if (const auto known = tendon_strength(tendon)) return known;
+  // Fibre and lay set modulus and strength alike: within a factor of two in modulus it may be the same kind of tendon,
+  // and strength goes with the section. Braids of one kind differ by 1.4 (profiles/catalogue/tendons.toml).
+  constexpr double alike = 2.0;
+  const auto times = [](double one, double other) { return std::max(one / other, other / one); };
+  const TendonType* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const TendonType& type : tendon_types()) {
+    const double stiffer = times(type.modulus, tendon.modulus);
+    const double apart = stiffer * times(type.diameter, tendon.diameter);
+    if (stiffer > alike || apart >= least) continue;
+    nearest = &type;
+    least = apart;
+  }
+  if (nearest == nullptr) return std::nullopt;
+  const double thicker = tendon.diameter / nearest->diameter;
+  return with_knots(nearest->breaking_strength * thicker * thicker, tendon,
+                    "an estimate from " + nearest->name + " of the catalogue by its section; tendon.strength_N is not set");
+}
+
+std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const Strength& strength) {
+  const auto at = [](double alpha) { return "the tendon breaks at alpha = " + fixed(degrees(alpha), 1) + " deg: "; };
+  Diagnostic breaks;
+  if (largest.at_joint.value > strength.at_knot)
+    breaks.message = at(largest.at_joint.alpha) + rounded(largest.at_joint.value) + " N at its knot at C, and it bears " +
+                     rounded(strength.at_knot) + " N there (" + strength.source + ", tendon.knot_efficiency)";
+  else if (largest.anywhere.tension > strength.tension)
+    breaks.message = at(largest.anywhere.alpha) + rounded(largest.anywhere.tension) + " N, and it bears " +
+                     rounded(strength.tension) + " N (" + strength.source + ")";
+  else
+    return std::nullopt;
+  breaks.hint = "a smaller [load], less friction, a thicker tendon, or a longer lever (joint.length_mm, guides.ED_mm)";
+  return breaks;
 }
 
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options) {

@@ -254,6 +254,12 @@ std::vector<Block> blocks_of(const Evidence& evidence, const std::vector<bool>& 
 
 }  // namespace
 
+Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run) {
+  std::vector<bool> counted;
+  for (Run& run : measurement.runs) run = thinned(run, most_a_run, counted);
+  return measurement;
+}
+
 Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor) {
   Evidence evidence;
   evidence.declared = &declared;

@@ -49,6 +49,9 @@ struct Evidence {
 
 Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor);
 
+/// Of runs longer than that, so many rows evenly over their strokes: what many looks at the same data can bear.
+Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run);
+
 /// All runs, one after another.
 Eigen::VectorXd flat(const Readings& readings);
 

@@ -72,6 +72,31 @@ struct Thresholds {
   /// Every exchange betters the score; this bounds the wait (7f333b1).
   int most_exchanges = 4;
 
+  // ---- slips of the file ----
+
+  /// Beyond this many noise floors a slip that leaves noise alone, with nothing fitted, stands before effects that
+  /// explain as well: the matrix's faults are seen by 15 at most.
+  double slip_large = 15.0;
+  /// … and before those that do not explain, where it leaves this many floors: a pulley that was made for the other
+  /// sign of OE leaves a tendon slack towards the ends of the range, where rig and model are apart by 1.8.
+  double slip_alone = 2.0;
+  /// Else a slip undone, with nothing fitted, must leave this many times less than all effects that were found. Right
+  /// files: none of rig data nor of the matrix, seeds 1 and 2, is doubted. Slips of rig joints do 3 to 7 times better (both
+  /// signs of a nearly symmetric joint), 30 to 90 times (sign of OE), 700 times (a range in radians).
+  double slip_gain = 3.0;
+  /// Beyond this many times the floor effects beside the slip are not looked for: faults of the matrix are 3 to 15
+  /// times the noise, two of them with rig data's thick pin 27, and a joint that is still the wrong one costs half a
+  /// minute of search (c_backlash with a length of 40 for 120).
+  double slip_far = 50.0;
+  /// What leaves this many times less than all effects is said though a rest of another cause stays unexplained: rig
+  /// data f_not_in_any_catalogue with OE's sign turned: 26 times.
+  double slip_clear = 10.0;
+  /// The same where the file as it stands could not be held against the data at all, in noise floors: f leaves 3.7.
+  double slip_near = 5.0;
+  /// Slips that leave no more than this many times what the best one leaves are said beside it: noise moves a floor of
+  /// few repeats by as much (at_floor).
+  double slip_tie = 1.25;
+
   // ---- what is said of the rest ----
 
   /// In standard errors: a one-sided 95 % test with 80 % power takes 2.5, blocks being few 2.8.

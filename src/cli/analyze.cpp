@@ -155,14 +155,8 @@ void add_findings(const AnalysisResult& result, const std::string& file, Reply& 
         "a smaller [load], or stiffer tendons (tendon.diameter_mm, tendon.modulus_MPa)");
   }
   if (result.breaks_at) {
-    const Strength& strength = *result.strength;
-    const bool at_knot = result.largest_at_joint.value > strength.at_knot;
-    say(Severity::error,
-        "the tendon breaks at " + alpha_text(*result.breaks_at) + ": " +
-            (at_knot ? rounded(result.largest_at_joint.value) + " N at its knot at C, and it bears " + rounded(strength.at_knot) + " N there (" +
-                           strength.source + ", tendon.knot_efficiency)"
-                     : rounded(result.largest_tension.tension) + " N, and it bears " + rounded(strength.tension) + " N (" + strength.source + ")"),
-        "a smaller [load], less friction, a thicker tendon, or a longer lever (joint.length_mm, guides.ED_mm)");
+    const auto breaks = tendon_breaks({result.largest_tension, result.largest_at_joint}, *result.strength);
+    say(breaks->severity, breaks->message, breaks->hint);
   }
   const bool declared_loose = result.largest_tension.tension < 1e-6;
   if (!result.untensioned.empty()) {
@@ -200,6 +194,7 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
   reply.diagnostics = file.warnings;
   console.progress("moving the joint through its range");
   const AnalysisResult result = analyze(file, options);
+  reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.exists) {
     reply.exit = Exit::infeasible;
     add_obstacles(file.path, result.obstacles, reply);

@@ -100,6 +100,7 @@ std::string calibration_summary(const CalibrationProduct& product, bool verbose)
   const Calibration& c = product.calibration;
   std::string text =
       product.file.mechanism.name + ": " + std::string(word(c.verdict)) + "\n" + wrapped(c.summary, "  ", "  ");
+  text += items("A slip of the file or of the log?", slips_words(product));
   if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", c.next_runs);
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
   text += items("Cannot be told apart by these data", c.null_combinations) +

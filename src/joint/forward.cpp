@@ -47,9 +47,9 @@ void look_paths_up(JointModel& model, double least, double most) {
 
 }  // namespace
 
-Forward::Forward(const Mechanism& declared, const BenchLog& log)
+Forward::Forward(const Mechanism& declared, const BenchLog& log, const Mechanism& made_for)
     : declared_(declared), log_(log), clock_(bench_clock(log)), first_temperature_(first_temperature(log)) {
-  if (!declared.transmission) made_.emplace(declared);
+  if (!declared.transmission) made_.emplace(made_for);
   for (const BenchRun& run : log) {
     for (const BenchRow& row : run.rows) {
       alpha_least_ = std::min(alpha_least_, row.alpha);

@@ -18,7 +18,9 @@ namespace fusee {
 /// latest geometries, which few of the effects change. For one thread.
 class Forward {
  public:
-  Forward(const Mechanism& declared, const BenchLog& log);
+  Forward(const Mechanism& declared, const BenchLog& log) : Forward(declared, log, declared) {}
+  /// With a pulley that was made for another joint.
+  Forward(const Mechanism& declared, const BenchLog& log, const Mechanism& made_for);
 
   /// NaN where the mechanism has no equilibrium. Where both tendons are slack, the middle of where the joint may be.
   Readings operator()(const Imperfections& imperfections);

@@ -188,6 +188,12 @@ void suspect_radians(const DeclaredLaw& law, const Slopes& slopes, Measurement& 
 void hold_against_law(const Mechanism& declared, Measurement& measurement) {
   if (!measurement.not_testable.empty() || measurement.runs.empty()) return;
   const DeclaredLaw law(declared);
+  if (!law.exists()) {
+    measurement.not_testable.push_back(
+        "the declared joint has no law over its range (a dead centre, or C meets a pin): there is nothing to hold the "
+        "data against; 'fusee build' says where");
+    return;
+  }
   if (!std::isfinite(law.slope()) || law.slope() == 0) return;
   take_back_turns(law, measurement);
   const Slopes slopes = slopes_of(law, measurement);

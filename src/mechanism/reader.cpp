@@ -69,6 +69,7 @@ class MechanismReader {
   MechanismReader(const std::string& name, const std::filesystem::path& folder) : name_(name), folder_(folder) {}
 
   DeclaredMechanism read(std::string_view text, const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings);
+  KeyPlaces places() const;
 
  private:
   // Step 1 and 2
@@ -607,11 +608,25 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   return mechanism_;
 }
 
+KeyPlaces MechanismReader::places() const {
+  KeyPlaces all;
+  for (const auto& [key, entry] : entries_) all[key] = entry.place;
+  return all;
+}
+
 }  // namespace
 
 DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                          const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings) {
-  return MechanismReader(name, folder).read(text, settings, warnings);
+                          const std::vector<Setting>& settings, std::vector<Diagnostic>* warnings, KeyPlaces* places) {
+  MechanismReader reader(name, folder);
+  DeclaredMechanism mechanism = reader.read(text, settings, warnings);
+  if (places != nullptr) *places = reader.places();
+  return mechanism;
+}
+
+Place MechanismFile::place_of(std::string_view key) const {
+  const auto found = places.find(key);
+  return found == places.end() ? Place{path, 0, 0} : found->second;
 }
 
 MechanismFile read_mechanism(const std::filesystem::path& path, const std::vector<Setting>& settings) {
@@ -619,7 +634,7 @@ MechanismFile read_mechanism(const std::filesystem::path& path, const std::vecto
   MechanismFile file;
   file.path = path.string();
   file.sha256 = sha256(text);
-  file.mechanism = parse_mechanism(text, file.path, path.parent_path(), settings, &file.warnings);
+  file.mechanism = parse_mechanism(text, file.path, path.parent_path(), settings, &file.warnings, &file.places);
   return file;
 }
 

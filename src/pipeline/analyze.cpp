@@ -1,3 +1,4 @@
+#include "fusee/analysis/plausibility.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 
@@ -8,7 +9,14 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
     throw InputError(file.path, "a joint with [transmission] has no tendons to analyze",
                      "[transmission] is for 'fusee calibrate'");
   }
-  return analyse(as_it_is(file.mechanism).mechanism, options);
+  AnalysisResult result = analyse(as_it_is(file.mechanism).mechanism, options);
+  result.warnings = likely_slips(file);
+  // A tendon that breaks is no doubt but an error.
+  if (const auto overloaded = overloaded_tendon(file); overloaded && !result.breaks_at)
+    result.warnings.push_back(*overloaded);
+  const std::vector<Diagnostic> bends = tight_bends(file);
+  result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
+  return result;
 }
 
 }  // namespace fusee

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "fusee/analysis/plausibility.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/mesh_files.h"
 #include "fusee/export/report.h"
@@ -168,7 +169,7 @@ const std::vector<std::string>& output_names() {
 
 BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
-  result.product.file = file;
+  result.product.file = with_doubts(file);
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(output_names());  // before the work: a refusal should not cost a wait

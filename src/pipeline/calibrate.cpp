@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "fusee/analysis/plausibility.h"
 #include "fusee/joint/as_it_is.h"
 #include "pipeline/law_table_copy.h"
 
@@ -54,11 +55,15 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   const DeclaredMechanism& declared = bench.file.mechanism;
   const DeclaredMechanism expected = expected_joint(declared);
   bench.step("reading the runs");
-  product.measurement = read_measurement(runs.all, expected, bench.options.columns);
+  const Measurement as_read = read_measurement(runs.all, bench.options.columns);
+  product.measurement = as_read;
+  compare_with_declared(expected, product.measurement);
   CalibrationOptions options;
   options.hold_out = names_from(product.measurement, runs.fitted);
   options.progress = [&](const std::string& what, double share) { bench.step(what, share); };
   product.calibration = calibrate(expected, product.measurement, options);
+  bench.step("looking for slips of the file");
+  product.slips = slips_that_explain(declared, as_read, product.calibration);
   bench.step("working out the correction");
   product.correction.identified = declared.identified;
   if (product.calibration.verdict != CalibrationVerdict::not_testable)
@@ -114,7 +119,7 @@ void publish(const Bench& bench, OutputFolder& folder) {
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
                           const CalibrateOptions& options) {
   CalibrateResult result;
-  result.product.file = file;
+  result.product.file = with_doubts(file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);
   target.claim(output_names(file));  // before the work: a refusal should not cost a wait

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/analysis/plausibility.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design_file.h"
@@ -141,7 +142,7 @@ void write_texts(const MechanismFile& file, const OptimizeOptions& options, Opti
       result.front_files.push_back({point_name(result.front_files.size() + 1), text_of(point.design, warnings)});
   }
   if (!options.new_file.empty()) result.new_text = text_of(result.design, warnings);
-  result.warnings = std::move(warnings);
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
 }
 
 void publish(const OptimizeOptions& options, OutputFolder& front_folder, OptimizeResult& result) {
@@ -158,6 +159,9 @@ SearchMethod strongest_method(const MechanismFile& file) { return strongest_meth
 OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& options) {
   OptimizeResult result;
   result.problem = problem_of(file);
+  result.warnings = doubts(file);
+  const std::vector<Diagnostic> bends = tight_bends(file);
+  result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
   const SearchMethod method = options.method ? *options.method : strongest_method(result.problem);
   if (method != SearchMethod::pareto) demand_one_objective(file, result.problem);
   OutputFolder front_folder(options.front_folder, options.force);

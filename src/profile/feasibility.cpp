@@ -276,7 +276,7 @@ std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt
     });
     if (tightest->curve.radius >= least) continue;
     warnings.push_back("P" + number(side) + " bends the tendon to a radius of " + rounded(tightest->curve.radius, 3) + " mm at " +
-                       at_alpha_text(tightest->stroke.alpha) + "; this tendon wants " + rounded(least, 3) + " mm or more (D/d = " +
+                       at_alpha_text(tightest->stroke.alpha) + "; this tendon wants " + rounded(least, 3) + " mm or more (tendon.bend_ratio, D/d = " +
                        rounded(mechanism.tendon.bend_ratio, 3) + "): it will wear there");
   }
   return warnings;

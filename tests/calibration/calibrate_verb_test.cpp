@@ -61,7 +61,7 @@ TEST(CalibrateVerb, LeavesEveryFile) {
   EXPECT_TRUE(result.published);
   EXPECT_FALSE(result.rewritten);
   EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::explained);
-  EXPECT_THAT(steps, ElementsAre("reading the runs", "working out the correction"));
+  EXPECT_THAT(steps, ElementsAre("reading the runs", "looking for slips of the file", "working out the correction"));
   for (const OutputFile& one : result.outputs) EXPECT_EQ(read_file(folder / one.name, 1 << 22), one.bytes);
 }
 
@@ -86,6 +86,35 @@ TEST(CalibrateVerb, ARunHeldOutIsNotFittedAndAFileCountsOnce) {
   EXPECT_EQ(result.product.measurement.runs.size(), runs.size());
   EXPECT_THAT(result.product.calibration.held_out_runs, ElementsAre(runs.back().filename().string()));
   EXPECT_FALSE(result.published);
+}
+
+TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
+  CalibrateOptions options = into(scratch("slip"));
+  options.dry_run = true;
+  const MechanismFile file = read_mechanism(k_rig / "a_declared_right/spec.toml", {{"guides.OE_mm", "14"}});
+  const CalibrateResult result = calibrate(file, runs_in(k_rig / "a_declared_right"), options);
+  EXPECT_EQ(result.product.calibration.verdict, CalibrationVerdict::unexplained);
+  const auto text_of = [&](const std::string& name) {
+    const auto named = [&](const OutputFile& one) { return one.name == name; };
+    return std::find_if(result.outputs.begin(), result.outputs.end(), named)->bytes;
+  };
+  const std::string words = "guides.OE_mm = -14 in place of 14 would explain the data to 0.02°: is the sign right?";
+  EXPECT_THAT(text_of("calibration.json"), testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"),
+                                                          HasSubstr(words)));
+  EXPECT_THAT(text_of("report.html"), HasSubstr(words));
+  EXPECT_THAT(text_of("corrected.toml"), testing::AllOf(HasSubstr("OE_mm = 14"), Not(HasSubstr("OE_mm = -14"))));
+  ASSERT_FALSE(result.product.file.warnings.empty());  // the same slip was seen in the file alone
+  EXPECT_THAT(result.product.file.warnings.front().message, HasSubstr("guides.OE_mm = 14"));
+}
+
+TEST(CalibrateVerb, WithoutASlipTheListIsEmptyAndThePageHasNoSuchSection) {
+  CalibrateOptions options = into(scratch("no_slip"));
+  options.dry_run = true;
+  const CalibrateResult result =
+      calibrate(read_mechanism(k_rig / "c_backlash/spec.toml"), runs_in(k_rig / "c_backlash"), options);
+  EXPECT_THAT(result.product.file.warnings, testing::IsEmpty());
+  EXPECT_THAT(calibration_json(result.product), HasSubstr("\"slips\": []"));
+  EXPECT_THAT(calibration_report_html(result.product), Not(HasSubstr("A slip of the file")));
 }
 
 /// The rig's runs with the tip force given as a torque.

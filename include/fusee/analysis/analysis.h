@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fusee/base/diagnostics.h"
 #include "fusee/profile/synthesis.h"
 #include "fusee/joint/equilibrium.h"
 #include "fusee/transmission/tension.h"
@@ -98,6 +99,7 @@ struct AnalysisResult {
   std::optional<double> breaks_at;
   std::vector<ErrorSource> sources;
   std::vector<ToleranceEffect> tolerances;  ///< by key; "all" last
+  std::vector<Diagnostic> warnings;         ///< by the verb: what plausibility.h doubts in the file
 };
 
 AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& options = {});
@@ -106,7 +108,18 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
 /// Both roads for every dimension of the mechanism.
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options);
+/// What the tendons bear at most.
+struct LargestTensions {
+  TensionExtreme anywhere;
+  Extreme at_joint;  ///< of both tendons above their pins: at the knots at C, N
+};
+/// Of the full model on the way up and down through `alphas` (increasing, both ends of the range among them).
+LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<double>& alphas);
 /// The declared strength, or that of the catalogue's tendon with this diameter and modulus.
 std::optional<Strength> tendon_strength(const Tendon& tendon);
+/// The same, or else an estimate that says so: the nearest tendon of the catalogue, by its section.
+std::optional<Strength> likely_strength(const Tendon& tendon);
+/// What to say of a tendon that breaks, at its knot at C or elsewhere: an error, of no place. Nothing where it holds.
+std::optional<Diagnostic> tendon_breaks(const LargestTensions& largest, const Strength& strength);
 
 }  // namespace fusee

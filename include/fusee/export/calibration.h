@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fusee/base/files.h"
+#include "fusee/calibration/slips.h"
 #include "fusee/correction/correction.h"
 #include "fusee/mechanism/file.h"
 
@@ -17,6 +18,7 @@ struct CalibrationProduct {
   MechanismFile file;
   Measurement measurement;
   Calibration calibration;
+  std::vector<UndoneSlip> slips;  ///< of the file or of the data, that would explain what no effect does
   Correction correction;
 };
 
@@ -41,6 +43,8 @@ std::string tied_words(const Correction& correction);
 /// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
 /// together. Smallest first.
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration);
+/// Of every slip that would explain the data, slip_words().
+std::vector<std::string> slips_words(const CalibrationProduct& product);
 /// Of notes that say the same of many files, two and how many more.
 std::vector<std::string> shortened_notes(const std::vector<std::string>& notes);
 

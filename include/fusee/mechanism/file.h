@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,12 +19,19 @@ struct Setting {
   std::string value;
 };
 
+/// Where each key that was written stands, by dotted name; what --set gave has the setting for a file.
+using KeyPlaces = std::map<std::string, Place, std::less<>>;
+
 /// A mechanism read from a file, with what the manifest needs to name it.
 struct MechanismFile {
   DeclaredMechanism mechanism;
   std::string path;
   std::string sha256;                  ///< of the file's bytes (settings are not in it)
   std::vector<Diagnostic> warnings;
+  KeyPlaces places;
+
+  /// Of a key; the whole file where it was not written.
+  Place place_of(std::string_view key) const;
 };
 
 /// Reads, fills in the defaults, applies `settings`, checks every key against the field table and the keys against
@@ -32,7 +40,8 @@ MechanismFile read_mechanism(const std::filesystem::path& path, const std::vecto
 
 /// The same from text; `name` stands in the messages, tables are looked for in `folder`.
 DeclaredMechanism parse_mechanism(std::string_view text, const std::string& name, const std::filesystem::path& folder = ".",
-                          const std::vector<Setting>& settings = {}, std::vector<Diagnostic>* warnings = nullptr);
+                          const std::vector<Setting>& settings = {}, std::vector<Diagnostic>* warnings = nullptr,
+                          KeyPlaces* places = nullptr);
 
 /// A complete file with every key, its meaning, unit, range and default as a comment. parse(write(m)) == m.
 std::string write_mechanism(const DeclaredMechanism& mechanism);

@@ -46,7 +46,7 @@ struct OptimizeResult {
   Evaluation before;     ///< of the first objective, by the file as it is
   std::string new_text;  ///< the person's file with the design's numbers; empty when none was asked for
   std::vector<OutputFile> front_files;
-  std::vector<Diagnostic> warnings;  ///< of what the new files could not keep
+  std::vector<Diagnostic> warnings;  ///< doubts about the file as it is, and what the new files could not keep
   bool published = false;
 
   SearchMethod method() const { return static_cast<SearchMethod>(search.index()); }

@@ -1,0 +1,151 @@
+#include "fusee/calibration/slips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "calibration/fit.h"
+#include "calibration/suspects.h"
+#include "calibration/thresholds.h"
+#include "fusee/base/text.h"
+#include "transmission/declared_law.h"
+
+namespace fusee {
+namespace {
+
+/// Ten times as many as a fit looks at.
+constexpr std::size_t k_rows_a_run = 2000;
+
+Measurement as_meant(Measurement data, const Suspect& suspect) {
+  for (Run& run : data.runs) {
+    for (Sample& sample : run.samples) {
+      sample.alpha *= suspect.alpha;
+      sample.theta *= suspect.theta;
+    }
+    for (Stroke& stroke : run.strokes) stroke.direction *= suspect.alpha < 0 ? -1 : 1;
+    run.speed *= std::abs(suspect.alpha);
+  }
+  compare_with_declared(suspect.joint, data);
+  return data;
+}
+
+/// A suspect held against the data.
+struct Trial {
+  Suspect suspect;
+  double left = std::numeric_limits<double>::infinity();  ///< held-out rms with nothing fitted, rad
+  double floor = 0;                                       ///< rad
+};
+
+Trial tried(Suspect suspect, const Measurement& read, double floor) {
+  Trial trial{std::move(suspect)};
+  trial.floor = floor * std::abs(trial.suspect.theta);
+  if (!DeclaredLaw(trial.suspect.joint).exists() || !DeclaredLaw(trial.suspect.drawn).exists()) return trial;
+  const Measurement data = as_meant(read, trial.suspect);
+  if (!data.not_testable.empty()) return trial;
+  const Evidence evidence = gather(trial.suspect.joint, data, trial.floor);
+  if (evidence.blocks.size() < 2) return trial;
+  Forward forward(trial.suspect.joint, evidence.log, trial.suspect.drawn);
+  const Fit fit = Fitter(evidence, forward).fit({}, {});
+  if (fit.usable) trial.left = held_out_rms(fit);
+  return trial;
+}
+
+std::vector<Trial> trials(const DeclaredMechanism& declared, const Measurement& read, double floor) {
+  std::vector<Trial> all;
+  for (Suspect& suspect : suspects(declared)) all.push_back(tried(std::move(suspect), read, floor));
+  std::stable_sort(all.begin(), all.end(), [](const Trial& a, const Trial& b) { return a.left < b.left; });
+  return all;
+}
+
+bool is_explained(const Calibration& found) {
+  return found.verdict == CalibrationVerdict::explained || found.verdict == CalibrationVerdict::confounded ||
+         found.verdict == CalibrationVerdict::no_effect;
+}
+
+bool is_within(const Trial& trial, double floors) { return trial.left <= floors * trial.floor; }
+
+/// What a slip has to beat, rad.
+struct Stakes {
+  double declared = 0;    ///< left by the file as it stands
+  double by_effects = 0;  ///< left by the effects that were found in it
+  bool explained = false;
+};
+
+/// Where nothing could be tested, anything is better.
+Stakes stakes_of(const Calibration& found) {
+  constexpr double nothing = std::numeric_limits<double>::infinity();
+  if (found.verdict == CalibrationVerdict::not_testable) return {nothing, nothing};
+  return {found.before.held_out_rms, found.after.held_out_rms, is_explained(found)};
+}
+
+/// Several effects at their largest may stand for a slip, or nearly; the slip needs none.
+bool is_simpler(const Trial& trial, const Stakes& stakes) {
+  const double noise = stakes.explained ? std::sqrt(k_thresholds.at_floor) : k_thresholds.slip_alone;
+  return is_within(trial, noise) && stakes.declared > k_thresholds.slip_large * trial.floor;
+}
+
+/// Whether the joint as meant is so much nearer to the data that something else beside the slip may stay unexplained.
+bool is_clear(const Trial& trial, const Stakes& stakes) {
+  return std::isfinite(stakes.by_effects) ? trial.left * k_thresholds.slip_clear < stakes.by_effects
+                                          : is_within(trial, k_thresholds.slip_near);
+}
+
+/// Whether the joint as meant explains the data, at once or with effects beside it: by the rule of every calibration.
+bool explains(Trial& trial, const Measurement& read, const Stakes& stakes) {
+  UndoneSlip& slip = trial.suspect.slip;
+  slip.rms = trial.left;
+  if (is_simpler(trial, stakes)) return true;
+  if (stakes.explained || k_thresholds.slip_gain * trial.left > stakes.by_effects) return false;
+  if (slip.pulley_as_declared || !is_within(trial, k_thresholds.slip_far)) return is_clear(trial, stakes);
+  const Calibration found = calibrate(trial.suspect.joint, as_meant(read, trial.suspect));
+  if (!is_explained(found)) return is_clear(trial, stakes);
+  for (const FoundEffect& effect : found.effects) slip.beside.push_back(effect.name);
+  slip.rms = found.after.held_out_rms;
+  return true;
+}
+
+std::string numbers_text(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + rounded(value, 5);
+  return text;
+}
+
+std::string beside_text(const std::vector<std::string>& effects) {
+  std::string text;
+  for (const std::string& name : effects) text += (text.empty() ? ", with " : ", ") + name;
+  return text.empty() ? text : text + " beside it";
+}
+
+}  // namespace
+
+std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, const Measurement& as_read,
+                                           const Calibration& found) {
+  const bool can_be_tested = as_read.not_testable.empty() && found.verdict != CalibrationVerdict::not_repeatable;
+  // A file that was corrected has been held against data before.
+  if (!can_be_tested || found.verdict == CalibrationVerdict::no_effect || declared.identified != Imperfections{})
+    return {};
+  const Stakes stakes = stakes_of(found);
+  const double floor = std::max(noise_floor(as_read).rms, 1e-9);
+  const Measurement data = with_fewer_rows(as_read, k_rows_a_run);
+  std::vector<UndoneSlip> slips;
+  double best = 0;  // held-out rms of the first
+  for (Trial& trial : trials(declared, data, floor)) {
+    const bool ties = slips.empty() || trial.left <= k_thresholds.slip_tie * best;
+    if (!ties || !explains(trial, data, stakes)) break;
+    if (slips.empty()) best = trial.left;
+    slips.push_back(trial.suspect.slip);
+  }
+  return slips;
+}
+
+std::string slip_words(const UndoneSlip& slip) {
+  const bool of_file = slip.key.find('.') != std::string::npos;
+  const std::string meant =
+      of_file ? slip.key + " = " + numbers_text(slip.would_be) + " in place of " + numbers_text(slip.declared)
+              : "the logged " + slip.key + " times " + numbers_text(slip.would_be);
+  return meant + (slip.pulley_as_declared ? ", with the pulley that was made from this file," : "") +
+         " would explain the data to " + rounded(degrees(slip.rms), 2) + "°" + beside_text(slip.beside) + ": " +
+         slip.question;
+}
+
+}  // namespace fusee

@@ -1,0 +1,103 @@
+#include "calibration/suspects.h"
+
+#include <cmath>
+#include <optional>
+
+#include "fusee/mechanism/fields.h"
+
+namespace fusee {
+namespace {
+
+/// Numbers that differ by less than this part are no slip of each other.
+constexpr double k_alike = 0.01;
+
+/// `would_be` in place of what is declared; nothing where that is the same or no file may hold it.
+std::optional<Suspect> instead(const DeclaredMechanism& declared, const std::string& name,
+                               const std::vector<std::string>& keys, const std::vector<double>& would_be,
+                               const char* question) {
+  Suspect suspect{{name, {}, would_be, question}, declared, declared};
+  bool differs = false;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const NumberKey key = *find_number_key(keys[i]);
+    const double value = key.get(declared);
+    const bool allowed = would_be[i] >= key.field->least && would_be[i] <= key.field->most;
+    if (!allowed || !is_used(*key.field, declared)) return std::nullopt;
+    differs = differs || std::abs(would_be[i] - value) > k_alike * std::abs(value);
+    suspect.slip.declared.push_back(value);
+    key.set(suspect.joint, would_be[i]);
+  }
+  if (!differs) return std::nullopt;
+  suspect.drawn = suspect.joint;
+  return suspect;
+}
+
+std::optional<Suspect> times(const DeclaredMechanism& declared, const char* key, double factor, const char* question) {
+  return instead(declared, key, {key}, {factor * find_number_key(key)->get(declared)}, question);
+}
+
+std::optional<Suspect> turned_over(const DeclaredMechanism& declared, const char* key) {
+  return instead(declared, key, {key}, {1.0 / find_number_key(key)->get(declared)}, "is it alpha per theta?");
+}
+
+std::optional<Suspect> exchanged_pins(const DeclaredMechanism& declared) {
+  return instead(declared, "guides.EB_mm, guides.ED_mm", {"guides.EB_mm", "guides.ED_mm"},
+                 {declared.guides.ED, declared.guides.EB}, "are the two exchanged?");
+}
+
+std::optional<Suspect> range_in_radians(const DeclaredMechanism& declared) {
+  const Joint& joint = declared.joint;
+  return instead(declared, "joint.range_deg", {"joint.range_deg[0]", "joint.range_deg[1]"},
+                 {degrees(degrees(joint.theta_min)), degrees(degrees(joint.theta_max))}, "is it in radians?");
+}
+
+/// The pulley that was made from the file as it stands, in the joint that was meant.
+std::optional<Suspect> with_pulley_as_declared(std::optional<Suspect> suspect, const DeclaredMechanism& declared) {
+  if (!suspect) return suspect;
+  suspect->drawn = declared;
+  suspect->slip.pulley_as_declared = true;
+  return suspect;
+}
+
+struct DataSlip {
+  const char* angles;
+  double alpha, theta;
+  const char* question;
+};
+constexpr const char* k_sign = "is the sign right?";
+constexpr const char* k_unit = "is the unit right?";
+constexpr const char* k_radians = "is the log in radians?";
+constexpr DataSlip k_data_slips[] = {
+    {"alpha", -1.0, 1.0, k_sign},
+    {"theta", 1.0, -1.0, k_sign},
+    {"alpha and theta", -1.0, -1.0, k_sign},
+    {"alpha", degrees(1.0), 1.0, k_radians},
+    {"theta", 1.0, degrees(1.0), k_radians},
+    {"alpha and theta", degrees(1.0), degrees(1.0), k_radians},
+};
+
+}  // namespace
+
+std::vector<Suspect> suspects(const DeclaredMechanism& declared) {
+  std::vector<Suspect> all;
+  const auto add = [&all](std::optional<Suspect> suspect) {
+    if (suspect) all.push_back(std::move(*suspect));
+  };
+  for (const auto& geometry : {times(declared, "guides.OE_mm", -1.0, k_sign), exchanged_pins(declared)}) {
+    add(geometry);
+    add(with_pulley_as_declared(geometry, declared));
+  }
+  add(range_in_radians(declared));
+  for (const char* length :
+       {"joint.length_mm", "guides.EB_mm", "guides.ED_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.r1_mm"}) {
+    for (const double factor : {10.0, 0.1}) add(times(declared, length, factor, k_unit));
+  }
+  add(times(declared, "tendon.modulus_MPa", 1000.0, "is it in GPa?"));
+  for (const char* ratio : {"pulley.ratio", "transmission.ratio"}) add(turned_over(declared, ratio));
+  for (const DataSlip& data : k_data_slips) {
+    const double factor = data.alpha != 1.0 ? data.alpha : data.theta;
+    all.push_back({{data.angles, {1.0}, {factor}, data.question}, declared, declared, data.alpha, data.theta});
+  }
+  return all;
+}
+
+}  // namespace fusee

@@ -1,0 +1,245 @@
+// Files and logs that were written wrongly, of joints that were made and measured rightly: by a rig that shares no code
+// with the fit.
+#include "fusee/calibration/slips.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "fusee/base/units.h"
+#include "fusee/mechanism/file.h"
+#include "rig/random.h"
+#include "rig/truths.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// As a bench would have logged it.
+Measurement logged(const std::vector<rig::Log>& logs) {
+  Measurement measurement;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const std::string name = "run_" + std::to_string(i + 1) + ".csv";
+    measurement.runs.push_back(parse_run(rig::csv_text(logs[i]), name, {}, measurement));
+  }
+  return measurement;
+}
+
+struct Bench {
+  DeclaredMechanism right;  ///< the joint that was measured
+  Measurement data;
+};
+
+Bench random_bench(std::uint64_t seed) {
+  rig::Random random(seed);
+  const rig::MadeJoint joint = rig::random_joint(random);
+  return {joint.declared, logged(rig::log_runs(joint, {}, rig::full_protocol(0.05 * joint.declared.joint.R)))};
+}
+
+/// Joints of the rig, of either law, both with nothing alike on both sides …
+const Bench& compensating() {
+  static const Bench bench = random_bench(3 * 7919);
+  return bench;
+}
+const Bench& linear() {
+  static const Bench bench = random_bench(6 * 7919);
+  return bench;
+}
+
+/// … and one that another rig measured.
+Bench rig_data(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(FUSEE_SOURCE_DIR) / "tests/data/rig" / name;
+  std::vector<std::filesystem::path> runs;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv") runs.push_back(entry.path());
+  }
+  std::sort(runs.begin(), runs.end());
+  return {read_mechanism(folder / "spec.toml").mechanism, read_measurement(runs)};
+}
+
+std::vector<std::string> words(const std::vector<UndoneSlip>& slips) {
+  std::vector<std::string> all;
+  for (const UndoneSlip& slip : slips) all.push_back(slip_words(slip));
+  return all;
+}
+
+Calibration calibrated(const DeclaredMechanism& file, Measurement data) {
+  compare_with_declared(file, data);
+  return calibrate(file, data);
+}
+
+/// What calibrate finds of a file, and then of its slips.
+std::vector<std::string> said(const DeclaredMechanism& file, const Measurement& data) {
+  return words(slips_that_explain(file, data, calibrated(file, data)));
+}
+
+/// The same without the minute of search: found is that nothing explains.
+std::vector<std::string> said_where_unexplained(const DeclaredMechanism& file, const Measurement& data) {
+  Calibration found;
+  found.verdict = CalibrationVerdict::unexplained;
+  found.before = {radians(5.0), radians(10.0), radians(5.0)};
+  found.after = {radians(0.5), radians(1.0), radians(0.5)};
+  return words(slips_that_explain(file, data, found));
+}
+
+// ---- one slip after another -----------------------------------------------------------------------------------------
+
+struct OneSlip {
+  const char* name;
+  void (*file)(DeclaredMechanism&);
+  const char* said;
+};
+
+const OneSlip k_file_slips[] = {
+    {"OE", [](DeclaredMechanism& m) { m.guides.OE *= -1; }, "guides.OE_mm = -"},
+    {"exchanged", [](DeclaredMechanism& m) { std::swap(m.guides.EB, m.guides.ED); }, "guides.EB_mm, guides.ED_mm = "},
+    {"R", [](DeclaredMechanism& m) { m.joint.R /= 10; }, "joint.length_mm = "},
+    {"EB", [](DeclaredMechanism& m) { m.guides.EB /= 10; }, "guides.EB_mm = "},
+    {"r1", [](DeclaredMechanism& m) { m.pulley.r1 *= 10; }, "pulley.r1_mm = "},
+    {"modulus", [](DeclaredMechanism& m) { m.tendon.modulus /= 1000; }, "tendon.modulus_MPa = "},
+    {"range",
+     [](DeclaredMechanism& m) {
+       m.joint.theta_min = radians(m.joint.theta_min);
+       m.joint.theta_max = radians(m.joint.theta_max);
+     },
+     "joint.range_deg = "},
+};
+
+TEST(UndoneSlips, name_the_key_and_the_value_that_was_meant) {
+  const Bench& bench = compensating();
+  for (const OneSlip& slip : k_file_slips) {
+    DeclaredMechanism file = bench.right;
+    slip.file(file);
+    EXPECT_THAT(said_where_unexplained(file, bench.data),
+                ElementsAre(AllOf(HasSubstr(slip.said), HasSubstr("to 0.02°"))))
+        << slip.name;
+  }
+}
+
+TEST(UndoneSlips, of_a_joint_with_a_ratio_name_it) {
+  const Bench& bench = linear();
+  ASSERT_EQ(bench.right.pulley.law, Law::linear);
+  DeclaredMechanism file = bench.right;
+  file.pulley.ratio = 1.0 / file.pulley.ratio;
+  EXPECT_THAT(said(file, bench.data), ElementsAre(AllOf(HasSubstr("pulley.ratio = "), HasSubstr("alpha per theta?"))));
+}
+
+/// Logged with other signs or in another unit.
+Measurement times(Measurement data, double alpha, double theta) {
+  for (Run& run : data.runs) {
+    for (Sample& sample : run.samples) {
+      sample.alpha *= alpha;
+      sample.theta *= theta;
+    }
+    for (Stroke& stroke : run.strokes) stroke.direction *= alpha < 0 ? -1 : 1;
+  }
+  return data;
+}
+
+TEST(UndoneSlips, of_the_log_name_the_angle) {
+  const Bench& bench = compensating();
+  const auto said_of = [&](double alpha, double theta) {
+    return said_where_unexplained(bench.right, times(bench.data, alpha, theta));
+  };
+  EXPECT_THAT(said_of(1, -1), ElementsAre(HasSubstr("the logged theta times -1")));
+  EXPECT_THAT(said_of(-1, 1), ElementsAre(HasSubstr("the logged alpha times -1")));
+  EXPECT_THAT(said_of(-1, -1), ElementsAre(HasSubstr("the logged alpha and theta times -1")));
+  EXPECT_THAT(said_of(1, radians(1)), ElementsAre(HasSubstr("the logged theta times 57.296")));
+}
+
+TEST(UndoneSlips, know_the_pulley_that_was_made_from_the_wrong_file) {
+  const Bench& bench = linear();
+  DeclaredMechanism file = bench.right;
+  file.guides.OE *= -1;
+  rig::MadeJoint mounted = rig::make_joint(file);
+  mounted.declared = bench.right;
+  const Measurement data = logged(rig::log_runs(mounted, {}, rig::full_protocol(0.05 * file.joint.R)));
+  EXPECT_THAT(said_where_unexplained(file, data),
+              ElementsAre(AllOf(HasSubstr("guides.OE_mm = -52.7 in place of 52.7"),
+                                HasSubstr("the pulley that was made from this file"))));
+}
+
+// ---- the whole way --------------------------------------------------------------------------------------------------
+
+TEST(UndoneSlips, are_said_where_no_effect_explains) {
+  Bench bench = rig_data("a_declared_right");
+  bench.right.guides.OE *= -1;
+  const Calibration found = calibrated(bench.right, bench.data);
+  ASSERT_EQ(found.verdict, CalibrationVerdict::unexplained);
+  const std::vector<UndoneSlip> slips = slips_that_explain(bench.right, bench.data, found);
+  ASSERT_EQ(slips.size(), 1u);
+  EXPECT_EQ(slips[0].key, "guides.OE_mm");
+  EXPECT_THAT(slips[0].declared, ElementsAre(14.0));
+  EXPECT_THAT(slips[0].would_be, ElementsAre(-14.0));
+  EXPECT_LT(slips[0].rms, 1.1 * found.noise.rms);
+  EXPECT_EQ(slip_words(slips[0]),
+            "guides.OE_mm = -14 in place of 14 would explain the data to 0.02°: is the sign right?");
+}
+
+TEST(UndoneSlips, are_said_where_the_data_are_refused) {
+  Bench bench = rig_data("a_declared_right");
+  bench.right.guides.EB /= 10;
+  EXPECT_EQ(calibrated(bench.right, bench.data).verdict, CalibrationVerdict::not_testable);
+  EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("guides.EB_mm = 18 in place of 1.8")));
+}
+
+TEST(UndoneSlips, leave_room_for_an_effect_beside_them) {
+  Bench bench = rig_data("b_stretch");
+  bench.right.guides.OE *= -1;
+  EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("with tendon_stretch beside it")));
+}
+
+TEST(UndoneSlips, leave_room_for_a_cause_without_a_name) {
+  Bench bench = rig_data("f_not_in_any_catalogue");
+  bench.right.guides.OE *= -1;
+  EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("would explain the data to 0.073°")));
+}
+
+TEST(UndoneSlips, stand_before_effects_that_are_larger_than_any) {
+  const Bench& bench = compensating();
+  DeclaredMechanism file = bench.right;
+  std::swap(file.guides.EB, file.guides.ED);
+  Calibration found;
+  found.verdict = CalibrationVerdict::explained;
+  found.noise.rms = found.after.held_out_rms = radians(0.02);
+  found.before.held_out_rms = radians(1.0);
+  EXPECT_THAT(words(slips_that_explain(file, bench.data, found)), ElementsAre(HasSubstr("are the two exchanged?")));
+  found.before.held_out_rms = radians(0.2);  // as large as any effect
+  EXPECT_THAT(slips_that_explain(file, bench.data, found), IsEmpty());
+}
+
+// ---- where they must not be said ------------------------------------------------------------------------------------
+
+TEST(UndoneSlips, are_not_said_of_a_right_file) {
+  for (const char* name : {"a_declared_right", "b_stretch", "c_backlash", "d_guide_radius", "e_one_sweep_only",
+                           "f_not_in_any_catalogue"}) {
+    const Bench bench = rig_data(name);
+    EXPECT_THAT(said(bench.right, bench.data), IsEmpty()) << name;
+  }
+}
+
+// All 40 rows of the matrix, seeds 1 and 2: none (46 s a seed). Here those that stay unexplained by most.
+TEST(UndoneSlips, are_not_said_where_a_cause_has_no_name) {
+  for (const char* fault : {"lump", "motor_cogging"}) {
+    const rig::Case made = rig::make_case({fault, {fault}}, 1, rig::Protocol::full);
+    const Measurement data = logged(made.logs);
+    const Calibration found = calibrated(made.joint.declared, data);
+    EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << fault;
+    EXPECT_THAT(slips_that_explain(made.joint.declared, data, found), IsEmpty()) << fault;
+  }
+}
+
+TEST(UndoneSlips, are_not_sought_in_data_that_decide_nothing) {
+  Bench bench = rig_data("a_declared_right");
+  bench.right.guides.OE *= -1;
+  bench.data.not_testable = {"one direction"};
+  EXPECT_THAT(said(bench.right, bench.data), IsEmpty());
+}
+
+}  // namespace
+}  // namespace fusee

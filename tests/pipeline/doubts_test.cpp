@@ -1,0 +1,97 @@
+// A word in time, whichever verb reads the file: in the value that it gives back and in what it writes.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "fusee/pipeline.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+MechanismFile profile(const std::string& name, const std::vector<Setting>& settings) {
+  return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (name + ".toml"), settings);
+}
+
+/// An arm whose pins were meant to be above the joint, and which is overloaded.
+MechanismFile slipped_forearm() {
+  return profile("forearm", {{"guides.OE_mm", "40"}, {"tendon.strength_N", "20"}, {"load.tip_force_N", "25"}});
+}
+
+std::vector<std::string> messages(const std::vector<Diagnostic>& warnings) {
+  std::vector<std::string> all;
+  for (const Diagnostic& warning : warnings) {
+    EXPECT_EQ(warning.severity, Severity::warning);
+    all.push_back(warning.message);
+  }
+  return all;
+}
+
+std::string text_of(const std::vector<OutputFile>& outputs, const std::string& name) {
+  const auto found =
+      std::find_if(outputs.begin(), outputs.end(), [&](const OutputFile& one) { return one.name == name; });
+  return found == outputs.end() ? "" : found->bytes;
+}
+
+BuildResult built(const MechanismFile& file) {
+  BuildOptions options;
+  options.folder = std::filesystem::path(::testing::TempDir()) / "fusee_doubts";
+  options.dry_run = true;
+  return build(file, options);
+}
+
+TEST(Doubts, OfABuildStandInManifestAndReport) {
+  const BuildResult result = built(slipped_forearm());
+  EXPECT_THAT(messages(result.product.file.warnings),
+              ElementsAre(HasSubstr("guides.OE_mm = 40"), HasSubstr("the tendon breaks")));
+  EXPECT_THAT(text_of(result.outputs, "manifest.json"),
+              AllOf(HasSubstr("guides.OE_mm = 40 mm"), HasSubstr("(tendon.strength_N")));
+  EXPECT_THAT(text_of(result.outputs, "report.html"), HasSubstr("guides.OE_mm = 40 mm"));
+}
+
+TEST(Doubts, OfABuildThatCannotBeMadeAreSaidToo) {
+  const BuildResult result = built(profile("forearm", {{"guides.EB_mm", "5"}}));
+  EXPECT_EQ(result.status, BuildStatus::infeasible);
+  EXPECT_THAT(messages(result.product.file.warnings), ElementsAre(HasSubstr("guides.EB_mm = 5")));
+}
+
+TEST(Doubts, OfAnAnalysisLeaveABreakingTendonToItsError) {
+  const AnalysisResult result = analyze(slipped_forearm());
+  EXPECT_TRUE(result.breaks_at);
+  EXPECT_THAT(messages(result.warnings), ElementsAre(HasSubstr("guides.OE_mm = 40")));
+  // An estimate is a doubt: there is no error.
+  const AnalysisResult likely =
+      analyze(profile("forearm", {{"load.tip_force_N", "500"}, {"tendon.diameter_mm", "0.9"}}));
+  EXPECT_FALSE(likely.breaks_at);
+  EXPECT_THAT(messages(likely.warnings), ElementsAre(HasSubstr("an estimate")));
+}
+
+TEST(Doubts, OfAnAnalysisNameTightBends) {
+  EXPECT_THAT(messages(analyze(profile("forearm", {{"tendon.bend_ratio", "34"}})).warnings),
+              ElementsAre(HasSubstr("P1 bends the tendon"), HasSubstr("P2 bends the tendon")));
+}
+
+TEST(Doubts, OfASearchAreOfTheFileAsItIs) {
+  OptimizeOptions options;
+  options.dry_run = true;
+  EXPECT_THAT(messages(optimize(profile("paper_optimum", {{"tendon.modulus_MPa", "40"}}), options).warnings),
+              ElementsAre(HasSubstr("tendon.modulus_MPa = 40 MPa")));
+}
+
+TEST(Doubts, AreNoneOfAnOrdinaryFile) {
+  const MechanismFile file = profile("forearm", {});
+  const BuildResult result = built(file);
+  EXPECT_THAT(result.product.file.warnings, IsEmpty());
+  EXPECT_THAT(analyze(file).warnings, IsEmpty());
+  OptimizeOptions options;
+  options.dry_run = true;
+  EXPECT_THAT(optimize(profile("paper_optimum", {}), options).warnings, IsEmpty());
+}
+
+}  // namespace
+}  // namespace fusee
