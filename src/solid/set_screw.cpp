@@ -42,7 +42,7 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
   result.nut_trap = nut_trap;
   result.hole_diameter = (nut_trap ? screw.clearance : screw.tapping) + compensation;
   result.angle = 0.5 * k_pi;
-  result.roof_slope = layout.roof_slope > 0 ? layout.roof_slope : radians(45);
+  result.roof_slope = gable_slope(layout);
   if (nut_trap) {
     result.nut_width = screw.nut_width + compensation;
     result.nut_thickness = screw.nut_thickness + compensation;
