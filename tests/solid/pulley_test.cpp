@@ -125,9 +125,10 @@ TEST(CheckPulley, WrongRadius) {
 TEST(CheckPulley, OneVertexOfTheFloorMoved) {
   Made made;
   const double z = made.pulley.layout.z_p2;
+  const GrooveWalls& walls = made.pulley.layout.p2;
   Vec3* moved = nullptr;
   for (Vec3& vertex : made.pulley.mesh.vertices) {
-    const bool on_band = std::abs(vertex.z() - z) < 1.01 * made.pulley.layout.groove[1].dz;
+    const bool on_band = vertex.z() > z - 1.01 * walls.below[1].dz && vertex.z() < z + 1.01 * walls.above[1].dz;
     if (on_band && std::abs((vertex.head<2>() - Vec2(3, 1)).norm() - 17.5) < 1e-3 && vertex.y() < -10) moved = &vertex;
   }
   ASSERT_NE(moved, nullptr);
