@@ -59,60 +59,53 @@ Heights heights_of(const BodyLayout& layout, Side side, int variant) {
   return heights;
 }
 
-// How high a pocket reaches at `aside` from its middle, towards the channel's outer side.
-double pocket_top(double radius, const Heights& heights, double aside) {
-  if (heights.open > 0) return heights.open;
-  return heights.half + k_deeper + heights.pocket_roof * 0.5 * (1.0 + aside / radius);
-}
-
-std::vector<Vec3> section(const Vec2& inner, const Vec2& outer, double half, double eave, double ridge) {
-  return {{inner.x(), inner.y(), -half}, {outer.x(), outer.y(), -half}, {outer.x(), outer.y(), ridge}, {inner.x(), inner.y(), eave}};
-}
-
 // The ceiling is one slope that rises from the inner wall, which holds it all along, to the outer one: where that one
 // ends, at the mouth, it runs on into the groove's own roof. A flat ceiling would be bridged only if it were closed all
-// round, and a gable's strips end in mid-air at a mouth as slanted as this. Where it meets the pocket it ends in a wall
-// across the channel: the pocket's own would be met at too sharp an angle.
-TriangleMesh channel(const ChannelEdges& edges, const AnchorPath& path, double width, double radius,
-                     const Heights& heights) {
+// round, and a gable's strips end in mid-air at a mouth as slanted as this.
+TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& heights) {
   std::vector<std::vector<Vec3>> sections;
-  for (std::size_t k = 0; k + 1 < edges.outer.size(); ++k) {
-    const double ridge = heights.half + heights.channel_roof * (edges.outer[k] - edges.inner[k]).norm() / width;
-    sections.push_back(section(edges.inner[k], edges.outer[k], heights.half, heights.half, ridge));
+  for (std::size_t k = 0; k < edges.outer.size(); ++k) {
+    const Vec2 &o = edges.outer[k], &i = edges.inner[k];
+    const double ridge = heights.half + heights.channel_roof * (o - i).norm() / width;
+    sections.push_back({{i.x(), i.y(), -heights.half},
+                        {o.x(), o.y(), -heights.half},
+                        {o.x(), o.y(), ridge},
+                        {i.x(), i.y(), heights.half}});
   }
-  const Vec2 aside = 0.5 * width * path.outer();
-  const auto add = [&](double before_pocket, double eave, double ridge) {
-    const Vec2 middle = path.pocket() - before_pocket * path.heading();
-    sections.push_back(section(middle - aside, middle + aside, heights.half, eave, ridge));
-  };
-  const double ridge = heights.half + heights.channel_roof;
-  const double before = radius + k_deeper;
-  const Vec2 last = 0.5 * (edges.outer[edges.outer.size() - 2] + edges.inner[edges.inner.size() - 2]);
-  const bool walled = heights.channel_roof > 0 && (path.pocket() - last).dot(path.heading()) > before + k_deeper;
-  if (!walled) {
-    add(0.0, heights.half, ridge);
-    return strip(sections);
-  }
-  // Clear of the pocket's own top.
-  const double low = pocket_top(radius, heights, -0.5 * width) - k_deeper * 0.5,
-               high = pocket_top(radius, heights, 0.5 * width) - k_deeper * 0.5;
-  add(before, heights.half, ridge);
-  add(before - 0.25 * k_deeper, low, high);
-  add(0.0, low, high);
   return strip(sections);
+}
+
+// Seen from its middle, x ahead and y to the channel's outer side: a circle, and a tab in which the channel ends in a wall
+// across it. The circle itself would meet the channel's slope at too sharp an angle.
+std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int facets) {
+  // A little wider than the channel, so that no two of their faces coincide.
+  const double half = std::min(0.5 * width + 0.5 * k_deeper, 0.95 * radius), behind = std::asin(half / radius);
+  const double step = k_two_pi / facets;
+  std::vector<Vec2> points;
+  if (!tab) {
+    for (int k = 0; k < facets; ++k) points.push_back(radius * unit(k * step));
+    return points;
+  }
+  for (double angle = 0; angle < k_pi - behind - 0.3 * step; angle += step) points.push_back(radius * unit(angle));
+  points.push_back(radius * unit(k_pi - behind));
+  points.emplace_back(-radius - k_deeper, half);
+  points.emplace_back(-radius - k_deeper, -half);
+  points.push_back(radius * unit(k_pi + behind));
+  const std::size_t upper = points.size() - 4;
+  for (std::size_t k = upper; k-- > 1;) points.emplace_back(points[k].x(), -points[k].y());
+  return points;
 }
 
 // The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under it,
 // and no keel hangs down between the two.
-TriangleMesh pocket(const AnchorPath& path, double radius, int facets, const Heights& heights) {
-  const Vec2 centre = path.pocket(), outer = path.outer();
-  const bool up = heights.open > 0;
+TriangleMesh pocket(const AnchorPath& path, double radius, double width, int facets, const Heights& heights) {
+  const bool tab = heights.channel_roof > 0 && path.straight > radius + k_deeper;
   std::vector<Vec3> mouth, end;
-  for (int k = 0; k < facets; ++k) {
-    const Vec2 aside = radius * unit(k_two_pi * (k + 0.3) / facets), point = centre + aside;
+  for (const Vec2& local : pocket_outline(radius, width, tab, facets)) {
+    const Vec2 point = path.pocket() + local.x() * path.heading() + local.y() * path.outer();
+    const double roof = heights.pocket_roof * 0.5 * (1.0 + local.y() / radius);
     mouth.emplace_back(point.x(), point.y(), heights.open);
-    end.emplace_back(point.x(), point.y(),
-                     up ? -(heights.half + k_deeper) : pocket_top(radius, heights, aside.dot(outer)));
+    end.emplace_back(point.x(), point.y(), std::copysign(heights.half + k_deeper, -heights.open) + roof);
   }
   return strip({mouth, end});
 }
@@ -123,8 +116,8 @@ TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int 
   const double width = layout.channel_width, radius = layout.pocket_radius;
   const Heights heights = heights_of(layout, side, variant);
   const ChannelEdges edges = channel_edges(plan, side, path);
-  const auto both = unite(rounded_to_float(channel(edges, path, width, radius, heights)),
-                          rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
+  const auto both = unite(rounded_to_float(channel(edges, width, heights)),
+                          rounded_to_float(pocket(path, radius, width, pocket_facets(radius) + variant, heights)));
   demand(both.has_value(), "channel and knot pocket do not join");
   TriangleMesh tool = both->mesh;
   for (Vec3& vertex : tool.vertices) vertex.z() = heights.plane + heights.up * vertex.z();
