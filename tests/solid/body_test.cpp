@@ -65,12 +65,12 @@ TEST(Body, RoundPulleyHasTheVolumeOfItsFrustums) {
   const double lip = 19.5 + layout.groove_depth;
   // Round both circles by the smooth maximum of their support functions, with a margin.
   const double middle = lip + 0.5 * std::log(2.0) + 0.2;
-  // Facets are steeper in their middle than at their corners, which stand out furthest.
-  EXPECT_NEAR(layout.middle_cone, (middle - lip * std::cos(k_pi / n)) * slope, 1e-9);
+  // Facets are steepest along their corners: across their middle they are as flat as is asked for.
+  EXPECT_NEAR(layout.middle_cone, (middle - lip) * std::cos(k_pi / n) * slope, 1e-9);
   const double middle_rim = layout.z_p2 - layout.p2.below_width() - layout.z_middle;
   const double upper_rim = layout.z_top - layout.z_p2 - layout.p2.above_width();
-  EXPECT_GE(middle_rim, t);
-  EXPECT_GE(upper_rim, t);
+  EXPECT_GE(middle_rim, t - 1e-9);
+  EXPECT_GE(upper_rim, t - 1e-9);
   const double bore = signed_area(layout.bore.outline) * layout.z_hub;
   const double expected = frustum(n, lip - foot, lip, foot_rise) + frustum(n, lip, lip, t - foot_rise) +
                           groove(n, 19.5, layout.p1) + frustum(n, lip, middle, layout.middle_cone) +

@@ -31,11 +31,16 @@ AnchorPath path_at(const Vec2& start, const Vec2& normal, double sense, double f
   return path;
 }
 
+double depth_in_floor(const Case& one, const Vec2& point) {
+  return one.floor_radius > 0 ? one.floor_radius - point.norm() : -0.5 * k_d - point.y();
+}
+
+// What a search for tie-offs would take: the pocket lies within the floor.
 std::vector<Case> cases() {
   std::vector<Case> cases;
   for (const double sense : {1.0, -1.0}) {
-    for (const double fillet : {2.0, 3.0, 5.0}) {
-      for (const double turn : {30.0, 50.0, 70.0, 110.0}) {
+    for (const double fillet : {2.0, 2.6, 4.0}) {
+      for (const double turn : {40.0, 55.0, 70.0, 85.0, 115.0}) {
         for (const double width : {1.2, 1.6, 2.2}) {
           for (const double radius : {0.0, 8.0, 16.0, 60.0}) {
             const double angle = 0.7;
@@ -48,7 +53,7 @@ std::vector<Case> cases() {
             } else {
               one.floor = {{-200, -200}, {200, -200}, {200, -0.5 * k_d}, {-200, -0.5 * k_d}};
             }
-            cases.push_back(std::move(one));
+            if (depth_in_floor(one, one.path.pocket()) >= 0.55 * width + 0.4) cases.push_back(std::move(one));
           }
         }
       }

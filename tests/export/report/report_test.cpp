@@ -177,6 +177,7 @@ TEST(Report, SaysHowLongToCutTheTendon) {
 
 TEST(Report, SaysWhyARoundBoreHasCorners) {
   Product product = sample();
+  product.pulley.layout.bore.circle = std::nullopt;
   product.pulley.layout.bore.outline = {{2.6, -2.6}, {2.6, 2.6}, {-2.6, 2.6}, {-2.6, -2.6}};
   EXPECT_THAT(report_html(product), Not(HasSubstr("a printer’s corners cut inside")));
   product.pulley.layout.bore.circle = RoundHole{Vec2::Zero(), 5.2};
