@@ -65,7 +65,7 @@ void expect_refused_for(const OneNumber& one, Mechanism mechanism = plain_mechan
 
 TEST(Conditions, ExplicitNumbersThatDoNotFitAreRefused) {
   expect_refused_for({"bore_wall_P2", &Body::bore_diameter, 40, 8});
-  expect_refused_for({"bore_wall_P2", &Body::min_wall, 15, 2});
+  expect_refused_for({"bore_wall_P2", &Body::min_wall, 17, 2});
   expect_refused_for({"anchor_P2", &Body::wrap, radians(200), radians(20)});
   expect_refused_for({"groove_depth", &Body::groove_depth, 0.9, 1.1});
   expect_refused_for({"channel_width", &Body::anchor_hole, 0.8, 1.2});

@@ -29,7 +29,8 @@ constexpr double k_flat = 1e-5;
 // Roofs are drawn steeper than asked for by this (heights.cpp); what is measured may be off by a float's grain.
 constexpr double k_margin = radians(1.5);
 constexpr double k_grain = radians(0.05);
-constexpr double k_first_layer = 0.3;
+// The first layer, and ceilings of marks 0.4 mm deep, which are narrow bridges.
+constexpr double k_above_bed = 0.41;
 
 struct Made {
   Mechanism mechanism;
@@ -67,7 +68,7 @@ bool outside(const Outline& outline, double distance, const Vec2& point) {
   });
 }
 
-// Of faces that look down from grooves, cones and rims, above the first layer; 90° where there is none.
+// Of faces that look down from grooves, cones and rims, above the bed; 90° where there is none.
 double flattest_outside(const TriangleMesh& mesh, const std::function<bool(const Vec3&)>& is_outside) {
   double flattest = radians(90);
   const double bed = bounds(mesh).low.z();
@@ -77,7 +78,7 @@ double flattest_outside(const TriangleMesh& mesh, const std::function<bool(const
     // A sliver's normal is its floats' rounding.
     const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
     if (normal.z() >= 0 || normal.norm() < 1e-3 * longest) continue;
-    if (std::max({p.z(), q.z(), r.z()}) <= bed + k_first_layer) continue;
+    if (std::max({p.z(), q.z(), r.z()}) <= bed + k_above_bed) continue;
     if (!is_outside(p) || !is_outside(q) || !is_outside(r)) continue;
     flattest = std::min(flattest, std::atan2(normal.head<2>().norm(), -normal.z()));
   }
