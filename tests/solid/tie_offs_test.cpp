@@ -140,7 +140,7 @@ double beyond_pocket(const TailSlot& slot, const BodyLayout& layout) { return (s
 // On P1's face, which lies on the bed where the part is one, a slot has a gable over it: that takes a thicker flange.
 Mechanism thick_flanged() {
   Mechanism mechanism = plain_mechanism();
-  mechanism.body.flange_thickness = 2.0;
+  mechanism.body.flange_thickness = 2.4;
   return mechanism;
 }
 
