@@ -109,6 +109,8 @@ struct BodyLayout {
 
 /// Height of a chamfer or roof of this width that prints without support, mm.
 double rise_of(const BodyLayout& layout, double width);
+/// Slope of two roofs that meet over a slit, rad.
+double gable_slope(const BodyLayout& layout);
 
 /// All sizes. Explicit numbers are taken as they are (make_pulley refuses what is impossible); automatic ones are made to fit.
 BodyLayout resolve_layout(const Mechanism& mechanism, const SynthesisResult& synthesis);
