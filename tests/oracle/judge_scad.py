@@ -1,16 +1,18 @@
 """OpenSCAD as a judge of pulley.scad.
 
-    judge_scad.py part FOLDER      rendered as it is, it must be the part of pulley.stl (box within 0.01 mm, volume within 0.5 %); rendered with
-                                   another bore (where it is round) and another groove, the part must change by what that means
+    judge_scad.py part FOLDER      rendered as it is, it must be the part of pulley.stl (box within 0.01 mm, volume within 0.5 %), and what it
+                                   shows as "P1", "P2" and "print" must be the files that the manifest sends to the printer, side by side;
+                                   rendered with another bore (where it is round) and another groove, the part must change by what that means
     judge_scad.py preview FOLDER   the quick preview must look like the full render, from five sides
     judge_scad.py preview --self-test   that this judge sees a polyhedron without its convexity
     judge_scad.py customizer FOLDER     every parameter has words and a range, a list or a tick box; at each end and in the middle of its
                                    range the part renders without a word of complaint
 
-FOLDER holds pulley.scad and pulley.stl. Exit 0: content; 1: not, with the faults on stdout; 77: a program is not installed."""
+FOLDER is what `fusee build` wrote. Exit 0: content; 1: not, with the faults on stdout; 77: a program is not installed."""
 import argparse
 import concurrent.futures
 import contextlib
+import json
 import math
 import os
 import pathlib
@@ -66,16 +68,47 @@ def number(scad, name):
 
 # The part ------------------------------------------------------------------------------------------------------------
 
+BETWEEN_PARTS = 5.0  # mm, on the printer
+
+
+def unlike(what, found, made):
+    """Words on how a volume and a box differ from what they should be."""
+    (volume, box), (made_volume, made_box) = found, made
+    off = max(abs(a - b) for a, b in zip(box, made_box))
+    print(f"{what}: volume {volume:.1f} mm³, {100 * (volume / made_volume - 1):+.3f} % of the mesh's; box off by {off:.4f} mm")
+    if off > 0.01:
+        yield f"{what}: the box is off by {off:.4f} mm"
+    if abs(volume / made_volume - 1) > 0.005:
+        yield f"{what}: the volume is {volume:.1f} mm³ and should be {made_volume:.1f}"
+
+
+def side_by_side(first, second):
+    (volume, box), (other_volume, other) = first, second
+    shift = box[3] + BETWEEN_PARTS - other[0]
+    low = [box[0], min(box[1], other[1]), min(box[2], other[2])]
+    high = [other[3] + shift, max(box[4], other[4]), max(box[5], other[5])]
+    return volume + other_volume, low + high
+
+
+def printed_faults(folder, scratch):
+    """Of a pulley in two parts, each as it lies on the printer."""
+    pieces = json.loads((folder / "manifest.json").read_text())["print"]
+    offered = re.search(r'^show = "assembled"; // \[(.*)\]$', (folder / "pulley.scad").read_text(), re.M).group(1)
+    shows = ["assembled", "print"] + [piece["part"] for piece in pieces if "part" in piece]
+    if offered != ", ".join(shows):
+        yield f"show offers {offered}, and should offer {', '.join(shows)}"
+    if len(pieces) != 2:
+        return
+    made = [measure(folder / piece["file"]) for piece in pieces]
+    for show, expected in zip(shows[1:], [side_by_side(*made), *made]):
+        yield from unlike(show, render(folder / "pulley.scad", scratch / f"{show}.stl", show=f'"{show}"'), expected)
+
+
 def part_faults(folder, scratch):
     scad = folder / "pulley.scad"
     volume, box = render(scad, scratch / "as_it_is.stl")
-    made, made_box = measure(folder / "pulley.stl")
-    off = max(abs(a - b) for a, b in zip(box, made_box))
-    print(f"{folder}: volume {volume:.1f} mm³, {100 * (volume / made - 1):+.3f} % of the mesh's; box off by {off:.4f} mm")
-    if off > 0.01:
-        yield f"the box is off by {off:.4f} mm"
-    if abs(volume / made - 1) > 0.005:
-        yield f"the volume is {volume:.1f} mm³ and should be {made:.1f}"
+    yield from unlike("assembled", (volume, box), measure(folder / "pulley.stl"))
+    yield from printed_faults(folder, scratch)
     if 'bore_shape = "round"' in scad.read_text():
         yield from changed_bore(scad, scratch, volume)
     lip = number(scad, "groove_depth")
@@ -92,7 +125,7 @@ def changed_bore(scad, scratch, volume):
         sides = max(8, math.floor(2 * diameter + 0.5))
         return sides * (diameter / 2) ** 2 * math.tan(math.pi / sides)
 
-    plain = {"tie_offs": "[]", "set_screw": "false"}
+    plain = {"channels": "[]", "face_holes": "[]", "tail_slots": "[]", "clamp_pilots": "[]", "set_screw": "false"}
     before, box = render(scad, scratch / "plain.stl", **plain)
     after, _ = render(scad, scratch / "bored.stl", bore=bore + 1, **plain)
     expected = (area(bore + 1 + clearance) - area(bore + clearance)) * (box[5] - box[2])
