@@ -16,6 +16,7 @@
 #include "solid/plan.h"
 #include "solid/rings.h"
 #include "solid/self_intersection.h"
+#include "solid/self_intersection.h"
 #include "solid/tie_off_tools.h"
 #include "solid/tools.h"
 
@@ -68,6 +69,8 @@ class FeatureCutter {
     for (const std::vector<TriangleMesh>& tools : passes) {
       const TriangleMesh tool = placed(tools);
       if (tool.triangles.empty()) continue;
+      // What crosses itself cannot be cut with: it may never end.
+      if (find_crossing(tool).facets) return std::nullopt;
       const auto outcome = subtract(result.mesh, tool);
       if (!outcome) return std::nullopt;
       result = {outcome->mesh, result.volume - outcome->common_volume};

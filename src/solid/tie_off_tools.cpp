@@ -75,16 +75,37 @@ TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& hei
   return strip(sections);
 }
 
+// Seen from its middle, x ahead and y to the channel's outer side: a circle, and a tab in which the channel ends in a wall
+// across it. The circle itself would meet the channel's slope at too sharp an angle.
+std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int facets) {
+  // A little wider than the channel, so that no two of their faces coincide.
+  const double half = std::min(0.5 * width + 0.5 * k_deeper, 0.95 * radius), behind = std::asin(half / radius);
+  const double step = k_two_pi / facets;
+  std::vector<Vec2> points;
+  if (!tab) {
+    for (int k = 0; k < facets; ++k) points.push_back(radius * unit(k * step));
+    return points;
+  }
+  for (double angle = 0; angle < k_pi - behind - 0.3 * step; angle += step) points.push_back(radius * unit(angle));
+  points.push_back(radius * unit(k_pi - behind));
+  points.emplace_back(-radius - k_deeper, half);
+  points.emplace_back(-radius - k_deeper, -half);
+  points.push_back(radius * unit(k_pi + behind));
+  const std::size_t upper = points.size() - 4;
+  for (std::size_t k = upper; k-- > 1;) points.emplace_back(points[k].x(), -points[k].y());
+  return points;
+}
+
 // The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under it,
 // and no keel hangs down between the two.
-TriangleMesh pocket(const AnchorPath& path, double radius, int facets, const Heights& heights) {
-  const Vec2 centre = path.pocket(), outer = path.outer();
-  const double closed = std::copysign(heights.half + k_deeper, -heights.open);
+TriangleMesh pocket(const AnchorPath& path, double radius, double width, int facets, const Heights& heights) {
+  const bool tab = heights.channel_roof > 0 && path.straight > radius + k_deeper;
   std::vector<Vec3> mouth, end;
-  for (int k = 0; k < facets; ++k) {
-    const Vec2 aside = radius * unit(k_two_pi * (k + 0.3) / facets), point = centre + aside;
+  for (const Vec2& local : pocket_outline(radius, width, tab, facets)) {
+    const Vec2 point = path.pocket() + local.x() * path.heading() + local.y() * path.outer();
+    const double roof = heights.pocket_roof * 0.5 * (1.0 + local.y() / radius);
     mouth.emplace_back(point.x(), point.y(), heights.open);
-    end.emplace_back(point.x(), point.y(), closed + heights.pocket_roof * 0.5 * (1.0 + aside.dot(outer) / radius));
+    end.emplace_back(point.x(), point.y(), std::copysign(heights.half + k_deeper, -heights.open) + roof);
   }
   return strip({mouth, end});
 }
@@ -96,7 +117,7 @@ TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int 
   const Heights heights = heights_of(layout, side, variant);
   const ChannelEdges edges = channel_edges(plan, side, path);
   const auto both = unite(rounded_to_float(channel(edges, width, heights)),
-                          rounded_to_float(pocket(path, radius, pocket_facets(radius) + variant, heights)));
+                          rounded_to_float(pocket(path, radius, width, pocket_facets(radius) + variant, heights)));
   demand(both.has_value(), "channel and knot pocket do not join");
   TriangleMesh tool = both->mesh;
   for (Vec3& vertex : tool.vertices) vertex.z() = heights.plane + heights.up * vertex.z();
