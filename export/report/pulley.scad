@@ -99,7 +99,8 @@ p2_rings = concat(
   is_round ? [[z_p2 + width(p2_above) + upper_cone, upper]] : [],
   [[z_top, upper]]);
 
-// The body between convex outlines of equally many corners, one over the other. OpenSCAD wants to see its faces turn
+// The body between outlines of equally many corners, one over the other; the first and the last are seen whole from their
+// first corner. OpenSCAD wants to see its faces turn
 // clockwise: which way that is here, the sign of the volume tells.
 module strip(sections) {
   count = len(sections[0]);
@@ -165,22 +166,33 @@ function on_bed(groove) = groove == 1 && !apart && slope > 0;
 // The channel as it is printed, with a ceiling that rises from its inner edge to its outer one.
 module channel(t) {
   half = channel_width / 2;
-  last = len(t[2]) - 1;
   translate([0, 0, t[0] == 1 ? z_p1 : z_p2]) mirror([0, 0, t[0] == 1 && apart ? 1 : 0]) {
-    strip([for (k = [0 : last]) let (outer = t[2][k], inner = t[3][k], ridge = half + roof(norm(outer - inner)))
+    strip([for (k = [0 : len(t[2]) - 1]) let (outer = t[2][k], inner = t[3][k], ridge = half + roof(norm(outer - inner)))
       [[inner[0], inner[1], -half], [outer[0], outer[1], -half], [outer[0], outer[1], ridge], [inner[0], inner[1], half]]]);
-    if (knot_pocket > 0) pocket(t, (t[2][last] - t[3][last]) / norm(t[2][last] - t[3][last]));
+    if (knot_pocket > 0) pocket(t);
   }
 }
 
+// Seen from the pocket's middle, x ahead and y to the channel's outer side: a circle, behind it a wall across the channel.
+function pocket_outline(r, walled) = let (
+    half = min((channel_width + 0.07) / 2, 0.95 * r), back = 180 - asin(half / r), step = 360 / facets,
+    side = [for (k = [0 : facets - 1]) if (!walled || k * step < back - 0.3 * step) r * [cos(k * step), sin(k * step)]])
+  !walled ? side : concat(side,
+    [r * [cos(back), sin(back)], [-r - 0.07, half], [-r - 0.07, -half], r * [cos(back), -sin(back)]],
+    [for (k = [len(side) - 1 : -1 : 1]) [side[k][0], -side[k][1]]]);
+
 // From the nearer face; where that lies on the bed its roof rises like the channel's.
-module pocket(t, outward) {
+module pocket(t) {
+  inner_end = t[3][len(t[3]) - 1];
+  outward = (t[1] - inner_end) / norm(t[1] - inner_end);
+  ahead = t[4] / norm(t[4]);
+  r = knot_pocket / 2;
   open = t[0] == 2 ? z_hub - z_p2 + 1 : apart ? z_p1 + 1 : -z_p1 - 1;
   closed = (channel_width / 2 + 0.07) * (open > 0 ? -1 : 1);
-  edge = [for (k = [0 : facets - 1]) knot_pocket / 2 * [cos(360 * k / facets), sin(360 * k / facets)]];
-  strip([
-    [for (p = edge) [t[1][0] + p[0], t[1][1] + p[1], open]],
-    [for (p = edge) [t[1][0] + p[0], t[1][1] + p[1], closed + (on_bed(t[0]) ? rise(knot_pocket / 2 + p * outward) : 0)]]]);
+  outline = pocket_outline(r, slope > 0 && norm(t[4]) > r + 0.07);
+  edge = [for (p = outline) t[1] + p[0] * ahead + p[1] * outward];
+  strip([at(edge, open), [for (k = [0 : len(edge) - 1])
+    [edge[k][0], edge[k][1], closed + (on_bed(t[0]) ? rise(r + outline[k][1]) : 0)]]]);
 }
 
 // Seen from the pulley's own face, which lies at 0 and looks down.

@@ -310,13 +310,22 @@ std::string array_text(const char* name, const char* words, const std::vector<st
 
 int groove_of(const Anchor& anchor) { return anchor.side == Side::left ? 1 : 2; }
 
+/// From where the channel begins to run straight into its pocket, to the end of its inner edge.
+Vec2 straight_run(const Polygon& inner, const Vec2& pocket) {
+  const Vec2 outward = (pocket - inner.back()).normalized();
+  const auto first = std::find_if(inner.begin(), inner.end(), [&](const Vec2& point) {
+    return std::abs((point - inner.back()).dot(outward)) < 1e-6;
+  });
+  return inner.back() - *first;
+}
+
 /// The mouth runs along the outer edge and back along the inner one.
 std::string channel_text(const Anchor& anchor) {
   const auto half = static_cast<std::ptrdiff_t>(anchor.mouth.size() / 2);
   const Polygon outer(anchor.mouth.begin(), anchor.mouth.begin() + half);
   const Polygon inner(anchor.mouth.rbegin(), anchor.mouth.rbegin() + half);
-  return fmt::format("[{}, {},\n   {},\n   {}]", groove_of(anchor), point_text(anchor.pocket), points_text(outer),
-                     points_text(inner));
+  return fmt::format("[{}, {},\n   {},\n   {},\n   {}]", groove_of(anchor), point_text(anchor.pocket), points_text(outer),
+                     points_text(inner), point_text(straight_run(inner, anchor.pocket)));
 }
 
 std::string face_hole_text(const Anchor& anchor, const Outline& outline) {
@@ -355,7 +364,8 @@ std::string tie_off_arrays(const Product& product) {
       pilots.push_back(clamp_pilot_text(anchor, product.joint.mechanism.material.hole_compensation));
   }
   return "\n// Where tendons are tied off, each with its groove (1 or 2) first." +
-         array_text("channels", "middle of the knot pocket, outer edge and inner edge, both from the groove inwards",
+         array_text("channels",
+                    "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
                     channels) +
          array_text("face_holes", "place, the direction in which the floor looks there, countersink's radius and depth",
                     holes) +

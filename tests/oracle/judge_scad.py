@@ -58,7 +58,7 @@ def printed_by_openscad(scad, *arguments, environment=None):
     run = subprocess.run(["openscad", *map(str, arguments), str(scad)], capture_output=True, text=True, timeout=300, env=environment)
     words = [line for line in run.stderr.splitlines() if re.search("WARNING|ERROR|DEPRECATED", line)]
     if words or run.returncode:
-        raise ValueError("OpenSCAD says: " + " / ".join(words or run.stderr.splitlines()[-3:]))
+        raise ValueError("OpenSCAD says: " + " / ".join(words[:3] or run.stderr.splitlines()[-3:]))
     return run.stderr
 
 

@@ -173,8 +173,8 @@ TEST(Scad, EveryTieOffIsThere) {
   EXPECT_THAT(scad_text(product), HasSubstr("\nchannels = [];\n"));
   Anchor channel;
   channel.side = Side::right;
-  channel.pocket = {1.25, -2.5};
-  channel.mouth = {{0, 0}, {1, 0}, {2, 1}, {2, 2}, {1, 1}, {0, 1}};
+  channel.pocket = {4, 1.5};
+  channel.mouth = {{0, 0}, {1, 0}, {2, 1}, {4, 1}, {4, 2}, {2, 2}, {1, 1}, {0, 1}};
   Anchor hole;
   hole.side = Side::left;
   hole.exit = 16 * unit(radians(90));
@@ -184,7 +184,8 @@ TEST(Scad, EveryTieOffIsThere) {
   product.pulley.anchors = {channel, hole};
   product.joint.mechanism.material.hole_compensation = 0.2;
   const std::string text = scad_text(product);
-  EXPECT_THAT(text, HasSubstr("\nchannels = [\n  [2, [1.25, -2.5],\n   [[0, 0], [1, 0], [2, 1]],\n   [[0, 1], [1, 1], [2, 2]]]];\n"));
+  EXPECT_THAT(text, HasSubstr("\nchannels = [\n  [2, [4, 1.5],\n   [[0, 0], [1, 0], [2, 1], [4, 1]],\n"
+                              "   [[0, 1], [1, 1], [2, 2], [4, 2]],\n   [2, 0]]];\n"));
   EXPECT_THAT(text, HasSubstr("\nface_holes = [\n  [1, [0, 15], 90, 1.5, 0.75]];\n"));
   EXPECT_THAT(text, HasSubstr("\ntail_slots = [\n  [1, [0, 14], [5, 14], 1, 0.25]];\n"));
   EXPECT_THAT(text, HasSubstr("\nclamp_pilots = [\n  [1, [5, 14], 1.6, 0.5, 4.5]];\n"));
