@@ -1,7 +1,7 @@
 /// \file
-/// pulley.scad: the part as an OpenSCAD program that a person can read and change. Written here are the parameters at its
-/// top and its arrays: the groove floors, and where tendons are tied off. The program itself is the file pulley.scad beside
-/// this one: it computes all else by the same formulas as src/solid, which it must agree with.
+/// pulley.scad: the part as an OpenSCAD program that a person can read and change. Written here are the parameters at
+/// its top and its arrays: the groove floors, and where tendons are tied off. The program itself is the file
+/// pulley.scad beside this one: it computes all else by the same formulas as src/solid, which it must agree with.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,9 +9,9 @@
 #include <cmath>
 #include <set>
 
+#include "export/report/report_parts.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
-#include "export/report/report_parts.h"
 #include "fusee/export/report.h"
 #include "solid/body.h"
 #include "solid/bore.h"
@@ -43,15 +43,15 @@ std::string points_text(const Polygon& points) {
   return text + "]";
 }
 
-/// Points that stay: the furthest from the axis and all extremes in x and y, for neither a round flange nor the box must
-/// shrink, and between them as many as both curves need.
+/// Points that stay: the furthest from the axis and all extremes in x and y, for neither a round flange nor the box
+/// must shrink, and between them as many as both curves need.
 std::vector<std::size_t> kept_points(const Outline& p1, const Outline& p2, const FlangeRims& rims) {
   const std::size_t n = p1.points.size();
   std::set<std::size_t> fixed_points{0};
   for (const Polygon& curve : {rims.lip1, rims.lip2, rims.middle}) {
     const auto keep_furthest = [&](const auto& reach) {
-      const auto furthest = std::max_element(
-          curve.begin(), curve.end(), [&](const Vec2& a, const Vec2& b) { return reach(a) < reach(b); });
+      const auto furthest = std::max_element(curve.begin(), curve.end(),
+                                             [&](const Vec2& a, const Vec2& b) { return reach(a) < reach(b); });
       fixed_points.insert(static_cast<std::size_t>(furthest - curve.begin()));
     };
     for (const Vec2& direction : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)})
@@ -208,7 +208,8 @@ show = "assembled"; // [assembled, print{}]
   text += "\n/* [Flanges] */\n";
   text += slider_text({"flange_thickness", "of each of the three", layout.flange_thickness, 0.4, 0.1, 10});
   text += "\n/* [Tie-offs] */\n";
-  text += slider_text({"channel_width", "of the tendons' channels, holes and slots", layout.channel_width, 0.3, 0.05, 5});
+  text +=
+      slider_text({"channel_width", "of the tendons' channels, holes and slots", layout.channel_width, 0.3, 0.05, 5});
   text += slider_text({"knot_pocket", "diameter, 0: none", 2 * layout.pocket_radius, 0, 0.1, 20});
   text += "// corners of round things\nfacets = 24; // [12:4:96]\n";
   text += "\n/* [Printing] */\n";
@@ -260,7 +261,8 @@ std::string screw_numbers(const BodyLayout& layout, double compensation) {
          hidden("screw_hole", screw.hole_diameter, "diameter") +
          hidden("screw_angle", degrees(screw.angle), "direction, degrees") +
          hidden("screw_lift", screw.present ? screw.z - middle : 0, "above the middle of the hub") +
-         hidden("nut_width", screw.nut_width, "across flats") + hidden("nut_thickness", screw.nut_thickness, "along the screw") +
+         hidden("nut_width", screw.nut_width, "across flats") +
+         hidden("nut_thickness", screw.nut_thickness, "along the screw") +
          hidden("nut_from_bore", nut_from_bore, "from the bore's edge to the middle of the nut") +
          hidden("hub_wall", hub_wall, "the hub grows with the bore so that this is left outside of it and of the nut");
 }
@@ -288,14 +290,16 @@ std::string dowel_numbers(const BodyLayout& layout) {
   const DowelLayout& dowels = layout.dowels;
   return fmt::format("dowels = {};  // pins that locate P1 and P2 on each other\n", points_text(dowels.places)) +
          hidden("dowel_pin", dowels.pin_diameter, "diameter") +
-         hidden("dowel_end", dowels.places.empty() ? 0 : dowels.z_end - layout.z_p2, "of its hole, above groove P2's middle");
+         hidden("dowel_end", dowels.places.empty() ? 0 : dowels.z_end - layout.z_p2,
+                "of its hole, above groove P2's middle");
 }
 
 std::string hidden_numbers(const Product& product, const FlangeRims& rims) {
   const Mechanism& mechanism = product.joint.mechanism;
   const BodyLayout& layout = product.pulley.layout;
   const double compensation = mechanism.material.hole_compensation;
-  return "/* [Hidden] */\n" + hidden("parts", layout.parts == Parts::two ? 2 : 1, "as it is printed: 2: P1 and P2 apart") +
+  return "/* [Hidden] */\n" +
+         hidden("parts", layout.parts == Parts::two ? 2 : 1, "as it is printed: 2: P1 and P2 apart") +
          hidden("tendon", mechanism.tendon.diameter, "its diameter") +
          hidden("seat_ratio", mechanism.body.seat_ratio, "seat radius of a u groove per tendon diameter") +
          flange_numbers(product, rims) + bore_numbers(layout.bore, compensation) + screw_numbers(layout, compensation) +
@@ -324,13 +328,13 @@ std::string channel_text(const Anchor& anchor) {
   const auto half = static_cast<std::ptrdiff_t>(anchor.mouth.size() / 2);
   const Polygon outer(anchor.mouth.begin(), anchor.mouth.begin() + half);
   const Polygon inner(anchor.mouth.rbegin(), anchor.mouth.rbegin() + half);
-  return fmt::format("[{}, {},\n   {},\n   {},\n   {}]", groove_of(anchor), point_text(anchor.pocket), points_text(outer),
-                     points_text(inner), point_text(straight_run(inner, anchor.pocket)));
+  return fmt::format("[{}, {},\n   {},\n   {},\n   {}]", groove_of(anchor), point_text(anchor.pocket),
+                     points_text(outer), points_text(inner), point_text(straight_run(inner, anchor.pocket)));
 }
 
 std::string face_hole_text(const Anchor& anchor, const Outline& outline) {
-  const auto nearest = std::min_element(
-      outline.points.begin(), outline.points.end(), [&](const OutlinePoint& a, const OutlinePoint& b) {
+  const auto nearest =
+      std::min_element(outline.points.begin(), outline.points.end(), [&](const OutlinePoint& a, const OutlinePoint& b) {
         return (a.position - anchor.exit).squaredNorm() < (b.position - anchor.exit).squaredNorm();
       });
   return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(circle_within(anchor.channel).centre),
@@ -364,13 +368,16 @@ std::string tie_off_arrays(const Product& product) {
       pilots.push_back(clamp_pilot_text(anchor, product.joint.mechanism.material.hole_compensation));
   }
   return "\n// Where tendons are tied off, each with its groove (1 or 2) first." +
-         array_text("channels",
-                    "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
-                    channels) +
+         array_text(
+             "channels",
+             "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
+             channels) +
          array_text("face_holes", "place, the direction in which the floor looks there, countersink's radius and depth",
                     holes) +
-         array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height", slots) +
-         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, from, to below the face", pilots) + "\n";
+         array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
+                    slots) +
+         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, from, to below the face", pilots) +
+         "\n";
 }
 
 std::string floor_arrays(const Product& product, const FlangeRims& rims) {

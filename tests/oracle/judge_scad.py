@@ -4,6 +4,7 @@
                                    shows as "P1", "P2" and "print" must be the files that the manifest sends to the printer, side by side;
                                    rendered with another bore (where it is round) and another groove, the part must change by what that means
     judge_scad.py preview FOLDER   the quick preview must look like the full render, from five sides
+    judge_scad.py part FOLDER --self-test   that this judge sees what is broken on purpose, in a pulley that is printed in two parts
     judge_scad.py preview --self-test   that this judge sees a polyhedron without its convexity
     judge_scad.py customizer FOLDER     every parameter has words and a range, a list or a tick box; at each end and in the middle of its
                                    range the part renders without a word of complaint
@@ -117,6 +118,26 @@ def part_faults(folder, scratch):
         yield "a shallower groove does not make a smaller part"
 
 
+# Of a pulley in two parts: what is broken, and what must be seen to be wrong.
+BROKEN = (("a roof of another slope", "slope = supports ? 0 : overhang_deg + 1.5", "slope = overhang_deg - 10", "assembled"),
+          ("P1 not turned over", "rotate([piece == 1 ? 180 : 0, 0, 0])", "", "P1"),
+          ("a part without its pockets", "if (knot_pocket > 0) pocket(t)", "", "P2"),
+          ("no place for P2 to lie", "near_side(p2_rings) + 5", "near_side(p2_rings)", "print"))
+
+
+def part_self_test(folder, scratch):
+    for name in ("manifest.json", "pulley.stl", "pulley_p1.stl", "pulley_p2.stl"):
+        shutil.copy(folder / name, scratch)
+    text = (folder / "pulley.scad").read_text()
+    for what, right, wrong, seen in BROKEN:
+        if text.count(right) != 1:
+            yield f"the program no longer says {right!r}"
+            continue
+        (scratch / "pulley.scad").write_text(text.replace(right, wrong))
+        if not any(fault.startswith(seen + ": ") for fault in part_faults(scratch, scratch)):
+            yield f"{what} was accepted"
+
+
 def changed_bore(scad, scratch, volume):
     """Tie-offs and set screw away, so that only the bore's polygon changes, whose area is known."""
     bore, clearance = number(scad, "bore"), number(scad, "hole_compensation")
@@ -203,7 +224,7 @@ difference() {
 """
 
 
-def preview_self_test(scratch):
+def preview_self_test(_, scratch):
     for convexity, good in ((", convexity = 4", True), ("", False)):
         scad = scratch / "spool.scad"
         scad.write_text(SPOOL.replace("CONVEXITY", convexity))
@@ -271,6 +292,7 @@ def customizer_faults(folder, scratch):
 # ---------------------------------------------------------------------------------------------------------------------
 
 FAULTS = {"part": part_faults, "preview": preview_faults, "customizer": customizer_faults}
+SELF_TESTS = {"part": part_self_test, "preview": preview_self_test}
 
 
 def missing(what):
@@ -292,17 +314,17 @@ def main():
     parser.add_argument("folder", nargs="?", type=pathlib.Path)
     parser.add_argument("--self-test", action="store_true")
     arguments = parser.parse_args()
-    if (arguments.folder is None) != arguments.self_test or (arguments.self_test and arguments.what != "preview"):
-        parser.error("either a folder or preview --self-test")
+    needs_folder = not arguments.self_test or arguments.what == "part"
+    if (arguments.folder is None) == needs_folder or (arguments.self_test and arguments.what == "customizer"):
+        parser.error("a folder, or preview --self-test, or part FOLDER --self-test")
     if program := missing(arguments.what):
         print(f"{program} is not installed")
         return SKIPPED
     wrong = []
     with tempfile.TemporaryDirectory() as scratch:
         try:
-            found = (preview_self_test(pathlib.Path(scratch)) if arguments.self_test
-                     else FAULTS[arguments.what](arguments.folder, pathlib.Path(scratch)))
-            for fault in found:
+            judge = (SELF_TESTS if arguments.self_test else FAULTS)[arguments.what]
+            for fault in judge(arguments.folder, pathlib.Path(scratch)):
                 wrong.append(fault)
         except (ValueError, OSError, subprocess.TimeoutExpired) as error:
             wrong.append(error)
