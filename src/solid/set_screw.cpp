@@ -32,6 +32,9 @@ const Screw* find_screw(const std::string& name) {
 double nut_corner(const SetScrewLayout& screw) { return screw.nut_width / std::numbers::sqrt3; }
 double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter / std::cos(screw.roof_slope); }
 
+// What the screw's axis needs of the hub's height below it.
+static double below(const SetScrewLayout& screw) { return screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter; }
+
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout) {
   SetScrewLayout result;
@@ -39,15 +42,15 @@ SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compen
   result.nut_trap = nut_trap;
   result.hole_diameter = (nut_trap ? screw.clearance : screw.tapping) + compensation;
   result.angle = 0.5 * k_pi;
-  result.roof_slope = layout.roof_slope > 0 ? layout.roof_slope : radians(45);
-  const double middle = 0.5 * (layout.z_top + layout.z_hub);
-  result.z = middle;
+  result.roof_slope = gable_slope(layout);
   if (nut_trap) {
     result.nut_width = screw.nut_width + compensation;
     result.nut_thickness = screw.nut_thickness + compensation;
     result.nut_distance = layout.bore.radius + nut_wall(wall) + 0.5 * result.nut_thickness;
-    result.z = std::max(middle, layout.z_top + nut_corner(result));
   }
+  // In the middle of the hub, or where its roof keeps a wall above it, or where the nut has room below.
+  const double middle = 0.5 * (layout.z_top + layout.z_hub), highest = layout.z_hub - teardrop_top(result) - wall;
+  result.z = std::max(std::min(middle, highest), layout.z_top + below(result));
   return result;
 }
 
@@ -58,8 +61,7 @@ double hub_radius_for(const SetScrewLayout& screw, double bore_radius, double wa
 
 double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, double wall) {
   const double above = layout.z_hub - screw.z - teardrop_top(screw) - wall;
-  const double below = screw.z - layout.z_top - (screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter);
-  return std::min(above, below);
+  return std::min(above, screw.z - layout.z_top - below(screw));
 }
 
 }  // namespace fusee

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
@@ -43,7 +44,7 @@ class TailPlacer {
     TailSlot slot;
     slot.width = layout_.channel_width;
     const bool gabled = on_bed(layout_, anchor.side);
-    slot.roof = gabled ? rise_of(layout_, 0.5 * slot.width) : 0.0;
+    slot.roof = gabled ? 0.5 * slot.width * std::tan(gable_slope(layout_)) : 0.0;
     slot.depth = std::max(k_gabled_ratio * d_, k_depth_ratio * d_ - slot.roof);
     const double to_channel = (left ? layout_.z_p1 : layout_.z_top - layout_.z_p2) - 0.5 * layout_.channel_width;
     if (to_channel - slot.depth - slot.roof < k_least_ground) return std::nullopt;

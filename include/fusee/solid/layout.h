@@ -48,7 +48,8 @@ struct DowelLayout {
   std::vector<Vec2> places;
   double hole_diameter = 0;  ///< compensated
   double pin_diameter = 0;
-  double z_end = 0;          ///< ceiling of the holes, in P2
+  double z_end = 0;          ///< end of the holes' straight walls, in P2
+  double roof = 0;           ///< height of the cone in which they end; 0: flat
 };
 
 struct BoreLayout {
@@ -109,6 +110,8 @@ struct BodyLayout {
 
 /// Height of a chamfer or roof of this width that prints without support, mm.
 double rise_of(const BodyLayout& layout, double width);
+/// Slope of two roofs that meet over a slit, rad.
+double gable_slope(const BodyLayout& layout);
 
 /// All sizes. Explicit numbers are taken as they are (make_pulley refuses what is impossible); automatic ones are made to fit.
 BodyLayout resolve_layout(const Mechanism& mechanism, const SynthesisResult& synthesis);
