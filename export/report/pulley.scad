@@ -206,14 +206,16 @@ module face_hole(t) {
   normal = [cos(t[2]), sin(t[2])];
   to_groove = t[0] == 1 ? z_p1 : z_top - z_p2;
   sunk = max(t[3], radius + 0.02);
-  around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
+  // The groove's roof grows over a hole in print: it meets the sides of a point steeply.
+  around = t[5] ? concat([for (k = [0 : facets - 1]) let (a = t[2] + 68 + 224 * k / (facets - 1)) [cos(a), sin(a)]], [normal / cos(68)])
+                : [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
   hole = [for (p = around) t[1] + radius * p];
   rim = [for (p = around) t[1] - (t[3] - radius) * normal + sunk * p];
   from_face(t[0]) strip([
     at(rim, t[0] == 1 ? -1 : z_top - z_hub - 1),
     at(rim, -0.02),
     at(hole, max(t[4], 0.02)),
-    [for (k = [0 : facets - 1]) [hole[k][0], hole[k][1],
+    [for (k = [0 : len(around) - 1]) [hole[k][0], hole[k][1],
       to_groove + (on_bed(t[0]) ? 0.03 + rise(radius * (1 + around[k] * normal)) : channel_width / 2)]]]);
 }
 

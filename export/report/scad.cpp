@@ -337,8 +337,9 @@ std::string face_hole_text(const Anchor& anchor, const Outline& outline) {
       std::min_element(outline.points.begin(), outline.points.end(), [&](const OutlinePoint& a, const OutlinePoint& b) {
         return (a.position - anchor.exit).squaredNorm() < (b.position - anchor.exit).squaredNorm();
       });
-  return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(circle_within(anchor.channel).centre),
-                     decimal(degrees(nearest->psi)), decimal(anchor.seat->radius), decimal(anchor.seat->depth));
+  return fmt::format("[{}, {}, {}, {}, {}, {}]", groove_of(anchor), point_text(anchor.seat->hole),
+                     decimal(degrees(nearest->psi)), decimal(anchor.seat->radius), decimal(anchor.seat->depth),
+                     anchor.seat->pointed);
 }
 
 std::string tail_slot_text(const Anchor& anchor) {
@@ -372,7 +373,7 @@ std::string tie_off_arrays(const Product& product) {
              "channels",
              "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
              channels) +
-         array_text("face_holes", "place, the direction in which the floor looks there, countersink's radius and depth",
+         array_text("face_holes", "place, the direction in which the floor looks there, countersink's radius and depth, pointed",
                     holes) +
          array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
                     slots) +

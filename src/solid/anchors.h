@@ -67,6 +67,8 @@ struct FaceHole {
   double room = 0;  ///< radius of the countersink at the face
   double lap = 0;
   double wrap = 0;
+  /// Outwards the hole ends in a point, so that the groove's roof, which grows over it in print, meets its wall steeply.
+  bool pointed = false;
 
   /// Middle of the countersink: it and the hole touch on the outer side, where the flange ends.
   Vec2 pocket() const { return hole - (room - hole_radius) * normal; }

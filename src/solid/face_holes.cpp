@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "solid/tie_off_tools.h"
+
 namespace fusee {
 namespace {
 
@@ -46,7 +48,8 @@ class FaceHoleSearch {
     const Station station = closing_station(site_.outline, wound_end_, lap);
     const double below_pitch = 0.5 * site_.tendon_diameter - above_floor();
     FaceHole hole{station.position, station.normal, station.position - below_pitch * station.normal, radius_, radius_,
-                  station.lap,      station.wrap};
+                  station.lap,      station.wrap,
+                  layout_.roof_slope > 0 && !on_bed(layout_, site_.outline.side)};
     if (!is_free({hole.hole, hole.hole, radius_})) return std::nullopt;
     for (const double share : {1.0, 0.75, 0.5, 0.25}) {
       FaceHole sunk = hole;

@@ -219,7 +219,8 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan) {
   } else {
     const auto& hole = std::get<FaceHole>(planned.way);
     anchor.channel = hole_outline(hole, 0);
-    anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top};
+    anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top,
+                           hole.hole, hole.pointed};
   }
   return anchor;
 }

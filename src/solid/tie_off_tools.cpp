@@ -171,11 +171,17 @@ bool on_bed(const BodyLayout& layout, Side side) {
   return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;
 }
 
+// A point's sides stand at 22° to the direction in which the roof grows.
 Polygon hole_outline(const FaceHole& hole, int variant) {
   const int facets = pocket_facets(hole.hole_radius) + variant;
+  constexpr double k_half_point = radians(68);
   Polygon points;
-  for (int k = 0; k < facets; ++k)
-    points.push_back(hole.hole + hole.hole_radius * unit(k_two_pi * (k + 0.31) / facets));
+  for (int k = 0; k < facets; ++k) {
+    const Vec2 direction = hole.pointed ? turned(hole.normal, k_half_point + (k_two_pi - 2.0 * k_half_point) * k / (facets - 1))
+                                        : unit(k_two_pi * (k + 0.31) / facets);
+    points.push_back(hole.hole + hole.hole_radius * direction);
+  }
+  if (hole.pointed) points.push_back(hole.hole + hole.hole_radius / std::cos(k_half_point) * hole.normal);
   return points;
 }
 
