@@ -45,8 +45,8 @@ std::string strength_line(const AnalysisResult& result) {
   std::string margin;
   if (result.largest_tension.tension > 0) margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
   return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
-         line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency); at C it carries up to " +
-                      rounded(result.largest_at_joint.value) + " N");
+         line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency)") +
+         line("", "at C it carries up to " + rounded(result.largest_at_joint.value) + " N");
 }
 
 std::string slack_lines(const AnalysisResult& result) {

@@ -74,15 +74,16 @@ std::string tendons_text(const Product& product) {
   std::string text;
   for (const TendonLength& tendon : tendon_lengths(product))
     text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == Side::left ? "1" : "2") + " at " + fixed(tendon.cut, 0) + " mm";
-  return text.empty() ? text : line("tendons", text + ": between the knots, both knots, two tails of 50 mm");
+  return text.empty() ? text : line("tendons", text + ", with knots and two 50 mm tails");
 }
 
 std::string knots_text(const Holding& holding) {
   std::string text;
   for (const KnotHold& knot : holding.knots) {
     const std::optional<double> share = holding.share(knot);
-    text += (text.empty() ? "" : ", ") + std::string(knot.side == Side::left ? "1" : "2") + " bears up to " + rounded(knot.at_knot, 3) +
-            " N" + (share ? " (" + rounded(100.0 * *share, 2) + " % of its strength)" : "");
+    const std::string of_what = text.empty() ? " % of its strength)" : " %)";
+    text += (text.empty() ? "" : ", ") + std::string(knot.side == Side::left ? "1" : "2") + " up to " + rounded(knot.at_knot, 3) +
+            " N" + (share ? " (" + rounded(100.0 * *share, 2) + of_what : "");
   }
   return text.empty() ? text : line("knots", text);
 }

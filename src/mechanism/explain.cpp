@@ -56,8 +56,8 @@ std::string horn_list() {
 std::string shaft_list() {
   std::string text = "  There are (profiles/catalogue/shafts.toml):\n";
   for (const ShaftType& type : shafts()) {
-    text += "    " + type.name + ": " + type.description + "; " + shortest(type.diameter) + " mm" +
-            (type.flat > 0 ? ", " + shortest(type.flat) + " mm over the flat" : "") + ". " + type.source + "\n";
+    text += entry(type.name + ": " + type.description + "; " + shortest(type.diameter) + " mm" +
+                  (type.flat > 0 ? ", " + shortest(type.flat) + " mm over the flat" : "") + ". " + type.source);
   }
   return text;
 }

@@ -17,6 +17,9 @@ constexpr std::array<double, 5> k_laps{1.6, 2.5, 4.0, 6.0, 9.0};
 constexpr double k_least_lap = 0.6;
 // The straight of a near tie-off is at most this many fillets long.
 constexpr double k_near_fillets = 6.0;
+// A channel begins no nearer to a point of the outline than this share of a chord: the body's edges run along the points'
+// normals, and where one lay in the wall of the mouth, the cut would come apart when it is rounded to floats.
+constexpr double k_from_point = 0.15;
 // Between a channel and the floor that a tendon lies on.
 constexpr double k_floor_gap = 0.05;
 // Pockets are placed against a floor of about this many points: no more are needed to keep a wall.
@@ -46,10 +49,17 @@ class ClosingArc {
   double sense() const { return sense_; }
   double length() const { return reach_.back(); }
 
+  // There or just past it, between two points.
   Station at(double s) const {
-    const auto [k, share] = place(reach_, s);
+    auto [k, share] = place(reach_, s);
+    if (share > 1.0 - k_from_point && k + 1 < index_.size()) {
+      ++k;
+      share = 0.0;
+    }
+    share = std::clamp(share, k_from_point, 1.0 - k_from_point);
     const OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
-    return {s, wrap_[k - 1] + share * (wrap_[k] - wrap_[k - 1]), a.position + share * (b.position - a.position),
+    const double lap = reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
+    return {lap, wrap_[k - 1] + share * (wrap_[k] - wrap_[k - 1]), a.position + share * (b.position - a.position),
             (a.normal + share * (b.normal - a.normal)).normalized()};
   }
 

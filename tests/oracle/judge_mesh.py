@@ -2,7 +2,7 @@
 """Other people's programs judge a mesh that fusee wrote.
 
     judge_mesh.py admesh pulley.stl
-    judge_mesh.py prusa-slicer pulley.3mf --like pulley.stl
+    judge_mesh.py prusa-slicer pulley.3mf --like .
     judge_mesh.py openscad pulley.stl
     judge_mesh.py draco pulley.drc --like pulley.stl
     judge_mesh.py assimp pulley.obj --like pulley.stl
@@ -15,7 +15,9 @@ runs under a time limit, since admesh can loop for ever.
 """
 
 import argparse
+import json
 import math
+import os
 import pathlib
 import re
 import shutil
@@ -50,6 +52,12 @@ def facets_of(stl):
         return struct.unpack("<I", file.read(84)[80:])[0]
 
 
+def printed_of(folder):
+    """What goes to the printer, as the manifest names it."""
+    manifest = json.loads(pathlib.Path(folder, "manifest.json").read_text(encoding="utf-8"))
+    return [pathlib.Path(folder, part["file"]) for part in manifest["print"]]
+
+
 # The judges: each returns a list of faults --------------------------------------------------------------------------
 
 def judge_by_admesh(mesh, like=None):
@@ -70,9 +78,12 @@ def judge_by_admesh(mesh, like=None):
 
 
 def differing_facets(program, facets, like):
-    if like is not None and facets != facets_of(like):
-        return [f"{program}: {facets} facets, expected {facets_of(like)} as in {like}"]
-    return []
+    """`like`: an STL or several that have as many together."""
+    if like is None:
+        return []
+    stls = [like] if isinstance(like, (str, os.PathLike)) else like
+    expected = sum(facets_of(stl) for stl in stls)
+    return [] if facets == expected else [f"{program}: {facets} facets, expected {expected} as in {', '.join(map(str, stls))}"]
 
 
 def judge_by_prusa_slicer(mesh, like=None):
@@ -211,11 +222,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("judge", choices=JUDGES)
     parser.add_argument("mesh", nargs="?")
-    parser.add_argument("--like", metavar="STL", help="a binary STL with as many facets")
+    parser.add_argument("--like", metavar="STL", help="a binary STL with as many facets, or the folder of a build: all that it prints")
     parser.add_argument("--self-test", action="store_true")
     arguments = parser.parse_args()
     if (arguments.mesh is None) != arguments.self_test:
         parser.error("either a mesh or --self-test")
+    if arguments.like is not None and os.path.isdir(arguments.like):
+        arguments.like = printed_of(arguments.like)
     try:
         faults = self_test(arguments.judge) if arguments.self_test else JUDGES[arguments.judge](arguments.mesh, arguments.like)
     except NotInstalled as program:

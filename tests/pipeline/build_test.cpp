@@ -10,12 +10,22 @@
 namespace {
 
 using namespace fusee;
+using ::testing::Contains;
 using ::testing::Each;
 using ::testing::Field;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 const fs::path k_profiles = fs::path(FUSEE_SOURCE_DIR) / "profiles";
+
+// Without blanks and line breaks.
+std::string words_of(std::string json) {
+  std::erase_if(json, [](char c) { return c == ' ' || c == '\n'; });
+  return json;
+}
 
 class Build : public ::testing::Test {
  protected:
@@ -44,13 +54,87 @@ std::vector<std::string> names_of(const std::vector<Check>& checks) {
   return names;
 }
 
+std::vector<std::string> names_of(const std::vector<OutputFile>& outputs) {
+  std::vector<std::string> names;
+  for (const OutputFile& output : outputs) names.push_back(output.name);
+  return names;
+}
+
 TEST_F(Build, LeavesTheFilesItNames) {
   const BuildResult built = build(file_, options_);
   EXPECT_EQ(built.status, BuildStatus::done);
   EXPECT_TRUE(built.published);
-  EXPECT_THAT(names_in(options_.folder), ::testing::UnorderedElementsAreArray(output_names()));
+  EXPECT_THAT(names_in(options_.folder), ::testing::UnorderedElementsAreArray(names_of(built.outputs)));
+  EXPECT_THAT(names_of(built.outputs), ::testing::IsSubsetOf(output_names()));
   for (const OutputFile& output : built.outputs) {
     EXPECT_EQ(read_file(options_.folder / output.name, std::size_t{1} << 30), output.bytes) << output.name;
+  }
+}
+
+// ---- as one print or two --------------------------------------------------------------------------------------------
+
+TEST_F(Build, InTwoPartsWritesEachAsItLiesOnThePrinter) {
+  file_.mechanism.print.parts = Parts::two;
+  const BuildResult built = build(file_, options_);
+  EXPECT_EQ(built.status, BuildStatus::done);
+  EXPECT_THAT(names_in(options_.folder), IsSupersetOf({"pulley.stl", "pulley_p1.stl", "pulley_p2.stl"}));
+  const std::string manifest = read_file(options_.folder / "manifest.json", 1 << 20);
+  EXPECT_THAT(words_of(manifest), HasSubstr(R"("print":[{"file":"pulley_p1.stl","part":"P1"},{"file":"pulley_p2.stl","part":"P2"}])"));
+  // The 3mf holds both as they are, side by side.
+  const auto bodies = bodies_of(std::get<TriangleMesh>(read_part(options_.folder / "pulley.3mf")));
+  ASSERT_EQ(bodies.size(), 2u);
+  double volume = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto part = std::get<TriangleMesh>(read_part(options_.folder / (k == 0 ? "pulley_p1.stl" : "pulley_p2.stl")));
+    EXPECT_EQ(bodies[k].triangles.size(), part.triangles.size());
+    EXPECT_NEAR(enclosed_volume(bodies[k]), enclosed_volume(part), 1e-6 * enclosed_volume(part));
+    EXPECT_NEAR(bounds(part).low.z(), 0, 1e-5);
+    volume += enclosed_volume(part);
+  }
+  EXPECT_NEAR(enclosed_volume(std::get<TriangleMesh>(read_part(options_.folder / "pulley.stl"))), volume, 1e-6 * volume);
+}
+
+TEST_F(Build, InOnePartWritesNoOther) {
+  file_.mechanism.print.parts = Parts::one;
+  const BuildResult built = build(file_, options_);
+  EXPECT_EQ(built.status, BuildStatus::done);
+  EXPECT_THAT(names_in(options_.folder), Not(Contains(::testing::StartsWith("pulley_p"))));
+  const std::string manifest = read_file(options_.folder / "manifest.json", 1 << 20);
+  EXPECT_THAT(words_of(manifest), HasSubstr(R"("print":[{"file":"pulley.stl")"));
+  EXPECT_THAT(words_of(manifest), Not(HasSubstr("pulley_p")));
+  EXPECT_EQ(bodies_of(std::get<TriangleMesh>(read_part(options_.folder / "pulley.3mf"))).size(), 1u);
+}
+
+TEST_F(Build, InOnePartTakesThePartsOfAnEarlierBuildAway) {
+  file_.mechanism.print.parts = Parts::two;
+  build(file_, options_);
+  file_.mechanism.print.parts = Parts::one;
+  const BuildResult built = build(file_, options_);
+  EXPECT_TRUE(built.published);
+  EXPECT_THAT(names_in(options_.folder), ::testing::UnorderedElementsAreArray(names_of(built.outputs)));
+}
+
+TEST_F(Build, HoldsOverhangsAgainstTheFilesLimit) {
+  file_.mechanism.print.parts = Parts::two;
+  for (const double overhang : {35.0, 55.0}) {
+    file_.mechanism.print.overhang = radians(overhang);
+    options_.dry_run = true;
+    const BuildResult built = build(file_, options_);
+    EXPECT_EQ(built.status, BuildStatus::done);
+    for (const std::string name : {"p1_overhang", "p2_overhang"}) {
+      EXPECT_THAT(built.product.checks, Contains(::testing::AllOf(Field(&Check::name, name), Field(&Check::value, ::testing::Ge(overhang)),
+                                                                  Field(&Check::limit, ::testing::DoubleNear(overhang, 0.2)))));
+    }
+  }
+}
+
+TEST_F(Build, WithSupportsAsksNothingOfOverhangs) {
+  for (const Parts parts : {Parts::one, Parts::two}) {
+    file_.mechanism.print = {parts, radians(45), true};
+    options_.dry_run = true;
+    const BuildResult built = build(file_, options_);
+    EXPECT_EQ(built.status, BuildStatus::done);
+    EXPECT_THAT(names_of(built.product.checks), Not(Contains(HasSubstr("overhang"))));
   }
 }
 

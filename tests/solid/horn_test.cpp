@@ -167,10 +167,19 @@ void expect_holes(const Made& made, const Horn& horn) {
       EXPECT_LT(nearest, 1e-3) << "screw " << k;
     }
   }
-  // The pulley lies on the horn's face: what sinks in has play above it, and not much.
+  // The pulley lies on the horn's face: what sinks in has play above it, and not much; then the recess narrows to the
+  // centre screw's hole in a cone that prints without support.
   if (sinks > 0) {
-    EXPECT_GT(bore_of(sliced(made.pulley.mesh, sinks + 0.1)).reach, horn.centre_hole + k_compensation + 0.2);
-    EXPECT_NEAR(bore_of(sliced(made.pulley.mesh, sinks + 1.6)).room, horn.centre_hole + k_compensation, 1e-3);
+    const double hole = horn.centre_hole + k_compensation, ceiling = sinks + 0.2;
+    const Loop wide = bore_of(sliced(made.pulley.mesh, sinks + 0.1));
+    EXPECT_GT(wide.reach, hole + 0.2);
+    const double cone = 0.5 * (wide.reach - hole) * std::tan(radians(46.5));
+    EXPECT_NEAR(bore_of(sliced(made.pulley.mesh, ceiling + cone + 0.05)).room, hole, 1e-3);
+    for (const double share : {0.25, 0.5}) {
+      const double narrowed = 2.0 * share * cone / std::tan(radians(45));
+      EXPECT_GT(bore_of(sliced(made.pulley.mesh, ceiling + share * cone)).reach, wide.reach - narrowed) << share;
+      EXPECT_LT(bore_of(sliced(made.pulley.mesh, ceiling + share * cone)).reach, wide.reach - 0.8 * narrowed) << share;
+    }
   }
 }
 

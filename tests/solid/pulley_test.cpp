@@ -1,7 +1,7 @@
 // Whole bodies with all features, and each check on them seen failing.
 #include "fusee/solid/pulley.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "fusee/base/text.h"
 #include "solid/broken.h"
@@ -33,7 +33,8 @@ TEST(Pulley, DefaultBodyHasEverythingAndHoldsEveryCheck) {
   const Made made;
   ASSERT_TRUE(made.pulley.made()) << made.pulley.brief();
   EXPECT_EQ(failures(made.pulley, made.mechanism, made.shape), "");
-  EXPECT_TRUE(made.pulley.layout.notes.empty());
+  // The slot for P1's tail opens on the bed: with its gable it is too deep for a flange of 1.2 mm.
+  EXPECT_THAT(made.pulley.layout.notes, ::testing::ElementsAre(::testing::HasSubstr("P1's face for a slot")));
   EXPECT_EQ(made.pulley.anchors.size(), 4u);
   EXPECT_TRUE(made.pulley.layout.set_screw.present);
   // Bore 1, tie-offs 4, set screw 1, nut trap 1 handles.
@@ -125,9 +126,10 @@ TEST(CheckPulley, WrongRadius) {
 TEST(CheckPulley, OneVertexOfTheFloorMoved) {
   Made made;
   const double z = made.pulley.layout.z_p2;
+  const GrooveWalls& walls = made.pulley.layout.p2;
   Vec3* moved = nullptr;
   for (Vec3& vertex : made.pulley.mesh.vertices) {
-    const bool on_band = std::abs(vertex.z() - z) < 1.01 * made.pulley.layout.groove[1].dz;
+    const bool on_band = vertex.z() > z - 1.01 * walls.below[1].dz && vertex.z() < z + 1.01 * walls.above[1].dz;
     if (on_band && std::abs((vertex.head<2>() - Vec2(3, 1)).norm() - 17.5) < 1e-3 && vertex.y() < -10) moved = &vertex;
   }
   ASSERT_NE(moved, nullptr);
@@ -150,7 +152,7 @@ TEST(CheckPulley, MissingFeatureChangesVolumeAndEulerNumber) {
 
 TEST(CheckPulley, ThinWall) {
   Made made;
-  made.pulley.layout.min_wall = 9.0;
+  made.pulley.layout.min_wall = 8.5;
   EXPECT_EQ(failures(made.pulley, made.mechanism, made.shape), "wall_P2");
 }
 

@@ -137,8 +137,27 @@ TEST(TieOffs, ALargePulleyHasNoHoleToTheFace) {
 
 double beyond_pocket(const TailSlot& slot, const BodyLayout& layout) { return (slot.to - slot.from).norm() - layout.pocket_radius; }
 
-TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
+// On P1's face, which lies on the bed where the part is one, a slot has a gable over it: that takes a thicker flange.
+Mechanism thick_flanged() {
   Mechanism mechanism = plain_mechanism();
+  mechanism.body.flange_thickness = 2.4;
+  return mechanism;
+}
+
+TEST(Tails, OnTheBedTakeAThickerFlangeOrTwoParts) {
+  const SynthesisResult shape = pulley_of(circle(20), circle(18));
+  Mechanism thin = plain_mechanism(), apart = thin;
+  apart.print.parts = Parts::two;
+  EXPECT_FALSE(find(make_pulley(thin, shape), Side::left, true).tail.has_value());
+  const auto slot_of = [&](const Mechanism& mechanism) { return find(make_pulley(mechanism, shape), Side::left, true).tail; };
+  ASSERT_TRUE(slot_of(thick_flanged()).has_value());
+  ASSERT_TRUE(slot_of(apart).has_value());
+  EXPECT_GT(slot_of(thick_flanged())->roof, 0);
+  EXPECT_EQ(slot_of(apart)->roof, 0);
+}
+
+TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
+  Mechanism mechanism = thick_flanged();
   mechanism.body.marks = Marks::none;
   const SynthesisResult shape = pulley_of(circle(20), circle(18));
   const Pulley with = make_pulley(mechanism, shape);
@@ -174,7 +193,7 @@ TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
 }
 
 TEST(Tails, AClampScrewHasItsPilotAtTheEnd) {
-  Mechanism mechanism = plain_mechanism();
+  Mechanism mechanism = thick_flanged();
   mechanism.body.marks = Marks::none;
   const SynthesisResult shape = pulley_of(circle(36), circle(35));
   for (const char* name : {"M2", "M2.5", "M3"}) {

@@ -90,6 +90,7 @@ inline DeclaredMechanism plain_mechanism() {
   body.nut_trap = true;
   body.mark_depth = 0.4;
   body.min_wall = 1.2;
+  mechanism.print.overhang = radians(45);
   mechanism.material.hole_compensation = 0.2;
   mechanism.material.elephant_foot = 0.4;
   return mechanism;

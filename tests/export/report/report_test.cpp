@@ -12,6 +12,7 @@
 #include "export/report/mesh_code.h"
 #include "export/report/tables.h"
 #include "support/mechanisms.h"
+#include "support/shapes.h"
 
 namespace fusee {
 namespace {
@@ -42,19 +43,30 @@ TriangleMesh tube(std::uint32_t count, std::uint32_t rings) {
   return mesh;
 }
 
-Product sample(Mechanism mechanism = testing::forearm()) {
+// A joint with the file's default body.
+Mechanism forearm() {
+  Mechanism mechanism = testing::plain_mechanism();
+  const Mechanism joint = testing::forearm();
+  mechanism.name = joint.name;
+  mechanism.joint = joint.joint;
+  mechanism.guides = joint.guides;
+  mechanism.pulley = joint.pulley;
+  mechanism.tendon = joint.tendon;
+  return mechanism;
+}
+
+Product sample(Mechanism mechanism = forearm()) {
   Product product;
   product.joint.mechanism = std::move(mechanism);
   product.file.path = "profiles/forearm.toml";
   product.file.sha256 = std::string(64, 'a');
   product.synthesis = synthesise(product.joint.mechanism);
   product.pulley.status = PulleyStatus::made;
-  product.pulley.layout.groove_depth = 2;
-  product.pulley.layout.bore.radius = 2.5;
+  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
   product.pulley.mesh = tube(60, 5);
   const Outline& p1 = product.synthesis.p1;
   const Vec2 exit = p1.points[p1.anchor_end()].position;
-  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, 0.6 * exit, {}, {}}};
+  product.pulley.anchors = {{Side::left, true, exit, {exit, 0.9 * exit, 0.8 * turned_left(exit)}, {}, 0.6 * exit, {}, {}}};
   product.pulley.conditions = {{"wall_to_bore", true, 0, 3.1, 1.2, "mm", ""}};
   for (const TransmissionPoint& point : product.synthesis.stroke) {
     product.as_built.points.push_back(
@@ -165,6 +177,7 @@ TEST(Report, SaysHowLongToCutTheTendon) {
 
 TEST(Report, SaysWhyARoundBoreHasCorners) {
   Product product = sample();
+  product.pulley.layout.bore.circle = std::nullopt;
   product.pulley.layout.bore.outline = {{2.6, -2.6}, {2.6, 2.6}, {-2.6, 2.6}, {-2.6, -2.6}};
   EXPECT_THAT(report_html(product), Not(HasSubstr("a printer’s corners cut inside")));
   product.pulley.layout.bore.circle = RoundHole{Vec2::Zero(), 5.2};
@@ -176,7 +189,7 @@ TEST(Report, SaysHowThePulleyGetsOntoWhatTurnsIt) {
   const auto making = [](const Mechanism& mechanism) {
     return words_of(parsed(report_html(sample(mechanism))).select_node("//section[@id='making']").node());
   };
-  Mechanism mechanism = testing::forearm();
+  Mechanism mechanism = forearm();
   EXPECT_THAT(making(mechanism), HasSubstr("Put the pulley on its shaft with P1 below"));
   mechanism.body.bore = Bore::horn;
   mechanism.body.horn = "feetech-sts3215";
@@ -187,7 +200,7 @@ TEST(Report, SaysHowThePulleyGetsOntoWhatTurnsIt) {
 }
 
 TEST(Report, ShowsForcesOnlyUnderLoad) {
-  Mechanism mechanism = testing::forearm();
+  Mechanism mechanism = forearm();
   EXPECT_TRUE(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']").empty());
   mechanism.load.tip_force = 20;
   EXPECT_EQ(parsed(report_html(sample(mechanism))).select_nodes("//section[@id='forces']//svg").size(), 2u);
