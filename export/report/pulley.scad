@@ -3,6 +3,8 @@ slope = supports ? 0 : overhang_deg + 1.5;  // slicers take up to a degree more 
 function rise(width) = width * tan(slope > 0 ? slope : 45);
 // of a ceiling or a cone, which may be flat where supports hold it
 function roof(width) = slope > 0 ? rise(width) : 0;
+// of two roofs that meet over a slit
+gable_slope = slope > 0 ? min(slope + 10, 80) : 45;
 apart = parts == 2;
 
 // ---- the groove's cross-section: [outward from the floor, along the axis from the groove's middle], one half ----
@@ -155,9 +157,14 @@ module bore_hole() {
   for (hole = horn_holes) translate([hole[0], hole[1], -1]) linear_extrude(z_hub + 2) round_hole(hole[2] + hole_compensation);
 }
 
+// Blind holes: a cone closes each.
 module dowel_holes() {
-  for (place = dowels) translate([place[0], place[1], -1])
-    linear_extrude(1 + z_p2 + dowel_end) round_hole(dowel_pin + hole_compensation);
+  d = dowel_pin + hole_compensation;
+  end = min(z_p2 + dowel_end, z_top - 0.6 - roof(d / 2));
+  for (place = dowels) translate([place[0], place[1], 0]) {
+    translate([0, 0, -1]) linear_extrude(end + 1) round_hole(d);
+    if (slope > 0) translate([0, 0, end - 0.001]) linear_extrude(rise(d / 2), scale = 0.05) round_hole(d);
+  }
 }
 
 // Does the face that this pulley's pockets open on lie on the bed, with nothing to support what hangs over it?
@@ -234,13 +241,15 @@ module clamp_pilot(t) {
   from_face(t[0]) translate([t[1][0], t[1][1], t[3]]) linear_extrude(t[4] - t[3]) round_hole(t[2] + hole_compensation);
 }
 
-// Round below, a roof above: it prints lying down without support.
+// Round below, a roof above: it prints lying down without support. In the middle of the hub, or where its roof has a wall
+// over it, or where the nut has room below.
 module screw_hole() {
-  z = (z_top + z_hub) / 2 + screw_lift;
-  steep = slope > 0 ? slope : 45;
-  below = [for (k = [0 : facets]) let (a = 90 + steep + (360 - 2 * steep) * k / facets) screw_hole / 2 * [cos(a), sin(a)]];
+  top = screw_hole / 2 / cos(gable_slope);
+  z = max(min((z_top + z_hub) / 2, z_hub - top - min_wall), z_top + (nut_trap ? nut_width / sqrt(3) : screw_hole / 2));
+  below = [for (k = [0 : facets]) let (a = 90 + gable_slope + (360 - 2 * gable_slope) * k / facets)
+    screw_hole / 2 * [cos(a), sin(a)]];
   translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90])
-    linear_extrude(hub_radius + 1, convexity = 4) polygon(concat(below, [[0, screw_hole / 2 / cos(steep)]]));
+    linear_extrude(hub_radius + 1, convexity = 4) polygon(concat(below, [[0, top]]));
   if (nut_trap) rotate([0, 0, screw_angle])
     translate([bore_edge + nut_from_bore - nut_thickness / 2, -nut_width / 2, z - nut_width / sqrt(3)])
       cube([nut_thickness, nut_width, z_hub - z + nut_width / sqrt(3) + 1]);

@@ -250,7 +250,6 @@ std::string flange_numbers(const Product& product, const FlangeRims& rims) {
 
 std::string screw_numbers(const BodyLayout& layout, double compensation) {
   const SetScrewLayout& screw = layout.set_screw;
-  const double middle = 0.5 * (layout.z_top + layout.z_hub);
   const double bore_edge = 0.5 * (shaft_diameter(layout.bore, compensation) + compensation);
   const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
   const double hub_wall =
@@ -260,7 +259,6 @@ std::string screw_numbers(const BodyLayout& layout, double compensation) {
   return (screw.present ? "" : "set_screw = false;\n") + std::string(screw.nut_trap ? "" : "nut_trap = false;\n") +
          hidden("screw_hole", screw.hole_diameter, "diameter") +
          hidden("screw_angle", degrees(screw.angle), "direction, degrees") +
-         hidden("screw_lift", screw.present ? screw.z - middle : 0, "above the middle of the hub") +
          hidden("nut_width", screw.nut_width, "across flats") +
          hidden("nut_thickness", screw.nut_thickness, "along the screw") +
          hidden("nut_from_bore", nut_from_bore, "from the bore's edge to the middle of the nut") +
@@ -291,7 +289,7 @@ std::string dowel_numbers(const BodyLayout& layout) {
   return fmt::format("dowels = {};  // pins that locate P1 and P2 on each other\n", points_text(dowels.places)) +
          hidden("dowel_pin", dowels.pin_diameter, "diameter") +
          hidden("dowel_end", dowels.places.empty() ? 0 : dowels.z_end - layout.z_p2,
-                "of its hole, above groove P2's middle");
+                "of its hole at most, above groove P2's middle");
 }
 
 std::string hidden_numbers(const Product& product, const FlangeRims& rims) {

@@ -140,11 +140,11 @@ def part_self_test(folder, scratch):
 
 def changed_bore(scad, scratch, volume):
     """Tie-offs and set screw away, so that only the bore's polygon changes, whose area is known."""
-    bore, clearance = number(scad, "bore"), number(scad, "hole_compensation")
+    bore, clearance, scale = (number(scad, name) for name in ("bore", "hole_compensation", "print_scale"))
 
     def area(diameter):
         sides = max(8, math.floor(2 * diameter + 0.5))
-        return sides * (diameter / 2) ** 2 * math.tan(math.pi / sides)
+        return sides * (scale * diameter / 2) ** 2 * math.tan(math.pi / sides)
 
     plain = {"channels": "[]", "face_holes": "[]", "tail_slots": "[]", "clamp_pilots": "[]", "set_screw": "false"}
     before, box = render(scad, scratch / "plain.stl", **plain)
