@@ -12,5 +12,6 @@ extern const std::string_view calibration_css;  ///< beside page_css
 extern const std::string_view figure_css;       ///< of every Figure
 extern const std::string_view viewer_js;        ///< the part in 3-D
 extern const std::string_view readout_js;       ///< values under the pointer in plots
+extern const std::string_view pulley_scad;      ///< the program under its parameters and arrays
 
 }  // namespace fusee::embedded

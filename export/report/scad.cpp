@@ -1,17 +1,21 @@
 /// \file
-/// pulley.scad: the part as an OpenSCAD program that a person can read and change. Its arrays are the two groove
-/// floors; all else is computed from the parameters at its top, by the same formulas as src/solid, which this program
-/// must agree with.
+/// pulley.scad: the part as an OpenSCAD program that a person can read and change. Written here are the parameters at
+/// its top and its arrays: the groove floors, and where tendons are tied off. The program itself is the file
+/// pulley.scad beside this one: it computes all else by the same formulas as src/solid, which it must agree with.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "export/report/report_parts.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/export/report.h"
 #include "solid/body.h"
+#include "solid/bore.h"
+#include "solid/mouths.h"
 
 namespace fusee {
 namespace {
@@ -19,7 +23,7 @@ namespace {
 // OpenSCAD's exact arithmetic takes about a millisecond a point: fewer points than the mesh has, and no edge further
 // from the curve than this.
 constexpr double k_sagitta = 0.015;
-constexpr double k_widest_turn = radians(8);
+constexpr double k_widest_turn = radians(4);
 
 std::string decimal(double value) { return trimmed_fixed(value, 5); }
 
@@ -39,18 +43,20 @@ std::string points_text(const Polygon& points) {
   return text + "]";
 }
 
-/// Points that stay: all extremes in x and y, for the box must not shrink, and between them as many as both curves
-/// need.
-std::vector<std::size_t> kept_points(const Outline& p1, const Outline& p2, const Polygon& middle) {
+/// Points that stay: the furthest from the axis and all extremes in x and y, for neither a round flange nor the box
+/// must shrink, and between them as many as both curves need.
+std::vector<std::size_t> kept_points(const Outline& p1, const Outline& p2, const FlangeRims& rims) {
   const std::size_t n = p1.points.size();
   std::set<std::size_t> fixed_points{0};
-  for (const Polygon& curve : {parallel(p1, 0), parallel(p2, 0), middle}) {
-    for (const Vec2& direction : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) {
-      const auto furthest = std::max_element(curve.begin(), curve.end(), [&](const Vec2& a, const Vec2& b) {
-        return a.dot(direction) < b.dot(direction);
-      });
+  for (const Polygon& curve : {rims.lip1, rims.lip2, rims.middle}) {
+    const auto keep_furthest = [&](const auto& reach) {
+      const auto furthest = std::max_element(curve.begin(), curve.end(),
+                                             [&](const Vec2& a, const Vec2& b) { return reach(a) < reach(b); });
       fixed_points.insert(static_cast<std::size_t>(furthest - curve.begin()));
-    }
+    };
+    for (const Vec2& direction : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)})
+      keep_furthest([&](const Vec2& point) { return point.dot(direction); });
+    keep_furthest([](const Vec2& point) { return point.norm(); });
   }
   const auto too_far = [&](std::size_t from, std::size_t to) {
     const double turn = p1.points[to].psi - p1.points[from].psi;
@@ -171,9 +177,13 @@ std::string parameters(const Product& product) {
 // Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law and stay as they are.
 // The engraved letters and marks of the printed part are left out.
 
+/* [View] */
+// the part as it is in use, or what goes to the printer, each as it lies there
+show = "assembled"; // [assembled, print{}]
+
 /* [Bore] */
 )",
-      on_one_line(mechanism.name));
+      on_one_line(mechanism.name), layout.parts == Parts::two ? ", P1, P2" : "");
   if (layout.bore.kind != Bore::horn)
     text += slider_text(
         {"bore",
@@ -197,292 +207,196 @@ std::string parameters(const Product& product) {
                       name_of(body.groove));
   text += "\n/* [Flanges] */\n";
   text += slider_text({"flange_thickness", "of each of the three", layout.flange_thickness, 0.4, 0.1, 10});
-  text += slider_text({"elephant_foot", "chamfer at the print bed", layout.elephant_foot, 0, 0.05, 2});
   text += "\n/* [Tie-offs] */\n";
-  text += slider_text({"channel_width", "height of the tendons' channels", layout.channel_width, 0.3, 0.05, 5});
+  text +=
+      slider_text({"channel_width", "of the tendons' channels, holes and slots", layout.channel_width, 0.3, 0.05, 5});
   text += slider_text({"knot_pocket", "diameter, 0: none", 2 * layout.pocket_radius, 0, 0.1, 20});
-  text += "// corners of round things\nfacets = 24; // [12:4:96]\n\n";
+  text += "// corners of round things\nfacets = 24; // [12:4:96]\n";
+  text += "\n/* [Printing] */\n";
+  text += tick_box("supports", "the printer makes supports, and nothing is made steep to need none",
+                   mechanism.print.supports);
+  text += slider_text({"overhang_deg", "the flattest slope above the horizontal that a face looking down may have",
+                       degrees(mechanism.print.overhang), 20, 1, 75});
+  text += slider_text({"elephant_foot", "chamfer at the print bed", layout.elephant_foot, 0, 0.05, 2}) + "\n";
   return text;
 }
 
-std::string hidden_numbers(const Product& product) {
+/// A number that the program reads and no slider moves.
+std::string hidden(const char* name, double value, const char* words) {
+  return fmt::format("{} = {};  // {}\n", name, decimal(value), words);
+}
+
+std::string flange_numbers(const Product& product, const FlangeRims& rims) {
   const Mechanism& mechanism = product.joint.mechanism;
+  const Flange kind = mechanism.body.flange;
   const BodyLayout& layout = product.pulley.layout;
-  const SynthesisResult& synthesis = product.synthesis;
-  const double d = mechanism.tendon.diameter;
-  const FlangeRims rims = flange_rims(synthesis.p1, synthesis.p2, d, layout.groove_depth, mechanism.body.flange);
-  const RimMargins margins =
-      rim_margins(rims, synthesis.p1, synthesis.p2, layout.groove_depth - 0.5 * d, mechanism.body.flange);
-  const BoreLayout& bore = layout.bore;
+  const double lip = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
+  const RimMargins margins = rim_margins(rims, product.synthesis.p1, product.synthesis.p2, lip, kind);
+  // Of 45°, as high as it is wide.
+  const auto ledge = [](const Polygon& inner, const Polygon& outer) { return cone_height(inner, outer, radians(45)); };
+  const double roof = std::max(layout.p2.below_width(), layout.p2.above_width());
+  return fmt::format("flange_shape = \"{}\";  // follow: along the groove; round\n",
+                     kind == Flange::follow ? "follow" : "round") +
+         hidden("lower_margin", margins.lower, "how far the flanges stand outside of the groove's lip") +
+         hidden("middle_margin", margins.middle, "the middle one outside of both") +
+         hidden("upper_margin", margins.upper, "the same of the upper one") +
+         hidden("lower_ledge", ledge(rims.lip1, rims.lower), "how far they stand out over it where that is most") +
+         hidden("middle_ledge", ledge(rims.lip1, rims.middle), "the middle one over P1's") +
+         hidden("upper_ledge", ledge(rims.lip2, rims.upper), "the upper one over P2's") +
+         hidden("mouth_rise", mouth_rise(layout) + roof - 0.5 * layout.channel_width,
+                "of a channel's ceiling, up to where it cuts the groove's lip") +
+         hidden("min_wall", layout.min_wall, "no wall is thinner");
+}
+
+std::string screw_numbers(const BodyLayout& layout, double compensation) {
   const SetScrewLayout& screw = layout.set_screw;
-  std::string absent;
-  if (bore.kind == Bore::horn)
-    absent += fmt::format("bore = {};            // of the horn\n",
-                          decimal(shaft_diameter(bore, mechanism.material.hole_compensation)));
-  if (!screw.present) absent += "set_screw = false;\n";
-  if (!screw.nut_trap) absent += "nut_trap = false;\n";
   const double middle = 0.5 * (layout.z_top + layout.z_hub);
-  const double bore_edge =
-      0.5 * (shaft_diameter(bore, mechanism.material.hole_compensation) + mechanism.material.hole_compensation);
+  const double bore_edge = 0.5 * (shaft_diameter(layout.bore, compensation) + compensation);
   const double nut_from_bore = screw.nut_trap ? screw.nut_distance - bore_edge : 0;
   const double hub_wall =
       layout.hub_radius > 0
           ? std::clamp(layout.hub_radius - bore_edge - nut_from_bore - 0.5 * screw.nut_thickness, 0.0, 1.5)
           : layout.min_wall;
-  std::string text = fmt::format(
-      R"(/* [Hidden] */
-{}tendon = {};          // its diameter
-seat_ratio = {};      // seat radius of a u groove per tendon diameter
-flange_shape = "{}";  // follow: along the groove; round
-lower_margin = {};    // how far the flanges stand outside of the groove's lip
-middle_margin = {};
-upper_margin = {};
-bore_shape = "{}";
-screw_hole = {};      // diameter
-screw_angle = {};     // direction, degrees
-screw_lift = {};      // above the middle of the hub
-nut_width = {};       // across flats
-nut_thickness = {};
-nut_from_bore = {};   // from the bore's edge to the middle of the nut
-hub_wall = {};        // the hub grows with the bore so that this is left outside of it and of the nut
-print_scale = {};     // a print shrinks by as much
+  return (screw.present ? "" : "set_screw = false;\n") + std::string(screw.nut_trap ? "" : "nut_trap = false;\n") +
+         hidden("screw_hole", screw.hole_diameter, "diameter") +
+         hidden("screw_angle", degrees(screw.angle), "direction, degrees") +
+         hidden("screw_lift", screw.present ? screw.z - middle : 0, "above the middle of the hub") +
+         hidden("nut_width", screw.nut_width, "across flats") +
+         hidden("nut_thickness", screw.nut_thickness, "along the screw") +
+         hidden("nut_from_bore", nut_from_bore, "from the bore's edge to the middle of the nut") +
+         hidden("hub_wall", hub_wall, "the hub grows with the bore so that this is left outside of it and of the nut");
+}
 
-)",
-      absent, decimal(d), decimal(mechanism.body.seat_ratio),
-      mechanism.body.flange == Flange::follow ? "follow" : "round", decimal(margins.lower), decimal(margins.middle),
-      decimal(margins.upper), name_of(bore.kind), decimal(screw.hole_diameter), decimal(degrees(screw.angle)),
-      decimal(screw.present ? screw.z - middle : 0), decimal(screw.nut_width), decimal(screw.nut_thickness),
-      decimal(nut_from_bore), decimal(hub_wall), fixed(layout.scale, 9));
-  text += "horn_recess = " + decimal(bore.horn_recess) +
-          ";     // depth of a servo horn's pocket; 0: the bore goes through\n";
-  text += "horn_teeth = " + (bore.spline_teeth > 0 ? points_text(bore.outline) : "[]") +
-          ";     // outline around a servo's toothed shaft\n";
-  text += "horn_holes = [";
-  for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
-    const RoundHole hole = circle_within(bore.screw_holes[k]);
-    text += fmt::format("{}[{}, {}, {}]", k == 0 ? "" : ", ", decimal(hole.centre.x()), decimal(hole.centre.y()),
-                        decimal(hole.diameter - mechanism.material.hole_compensation));
+std::string bore_numbers(const BoreLayout& bore, double compensation) {
+  std::string text;
+  if (bore.kind == Bore::horn) text += hidden("bore", shaft_diameter(bore, compensation), "of the horn");
+  const double share = bore.horn_recess > 0 ? recess_roof_share(bore) : 1;
+  text += fmt::format("bore_shape = \"{}\";\n", name_of(bore.kind));
+  text += hidden("horn_recess", bore.horn_recess, "depth of a servo horn's pocket; 0: the bore goes through");
+  text += hidden("horn_narrowing", share, "of the pocket, to the hole of the horn's centre screw");
+  text += hidden("horn_ledge", circumradius(bore.outline) * (1 - share), "by how much, at most");
+  text += fmt::format("horn_teeth = {};  // outline around a servo's toothed shaft\n",
+                      bore.spline_teeth > 0 ? points_text(bore.outline) : "[]");
+  std::vector<std::string> holes;
+  for (const Polygon& outline : bore.screw_holes) {
+    const RoundHole hole = circle_within(outline);
+    holes.push_back(fmt::format("[{}, {}, {}]", decimal(hole.centre.x()), decimal(hole.centre.y()),
+                                decimal(hole.diameter - compensation)));
   }
-  return text + "];     // of its screws: x, y, diameter\n\n";
+  return text + fmt::format("horn_holes = [{}];  // of its screws: x, y, diameter\n", fmt::join(holes, ", "));
 }
 
-/// Countersink, slot and pilot of a tie-off, each [] where there is none.
-std::string at_face_text(const Anchor& anchor) {
-  const auto& tail = anchor.tail;
-  const std::string seat =
-      anchor.seat ? fmt::format("[{}, {}]", decimal(anchor.seat->radius), decimal(anchor.seat->depth)) : "[]";
-  const std::string slot = tail ? fmt::format("[{}, {}, {}]", points_text(tail->outline()), decimal(tail->depth), decimal(tail->roof)) : "[]";
-  const std::string pilot =
-      tail && tail->pilot_diameter > 0
-          ? fmt::format("[{}, {}, {}, {}]", decimal(tail->to.x()), decimal(tail->to.y()), decimal(tail->pilot_diameter),
-                        decimal(tail->pilot_depth))
-          : "[]";
-  return seat + ", " + slot + ", " + pilot;
+std::string dowel_numbers(const BodyLayout& layout) {
+  const DowelLayout& dowels = layout.dowels;
+  return fmt::format("dowels = {};  // pins that locate P1 and P2 on each other\n", points_text(dowels.places)) +
+         hidden("dowel_pin", dowels.pin_diameter, "diameter") +
+         hidden("dowel_end", dowels.places.empty() ? 0 : dowels.z_end - layout.z_p2,
+                "of its hole, above groove P2's middle");
 }
 
-std::string arrays(const Product& product) {
+std::string hidden_numbers(const Product& product, const FlangeRims& rims) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const BodyLayout& layout = product.pulley.layout;
+  const double compensation = mechanism.material.hole_compensation;
+  return "/* [Hidden] */\n" +
+         hidden("parts", layout.parts == Parts::two ? 2 : 1, "as it is printed: 2: P1 and P2 apart") +
+         hidden("tendon", mechanism.tendon.diameter, "its diameter") +
+         hidden("seat_ratio", mechanism.body.seat_ratio, "seat radius of a u groove per tendon diameter") +
+         flange_numbers(product, rims) + bore_numbers(layout.bore, compensation) + screw_numbers(layout, compensation) +
+         dowel_numbers(layout) +
+         fmt::format("print_scale = {};  // a print shrinks by as much\n\n", fixed(layout.scale, 9));
+}
+
+/// `name = [row, row …];`, a row a line.
+std::string array_text(const char* name, const char* words, const std::vector<std::string>& rows) {
+  return fmt::format("\n// {}\n{} = [{}{}];\n", words, name, rows.empty() ? "" : "\n  ", fmt::join(rows, ",\n  "));
+}
+
+int groove_of(const Anchor& anchor) { return anchor.side == Side::left ? 1 : 2; }
+
+/// From where the channel begins to run straight into its pocket, to the end of its inner edge.
+Vec2 straight_run(const Polygon& inner, const Vec2& pocket) {
+  const Vec2 outward = (pocket - inner.back()).normalized();
+  const auto first = std::find_if(inner.begin(), inner.end(), [&](const Vec2& point) {
+    return std::abs((point - inner.back()).dot(outward)) < 1e-6;
+  });
+  return inner.back() - *first;
+}
+
+/// The mouth runs along the outer edge and back along the inner one.
+std::string channel_text(const Anchor& anchor) {
+  const auto half = static_cast<std::ptrdiff_t>(anchor.mouth.size() / 2);
+  const Polygon outer(anchor.mouth.begin(), anchor.mouth.begin() + half);
+  const Polygon inner(anchor.mouth.rbegin(), anchor.mouth.rbegin() + half);
+  return fmt::format("[{}, {},\n   {},\n   {},\n   {}]", groove_of(anchor), point_text(anchor.pocket),
+                     points_text(outer), points_text(inner), point_text(straight_run(inner, anchor.pocket)));
+}
+
+std::string face_hole_text(const Anchor& anchor, const Outline& outline) {
+  const auto nearest =
+      std::min_element(outline.points.begin(), outline.points.end(), [&](const OutlinePoint& a, const OutlinePoint& b) {
+        return (a.position - anchor.exit).squaredNorm() < (b.position - anchor.exit).squaredNorm();
+      });
+  return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(circle_within(anchor.channel).centre),
+                     decimal(degrees(nearest->psi)), decimal(anchor.seat->radius), decimal(anchor.seat->depth));
+}
+
+std::string tail_slot_text(const Anchor& anchor) {
+  const TailSlot& slot = *anchor.tail;
+  return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(slot.from), point_text(slot.to),
+                     decimal(slot.depth), decimal(slot.roof));
+}
+
+std::string clamp_pilot_text(const Anchor& anchor, double compensation) {
+  const TailSlot& slot = *anchor.tail;
+  return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(slot.to),
+                     decimal(slot.pilot_diameter - compensation), decimal(0.5 * slot.depth), decimal(slot.pilot_depth));
+}
+
+std::string tie_off_arrays(const Product& product) {
+  std::vector<std::string> channels, holes, slots, pilots;
+  for (const Anchor& anchor : product.pulley.anchors) {
+    if (anchor.seat) {
+      const bool left = anchor.side == Side::left;
+      holes.push_back(face_hole_text(anchor, left ? product.synthesis.p1 : product.synthesis.p2));
+    } else {
+      channels.push_back(channel_text(anchor));
+    }
+    if (!anchor.tail) continue;
+    slots.push_back(tail_slot_text(anchor));
+    if (anchor.tail->pilot_diameter > 0)
+      pilots.push_back(clamp_pilot_text(anchor, product.joint.mechanism.material.hole_compensation));
+  }
+  return "\n// Where tendons are tied off, each with its groove (1 or 2) first." +
+         array_text(
+             "channels",
+             "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
+             channels) +
+         array_text("face_holes", "place, the direction in which the floor looks there, countersink's radius and depth",
+                    holes) +
+         array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
+                    slots) +
+         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, from, to below the face", pilots) +
+         "\n";
+}
+
+std::string floor_arrays(const Product& product, const FlangeRims& rims) {
   const SynthesisResult& synthesis = product.synthesis;
   const double d = product.joint.mechanism.tendon.diameter;
-  const FlangeRims rims = flange_rims(synthesis.p1, synthesis.p2, d, product.pulley.layout.groove_depth,
-                                      product.joint.mechanism.body.flange);
-  const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims.middle);
-  std::string text =
-      "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks "
-      "the same way.\n";
-  text += floor_array("P1", synthesis.p1, d, kept);
-  text += floor_array("P2", synthesis.p2, d, kept);
-  text +=
-      "\n// Where tendons are tied off: groove (1 or 2), middle of the knot pocket, outline of channel and "
-      "pocket,\n// countersink of a hole to the face in their place [radius, depth], slot for the tail [outline, depth, its gable's height], "
-      "pilot of its screw [x, y, diameter, depth].\ntie_offs = [";
-  bool first = true;
-  for (const Anchor& anchor : product.pulley.anchors) {
-    text += fmt::format("{}\n  [{}, {}, {}, {}]", first ? "" : ",", anchor.side == Side::left ? 1 : 2,
-                        point_text(anchor.pocket), points_text(anchor.channel), at_face_text(anchor));
-    first = false;
-  }
-  return text + "];\n\n";
+  const std::vector<std::size_t> kept = kept_points(synthesis.p1, synthesis.p2, rims);
+  return "// The groove floors: x, y, and the direction in which the floor looks there, degrees. Point i of both looks "
+         "the same way.\n" +
+         floor_array("P1", synthesis.p1, d, kept) + floor_array("P2", synthesis.p2, d, kept);
 }
-
-constexpr std::string_view k_program = R"SCAD(
-// ---- the groove's cross-section: [outward from the floor, along the axis from the groove's middle], one half ----
-lean = groove_angle / 2;
-seat = max(0.5, seat_ratio) * tendon;
-seat_steps = max(1, ceil((90 - lean) / (2 * acos(1 / (1 + 0.01 / seat)))));
-seat_step = (90 - lean) / seat_steps;
-seat_corner = seat / cos(seat_step / 2);
-ground =
-  groove_shape == "u" ? [for (k = [0 : seat_steps - 1]) [k == 0 ? 0 : seat - seat_corner * cos((k + 0.5) * seat_step), seat_corner * sin((k + 0.5) * seat_step)]] :
-  groove_shape == "v" ? [[0, tendon / 2 * tan(45 - lean / 2)]] :
-  [[0, 0.7 * tendon]];
-below_lip = [for (k = [0 : len(ground) - 1]) if (k == 0 || ground[k][0] < groove_depth) ground[k]];
-last = below_lip[len(below_lip) - 1];
-section = concat(below_lip, [[groove_depth, last[1] + (groove_depth - last[0]) * tan(lean)]]);
-half_width = section[len(section) - 1][1];
-
-// ---- heights ----
-z_p1 = flange_thickness + half_width;
-z_p2 = z_p1 + 2 * half_width + flange_thickness;
-z_top = z_p2 + half_width + flange_thickness;
-has_hub = hub_diameter > 0 && hub_height > 0;
-bore_edge = (bore + hole_compensation) / 2;
-nut_room = set_screw && nut_trap ? nut_from_bore + nut_thickness / 2 : 0;
-hub_radius = max(hub_diameter / 2, bore_edge + nut_room + hub_wall);
-z_hub = z_top + (has_hub ? hub_height : 0);
-
-// ---- outlines: curves parallel to a floor, circles, and the middle flange around both grooves ----
-n = len(P1);
-function parallel(P, out) = [for (p = P) [p[0] + out * cos(p[2]), p[1] + out * sin(p[2])]];
-function circle_like(r) = [for (p = P1) r * [cos(p[2]), sin(p[2])]];
-function reach(P, out) = max([for (p = parallel(P, out)) norm(p)]);
-// how far a floor reaches in its own direction, and along it
-function support(p) = p[0] * cos(p[2]) + p[1] * sin(p[2]);
-function aside(p) = -p[0] * sin(p[2]) + p[1] * cos(p[2]);
-blend = 0.5;
-function around_both(out) = [for (i = [0 : n - 1]) let (
-    s1 = support(P1[i]), s2 = support(P2[i]), most = max(s1, s2),
-    w1 = exp((s1 - most) / blend), w2 = exp((s2 - most) / blend),
-    h = most + blend * ln(w1 + w2) + out,
-    t = (w1 * aside(P1[i]) + w2 * aside(P2[i])) / (w1 + w2),
-    a = P1[i][2]) [h * cos(a) - t * sin(a), h * sin(a) + t * cos(a)]];
-
-// the chamfer at the bed leaves 0.2 mm of the lip
-foot = max(0, min(elephant_foot, min(groove_depth, flange_thickness) - 0.2));
-is_round = flange_shape == "round";
-lower_reach = reach(P1, groove_depth) + lower_margin;
-lower = is_round ? circle_like(lower_reach) : parallel(P1, groove_depth);
-lower_foot = is_round ? circle_like(lower_reach - foot) : parallel(P1, groove_depth - foot);
-middle = is_round ? circle_like(max(reach(P1, groove_depth), reach(P2, groove_depth)) + middle_margin)
-                  : around_both(groove_depth + middle_margin);
-upper = is_round ? circle_like(reach(P2, groove_depth) + upper_margin) : parallel(P2, groove_depth);
-
-// ---- the body: rings [z, outline] from bottom to top, skinned ----
-function groove_rings(P, z) = concat(
-  [for (k = [len(section) - 1 : -1 : 0]) [z - section[k][1], parallel(P, section[k][0])]],
-  [for (k = [0 : len(section) - 1]) [z + section[k][1], parallel(P, section[k][0])]]);
-rings = concat(
-  foot > 0 ? [[0, lower_foot]] : [],
-  [[foot, lower]],
-  is_round ? [[z_p1 - half_width, lower]] : [],
-  groove_rings(P1, z_p1),
-  [[z_p1 + half_width, middle], [z_p2 - half_width, middle]],
-  groove_rings(P2, z_p2),
-  is_round ? [[z_p2 + half_width, upper]] : [],
-  [[z_top, upper]]);
-
-module skin(rings) {
-  count = len(rings);
-  points = [for (r = rings) for (p = r[1]) [p[0], p[1], r[0]]];
-  sides = [for (k = [0 : count - 2]) for (i = [0 : n - 1]) let (j = (i + 1) % n, a = k * n, b = a + n)
-    each [[a + i, b + j, a + j], [a + i, b + i, b + j]]];
-  bottom = [for (i = [0 : n - 1]) i];
-  top = [for (i = [n - 1 : -1 : 0]) (count - 1) * n + i];
-  // a line of sight goes in and out at each flange: the preview has to know how often at most
-  polyhedron(points, concat(sides, [bottom, top]), convexity = 6);
-}
-
-// On its own, for a wide bore makes it stand over the flange.
-module hub() {
-  translate([0, 0, z_top]) linear_extrude(z_hub - z_top) polygon(circle_like(hub_radius));
-}
-
-// ---- what is cut out ----
-// A printer's corners cut inside of a curve, so that a round hole comes out too small. This hole is a polygon around
-// the circle: its sides touch the circle of diameter d from outside, and a shaft of that diameter fits.
-module polyhole(d, sides) {
-  rotate(90 + 180 / sides) circle(r = d / 2 / cos(180 / sides), $fn = sides);
-}
-
-module round_hole(d) { polyhole(d, max(8, round(2 * d))); }
-
-module bore_outline() {
-  d = bore + hole_compensation;
-  key = bore_shape == "keyway" ? key_width + hole_compensation : 0;
-  if (len(horn_teeth) > 0) polygon(horn_teeth);
-  else if (bore_shape == "hex") polyhole(d, 6);
-  else if (bore_shape == "square") polyhole(d, 4);
-  else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, bore_flat - bore / 2 + hole_compensation / 2 - 2 * d]) square(2 * d); }
-  else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key / 2, 0]) square([key, d / 2 + key_depth]); }
-  else round_hole(d);
-}
-
-module bore_hole() {
-  translate([0, 0, -1]) linear_extrude(1 + (horn_recess > 0 ? horn_recess : z_hub + 1), convexity = 4) bore_outline();
-  for (hole = horn_holes) translate([hole[0], hole[1], -1]) linear_extrude(z_hub + 2) round_hole(hole[2] + hole_compensation);
-}
-
-// The channel in the groove's plane, and the pocket from the nearer face up to it.
-module channel(t) {
-  z = t[0] == 1 ? z_p1 : z_p2;
-  translate([0, 0, z - channel_width / 2]) linear_extrude(channel_width, convexity = 6) polygon(t[2], convexity = 6);
-  low = t[0] == 1 ? -1 : z - channel_width / 2;
-  high = t[0] == 1 ? z + channel_width / 2 : z_hub + 1;
-  translate([t[1][0], t[1][1], low]) cylinder(d = knot_pocket, h = high - low, $fn = facets);
-}
-
-// Seen from its face, which lies at 0 and looks down: a countersunk hole to the groove.
-module face_hole(t, to_groove) {
-  translate([0, 0, -z_hub]) linear_extrude(z_hub + to_groove + channel_width / 2) polygon(t[2]);
-  translate([t[1][0], t[1][1], -z_hub + z_top - 1]) cylinder(r = t[3][0], h = z_hub - z_top + 1, $fn = facets);
-  hull() {
-    translate([t[1][0], t[1][1], -0.01]) cylinder(r = t[3][0], h = 0.01, $fn = facets);
-    translate([0, 0, t[3][1]]) linear_extrude(0.01) polygon(t[2]);
-  }
-}
-
-// What lies flush in the face, seen in the same way: the tail, and its screw.
-module tail(t) {
-  slot = t[4];
-  if (len(slot) > 0) {
-    translate([0, 0, -1]) linear_extrude(slot[1] + 1) polygon(slot[0]);
-    if (slot[2] > 0) hull() {
-      translate([0, 0, slot[1] - 0.01]) linear_extrude(0.01) polygon(slot[0]);
-      for (end = [(slot[0][0] + slot[0][3]) / 2, (slot[0][1] + slot[0][2]) / 2])
-        translate([end[0], end[1], slot[1] + slot[2] - 0.001]) cube(0.001);
-    }
-  }
-  if (len(t[5]) > 0) translate([t[5][0], t[5][1], 0]) cylinder(d = t[5][2], h = t[5][3], $fn = facets);
-}
-
-module tie_off(t) {
-  on_p1 = t[0] == 1;
-  if (len(t[3]) == 0) channel(t);
-  translate([0, 0, on_p1 ? 0 : z_top]) mirror([0, 0, on_p1 ? 0 : 1]) {
-    if (len(t[3]) > 0) face_hole(t, on_p1 ? z_p1 : z_top - z_p2);
-    tail(t);
-  }
-}
-
-// Round below, a roof above: it prints lying down without support.
-module screw_hole() {
-  z = (z_top + z_hub) / 2 + screw_lift;
-  translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90]) linear_extrude(hub_radius + 1, convexity = 4) {
-    circle(d = screw_hole, $fn = facets);
-    rotate(45) square(screw_hole / 2);
-  }
-  if (nut_trap) rotate([0, 0, screw_angle])
-    translate([bore_edge + nut_from_bore - nut_thickness / 2, -nut_width / 2, z - nut_width / sqrt(3)])
-      cube([nut_thickness, nut_width, z_hub - z + nut_width / sqrt(3) + 1]);
-}
-
-// One difference: what is cut out is put together first, for that is small and quick.
-scale(print_scale) difference() {
-  union() {
-    skin(rings);
-    if (has_hub) hub();
-  }
-  union() {
-    bore_hole();
-    for (t = tie_offs) tie_off(t);
-    if (set_screw && has_hub) screw_hole();
-  }
-}
-)SCAD";
 
 }  // namespace
 
 std::string scad_text(const Product& product) {
-  return parameters(product) + hidden_numbers(product) + arrays(product) + std::string(k_program.substr(1));
+  const Mechanism& mechanism = product.joint.mechanism;
+  const FlangeRims rims = flange_rims(product.synthesis.p1, product.synthesis.p2, mechanism.tendon.diameter,
+                                      product.pulley.layout.groove_depth, mechanism.body.flange);
+  return parameters(product) + hidden_numbers(product, rims) + floor_arrays(product, rims) + tie_off_arrays(product) +
+         std::string(embedded::pulley_scad);
 }
 
 }  // namespace fusee

@@ -324,6 +324,15 @@ void OutputFolder::publish() {
   close_staging();
 }
 
+void OutputFolder::withdraw(const std::vector<std::string>& names) const {
+  for (const std::string& name : names) {
+    const fs::path path = folder_ / name;
+    const bool published = std::find(staged_.begin(), staged_.end(), name) != staged_.end();
+    if (published || !fs::is_regular_file(fs::symlink_status(path))) continue;
+    if (ours_.count({name, sha256(read_file(path, k_largest_output))}) != 0) ::unlink(path.c_str());
+  }
+}
+
 void write_file(const fs::path& path, std::string_view bytes, bool force) {
   std::error_code error;
   const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path, error) : path;

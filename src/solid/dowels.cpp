@@ -16,6 +16,8 @@ namespace {
 constexpr std::array<double, 4> k_pins{3.0, 2.5, 2.0, 1.5};
 // A pin that is held over less of its length than this locates nothing.
 constexpr double k_least_hold = 1.5;
+// What a hole leaves of the face above it.
+constexpr double k_least_cover = 0.6;
 
 class DowelChooser {
  public:
@@ -38,13 +40,16 @@ class DowelChooser {
   }
 
   DowelLayout choose() const {
-    // Clear of P2's tie-offs too, or ending below them.
-    const double deep = layout_.z_p2 + layout_.p2.above_width();
-    const double shallow = layout_.z_p2 - 0.5 * layout_.channel_width - layout_.min_wall;
     for (const double pin : k_pins) {
-      if (const auto places = places_for(pin, in_both_)) return layout_of(pin, *places, deep);
-      if (shallow - layout_.z_mate < k_least_hold) continue;
-      if (const auto places = places_for(pin, in_p1_)) return layout_of(pin, *places, shallow);
+      const double roof = layout_.roof_slope > 0 ? rise_of(layout_, 0.5 * (pin + compensation_)) : 0.0;
+      // Clear of P2's tie-offs too, or ending below them.
+      const double deep = std::min(layout_.z_p2 + layout_.p2.above_width(), layout_.z_top - k_least_cover - roof);
+      const double shallow = layout_.z_p2 - 0.5 * layout_.channel_width - layout_.min_wall - roof;
+      for (const auto& [z_end, obstacles] : {std::pair{deep, &in_both_}, std::pair{shallow, &in_p1_}}) {
+        if (z_end - layout_.z_mate < k_least_hold) continue;
+        if (const auto places = places_for(pin, *obstacles))
+          return {{places->first, places->second}, pin + compensation_, pin, z_end, roof};
+      }
     }
     return {};
   }
@@ -58,10 +63,6 @@ class DowelChooser {
                          [&](const Bar& bar) { return gap({place, place, room}, bar) >= 0; }) &&
              depth_inside(floor1_, place) >= room && depth_inside(floor2_, place) >= room;
     });
-  }
-
-  DowelLayout layout_of(double pin, const std::pair<Vec2, Vec2>& places, double z_end) const {
-    return {{places.first, places.second}, pin + compensation_, pin, z_end};
   }
 
   const BodyLayout& layout_;

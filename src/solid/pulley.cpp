@@ -46,6 +46,19 @@ TriangleMesh laid_on_bed(TriangleMesh mesh, Piece piece, double mate) {
   return rounded_to_float(std::move(mesh));
 }
 
+// A blind hole ends in a cone; a flat ceiling that small is not always taken for a bridge.
+TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place) {
+  constexpr double k_tip = 0.05;
+  const auto ring = [&](double share, double z) {
+    std::vector<Vec3> points;
+    for (const Vec2& corner : polyhole(dowels.hole_diameter, Vec2::Zero()))
+      points.emplace_back(place.x() + share * corner.x(), place.y() + share * corner.y(), z);
+    return points;
+  };
+  if (dowels.roof <= 0) return strip({ring(1, -k_overshoot), ring(1, dowels.z_end)});
+  return strip({ring(1, -k_overshoot), ring(1, dowels.z_end), ring(k_tip, dowels.z_end + dowels.roof)});
+}
+
 class FeatureCutter {
  public:
   FeatureCutter(const Mechanism& mechanism, const BodyPlan& plan, const std::vector<Mark>& marks, Piece piece)
@@ -97,7 +110,7 @@ class FeatureCutter {
   std::vector<TriangleMesh> cuts(int variant) const {
     std::vector<TriangleMesh> tools;
     for (const Vec2& place : layout_.dowels.places)
-      tools.push_back(prism({polyhole(layout_.dowels.hole_diameter, place)}, -k_overshoot, layout_.dowels.z_end));
+      tools.push_back(dowel_tool(layout_.dowels, place));
     if (has_p2_ && layout_.set_screw.present)
       tools.push_back(set_screw_tool(layout_.set_screw, layout_.hub_radius, layout_.z_hub, variant));
     const double depth = layout_.mark_depth;

@@ -1,16 +1,19 @@
 """OpenSCAD as a judge of pulley.scad.
 
-    judge_scad.py part FOLDER      rendered as it is, it must be the part of pulley.stl (box within 0.01 mm, volume within 0.5 %); rendered with
-                                   another bore (where it is round) and another groove, the part must change by what that means
+    judge_scad.py part FOLDER      rendered as it is, it must be the part of pulley.stl (box within 0.01 mm, volume within 0.5 %), and what it
+                                   shows as "P1", "P2" and "print" must be the files that the manifest sends to the printer, side by side;
+                                   rendered with another bore (where it is round) and another groove, the part must change by what that means
     judge_scad.py preview FOLDER   the quick preview must look like the full render, from five sides
+    judge_scad.py part FOLDER --self-test   that this judge sees what is broken on purpose, in a pulley that is printed in two parts
     judge_scad.py preview --self-test   that this judge sees a polyhedron without its convexity
     judge_scad.py customizer FOLDER     every parameter has words and a range, a list or a tick box; at each end and in the middle of its
                                    range the part renders without a word of complaint
 
-FOLDER holds pulley.scad and pulley.stl. Exit 0: content; 1: not, with the faults on stdout; 77: a program is not installed."""
+FOLDER is what `fusee build` wrote. Exit 0: content; 1: not, with the faults on stdout; 77: a program is not installed."""
 import argparse
 import concurrent.futures
 import contextlib
+import json
 import math
 import os
 import pathlib
@@ -56,7 +59,7 @@ def printed_by_openscad(scad, *arguments, environment=None):
     run = subprocess.run(["openscad", *map(str, arguments), str(scad)], capture_output=True, text=True, timeout=300, env=environment)
     words = [line for line in run.stderr.splitlines() if re.search("WARNING|ERROR|DEPRECATED", line)]
     if words or run.returncode:
-        raise ValueError("OpenSCAD says: " + " / ".join(words or run.stderr.splitlines()[-3:]))
+        raise ValueError("OpenSCAD says: " + " / ".join(words[:3] or run.stderr.splitlines()[-3:]))
     return run.stderr
 
 
@@ -66,22 +69,73 @@ def number(scad, name):
 
 # The part ------------------------------------------------------------------------------------------------------------
 
+BETWEEN_PARTS = 5.0  # mm, on the printer
+
+
+def unlike(what, found, made):
+    """Words on how a volume and a box differ from what they should be."""
+    (volume, box), (made_volume, made_box) = found, made
+    off = max(abs(a - b) for a, b in zip(box, made_box))
+    print(f"{what}: volume {volume:.1f} mm³, {100 * (volume / made_volume - 1):+.3f} % of the mesh's; box off by {off:.4f} mm")
+    if off > 0.01:
+        yield f"{what}: the box is off by {off:.4f} mm"
+    if abs(volume / made_volume - 1) > 0.005:
+        yield f"{what}: the volume is {volume:.1f} mm³ and should be {made_volume:.1f}"
+
+
+def side_by_side(first, second):
+    (volume, box), (other_volume, other) = first, second
+    shift = box[3] + BETWEEN_PARTS - other[0]
+    low = [box[0], min(box[1], other[1]), min(box[2], other[2])]
+    high = [other[3] + shift, max(box[4], other[4]), max(box[5], other[5])]
+    return volume + other_volume, low + high
+
+
+def printed_faults(folder, scratch):
+    """Of a pulley in two parts, each as it lies on the printer."""
+    pieces = json.loads((folder / "manifest.json").read_text())["print"]
+    offered = re.search(r'^show = "assembled"; // \[(.*)\]$', (folder / "pulley.scad").read_text(), re.M).group(1)
+    shows = ["assembled", "print"] + [piece["part"] for piece in pieces if "part" in piece]
+    if offered != ", ".join(shows):
+        yield f"show offers {offered}, and should offer {', '.join(shows)}"
+    if len(pieces) != 2:
+        return
+    made = [measure(folder / piece["file"]) for piece in pieces]
+    for show, expected in zip(shows[1:], [side_by_side(*made), *made]):
+        yield from unlike(show, render(folder / "pulley.scad", scratch / f"{show}.stl", show=f'"{show}"'), expected)
+
+
 def part_faults(folder, scratch):
     scad = folder / "pulley.scad"
     volume, box = render(scad, scratch / "as_it_is.stl")
-    made, made_box = measure(folder / "pulley.stl")
-    off = max(abs(a - b) for a, b in zip(box, made_box))
-    print(f"{folder}: volume {volume:.1f} mm³, {100 * (volume / made - 1):+.3f} % of the mesh's; box off by {off:.4f} mm")
-    if off > 0.01:
-        yield f"the box is off by {off:.4f} mm"
-    if abs(volume / made - 1) > 0.005:
-        yield f"the volume is {volume:.1f} mm³ and should be {made:.1f}"
+    yield from unlike("assembled", (volume, box), measure(folder / "pulley.stl"))
+    yield from printed_faults(folder, scratch)
     if 'bore_shape = "round"' in scad.read_text():
         yield from changed_bore(scad, scratch, volume)
     lip = number(scad, "groove_depth")
     shallow, shallow_box = render(scad, scratch / "shallow.stl", groove_depth=0.8 * lip)
     if not shallow < volume or not shallow_box[3] < box[3] - 0.15 * lip:
         yield "a shallower groove does not make a smaller part"
+
+
+# Of a pulley in two parts: what is broken, and what must be seen to be wrong.
+BROKEN = (("a roof of another slope", "slope = supports ? 0 : overhang_deg + 1.5", "slope = overhang_deg - 10", "assembled"),
+          ("P1 not turned over", "rotate([piece == 1 ? 180 : 0, 0, 0])", "", "P1"),
+          ("a part without its pockets", "if (knot_pocket > 0) pocket(t)", "", "P2"),
+          ("no place for P2 to lie", "near_side(p2_rings) + 5", "near_side(p2_rings)", "print"))
+
+
+def part_self_test(folder, scratch):
+    for name in ("manifest.json", "pulley.stl", "pulley_p1.stl", "pulley_p2.stl"):
+        shutil.copy(folder / name, scratch)
+    text = (folder / "pulley.scad").read_text()
+    for what, right, wrong, seen in BROKEN:
+        if text.count(right) != 1:
+            yield f"the program no longer says {right!r}"
+            continue
+        (scratch / "pulley.scad").write_text(text.replace(right, wrong))
+        if not any(fault.startswith(seen + ": ") for fault in part_faults(scratch, scratch)):
+            yield f"{what} was accepted"
 
 
 def changed_bore(scad, scratch, volume):
@@ -92,7 +146,7 @@ def changed_bore(scad, scratch, volume):
         sides = max(8, math.floor(2 * diameter + 0.5))
         return sides * (diameter / 2) ** 2 * math.tan(math.pi / sides)
 
-    plain = {"tie_offs": "[]", "set_screw": "false"}
+    plain = {"channels": "[]", "face_holes": "[]", "tail_slots": "[]", "clamp_pilots": "[]", "set_screw": "false"}
     before, box = render(scad, scratch / "plain.stl", **plain)
     after, _ = render(scad, scratch / "bored.stl", bore=bore + 1, **plain)
     expected = (area(bore + 1 + clearance) - area(bore + clearance)) * (box[5] - box[2])
@@ -170,7 +224,7 @@ difference() {
 """
 
 
-def preview_self_test(scratch):
+def preview_self_test(_, scratch):
     for convexity, good in ((", convexity = 4", True), ("", False)):
         scad = scratch / "spool.scad"
         scad.write_text(SPOOL.replace("CONVEXITY", convexity))
@@ -238,6 +292,7 @@ def customizer_faults(folder, scratch):
 # ---------------------------------------------------------------------------------------------------------------------
 
 FAULTS = {"part": part_faults, "preview": preview_faults, "customizer": customizer_faults}
+SELF_TESTS = {"part": part_self_test, "preview": preview_self_test}
 
 
 def missing(what):
@@ -259,17 +314,17 @@ def main():
     parser.add_argument("folder", nargs="?", type=pathlib.Path)
     parser.add_argument("--self-test", action="store_true")
     arguments = parser.parse_args()
-    if (arguments.folder is None) != arguments.self_test or (arguments.self_test and arguments.what != "preview"):
-        parser.error("either a folder or preview --self-test")
+    needs_folder = not arguments.self_test or arguments.what == "part"
+    if (arguments.folder is None) == needs_folder or (arguments.self_test and arguments.what == "customizer"):
+        parser.error("a folder, or preview --self-test, or part FOLDER --self-test")
     if program := missing(arguments.what):
         print(f"{program} is not installed")
         return SKIPPED
     wrong = []
     with tempfile.TemporaryDirectory() as scratch:
         try:
-            found = (preview_self_test(pathlib.Path(scratch)) if arguments.self_test
-                     else FAULTS[arguments.what](arguments.folder, pathlib.Path(scratch)))
-            for fault in found:
+            judge = (SELF_TESTS if arguments.self_test else FAULTS)[arguments.what]
+            for fault in judge(arguments.folder, pathlib.Path(scratch)):
                 wrong.append(fault)
         except (ValueError, OSError, subprocess.TimeoutExpired) as error:
             wrong.append(error)

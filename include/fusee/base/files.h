@@ -51,6 +51,9 @@ class OutputFolder {
   std::filesystem::path staged_path(const std::string& name) const;
   /// Where a rename fails, what was renamed before it is put back.
   void publish();
+  /// After publishing: removes those of `names` that an earlier run wrote, that nobody changed since, and that this run did
+  /// not write. They would be taken for this run's.
+  void withdraw(const std::vector<std::string>& names) const;
 
  private:
   void open_staging();

@@ -48,7 +48,8 @@ struct DowelLayout {
   std::vector<Vec2> places;
   double hole_diameter = 0;  ///< compensated
   double pin_diameter = 0;
-  double z_end = 0;          ///< ceiling of the holes, in P2
+  double z_end = 0;          ///< end of the holes' straight walls, in P2
+  double roof = 0;           ///< height of the cone in which they end; 0: flat
 };
 
 struct BoreLayout {

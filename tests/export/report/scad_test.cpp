@@ -1,6 +1,7 @@
 // pulley.scad as text: what OpenSCAD makes of it is judged by tests/oracle/judge_scad.py.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <regex>
 
 #include "fusee/export/report.h"
@@ -87,8 +88,65 @@ TEST(Scad, WhatThePartHasNotIsNoParameter) {
 
 TEST(Scad, EveryNonConvexBodySaysItsConvexity) {
   const std::string text = scad_text(product_of());
-  EXPECT_THAT(text, HasSubstr("[bottom, top]), convexity = "));
-  EXPECT_THAT(text, HasSubstr("polygon(t[2], convexity = "));
+  for (const std::string body : {" polyhedron(", "bore_outline();"}) {
+    std::size_t found = text.find(body);
+    ASSERT_NE(found, std::string::npos) << body;
+    for (; found != std::string::npos; found = text.find(body, found + 1)) {
+      const std::size_t begin = text.rfind('\n', found);
+      EXPECT_THAT(text.substr(begin, text.find('\n', found) - begin), HasSubstr("convexity = "));
+    }
+  }
+}
+
+/// The number that stands behind `name =`.
+double number_named(const std::string& text, const std::string& name) {
+  const std::string begin = "\n" + name + " = ";
+  const std::size_t at = text.find(begin);
+  EXPECT_NE(at, std::string::npos) << name;
+  return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + begin.size()));
+}
+
+Product printed_as(Parts parts, Flange flange = Flange::follow, bool supports = false) {
+  Product product = product_of();
+  Mechanism& mechanism = product.joint.mechanism;
+  mechanism.print.parts = parts;
+  mechanism.print.supports = supports;
+  mechanism.body.flange = flange;
+  product.pulley.layout = resolve_layout(mechanism, product.synthesis);
+  return product;
+}
+
+TEST(Scad, WhatGoesToThePrinterCanBeChosen) {
+  const std::string one = scad_text(printed_as(Parts::one)), two = scad_text(printed_as(Parts::two));
+  EXPECT_THAT(one, HasSubstr("\nshow = \"assembled\"; // [assembled, print]\n"));
+  EXPECT_THAT(two, HasSubstr("\nshow = \"assembled\"; // [assembled, print, P1, P2]\n"));
+  EXPECT_EQ(number_named(one, "parts"), 1);
+  EXPECT_EQ(number_named(two, "parts"), 2);
+}
+
+TEST(Scad, ALedgeIsAsWideAsTheConeOverItIsSteep) {
+  for (const Parts parts : {Parts::one, Parts::two}) {
+    const Product product = printed_as(parts, Flange::round);
+    const std::string text = scad_text(product);
+    const BodyLayout& layout = product.pulley.layout;
+    const double steep = std::tan(layout.roof_slope);
+    EXPECT_NEAR(number_named(text, "upper_ledge") * steep, layout.upper_cone, 2e-5);
+    if (parts == Parts::one) {
+      EXPECT_GT(layout.middle_cone, 0);
+      EXPECT_NEAR(number_named(text, "middle_ledge") * steep, layout.middle_cone, 2e-5);
+    } else {
+      EXPECT_GT(layout.lower_cone, 0);
+      EXPECT_NEAR(number_named(text, "lower_ledge") * steep, layout.lower_cone, 2e-5);
+    }
+  }
+}
+
+TEST(Scad, SupportsAndTheSlopeThatNeedsNoneAreParameters) {
+  Product product = printed_as(Parts::one);
+  product.joint.mechanism.print.overhang = radians(50);
+  EXPECT_THAT(scad_text(product), HasSubstr("\nsupports = false;\n"));
+  EXPECT_THAT(scad_text(product), HasSubstr("\noverhang_deg = 50; // [20:1:75]\n"));
+  EXPECT_THAT(scad_text(printed_as(Parts::one, Flange::follow, true)), HasSubstr("\nsupports = true;\n"));
 }
 
 TEST(Scad, TeethOfAServosShaftAreInIt) {
@@ -112,13 +170,25 @@ TEST(Scad, AnyNameStaysInItsComment) {
 
 TEST(Scad, EveryTieOffIsThere) {
   Product product = product_of();
-  Anchor anchor;
-  anchor.side = Side::right;
-  anchor.exit = Vec2::Zero();
-  anchor.pocket = {1.25, -2.5};
-  anchor.channel = {{0, 0}, {1, 0}, {0, 1}};
-  product.pulley.anchors = {anchor};
-  EXPECT_THAT(scad_text(product), HasSubstr("tie_offs = [\n  [2, [1.25, -2.5], [[0, 0], [1, 0], [0, 1]], [], [], []]];"));
+  EXPECT_THAT(scad_text(product), HasSubstr("\nchannels = [];\n"));
+  Anchor channel;
+  channel.side = Side::right;
+  channel.pocket = {4, 1.5};
+  channel.mouth = {{0, 0}, {1, 0}, {2, 1}, {4, 1}, {4, 2}, {2, 2}, {1, 1}, {0, 1}};
+  Anchor hole;
+  hole.side = Side::left;
+  hole.exit = 16 * unit(radians(90));
+  hole.channel = {{0.5, 15}, {0, 15.5}, {-0.5, 15}, {0, 14.5}};
+  hole.seat = FaceSeat{1.5, 0.75, 0};
+  hole.tail = TailSlot{{0, 14}, {5, 14}, 1.3, 1, 0.25, 1.8, 4.5, 3};
+  product.pulley.anchors = {channel, hole};
+  product.joint.mechanism.material.hole_compensation = 0.2;
+  const std::string text = scad_text(product);
+  EXPECT_THAT(text, HasSubstr("\nchannels = [\n  [2, [4, 1.5],\n   [[0, 0], [1, 0], [2, 1], [4, 1]],\n"
+                              "   [[0, 1], [1, 1], [2, 2], [4, 2]],\n   [2, 0]]];\n"));
+  EXPECT_THAT(text, HasSubstr("\nface_holes = [\n  [1, [0, 15], 90, 1.5, 0.75]];\n"));
+  EXPECT_THAT(text, HasSubstr("\ntail_slots = [\n  [1, [0, 14], [5, 14], 1, 0.25]];\n"));
+  EXPECT_THAT(text, HasSubstr("\nclamp_pilots = [\n  [1, [5, 14], 1.6, 0.5, 4.5]];\n"));
 }
 
 TEST(Scad, SameInputSameBytes) { EXPECT_EQ(scad_text(product_of()), scad_text(product_of())); }

@@ -1,0 +1,284 @@
+// ---- printing: what looks down is made steep where nothing may hang ----
+slope = supports ? 0 : overhang_deg + 1.5;  // slicers take up to a degree more for too flat
+function rise(width) = width * tan(slope > 0 ? slope : 45);
+// of a ceiling or a cone, which may be flat where supports hold it
+function roof(width) = slope > 0 ? rise(width) : 0;
+apart = parts == 2;
+
+// ---- the groove's cross-section: [outward from the floor, along the axis from the groove's middle], one half ----
+seat = max(0.5, seat_ratio) * tendon;
+function seat_corners(lean) = let (
+    steps = max(1, ceil((90 - lean) / (2 * acos(1 / (1 + 0.01 / seat))))),
+    step = (90 - lean) / steps,
+    corner = seat / cos(step / 2))
+  [for (k = [0 : steps - 1]) [k == 0 ? 0 : seat - corner * cos((k + 0.5) * step), corner * sin((k + 0.5) * step)]];
+function ground(lean) =
+  groove_shape == "u" ? seat_corners(lean) :
+  groove_shape == "v" ? [[0, tendon / 2 * tan(45 - lean / 2)]] :
+  [[0, 0.7 * tendon]];
+function wall(lean) = let (
+    corners = ground(lean),
+    below_lip = [for (k = [0 : len(corners) - 1]) if (k == 0 || corners[k][0] < groove_depth) corners[k]],
+    last = below_lip[len(below_lip) - 1])
+  concat(below_lip, [[groove_depth, last[1] + (groove_depth - last[0]) * tan(lean)]]);
+function width(wall) = wall[len(wall) - 1][1];
+lower_wall = wall(groove_angle / 2);
+roof_wall = wall(max(groove_angle / 2, slope));
+// P1 is printed turned over where it is printed for itself
+p1_below = apart ? roof_wall : lower_wall;
+p1_above = apart ? lower_wall : roof_wall;
+p2_below = lower_wall;
+p2_above = roof_wall;
+
+// ---- heights ----
+lower_cone = apart ? roof(lower_ledge) : 0;
+middle_cone = apart ? 0 : roof(middle_ledge);
+upper_cone = roof(upper_ledge);
+// a channel's ceiling leaves 0.3 mm of the flange over it, in the middle of the pulley and where it opens at the lip
+over_channel = channel_width / 2 + roof(channel_width) + 0.3;
+over_mouth = max(0, channel_width / 2 + mouth_rise - max(width(lower_wall), width(roof_wall))) + 0.3;
+roof_flange = max(flange_thickness, slope > 0 ? over_mouth : 0);
+over_pocket = channel_width / 2 + rise(knot_pocket) + min_wall;
+z_p1 = apart ? max(roof_flange + lower_cone + width(p1_below), over_channel) : flange_thickness + width(p1_below);
+z_middle = z_p1 + width(p1_above) + middle_cone;
+// where P2 begins
+z_mate = apart ? z_middle + flange_thickness
+               : max(z_middle + roof_flange, z_p1 + over_channel, slope > 0 ? z_p1 + over_pocket : 0);
+z_p2 = z_mate + (apart ? flange_thickness : 0) + width(p2_below);
+z_top = z_p2 + max(width(p2_above) + upper_cone + roof_flange, over_channel);
+has_hub = hub_diameter > 0 && hub_height > 0;
+bore_edge = (bore + hole_compensation) / 2;
+nut_room = set_screw && nut_trap ? nut_from_bore + nut_thickness / 2 : 0;
+hub_radius = max(hub_diameter / 2, bore_edge + nut_room + hub_wall);
+z_hub = z_top + (has_hub ? hub_height : 0);
+
+// ---- outlines: curves parallel to a floor, circles, and the middle flange around both grooves ----
+n = len(P1);
+function parallel(P, out) = [for (p = P) [p[0] + out * cos(p[2]), p[1] + out * sin(p[2])]];
+function circle_like(r) = [for (p = P1) r * [cos(p[2]), sin(p[2])]];
+function reach(P, out) = max([for (p = parallel(P, out)) norm(p)]);
+// how far a floor reaches in its own direction, and along it
+function support(p) = p[0] * cos(p[2]) + p[1] * sin(p[2]);
+function aside(p) = -p[0] * sin(p[2]) + p[1] * cos(p[2]);
+blend = 0.5;
+function around_both(out) = [for (i = [0 : n - 1]) let (
+    s1 = support(P1[i]), s2 = support(P2[i]), most = max(s1, s2),
+    w1 = exp((s1 - most) / blend), w2 = exp((s2 - most) / blend),
+    h = most + blend * ln(w1 + w2) + out,
+    t = (w1 * aside(P1[i]) + w2 * aside(P2[i])) / (w1 + w2),
+    a = P1[i][2]) [h * cos(a) - t * sin(a), h * sin(a) + t * cos(a)]];
+
+is_round = flange_shape == "round";
+reach1 = reach(P1, groove_depth);
+reach2 = reach(P2, groove_depth);
+lower = is_round ? circle_like(reach1 + lower_margin) : parallel(P1, groove_depth);
+middle = is_round ? circle_like(max(reach1, reach2) + middle_margin) : around_both(groove_depth + middle_margin);
+upper = is_round ? circle_like(reach2 + upper_margin) : parallel(P2, groove_depth);
+// of the middle flange, where P2 is printed for itself
+under_p2 = upper;
+
+// ---- the body: rings [z, outline] from bottom to top, skinned ----
+// the chamfer at the bed leaves 0.2 mm of the lip
+foot = max(0, min(elephant_foot, groove_depth - 0.2, (flange_thickness - 0.2) / rise(1)));
+function chamfered(rim) = [for (i = [0 : n - 1]) rim[i] - foot * [cos(P1[i][2]), sin(P1[i][2])]];
+function on_bed_rings(z, rim) = concat(foot > 0 ? [[z, chamfered(rim)]] : [], [[z + rise(foot), rim]]);
+function groove_rings(P, z, below, above) = concat(
+  [for (k = [len(below) - 1 : -1 : 0]) [z - below[k][1], parallel(P, below[k][0])]],
+  [for (k = [0 : len(above) - 1]) [z + above[k][1], parallel(P, above[k][0])]]);
+p1_rings = concat(
+  apart ? [[0, lower]] : on_bed_rings(0, lower),
+  is_round ? [[z_p1 - width(p1_below) - lower_cone, lower]] : [],
+  groove_rings(P1, z_p1, p1_below, p1_above),
+  [[z_middle, middle]],
+  apart ? [[z_mate - rise(foot), middle]] : [],
+  apart && foot > 0 ? [[z_mate, chamfered(middle)]] : []);
+p2_rings = concat(
+  apart ? on_bed_rings(z_mate, under_p2) : [[z_p2 - width(p2_below), middle]],
+  apart && is_round ? [[z_p2 - width(p2_below), under_p2]] : [],
+  groove_rings(P2, z_p2, p2_below, p2_above),
+  is_round ? [[z_p2 + width(p2_above) + upper_cone, upper]] : [],
+  [[z_top, upper]]);
+
+// The body between outlines of equally many corners, one over the other; the first and the last are seen whole from their
+// first corner. OpenSCAD wants to see its faces turn
+// clockwise: which way that is here, the sign of the volume tells.
+module strip(sections) {
+  count = len(sections[0]);
+  last = (len(sections) - 1) * count;
+  points = [for (s = sections) each s];
+  faces = concat(
+    [for (c = [1 : count - 2]) each [[0, c, c + 1], [last, last + c + 1, last + c]]],
+    [for (k = [0 : count : last - 1]) for (c = [0 : count - 1]) let (a = k + c, b = k + (c + 1) % count)
+      each [[a, b + count, b], [a, a + count, b + count]]]);
+  volume = [for (f = faces) 1] * [for (f = faces) points[f[0]] * cross(points[f[1]], points[f[2]])];
+  // a line of sight goes in and out at each flange: the preview has to know how often at most
+  polyhedron(points, volume < 0 ? faces : [for (f = faces) [f[0], f[2], f[1]]], convexity = 6);
+}
+
+function at(outline, z) = [for (p = outline) [p[0], p[1], z]];
+
+module skin(rings) {
+  strip([for (ring = rings) at(ring[1], ring[0])]);
+}
+
+// On its own, for a wide bore makes it stand over the flange.
+module hub() {
+  translate([0, 0, z_top]) linear_extrude(z_hub - z_top) polygon(circle_like(hub_radius));
+}
+
+// ---- what is cut out ----
+// A printer's corners cut inside of a curve, so that a round hole comes out too small. This hole is a polygon around
+// the circle: its sides touch the circle of diameter d from outside, and a shaft of that diameter fits.
+module polyhole(d, sides) {
+  rotate(90 + 180 / sides) circle(r = d / 2 / cos(180 / sides), $fn = sides);
+}
+
+module round_hole(d) { polyhole(d, max(8, round(2 * d))); }
+
+module bore_outline() {
+  d = bore + hole_compensation;
+  key = bore_shape == "keyway" ? key_width + hole_compensation : 0;
+  if (len(horn_teeth) > 0) polygon(horn_teeth);
+  else if (bore_shape == "hex") polyhole(d, 6);
+  else if (bore_shape == "square") polyhole(d, 4);
+  else if (bore_shape == "d") intersection() { circle(d = d, $fn = 96); translate([-d, bore_flat - bore / 2 + hole_compensation / 2 - 2 * d]) square(2 * d); }
+  else if (bore_shape == "keyway") { circle(d = d, $fn = 96); translate([-key / 2, 0]) square([key, d / 2 + key_depth]); }
+  else round_hole(d);
+}
+
+// A recess narrows in a cone to the hole of its centre screw.
+module bore_hole() {
+  sunk = horn_recess > 0;
+  translate([0, 0, -1]) linear_extrude(1 + (sunk ? horn_recess : z_hub + 1), convexity = 4) bore_outline();
+  if (sunk && slope > 0) translate([0, 0, horn_recess - 0.001])
+    linear_extrude(rise(horn_ledge), scale = horn_narrowing, convexity = 4) bore_outline();
+  for (hole = horn_holes) translate([hole[0], hole[1], -1]) linear_extrude(z_hub + 2) round_hole(hole[2] + hole_compensation);
+}
+
+module dowel_holes() {
+  for (place = dowels) translate([place[0], place[1], -1])
+    linear_extrude(1 + z_p2 + dowel_end) round_hole(dowel_pin + hole_compensation);
+}
+
+// Does the face that this pulley's pockets open on lie on the bed, with nothing to support what hangs over it?
+function on_bed(groove) = groove == 1 && !apart && slope > 0;
+
+// The channel as it is printed, with a ceiling that rises from its inner edge to its outer one.
+module channel(t) {
+  half = channel_width / 2;
+  translate([0, 0, t[0] == 1 ? z_p1 : z_p2]) mirror([0, 0, t[0] == 1 && apart ? 1 : 0]) {
+    strip([for (k = [0 : len(t[2]) - 1]) let (outer = t[2][k], inner = t[3][k], ridge = half + roof(norm(outer - inner)))
+      [[inner[0], inner[1], -half], [outer[0], outer[1], -half], [outer[0], outer[1], ridge], [inner[0], inner[1], half]]]);
+    if (knot_pocket > 0) pocket(t);
+  }
+}
+
+// Seen from the pocket's middle, x ahead and y to the channel's outer side: a circle, behind it a wall across the channel.
+function pocket_outline(r, walled) = let (
+    half = min((channel_width + 0.07) / 2, 0.95 * r), back = 180 - asin(half / r), step = 360 / facets,
+    side = [for (k = [0 : facets - 1]) if (!walled || k * step < back - 0.3 * step) r * [cos(k * step), sin(k * step)]])
+  !walled ? side : concat(side,
+    [r * [cos(back), sin(back)], [-r - 0.07, half], [-r - 0.07, -half], r * [cos(back), -sin(back)]],
+    [for (k = [len(side) - 1 : -1 : 1]) [side[k][0], -side[k][1]]]);
+
+// From the nearer face; where that lies on the bed its roof rises like the channel's.
+module pocket(t) {
+  inner_end = t[3][len(t[3]) - 1];
+  outward = (t[1] - inner_end) / norm(t[1] - inner_end);
+  ahead = t[4] / norm(t[4]);
+  r = knot_pocket / 2;
+  open = t[0] == 2 ? z_hub - z_p2 + 1 : apart ? z_p1 + 1 : -z_p1 - 1;
+  closed = (channel_width / 2 + 0.07) * (open > 0 ? -1 : 1);
+  outline = pocket_outline(r, slope > 0 && norm(t[4]) > r + 0.07);
+  edge = [for (p = outline) t[1] + p[0] * ahead + p[1] * outward];
+  strip([at(edge, open), [for (k = [0 : len(edge) - 1])
+    [edge[k][0], edge[k][1], closed + (on_bed(t[0]) ? rise(r + outline[k][1]) : 0)]]]);
+}
+
+// Seen from the pulley's own face, which lies at 0 and looks down.
+module from_face(groove) {
+  translate([0, 0, groove == 1 ? 0 : z_top]) mirror([0, 0, groove == 1 ? 0 : 1]) children();
+}
+
+// A countersunk hole to the groove.
+module face_hole(t) {
+  radius = channel_width / 2;
+  normal = [cos(t[2]), sin(t[2])];
+  to_groove = t[0] == 1 ? z_p1 : z_top - z_p2;
+  sunk = max(t[3], radius + 0.02);
+  around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
+  hole = [for (p = around) t[1] + radius * p];
+  rim = [for (p = around) t[1] - (t[3] - radius) * normal + sunk * p];
+  from_face(t[0]) strip([
+    at(rim, t[0] == 1 ? -1 : z_top - z_hub - 1),
+    at(rim, -0.02),
+    at(hole, max(t[4], 0.02)),
+    [for (k = [0 : facets - 1]) [hole[k][0], hole[k][1],
+      to_groove + (on_bed(t[0]) ? 0.03 + rise(radius * (1 + around[k] * normal)) : channel_width / 2)]]]);
+}
+
+// A slot for the tail, flush in the face, with a gable where that lies on the bed.
+module tail_slot(t) {
+  along = (t[2] - t[1]) / norm(t[2] - t[1]);
+  across = channel_width / 2 * [-along[1], along[0]];
+  function corner(p, side, z) = [p[0] + side * across[0], p[1] + side * across[1], z];
+  from_face(t[0]) strip([for (p = [t[1], t[2]]) concat(
+    [corner(p, -1, -1), corner(p, 1, -1), corner(p, 1, t[3])],
+    t[4] > 0 ? [corner(p, 0, t[3] + t[4])] : [],
+    [corner(p, -1, t[3])])]);
+}
+
+module clamp_pilot(t) {
+  from_face(t[0]) translate([t[1][0], t[1][1], t[3]]) linear_extrude(t[4] - t[3]) round_hole(t[2] + hole_compensation);
+}
+
+// Round below, a roof above: it prints lying down without support.
+module screw_hole() {
+  z = (z_top + z_hub) / 2 + screw_lift;
+  steep = slope > 0 ? slope : 45;
+  below = [for (k = [0 : facets]) let (a = 90 + steep + (360 - 2 * steep) * k / facets) screw_hole / 2 * [cos(a), sin(a)]];
+  translate([0, 0, z]) rotate([0, 0, screw_angle]) rotate([90, 0, 90])
+    linear_extrude(hub_radius + 1, convexity = 4) polygon(concat(below, [[0, screw_hole / 2 / cos(steep)]]));
+  if (nut_trap) rotate([0, 0, screw_angle])
+    translate([bore_edge + nut_from_bore - nut_thickness / 2, -nut_width / 2, z - nut_width / sqrt(3)])
+      cube([nut_thickness, nut_width, z_hub - z + nut_width / sqrt(3) + 1]);
+}
+
+// ---- the part ----
+// Both pulleys as one (0), P1 (1) or P2 (2), where they stand in the whole. One difference: what is cut out is put
+// together first, for that is small and quick.
+module part(piece) {
+  function has(groove) = piece == 0 || piece == groove;
+  difference() {
+    union() {
+      skin(concat(has(1) ? p1_rings : [], has(2) ? p2_rings : []));
+      if (has_hub && has(2)) hub();
+    }
+    union() {
+      bore_hole();
+      dowel_holes();
+      for (t = channels) if (has(t[0])) channel(t);
+      for (t = face_holes) if (has(t[0])) face_hole(t);
+      for (t = tail_slots) if (has(t[0])) tail_slot(t);
+      for (t = clamp_pilots) if (has(t[0])) clamp_pilot(t);
+      if (set_screw && has_hub && has(2)) screw_hole();
+    }
+  }
+}
+
+// As it lies on the printer: on the face that meets the other one.
+module lying(piece) {
+  rotate([piece == 1 ? 180 : 0, 0, 0]) translate([0, 0, -z_mate]) part(piece);
+}
+
+function far_side(rings) = max([for (ring = rings) each [for (p = ring[1]) p[0]]]);
+function near_side(rings) = min([for (ring = rings) each [for (p = ring[1]) p[0]]]);
+
+scale(print_scale) {
+  if (show == "P1" || show == "P2") lying(show == "P1" ? 1 : 2);
+  else if (show == "print" && apart) {
+    lying(1);
+    translate([far_side(p1_rings) - near_side(p2_rings) + 5 / print_scale, 0, 0]) lying(2);
+  }
+  else part(0);
+}
