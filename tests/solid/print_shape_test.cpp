@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
+#include <functional>
 
 #include "fusee/solid/placement.h"
 #include "fusee/solid/print.h"
@@ -110,9 +110,10 @@ std::vector<Kind> kinds() {
   std::vector<Kind> kinds;
   for (const Groove groove : {Groove::u, Groove::v, Groove::flat}) {
     for (const Flange flange : {Flange::follow, Flange::round}) {
-      for (const bool recess : {false, true}) kinds.push_back({groove, flange, recess});
+      kinds.push_back({groove, flange, false});
     }
   }
+  kinds.push_back({Groove::u, Flange::follow, true});
   return kinds;
 }
 
