@@ -166,7 +166,7 @@ TEST_P(Profile, WrapsFurtherAndHoldsItsTendons) {
   ASSERT_TRUE(held.pulley.made()) << held.pulley.brief();
   EXPECT_TRUE(held.holding.warnings.empty());
   const bool thick = std::string(GetParam()) == "paper_optimum";
-  for (const KnotHold& knot : held.holding.knots) EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 39) << pulley_name(knot.side);
+  for (const KnotHold& knot : held.holding.knots) EXPECT_GE(degrees(knot.wrap_left), thick ? 19 : 35) << pulley_name(knot.side);
 }
 INSTANTIATE_TEST_SUITE_P(All, Profile,
                          ::testing::Values("finger", "forearm", "gripper", "linear_wrist", "paper_optimum", "unsymmetric", "wrist_exo"));
