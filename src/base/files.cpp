@@ -319,6 +319,7 @@ void OutputFolder::publish() {
     }
     published.push_back(name);
   }
+  published_ = published;
   made_folders_.clear();
   flush(folder_);
   close_staging();
@@ -327,7 +328,7 @@ void OutputFolder::publish() {
 void OutputFolder::withdraw(const std::vector<std::string>& names) const {
   for (const std::string& name : names) {
     const fs::path path = folder_ / name;
-    const bool published = std::find(staged_.begin(), staged_.end(), name) != staged_.end();
+    const bool published = std::find(published_.begin(), published_.end(), name) != published_.end();
     if (published || !fs::is_regular_file(fs::symlink_status(path))) continue;
     if (ours_.count({name, sha256(read_file(path, k_largest_output))}) != 0) ::unlink(path.c_str());
   }

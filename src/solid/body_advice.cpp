@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "fusee/mechanism/catalogue.h"
+#include "fusee/base/diagnostics.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/pulley.h"
 #include "solid/plan.h"
@@ -45,9 +46,15 @@ void add_automatic(std::vector<Change>& changes, const Mechanism& mechanism, con
 
 }  // namespace
 
+// What is tried may be so odd that no rim can be drawn about it: that is no advice, and no bug of the design at hand.
 bool body_possible(const Mechanism& mechanism) {
   const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
-  return synthesis.made() && plan_body(mechanism, synthesis).possible();
+  if (!synthesis.made()) return false;
+  try {
+    return plan_body(mechanism, synthesis).possible();
+  } catch (const Bug&) {
+    return false;
+  }
 }
 
 std::vector<Change> body_advice(const Mechanism& mechanism) {

@@ -80,7 +80,7 @@ class GrooveGauge {
   }
 
   // At a channel's mouth there is no floor to measure.
-  bool at_a_mouth(const Vec2& point, double margin = 0.05) const {
+  bool at_a_mouth(const Vec2& point, double margin = 0.1) const {
     return std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
       return anchor.side == outline_.side &&
              (is_within(anchor.channel, point, margin) || is_within(anchor.mouth, point, margin));

@@ -16,7 +16,6 @@
 #include "solid/plan.h"
 #include "solid/rings.h"
 #include "solid/self_intersection.h"
-#include "solid/self_intersection.h"
 #include "solid/tie_off_tools.h"
 #include "solid/tools.h"
 
@@ -187,38 +186,66 @@ struct Made {
   int euler = 0;
 };
 
-Made make_piece(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
-                const std::vector<Mark>& marks, Piece piece) {
-  const RingStack stack = scaled_to_float(
-      body_stack(synthesis.p1, synthesis.p2, mechanism.tendon.diameter, mechanism.body.flange, plan.layout, piece),
-      plan.layout.scale);
-  const TriangleMesh body = mesh_of(stack);
-  demand_solid(body, "body");
-  const FeatureCutter cutter(mechanism, plan, marks, piece);
-  std::optional<Featured> featured;
-  for (int variant = 0; variant < k_variants; ++variant) {
-    auto made = cutter.cut(body, volume_of(stack), variant);
-    if (!made) continue;
-    const bool bears_rounding = stands_rounding(made->mesh);
-    if (bears_rounding || !featured) featured = std::move(made);
-    if (bears_rounding) break;
+// The pieces of a pulley before anything is cut out of them, the whole first.
+class PieceMaker {
+ public:
+  PieceMaker(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
+             const std::vector<Mark>& marks)
+      : mechanism_(mechanism), plan_(plan), marks_(marks) {
+    add(synthesis, Piece::whole);
+    if (plan.layout.parts == Parts::two) {
+      add(synthesis, Piece::p1);
+      add(synthesis, Piece::p2);
+    }
   }
-  demand(featured.has_value(), "the features cannot be cut into the body of " + mechanism.name);
-  return {std::move(featured->mesh), featured->volume, 2 - 2 * handles(stack, plan, piece)};
-}
 
-Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan) {
+  // All with the same features, so that the parts make the whole; none when one of them is no solid.
+  std::vector<Made> cut(int variant) const {
+    std::vector<Made> made;
+    for (const Blank& blank : blanks_) {
+      auto featured = FeatureCutter(mechanism_, plan_, marks_, blank.piece).cut(blank.mesh, blank.volume, variant);
+      if (!featured) return {};
+      made.push_back({std::move(featured->mesh), featured->volume, blank.euler});
+    }
+    return made;
+  }
+
+ private:
+  struct Blank {
+    Piece piece;
+    TriangleMesh mesh;
+    double volume;
+    int euler;
+  };
+
+  void add(const SynthesisResult& synthesis, Piece piece) {
+    const RingStack stack =
+        scaled_to_float(body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange,
+                                   plan_.layout, piece),
+                        plan_.layout.scale);
+    blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
+    demand_solid(blanks_.back().mesh, "body");
+  }
+
+  const Mechanism& mechanism_;
+  const BodyPlan& plan_;
+  const std::vector<Mark>& marks_;
+  std::vector<Blank> blanks_;
+};
+
+Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant) {
   const BodyLayout& layout = plan.layout;
   Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, {}, planned.pocket(), {}, planned.tail};
-  if (const auto* path = std::get_if<AnchorPath>(&planned.way)) {
+  if (const auto* channel = std::get_if<AnchorPath>(&planned.way)) {
+    const AnchorPath path = varied(*channel, variant);
     anchor.channel =
-        outline_of(keyhole(*path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
-    const ChannelEdges edges = channel_edges(plan, planned.side, *path);
+        outline_of(keyhole(path, layout.channel_width, layout.pocket_radius, pocket_facets(layout.pocket_radius)));
+    const ChannelEdges edges = channel_edges(plan, planned.side, path);
     anchor.mouth = edges.outer;
     anchor.mouth.insert(anchor.mouth.end(), edges.inner.rbegin(), edges.inner.rend());
   } else {
     const auto& hole = std::get<FaceHole>(planned.way);
-    anchor.channel = hole_outline(hole, 0);
+    anchor.channel = hole_outline(hole, variant);
     anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top,
                            hole.hole, hole.pointed};
   }
@@ -258,17 +285,26 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
   if (!plan.possible()) return pulley;
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   pulley.layout = plan.layout;
-  for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan));
-  Made whole = make_piece(mechanism, synthesis, plan, marks, Piece::whole);
-  pulley.mesh = std::move(whole.mesh);
-  pulley.expected_volume = whole.volume;
-  pulley.expected_euler = whole.euler;
-  if (plan.layout.parts == Parts::two) {
-    for (const auto& [side, piece] : {std::pair{Side::left, Piece::p1}, std::pair{Side::right, Piece::p2}}) {
-      Made part = make_piece(mechanism, synthesis, plan, marks, piece);
-      pulley.parts.push_back({side, std::move(part.mesh), part.volume, part.euler});
-    }
+  const PieceMaker maker(mechanism, synthesis, plan, marks);
+  std::vector<Made> pieces;
+  int taken = 0;
+  for (int variant = 0; variant < k_variants; ++variant) {
+    std::vector<Made> made = maker.cut(variant);
+    if (made.empty()) continue;
+    const bool bears_rounding = stands_rounding(made.front().mesh);
+    if (!bears_rounding && !pieces.empty()) continue;
+    pieces = std::move(made);
+    taken = variant;
+    if (bears_rounding) break;
   }
+  demand(!pieces.empty(), "the features cannot be cut into the body of " + mechanism.name);
+  for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan, taken));
+  pulley.mesh = std::move(pieces.front().mesh);
+  pulley.expected_volume = pieces.front().volume;
+  pulley.expected_euler = pieces.front().euler;
+  for (std::size_t k = 1; k < pieces.size(); ++k)
+    pulley.parts.push_back(
+        {k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume, pieces[k].euler});
   pulley.status = PulleyStatus::made;
   return pulley;
 }

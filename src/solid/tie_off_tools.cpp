@@ -110,9 +110,9 @@ TriangleMesh pocket(const AnchorPath& path, double radius, double width, int fac
   return strip({mouth, end});
 }
 
-TriangleMesh channel_tool(const BodyPlan& plan, Side side, AnchorPath path, int variant) {
+TriangleMesh channel_tool(const BodyPlan& plan, Side side, const AnchorPath& planned, int variant) {
   const BodyLayout& layout = plan.layout;
-  path.straight *= 1.0 - 0.003 * variant;
+  const AnchorPath path = varied(planned, variant);
   const double width = layout.channel_width, radius = layout.pocket_radius;
   const Heights heights = heights_of(layout, side, variant);
   const ChannelEdges edges = channel_edges(plan, side, path);
@@ -158,6 +158,12 @@ TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole&
 }
 
 }  // namespace
+
+AnchorPath varied(AnchorPath path, int variant) {
+  path.start += 0.011 * variant * path.sense * turned_left(path.normal);
+  path.straight *= 1.0 - 0.003 * variant;
+  return path;
+}
 
 ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path) {
   const BodyLayout& layout = plan.layout;

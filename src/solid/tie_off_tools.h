@@ -21,6 +21,9 @@ TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlo
 /// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over it?
 bool on_bed(const BodyLayout& layout, Side side);
 
+/// Moved a little, so that no edge of another variant lies where one of this did.
+AnchorPath varied(AnchorPath path, int variant);
+
 /// A channel as it is cut, seen along the axis.
 ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& path);
 

@@ -69,6 +69,7 @@ class OutputFolder {
   /// staged.
   std::set<std::pair<std::string, std::string>> ours_;
   std::vector<std::string> staged_;
+  std::vector<std::string> published_;
   std::vector<std::filesystem::path> made_folders_;  ///< outermost first
   int lock_ = -1;                                    ///< held on the staging folder while this run lives
 };
