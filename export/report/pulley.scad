@@ -214,7 +214,9 @@ module face_hole(t) {
   to_groove = t[0] == 1 ? z_p1 : z_top - z_p2;
   sunk = max(t[3], radius + 0.02);
   // The groove's roof grows over a hole in print: it meets the sides of a point steeply.
-  around = t[5] ? concat([for (k = [0 : facets - 1]) let (a = t[2] + 68 + 224 * k / (facets - 1)) [cos(a), sin(a)]], [normal / cos(68)])
+  half = t[5] > radius ? acos(radius / t[5]) : 0;
+  around = half > 0 ? concat([for (k = [0 : facets - 1]) let (a = t[2] + half + (360 - 2 * half) * k / (facets - 1)) [cos(a), sin(a)]],
+                             [t[5] / radius * normal])
                 : [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
   hole = [for (p = around) t[1] + radius * p];
   rim = [for (p = around) t[1] - (t[3] - radius) * normal + sunk * p];

@@ -67,8 +67,9 @@ struct FaceHole {
   double room = 0;  ///< radius of the countersink at the face
   double lap = 0;
   double wrap = 0;
-  /// Outwards the hole ends in a point, so that the groove's roof, which grows over it in print, meets its wall steeply.
-  bool pointed = false;
+  /// Distance of the point in which the hole ends outwards, so that the groove's roof, which grows over it in print, meets
+  /// its wall steeply; 0: it is round.
+  double point = 0;
 
   /// Middle of the countersink: it and the hole touch on the outer side, where the flange ends.
   Vec2 pocket() const { return hole - (room - hole_radius) * normal; }

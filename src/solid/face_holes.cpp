@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "fusee/base/units.h"
 #include "solid/tie_off_tools.h"
 
 namespace fusee {
@@ -39,9 +41,18 @@ class FaceHoleSearch {
   bool thick_enough() const { return layout_.flange_thickness >= k_least_ground; }
 
   // Of the hole's axis: the tendon's own height where the flange reaches far enough, else lower, the floor notched.
-  double above_floor() const {
-    const double reach = layout_.groove_depth - std::max(k_least_rim, layout_.elephant_foot + k_rim_at_chamfer);
-    return std::min(0.5 * site_.tendon_diameter, reach - radius_);
+  double above_floor() const { return std::min(0.5 * site_.tendon_diameter, reach() - radius_); }
+
+  // From the floor to the furthest that a hole may go.
+  double reach() const {
+    return layout_.groove_depth - std::max(k_least_rim, layout_.elephant_foot + k_rim_at_chamfer);
+  }
+
+  // Within the lip; its sides stand at 22° to the direction in which the roof grows where there is room for that.
+  double point() const {
+    if (layout_.roof_slope <= 0 || on_bed(layout_, site_.outline.side)) return 0.0;
+    const double tip = std::min(radius_ / std::sin(radians(22)), reach() - above_floor());
+    return tip > 1.05 * radius_ ? tip : 0.0;
   }
 
   std::optional<FaceHole> at(double lap) const {
@@ -49,7 +60,7 @@ class FaceHoleSearch {
     const double below_pitch = 0.5 * site_.tendon_diameter - above_floor();
     FaceHole hole{station.position, station.normal, station.position - below_pitch * station.normal, radius_, radius_,
                   station.lap,      station.wrap,
-                  layout_.roof_slope > 0 && !on_bed(layout_, site_.outline.side)};
+                  point()};
     if (!is_free({hole.hole, hole.hole, radius_})) return std::nullopt;
     for (const double share : {1.0, 0.75, 0.5, 0.25}) {
       FaceHole sunk = hole;

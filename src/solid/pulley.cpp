@@ -247,7 +247,7 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
     const auto& hole = std::get<FaceHole>(planned.way);
     anchor.channel = hole_outline(hole, variant);
     anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top,
-                           hole.hole, hole.pointed};
+                           hole.hole, hole.point};
   }
   return anchor;
 }

@@ -177,17 +177,17 @@ bool on_bed(const BodyLayout& layout, Side side) {
   return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;
 }
 
-// A point's sides stand at 22° to the direction in which the roof grows.
 Polygon hole_outline(const FaceHole& hole, int variant) {
   const int facets = pocket_facets(hole.hole_radius) + variant;
-  constexpr double k_half_point = radians(68);
+  // From the direction of the point to where its sides touch the circle.
+  const double half = hole.point > 0 ? std::acos(hole.hole_radius / hole.point) : 0.0;
   Polygon points;
   for (int k = 0; k < facets; ++k) {
-    const Vec2 direction = hole.pointed ? turned(hole.normal, k_half_point + (k_two_pi - 2.0 * k_half_point) * k / (facets - 1))
-                                        : unit(k_two_pi * (k + 0.31) / facets);
+    const Vec2 direction = hole.point > 0 ? turned(hole.normal, half + (k_two_pi - 2.0 * half) * k / (facets - 1))
+                                          : unit(k_two_pi * (k + 0.31) / facets);
     points.push_back(hole.hole + hole.hole_radius * direction);
   }
-  if (hole.pointed) points.push_back(hole.hole + hole.hole_radius / std::cos(k_half_point) * hole.normal);
+  if (hole.point > 0) points.push_back(hole.hole + hole.point * hole.normal);
   return points;
 }
 

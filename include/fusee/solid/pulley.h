@@ -17,7 +17,7 @@ struct FaceSeat {
   double depth = 0;   ///< over which it narrows to the hole
   double z = 0;       ///< of the face
   Vec2 hole = Vec2::Zero();  ///< middle of the hole
-  bool pointed = false;      ///< outwards, for a roof of the groove that grows over it
+  double point = 0;          ///< how far from there it ends in a point, outwards; 0: it is round
 };
 
 /// A straight slot in the face, from the knot's pocket outwards: the tail lies flush in it, under a screw's head at its end
