@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <utility>
 
@@ -180,6 +182,21 @@ bool stands_rounding(TriangleMesh mesh) {
   return !find_crossing(mesh).facets;
 }
 
+// A facet this thin, a few grains of a float, has no normal that another program would find again, mm.
+constexpr double k_thinnest_facet = 1e-5;
+
+bool has_needles(const TriangleMesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const auto& triangle) {
+    const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    return (b - a).cross(c - a).norm() < k_thinnest_facet * longest;
+  });
+}
+
+// How well a mesh bears what other programs do to it: the larger, the better.
+constexpr int k_sound = 2;
+int soundness_of(const TriangleMesh& mesh) { return !stands_rounding(mesh) ? 0 : has_needles(mesh) ? 1 : k_sound; }
+
 struct Made {
   TriangleMesh mesh;
   double volume = 0;
@@ -287,15 +304,16 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
   pulley.layout = plan.layout;
   const PieceMaker maker(mechanism, synthesis, plan, marks);
   std::vector<Made> pieces;
-  int taken = 0;
+  int taken = 0, best = 0;
   for (int variant = 0; variant < k_variants; ++variant) {
     std::vector<Made> made = maker.cut(variant);
     if (made.empty()) continue;
-    const bool bears_rounding = stands_rounding(made.front().mesh);
-    if (!bears_rounding && !pieces.empty()) continue;
+    const int soundness = soundness_of(made.front().mesh);
+    if (!pieces.empty() && soundness <= best) continue;
     pieces = std::move(made);
     taken = variant;
-    if (bears_rounding) break;
+    best = soundness;
+    if (best == k_sound) break;
   }
   demand(!pieces.empty(), "the features cannot be cut into the body of " + mechanism.name);
   for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan, taken));
