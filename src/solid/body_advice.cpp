@@ -50,8 +50,11 @@ void add_automatic(std::vector<Change>& changes, const Mechanism& mechanism, con
 bool body_possible(const Mechanism& mechanism) {
   const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
   if (!synthesis.made()) return false;
+  // The nearest tie-offs decide; how much further round they may go takes a search of its own.
+  Mechanism nearest = mechanism;
+  if (nearest.body.wrap <= 0) nearest.body.wrap = 1e-9;
   try {
-    return plan_body(mechanism, synthesis).possible();
+    return plan_body(nearest, synthesis).possible();
   } catch (const Bug&) {
     return false;
   }
