@@ -8,6 +8,7 @@
 #include "fusee/base/units.h"
 #include "solid/bore.h"
 #include "solid/plane_distance.h"
+#include "solid/tools.h"
 
 namespace fusee {
 namespace {
@@ -101,6 +102,19 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
 
 DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan) {
   return DowelChooser(mechanism, plan).choose();
+}
+
+// A blind hole ends in a cone; a flat ceiling that small is not always taken for a bridge.
+TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place) {
+  constexpr double k_tip = 0.05;
+  const Polygon hole = polyhole(dowels.hole_diameter, Vec2::Zero());
+  const auto ring = [&](double share, double z) {
+    Polygon outline;
+    for (const Vec2& corner : hole) outline.emplace_back(place + share * corner);
+    return at_height(outline, z);
+  };
+  if (dowels.roof <= 0) return strip({ring(1, -k_overshoot), ring(1, dowels.z_end)});
+  return strip({ring(1, -k_overshoot), ring(1, dowels.z_end), ring(k_tip, dowels.z_end + dowels.roof)});
 }
 
 }  // namespace fusee

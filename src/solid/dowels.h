@@ -18,4 +18,7 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
 /// Holes through P1 and into P2, clear of all that is cut out of them; none where there is no room for two.
 DowelLayout choose_dowels(const Mechanism& mechanism, const BodyPlan& plan);
 
+/// What one of them cuts out.
+TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place);
+
 }  // namespace fusee

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fusee/base/units.h"
+#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
@@ -25,35 +25,19 @@ struct Entry {
   Vec2 normal = Vec2::Zero();
 };
 
-struct Depth {
-  double value = std::numeric_limits<double>::infinity();
-  Vec2 normal = Vec2::Zero();
-};
-
-Depth depth_in(const Polygon& floor, const Vec2& point) {
-  Depth depth;
-  for (std::size_t i = 0; i < floor.size(); ++i) {
-    const Vec2& a = floor[i];
-    const Vec2 inward = turned_left(floor[(i + 1) % floor.size()] - a).normalized();
-    const double distance = inward.dot(point - a);
-    if (distance < depth.value) depth = {distance, -inward};
-  }
-  return depth;
-}
-
 Entry entry_of(const AnchorPath& path, double width, const Polygon& floor) {
   const std::vector<Vec2> arc = path.edge(0.5 * width, k_fine_steps);
   Entry entry;
+  Depth depth;
   for (int k = 0; k <= k_fine_steps; ++k) {
     const Vec2& place = arc[static_cast<std::size_t>(k)];
-    const Depth depth = depth_in(floor, place);
+    depth = depth_and_normal(floor, place);
     entry = {path.turn * k / k_fine_steps, 0.0, place, depth.normal};
     if (depth.value >= k_depth) return entry;
   }
   // Not on the arc: on the straight.
-  const double sunk = depth_in(floor, entry.place).value;
   entry.straight =
-      std::min((k_depth - sunk) / std::max(0.1, -path.heading().dot(entry.normal)), path.straight);
+      std::min((k_depth - depth.value) / std::max(0.1, -path.heading().dot(entry.normal)), path.straight);
   entry.place += entry.straight * path.heading();
   return entry;
 }
@@ -88,7 +72,7 @@ class Flare {
     ChannelEdges edges;
     for (const double turn : turns()) add(edges, ray(turn), path_.fillet - half_, outer_radius(turn));
     if (entry_.straight > 0) {
-      edges.inner.push_back(end(-half_) + entry_.straight * path_.heading());
+      edges.inner.push_back(centre_ + (path_.fillet - half_) * path_.outer() + entry_.straight * path_.heading());
       edges.outer.push_back(entry_.place);
     }
     edges.inner.push_back(path_.pocket() - half_ * path_.outer());
@@ -98,7 +82,6 @@ class Flare {
 
  private:
   Vec2 ray(double turn) const { return turned(path_.normal, path_.sense * turn); }
-  Vec2 end(double aside) const { return centre_ + (path_.fillet + aside) * path_.outer(); }
   void add(ChannelEdges& edges, const Vec2& direction, double inner, double outer) const {
     edges.inner.push_back(centre_ + inner * direction);
     edges.outer.push_back(centre_ + outer * direction);

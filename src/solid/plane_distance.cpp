@@ -1,6 +1,7 @@
 #include "solid/plane_distance.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace fusee {
@@ -22,14 +23,20 @@ double gap(const Bar& p, const Bar& q) {
   return apart - p.radius - q.radius;
 }
 
-double depth_inside(const Polygon& convex, const Vec2& point) {
+Depth depth_and_normal(const Polygon& convex, const Vec2& point) {
   double least = std::numeric_limits<double>::infinity();
+  Vec2 nearest = Vec2::UnitX();
   for (std::size_t i = 0; i < convex.size(); ++i) {
     const Vec2& a = convex[i];
     const Vec2 along = convex[i + 1 == convex.size() ? 0 : i + 1] - a;
-    least = std::min(least, cross(along, point - a) / along.norm());
+    const double depth = cross(along, point - a) / along.norm();
+    if (!(depth < least)) continue;
+    least = depth;
+    nearest = along;
   }
-  return least;
+  return {least, -turned_left(nearest).normalized()};
 }
+
+double depth_inside(const Polygon& convex, const Vec2& point) { return depth_and_normal(convex, point).value; }
 
 }  // namespace fusee

@@ -15,7 +15,13 @@ struct Bar {
 
 /// Between the outsides; negative when they overlap.
 double gap(const Bar& p, const Bar& q);
-/// How deep a point lies inside a convex polygon; negative outside.
+/// How deep a point lies inside a convex polygon, negative outside, and that polygon's outward normal where it is nearest.
+struct Depth {
+  double value = 0;
+  Vec2 normal = Vec2::Zero();
+};
+Depth depth_and_normal(const Polygon& convex, const Vec2& point);
+/// The depth alone.
 double depth_inside(const Polygon& convex, const Vec2& point);
 
 }  // namespace fusee

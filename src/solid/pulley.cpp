@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "fusee/base/diagnostics.h"
 #include "solid/body.h"
 #include "solid/boolean.h"
-#include "solid/bore.h"
+#include "solid/dowels.h"
 #include "solid/face_holes.h"
 #include "solid/gate.h"
 #include "solid/marks.h"
@@ -24,8 +24,6 @@
 namespace fusee {
 namespace {
 
-// Tools stand out of the body by this, so that no two of their faces coincide.
-constexpr double k_overshoot = 1.0;
 // A cut whose rounding to float left a fault is tried again with other facets on the tools.
 constexpr int k_variants = 8;
 // Room between two parts on the printer.
@@ -45,19 +43,6 @@ TriangleMesh laid_on_bed(TriangleMesh mesh, Piece piece, double mate) {
     if (piece == Piece::p1) vertex.tail<2>() = -vertex.tail<2>();
   }
   return rounded_to_float(std::move(mesh));
-}
-
-// A blind hole ends in a cone; a flat ceiling that small is not always taken for a bridge.
-TriangleMesh dowel_tool(const DowelLayout& dowels, const Vec2& place) {
-  constexpr double k_tip = 0.05;
-  const auto ring = [&](double share, double z) {
-    std::vector<Vec3> points;
-    for (const Vec2& corner : polyhole(dowels.hole_diameter, Vec2::Zero()))
-      points.emplace_back(place.x() + share * corner.x(), place.y() + share * corner.y(), z);
-    return points;
-  };
-  if (dowels.roof <= 0) return strip({ring(1, -k_overshoot), ring(1, dowels.z_end)});
-  return strip({ring(1, -k_overshoot), ring(1, dowels.z_end), ring(k_tip, dowels.z_end + dowels.roof)});
 }
 
 class FeatureCutter {
@@ -110,8 +95,7 @@ class FeatureCutter {
 
   std::vector<TriangleMesh> cuts(int variant) const {
     std::vector<TriangleMesh> tools;
-    for (const Vec2& place : layout_.dowels.places)
-      tools.push_back(dowel_tool(layout_.dowels, place));
+    for (const Vec2& place : layout_.dowels.places) tools.push_back(dowel_tool(layout_.dowels, place));
     if (has_p2_ && layout_.set_screw.present)
       tools.push_back(set_screw_tool(layout_.set_screw, layout_.hub_radius, layout_.z_hub, variant));
     const double depth = layout_.mark_depth;

@@ -21,6 +21,9 @@ constexpr std::array<Screw, 6> k_screws{{{"M2", 2, 2.4, 1.6, 4.0, 1.6, 4.0},
 // Between the nut's slot and the axis of a wall that carries the screw's thrust.
 double nut_wall(double wall) { return std::max(wall, 1.5); }
 
+// What the screw's axis needs of the hub's height below it.
+double below(const SetScrewLayout& screw) { return screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter; }
+
 }  // namespace
 
 const Screw* find_screw(const std::string& name) {
@@ -31,9 +34,6 @@ const Screw* find_screw(const std::string& name) {
 
 double nut_corner(const SetScrewLayout& screw) { return screw.nut_width / std::numbers::sqrt3; }
 double teardrop_top(const SetScrewLayout& screw) { return 0.5 * screw.hole_diameter / std::cos(screw.roof_slope); }
-
-// What the screw's axis needs of the hub's height below it.
-static double below(const SetScrewLayout& screw) { return screw.nut_trap ? nut_corner(screw) : 0.5 * screw.hole_diameter; }
 
 SetScrewLayout set_screw_layout(const Screw& screw, bool nut_trap, double compensation, double wall,
                                 const BodyLayout& layout) {

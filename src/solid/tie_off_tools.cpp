@@ -14,11 +14,8 @@
 namespace fusee {
 namespace {
 
-// Tools stand out of the body by this, so that no two of their faces coincide.
-constexpr double k_overshoot = 1.0;
-// A pocket's closed end is this much deeper than its channel, for the same reason.
+// A pocket's closed end is this much deeper than its channel, so that no two of their faces coincide.
 constexpr double k_deeper = 0.07;
-
 // A hole to the bed ends this far past the groove's plane, in the floor's band.
 constexpr double k_past_plane = 0.03;
 
@@ -145,16 +142,11 @@ TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole&
   Polygon outer = inner;
   const double wider = std::max(hole.room, hole.hole_radius + k_outside) / hole.hole_radius;
   for (Vec2& point : outer) point = hole.pocket() + wider * (point - hole.hole);
-  const auto at = [](const Polygon& outline, double z) {
-    std::vector<Vec3> points;
-    for (const Vec2& point : outline) points.emplace_back(point.x(), point.y(), z);
-    return points;
-  };
   const double depth = std::max(countersink_depth(layout, hole), k_outside);
   const std::vector<Vec3> end = hole_end(layout, side, hole, inner, channel_half_height(layout, variant));
-  if (side == Side::left) return strip({at(outer, -k_overshoot), at(outer, -k_outside), at(inner, depth), end});
-  return strip({at(outer, layout.z_hub + k_overshoot), at(outer, layout.z_top + k_outside),
-                at(inner, layout.z_top - depth), end});
+  if (side == Side::left) return strip({at_height(outer, -k_overshoot), at_height(outer, -k_outside), at_height(inner, depth), end});
+  return strip({at_height(outer, layout.z_hub + k_overshoot), at_height(outer, layout.z_top + k_outside),
+                at_height(inner, layout.z_top - depth), end});
 }
 
 }  // namespace

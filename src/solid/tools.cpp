@@ -12,8 +12,6 @@
 namespace fusee {
 namespace {
 
-// How far a tool stands out of the body, so that no two of their faces coincide.
-constexpr double k_overshoot = 1.0;
 constexpr int k_hole_facets = 20;
 
 using Indices = std::vector<std::uint32_t>;
@@ -129,6 +127,12 @@ TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high) {
 
 void turn_inside_out(TriangleMesh& mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+std::vector<Vec3> at_height(const Polygon& outline, double z) {
+  std::vector<Vec3> points;
+  for (const Vec2& point : outline) points.emplace_back(point.x(), point.y(), z);
+  return points;
 }
 
 TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections) {

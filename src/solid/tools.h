@@ -9,9 +9,14 @@
 
 namespace fusee {
 
+/// A tool stands out of the body by this, so that no two of their faces coincide.
+inline constexpr double k_overshoot = 1.0;
+
 /// loops[0] without the others, from `low` to `high`.
 TriangleMesh prism(const std::vector<Polygon>& loops, double low, double high);
 
+/// An outline at one height: a section for strip().
+std::vector<Vec3> at_height(const Polygon& outline, double z);
 /// The body between convex outlines of equally many corners, one over the other.
 TriangleMesh strip(const std::vector<std::vector<Vec3>>& sections);
 void turn_inside_out(TriangleMesh& mesh);
