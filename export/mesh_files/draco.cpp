@@ -1,4 +1,5 @@
-// Draco: vertices quantised on a grid over the bounding cube, connectivity by edgebreaker.
+// Draco: vertices quantised on a grid over the bounding cube, or floats where no grid leaves the mesh a solid; connectivity
+// by edgebreaker.
 
 #include <draco/compression/encode.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "export/mesh_files/mesh_formats.h"
@@ -64,13 +66,16 @@ bool keeps_solid(const TriangleMesh& mesh, const Grid& grid) {
   return keeps_faces(mesh, on_grid) && !find_crossing(on_grid).facets;
 }
 
-/// The coarsest grid that is within the tolerance and leaves the mesh a solid; the finest where the mesh is none.
-Grid grid_for(const TriangleMesh& mesh, double tolerance) {
+/// The coarsest grid that is within the tolerance and leaves the mesh a solid; none where not even the finest does:
+/// then the floats are kept as they are.
+std::optional<Grid> grid_for(const TriangleMesh& mesh, double tolerance) {
   const Bounds box = bounds(mesh);
   Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
   while (grid.bits < k_most_bits && grid.reach() > tolerance) ++grid.bits;
-  while (grid.bits < k_most_bits && !keeps_solid(mesh, grid)) ++grid.bits;
-  return grid;
+  for (; grid.bits <= k_most_bits; ++grid.bits) {
+    if (keeps_solid(mesh, grid)) return grid;
+  }
+  return std::nullopt;
 }
 
 void fill(draco::Mesh& to, const TriangleMesh& mesh) {
@@ -212,15 +217,15 @@ TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
 }  // namespace
 
 std::string draco_bytes(const TriangleMesh& mesh, double tolerance) {
-  const int bits = grid_for(mesh, tolerance).bits;
+  const std::optional<Grid> grid = grid_for(mesh, tolerance);
   draco::Mesh to;
   fill(to, mesh);
   draco::Encoder encoder;
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
+  if (grid) encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, grid->bits);
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(to, &buffer);
-  demand(status.ok(), fmt::format("Draco, {} bits: {}", bits, status.error_msg()));
+  demand(status.ok(), fmt::format("Draco, {} bits: {}", grid ? grid->bits : 32, status.error_msg()));
   return {buffer.data(), buffer.size()};
 }
 

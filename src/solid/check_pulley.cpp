@@ -15,6 +15,8 @@ namespace {
 
 // The features' vertices are rounded too: far below any feature, far above the rounding.
 constexpr double k_volume_tolerance = 1e-6;
+// The groove is measured this far from what was cut into it, mm: a tool's facets lie within it of the plan's outline.
+constexpr double k_beside = 0.1;
 
 int euler_number(const TriangleMesh& mesh) {
   const TriangleMesh welded = weld(mesh);
@@ -80,15 +82,38 @@ class GrooveGauge {
   }
 
   // At a channel's mouth there is no floor to measure.
-  bool at_a_mouth(const Vec2& point, double margin = 0.1) const {
+  bool at_a_mouth(const Vec2& point, double margin = k_beside) const {
     return std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
       return anchor.side == outline_.side &&
              (is_within(anchor.channel, point, margin) || is_within(anchor.mouth, point, margin));
     });
   }
 
+  // Of this groove: the channel with its mouth, the knot's pocket, the tail's slot with its screw.
+  bool in_a_feature(const Vec2& point) const {
+    const auto within = [&point](const Vec2& centre, double radius) { return (point - centre).norm() < radius + k_beside; };
+    return at_a_mouth(point) ||
+           std::any_of(pulley_.anchors.begin(), pulley_.anchors.end(), [&](const Anchor& anchor) {
+             if (anchor.side != outline_.side) return false;
+             if (within(anchor.pocket, pocket_radius(anchor, layout_))) return true;
+             return anchor.tail && (is_within(anchor.tail->outline(), point, k_beside) ||
+                                    within(anchor.tail->to, 0.5 * anchor.tail->pilot_diameter));
+           });
+  }
+
+  // What is left of a loop where nothing was cut into it for a tie-off: lines.
+  std::vector<Polygon> beside_features(const Polygon& loop) const {
+    std::vector<Polygon> lines;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
+      if (!in_a_feature(a) || !in_a_feature(b)) lines.push_back({a, b});
+    }
+    return lines;
+  }
+
   // Within `margin` of a closed outline, or in it.
   static bool is_within(const Polygon& outline, const Vec2& point, double margin) {
+    if (outline.empty()) return false;
     bool inside = false;
     for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
       const Vec2 &a = outline[i], &b = outline[j];
@@ -158,7 +183,7 @@ class GrooveGauge {
     const std::vector<Polygon> flange =
         loops_at(left_ ? z() - layout_.p1.below_width() - past : z() + layout_.p2.above_width() + past);
     if (flange.empty()) return 0;
-    const NearestSegment to_flange({outer_loop(flange)});
+    const NearestSegment to_flange(beside_features(outer_loop(flange)));
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < floor_.size(); ++i) {
       if (outline_.is_active(i) && !at_a_mouth(floor_[i], layout_.groove_depth))
