@@ -53,6 +53,8 @@ struct BuildOptions {
   bool dry_run = false;
   /// Called before each step with what it does. What it throws stops the build, and nothing is left behind.
   std::function<void(std::string_view step)> before_step;
+  /// Called some hundred times a second while advice is searched for, to the same end.
+  std::function<void()> between_tries;
 };
 
 enum class BuildStatus { done, infeasible, check_failed };
@@ -60,6 +62,7 @@ enum class BuildStatus { done, infeasible, check_failed };
 struct BuildResult {
   BuildStatus status = BuildStatus::done;
   Product product;
+  Advice advice;                    ///< of an infeasible one; what it says builds, with every check
   std::vector<OutputFile> outputs;  ///< manifest.json last; empty when infeasible
   bool published = false;
 };

@@ -128,11 +128,12 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   const bool has_curves = product.synthesis.made();
   const std::vector<Condition>& conditions = has_curves ? product.pulley.conditions : product.synthesis.conditions;
   add_obstacles(product.file.path, conditions, reply);
-  const std::vector<Change>& advice = has_curves ? product.pulley.advice : product.synthesis.advice;
-  add_advice(advice, reply);
+  add_advice(built.advice.alone, reply);
+  add_advice_together(built.advice.together, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
-  reply.fields["advice"] = to_json(advice);
+  reply.fields["advice"] = to_json(built.advice.alone);
+  if (!built.advice.together.empty()) reply.fields["advice_together"] = to_json(built.advice.together);
 }
 
 void add_failed_checks(const BuildResult& built, const BuildOptions& options, Reply& reply) {
@@ -181,6 +182,7 @@ Reply run_build(const Arguments& arguments, Console& console) {
     stop_if_interrupted();
     console.progress(step);
   };
+  options.between_tries = [] { stop_if_interrupted(); };
   const InterruptsDeferred deferred;
   const BuildResult built = build(file, options);
   Reply reply;

@@ -61,8 +61,12 @@ Json to_json(const std::vector<Condition>& conditions) {
 Json to_json(const std::vector<Change>& advice) {
   Json list = Json::array();
   for (const Change& change : advice) {
-    list.push_back(
-        {{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}});
+    Json entry{{"key", change.key}, {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"text", change.text}};
+    if (!change.to_word.empty()) {
+      entry["from"] = change.from_word;
+      entry["to"] = change.to_word;
+    }
+    list.push_back(std::move(entry));
   }
   return list;
 }
@@ -73,12 +77,27 @@ void add_obstacles(const std::string& file, const std::vector<Condition>& condit
   }
 }
 
+namespace {
+
+/// "r1 ≤ 18.9 mm (pulley.r1_mm is 20)".
+std::string change_and_key(const Change& change) {
+  const std::string from = change.to_word.empty() ? rounded(change.from) : "\"" + change.from_word + "\"";
+  return change.text + " (" + change.key + " is " + from + ")";
+}
+
+}  // namespace
+
 void add_advice(const std::vector<Change>& advice, Reply& reply) {
-  for (const Change& change : advice) {
-    reply.diagnostics.push_back(
-        note(Severity::note, "it would be possible with " + change.text + " (" + change.key + " is " + rounded(change.from) + ")"));
-  }
+  for (const Change& change : advice)
+    reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + change_and_key(change)));
   if (advice.empty()) reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
+}
+
+void add_advice_together(const std::vector<Change>& advice, Reply& reply) {
+  if (advice.empty()) return;
+  std::string both;
+  for (const Change& change : advice) both += (both.empty() ? "" : " together with ") + change_and_key(change);
+  reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + both));
 }
 
 Diagnostic note(Severity severity, std::string message, std::string hint) {

@@ -43,6 +43,8 @@ Json to_json(const std::vector<Change>& advice);
 /// An error for each condition that failed, and a note for each change of a number that would help.
 void add_obstacles(const std::string& file, const std::vector<Condition>& conditions, Reply& reply);
 void add_advice(const std::vector<Change>& advice, Reply& reply);
+/// The same for changes that help together and not alone; nothing where there are none.
+void add_advice_together(const std::vector<Change>& advice, Reply& reply);
 
 /// A diagnostic without a place in a file, and one about a whole file.
 Diagnostic note(Severity severity, std::string message, std::string hint = {});

@@ -35,6 +35,11 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// While advice is searched for the curves are drawn no finer than this, mm, and the stroke needs no table: what is advised
+// is made with the tolerance that was asked for.
+constexpr double k_trial_tolerance = 0.05;
+constexpr int k_trial_steps = 36;
+
 /// A build under way: what was made so far and where it is staged.
 struct Workshop {
   const BuildOptions& options;
@@ -64,12 +69,12 @@ bool design(Workshop& shop) {
   shop.step("finding both pitch curves");
   SynthesisOptions synthesis_options;
   synthesis_options.tolerance = shop.options.tolerance;
+  synthesis_options.advice = false;  // it is searched for with the body
   product.synthesis = synthesise(mechanism, synthesis_options);
   if (!product.synthesis.made()) return false;
   draw_for_making(product.synthesis, product.joint.outline);
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
-  if (!product.pulley.made()) product.pulley.advice = body_advice(mechanism);
   if (!product.pulley.made()) return false;
   shop.step("moving the joint to see what its knots bear");
   product.holding = tendon_holding(mechanism, product.synthesis, product.pulley);
@@ -147,15 +152,62 @@ void write_texts(Workshop& shop) {
   shop.stage("manifest.json", manifest_json(product, shop.result.outputs));
 }
 
-void work(Workshop& shop) {
+/// As far as every check; false where it is infeasible.
+bool make(Workshop& shop) {
   if (!design(shop)) {
     shop.result.status = BuildStatus::infeasible;
-    return;
+    return false;
   }
   write_parts(shop);
   check_written(shop);
-  write_texts(shop);
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
+  return true;
+}
+
+/// What is tried stands in place of what was declared; what was found to be otherwise stays.
+MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
+  static_cast<Mechanism&>(file.mechanism) = changed;
+  return file;
+}
+
+/// The whole making, in a folder of its own.
+bool is_made(const MechanismFile& file, const BuildOptions& options) {
+  BuildResult result;
+  result.product.file = file;
+  result.product.joint = as_it_is(file.mechanism);
+  const TemporaryFolder temporary;
+  OutputFolder staging(temporary.path() / "out", true);
+  BuildOptions quietly = options;
+  quietly.before_step = [&options](std::string_view) {
+    if (options.between_tries) options.between_tries();
+  };
+  Workshop shop{quietly, staging, result};
+  return make(shop) && result.status == BuildStatus::done;
+}
+
+/// Curves and body of the joint as it is, without a mesh. A number that makes the file bad input is in the way as well.
+std::vector<Condition> obstacles_of(const MechanismFile& file, const BuildOptions& options) {
+  if (options.between_tries) options.between_tries();
+  const JointAsItIs joint = as_it_is(file.mechanism);
+  SynthesisResult synthesis = synthesise(joint.mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
+  if (!synthesis.made()) return failed_of(synthesis.conditions);
+  draw_for_making(synthesis, joint.outline);
+  return body_obstacles(joint.mechanism, synthesis);
+}
+
+Advice advice_for(const MechanismFile& file, const BuildOptions& options) {
+  return body_advice(file.mechanism,
+                     {[&](const Mechanism& changed) { return obstacles_of(with_declared(file, changed), options); },
+                      [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); }});
+}
+
+void work(Workshop& shop) {
+  if (make(shop)) {
+    write_texts(shop);
+    return;
+  }
+  shop.step("looking for what would make it possible");
+  shop.result.advice = advice_for(shop.result.product.file, shop.options);
 }
 
 }  // namespace

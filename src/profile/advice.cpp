@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "fusee/base/text.h"
 #include "fusee/mechanism/fields.h"
+#include "fusee/profile/synthesis.h"
 
 namespace fusee {
 namespace {
@@ -23,6 +25,9 @@ struct Dial {
   double scale = 1;
   std::function<void(Mechanism&, double)> turn;
 };
+
+// A number of the body is changed more readily than one of the joint.
+constexpr double k_easier = 3.0;
 
 std::optional<Dial> number_dial(const Mechanism& mechanism, const std::string& key) {
   const Field* field = find_field(key);
@@ -63,53 +68,19 @@ std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::strin
                                 "guides.radius_mm", "pulley.EF_mm", "tendon.diameter_mm"};
   if (mechanism.pulley.law == Law::compensate) keys.insert(keys.begin(), "pulley.r1_mm");
   if (mechanism.pulley.law == Law::linear) keys.insert(keys.begin(), "pulley.ratio");
-  keys.insert(keys.end(), more_keys.begin(), more_keys.end());
   std::vector<Dial> all;
   for (const std::string& key : keys) {
     if (const auto dial = number_dial(mechanism, key)) all.push_back(*dial);
   }
+  for (const std::string& key : more_keys) {
+    auto dial = number_dial(mechanism, key);
+    if (!dial) continue;
+    dial->least = std::max(dial->least, 1e-3 * dial->value);
+    dial->scale *= k_easier;
+    all.push_back(*dial);
+  }
   for (const Dial& dial : range_dials(mechanism)) all.push_back(dial);
   return all;
-}
-
-/// `value` to three digits: nearest, and next towards `direction`.
-std::array<double, 2> in_three_digits(double value, double direction) {
-  if (value == 0) return {0, 0};
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
-  const double scaled = value / unit;
-  return {std::round(scaled) * unit, (direction > 0 ? std::ceil(scaled) : std::floor(scaled)) * unit};
-}
-
-/// The value nearest to the dial's, in one direction (+1, −1), with which `possible` holds.
-std::optional<double> nearest_value(const Mechanism& mechanism, const Dial& dial, double direction,
-                                    const std::function<bool(const Mechanism&)>& possible) {
-  if (!(dial.scale > 0)) return std::nullopt;
-  const auto holds = [&](double value) {
-    Mechanism changed = mechanism;
-    dial.turn(changed, value);
-    return possible(changed);
-  };
-  double bad = dial.value;
-  double step = 0.005;
-  while (step < 40.0) {
-    const double good = std::clamp(dial.value + direction * step * dial.scale, dial.least, dial.most);
-    if (good == bad) return std::nullopt;
-    if (!holds(good)) {
-      bad = good;
-      step *= 1.3;
-      continue;
-    }
-    double near = good;
-    for (int i = 0; i < 24 && std::abs(near - bad) > 1e-4 * dial.scale; ++i) {
-      const double middle = 0.5 * (near + bad);
-      (holds(middle) ? near : bad) = middle;
-    }
-    for (const double plain : in_three_digits(near, direction)) {
-      if (plain >= dial.least && plain <= dial.most && holds(plain)) return plain;
-    }
-    return near;
-  }
-  return std::nullopt;
 }
 
 std::string change_text(const Dial& dial, double to) {
@@ -119,31 +90,182 @@ std::string change_text(const Dial& dial, double to) {
   return dial.symbol + (to > dial.value ? " ≥ " : " ≤ ") + amount + unit;
 }
 
-}  // namespace
+/// `value` to three digits: nearest, and next towards `direction`.
+std::array<double, 2> in_three_digits(double value, double direction) {
+  if (value == 0) return {0, 0};
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
+  const double scaled = value / unit;
+  // Through the text: what is tried is what a reader of the text will write.
+  const auto written = [](double number) { return std::stod(rounded(number, 3)); };
+  return {written(std::round(scaled) * unit), written((direction > 0 ? std::ceil(scaled) : std::floor(scaled)) * unit)};
+}
 
-std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
-                                    const std::vector<std::string>& more_keys) {
+/// A dial and the way it is turned.
+struct Turn {
+  const Dial* dial;
+  double direction;
+
+  double at(double step) const {
+    return std::clamp(dial->value + direction * step * dial->scale, dial->least, dial->most);
+  }
+  /// A further step changes no more.
+  bool ends_before(double step, double before) const { return at(step) == at(before); }
+};
+
+// A turn by 1 % of the number, and further each time; six times its size is another joint.
+constexpr double k_first_step = 0.01;
+constexpr double k_step_ratio = 1.6;
+constexpr double k_last_step = 6.0;
+// The border is halved down to this share of the number's size: three digits.
+constexpr double k_border = 5e-4;
+// So many changes are enough to choose from; each takes a whole making.
+constexpr std::size_t k_enough = 3;
+// And no more than these are begun.
+constexpr int k_most_makings = 6;
+// Pairs are tried among so many turns that help most.
+constexpr std::size_t k_helpful = 6;
+
+/// The search for one mechanism.
+class Adviser {
+ public:
+  Adviser(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys)
+      : mechanism_(mechanism), judge_(judge), dials_(dials(mechanism, more_keys)) {
+    for (const Dial& dial : dials_) {
+      if (!(dial.scale > 0)) continue;
+      for (const double direction : {-1.0, 1.0}) turns_.push_back({&dial, direction});
+    }
+    helps_.resize(turns_.size(), 0.0);
+  }
+
+  /// All dials a step further at a time: the nearest changes are found first, and a dial that has one is left alone.
+  std::vector<Change> alone() {
+    std::vector<Change> found;
+    std::vector<const Dial*> done;
+    double before = 0;
+    for (double step = k_first_step; step < k_last_step && found.size() < k_enough; before = step, step *= k_step_ratio) {
+      std::vector<Ranked> here;
+      for (std::size_t t = 0; t < turns_.size(); ++t) {
+        const Turn& turn = turns_[t];
+        if (turn.ends_before(step, before) || std::count(done.begin(), done.end(), turn.dial) > 0) continue;
+        if (!holds(t, step)) continue;
+        // A dial that is not proven here is not tried again: each proof is a whole making.
+        done.push_back(turn.dial);
+        const auto to = border({turn}, before, step);
+        if (!to) continue;
+        here.push_back({change(*turn.dial, to->front()), std::abs(to->front() - turn.dial->value) / turn.dial->scale});
+      }
+      std::stable_sort(here.begin(), here.end(), [](const Ranked& a, const Ranked& b) { return a.distance < b.distance; });
+      for (const Ranked& ranked : here) found.push_back(ranked.change);
+    }
+    return found;
+  }
+
+  /// Two dials turned by the same step, of those that help most alone: after alone() found nothing.
+  std::vector<Change> together() {
+    std::vector<std::size_t> helpful(turns_.size());
+    std::iota(helpful.begin(), helpful.end(), std::size_t{0});
+    std::stable_sort(helpful.begin(), helpful.end(), [this](std::size_t a, std::size_t b) { return helps_[a] > helps_[b]; });
+    helpful.resize(std::min(helpful.size(), k_helpful));
+    double before = 0;
+    for (double step = 4 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {
+      for (std::size_t i = 0; i < helpful.size(); ++i) {
+        for (std::size_t j = i + 1; j < helpful.size(); ++j) {
+          const std::vector<Turn> both{turns_[helpful[i]], turns_[helpful[j]]};
+          if (both[0].dial == both[1].dial || !judge_.obstacles(turned(both, values(both, step))).empty()) continue;
+          const auto to = border(both, before, step);
+          if (to) return {change(*both[0].dial, to->at(0)), change(*both[1].dial, to->at(1))};
+        }
+      }
+    }
+    return {};
+  }
+
+ private:
   struct Ranked {
     Change change;
     double distance;
   };
-  std::vector<Ranked> found;
-  for (const Dial& dial : dials(mechanism, more_keys)) {
-    std::optional<Ranked> nearest;
-    for (const double direction : {-1.0, 1.0}) {
-      const auto to = nearest_value(mechanism, dial, direction, possible);
-      if (!to) continue;
-      const double distance = std::abs(*to - dial.value) / dial.scale;
-      if (!nearest || distance < nearest->distance) {
-        nearest = Ranked{{dial.key, dial.value, *to, dial.unit, change_text(dial, *to)}, distance};
+
+  static std::vector<double> values(const std::vector<Turn>& turns, double step) {
+    std::vector<double> all;
+    for (const Turn& turn : turns) all.push_back(turn.at(step));
+    return all;
+  }
+  Mechanism turned(const std::vector<Turn>& turns, const std::vector<double>& to) const {
+    Mechanism changed = mechanism_;
+    for (std::size_t i = 0; i < turns.size(); ++i) turns[i].dial->turn(changed, to[i]);
+    return changed;
+  }
+
+  /// Also learns what the turn is good for where it is not enough.
+  bool holds(std::size_t turn, double step) {
+    const std::vector<Condition> left = judge_.obstacles(turned({turns_[turn]}, {turns_[turn].at(step)}));
+    if (first_.empty()) first_ = judge_.obstacles(mechanism_);
+    helps_[turn] = std::max(helps_[turn], weight(first_) - weight(left));
+    return left.empty();
+  }
+  /// A condition counts for itself and for what it fails by, in its limit's size.
+  static double weight(const std::vector<Condition>& left) {
+    double sum = 0;
+    for (const Condition& condition : left) {
+      const double gap = std::abs(condition.value - condition.limit);
+      sum += 1.0 + (std::isfinite(gap) ? gap / (gap + std::abs(condition.limit) + 1.0) : 1.0);
+    }
+    return sum;
+  }
+
+  /// Halves its way back from `good` towards `bad`, rounds to the safe side, and tries what is to be given: there, or where
+  /// the search had stood.
+  std::optional<std::vector<double>> border(const std::vector<Turn>& turns, double bad, double good) {
+    const double far = good;
+    while (good - bad > k_border) {
+      const double middle = 0.5 * (bad + good);
+      (judge_.obstacles(turned(turns, values(turns, middle))).empty() ? good : bad) = middle;
+    }
+    for (const double step : {good, far}) {
+      for (const std::size_t digit : {std::size_t{0}, std::size_t{1}}) {
+        std::vector<double> to;
+        bool is_new = true;
+        for (const Turn& turn : turns) {
+          to.push_back(in_three_digits(turn.at(step), turn.direction)[digit]);
+          is_new = is_new && to.back() != turn.dial->value && to.back() >= turn.dial->least && to.back() <= turn.dial->most;
+        }
+        const Mechanism changed = turned(turns, to);
+        if (!is_new || !judge_.obstacles(changed).empty()) continue;
+        if (!judge_.made) return to;
+        if (++makings_ <= k_most_makings && judge_.made(changed)) return to;
+        break;  // the other rounding differs by too little to be worth a making
       }
     }
-    if (nearest) found.push_back(*nearest);
+    return std::nullopt;
   }
-  std::stable_sort(found.begin(), found.end(), [](const Ranked& a, const Ranked& b) { return a.distance < b.distance; });
-  std::vector<Change> changes;
-  for (const Ranked& ranked : found) changes.push_back(ranked.change);
-  return changes;
+
+  static Change change(const Dial& dial, double to) { return {dial.key, dial.value, to, dial.unit, change_text(dial, to)}; }
+
+  const Mechanism& mechanism_;
+  const Judge& judge_;
+  std::vector<Dial> dials_;
+  std::vector<Turn> turns_;
+  std::vector<double> helps_;  ///< of each turn: by how much it brought what fails down
+  std::vector<Condition> first_;
+  int makings_ = 0;
+};
+
+}  // namespace
+
+std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
+                                    const std::vector<std::string>& more_keys) {
+  const Judge judge{[&possible](const Mechanism& changed) {
+    return possible(changed) ? std::vector<Condition>{} : std::vector<Condition>(1);
+  }};
+  return Adviser(mechanism, judge, more_keys).alone();
+}
+
+Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys) {
+  Adviser adviser(mechanism, judge, more_keys);
+  Advice advice{adviser.alone(), {}};
+  if (advice.alone.empty()) advice.together = adviser.together();
+  return advice;
 }
 
 std::string advice_sentence(const std::vector<Change>& changes) {

@@ -146,9 +146,10 @@ CurvePoint PolarCurve::at(double psi) const {
 
 std::vector<double> PolarCurve::straight_directions() const {
   std::vector<double> directions;
+  const double long_edge = 20.0 * perimeter(core_) / k_points;
   for (std::size_t i = 0; i < core_.size(); ++i) {
     const double length = (core_[(i + 1) % core_.size()] - core_[i]).norm();
-    if (length > 20.0 * perimeter(core_) / k_points) directions.push_back(normals_[i]);
+    if (length > long_edge) directions.push_back(normals_[i]);
   }
   return directions;
 }

@@ -60,6 +60,13 @@ std::string stroke_text(const std::vector<TransmissionPoint>& stroke) {
 
 }  // namespace
 
+std::vector<Condition> failed_of(const std::vector<Condition>& conditions) {
+  std::vector<Condition> failed;
+  std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(failed),
+               [](const Condition& condition) { return !condition.ok; });
+  return failed;
+}
+
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options) {
   SynthesisResult result;
   const Transmission transmission(mechanism);

@@ -22,7 +22,7 @@ constexpr double k_near_fillets = 6.0;
 constexpr double k_from_point = 0.15;
 // Between a channel and the floor that a tendon lies on.
 constexpr double k_floor_gap = 0.05;
-// Pockets are placed against a floor of about this many points: no more are needed to keep a wall.
+// Walls are kept to a floor of about this many points: chords of a circle of 50 mm lie within 4 µm of it.
 constexpr std::size_t k_floor_points = 256;
 
 // Walks the closing arc from one end of the active arc to the other.
@@ -94,9 +94,7 @@ class AnchorSearch {
       : site_(site), arc_(site.outline, wound_end), wanted_(wanted), reach_(reach), laps_(laps) {
     const Outline& outline = site.outline;
     const Polygon all = parallel(outline, -0.5 * site.tendon_diameter);
-    const std::size_t stride = std::max<std::size_t>(1, all.size() / k_floor_points);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i % stride != 0 && i != outline.active_first && i != outline.active_last) continue;
+    for (const std::size_t i : coarse_floor(all.size(), {outline.active_first, outline.active_last})) {
       floor_.push_back(all[i]);
       if (outline.is_active(i)) active_floor_.push_back(all[i]);
     }
@@ -223,6 +221,15 @@ LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap) {
 
 Station closing_station(const Outline& outline, bool wound_end, double lap) {
   return ClosingArc(outline, wound_end).at(lap);
+}
+
+std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std::size_t>& always) {
+  const std::size_t stride = std::max<std::size_t>(1, points / k_floor_points);
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (i % stride == 0 || std::find(always.begin(), always.end(), i) != always.end()) indices.push_back(i);
+  }
+  return indices;
 }
 
 double closing_length(const Outline& outline) { return ClosingArc(outline, true).length(); }

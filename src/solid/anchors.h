@@ -84,6 +84,9 @@ struct LapRange {
 /// All that leaves at least this much wrap past the active arc, rad. Empty (least > most) where the closing arc ends
 /// before.
 LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap);
+/// At most this many points of a floor, evenly spread, and those of `always`: no more are needed to keep a wall to it.
+/// Indices, increasing.
+std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std::size_t>& always = {});
 /// Of the closing arc.
 double closing_length(const Outline& outline);
 

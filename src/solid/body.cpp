@@ -65,17 +65,17 @@ Polygon around_both(const Outline& p1, const Outline& p2, double offset, double 
   return points;
 }
 
-// The first rim of growing margin that is strictly outside: coarse outlines need more than fine ones.
+// The first rim of growing margin that is strictly outside: coarse outlines need more than fine ones. `outside` becomes
+// false where none is.
 template <typename MakeRim>
-Polygon grown_until_outside(const MakeRim& make_rim, const Polygon& a, const Polygon& b) {
+Polygon grown_until_outside(const MakeRim& make_rim, const Polygon& a, const Polygon& b, bool& outside) {
   double margin = k_rim_margin;
   Polygon rim = make_rim(margin);
   for (int tries = 0; tries < 12 && !(strictly_outside(rim, a) && strictly_outside(rim, b)); ++tries) {
     margin *= 1.5;
     rim = make_rim(margin);
   }
-  demand(strictly_outside(rim, a) && strictly_outside(rim, b),
-         "no rim around the grooves' lips: the outlines are sampled too coarsely");
+  outside = outside && strictly_outside(rim, a) && strictly_outside(rim, b);
   return rim;
 }
 
@@ -211,13 +211,13 @@ FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diame
     rims.lower = rims.lip1;
     rims.upper = rims.lip2;
     rims.under2 = rims.lip2;
-    rims.middle =
-        grown_until_outside([&](double margin) { return around_both(p1, p2, lip, margin); }, rims.lip1, rims.lip2);
+    rims.middle = grown_until_outside([&](double margin) { return around_both(p1, p2, lip, margin); }, rims.lip1, rims.lip2,
+                                      rims.outside);
     return rims;
   }
-  const auto circle_around = [&p1](const Polygon& a, const Polygon& b) {
+  const auto circle_around = [&p1, &rims](const Polygon& a, const Polygon& b) {
     const double radius = std::max(circumradius(a), circumradius(b));
-    return grown_until_outside([&](double margin) { return circle_like(p1, radius + margin); }, a, b);
+    return grown_until_outside([&](double margin) { return circle_like(p1, radius + margin); }, a, b, rims.outside);
   };
   rims.lower = circle_around(rims.lip1, rims.lip1);
   rims.upper = circle_around(rims.lip2, rims.lip2);

@@ -10,7 +10,8 @@
 
 namespace fusee {
 
-/// The flanges' outlines, sampled at the outlines' normals.
+/// The flanges' outlines, sampled at the outlines' normals. Where these are so coarse that no rim of the same normals lies
+/// outside both lips, `outside` is false, and nothing is made of them.
 struct FlangeRims {
   Polygon lip1;  ///< of groove P1
   Polygon lip2;
@@ -18,6 +19,7 @@ struct FlangeRims {
   Polygon middle;  ///< strictly outside both lips
   Polygon under2;  ///< P2's own share of the middle flange where it is printed for itself, strictly inside `middle`
   Polygon upper;   ///< flange 2
+  bool outside = true;
 };
 FlangeRims flange_rims(const Outline& p1, const Outline& p2, double tendon_diameter, double groove_depth, Flange kind);
 

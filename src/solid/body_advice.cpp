@@ -1,9 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
 
 #include "fusee/mechanism/catalogue.h"
-#include "fusee/base/diagnostics.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/pulley.h"
 #include "solid/plan.h"
@@ -33,43 +34,83 @@ std::vector<std::string> written_keys(const Mechanism& mechanism) {
   return keys;
 }
 
-// A number for which no other value was found may still be left to the program.
-void add_automatic(std::vector<Change>& changes, const Mechanism& mechanism, const std::string& key) {
-  const auto is_it = [&key](const Change& change) { return change.key == key; };
-  if (std::any_of(changes.begin(), changes.end(), is_it)) return;
-  Mechanism automatic = mechanism;
-  const Field& field = *find_field(key);
-  set_number(automatic, field, 0, 0.0);
-  if (body_possible(automatic))
-    changes.push_back({key, number_of(mechanism, key), 0.0, std::string(field.unit), key + " = 0 (automatic)"});
+/// Of a key that is no number, in the order in which they are tried.
+struct Words {
+  const char* condition;  ///< that begins so
+  const char* key;
+  std::vector<std::string_view> words;
+};
+const std::vector<Words>& words_of_screws() {
+  static const std::vector<Words> all{{"set_screw", "body.set_screw", {"M5", "M4", "M3", "M2.5", "M2", "none"}},
+                                      {"clamp_screw", "body.clamp_screw", {"M2.5", "M2", "none"}},
+                                      {"clamp_screw", "print.parts", {"two"}}};
+  return all;
 }
+
+class BodyAdviser {
+ public:
+  BodyAdviser(const Mechanism& mechanism, const Judge& judge) : mechanism_(mechanism), judge_(judge) {}
+
+  Advice all() const {
+    Advice advice;
+    const std::vector<Condition> failed = judge_.obstacles(mechanism_);
+    for (const Words& words : words_of_screws()) {
+      const auto is_about = [&words](const Condition& condition) { return condition.name.starts_with(words.condition); };
+      if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
+    }
+    const std::vector<std::string> keys = written_keys(mechanism_);
+    const Advice numbers = find_advice(mechanism_, judge_, keys);
+    advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
+    for (const std::string& key : keys) {
+      if (advice.alone.empty() && key.starts_with("body.")) add_automatic(advice.alone, key);
+    }
+    if (advice.alone.empty()) advice.together = numbers.together;
+    return advice;
+  }
+
+ private:
+  bool helps(const Mechanism& changed) const {
+    return judge_.obstacles(changed).empty() && (!judge_.made || judge_.made(changed));
+  }
+
+  // The first that helps, past the one that is written.
+  void add_word(std::vector<Change>& changes, const Words& words) const {
+    const Field& field = *find_field(words.key);
+    DeclaredMechanism changed(mechanism_);
+    const std::string from = field.get_text(changed);
+    const auto written = std::find(words.words.begin(), words.words.end(), from);
+    for (auto word = written == words.words.end() ? words.words.begin() : written + 1; word != words.words.end(); ++word) {
+      field.set_text(changed, *word);
+      if (*word == from || !helps(changed)) continue;
+      changes.push_back({words.key, 0, 0, {}, fmt::format("{} = \"{}\"", words.key, *word), from, std::string(*word)});
+      return;
+    }
+  }
+
+  // A number for which no other value was found may still be left to the program.
+  void add_automatic(std::vector<Change>& changes, const std::string& key) const {
+    Mechanism automatic = mechanism_;
+    const Field& field = *find_field(key);
+    set_number(automatic, field, 0, 0.0);
+    if (field.least <= 0 && helps(automatic))
+      changes.push_back({key, number_of(mechanism_, key), 0.0, std::string(field.unit), key + " = 0 (automatic)"});
+  }
+
+  const Mechanism& mechanism_;
+  const Judge& judge_;
+};
 
 }  // namespace
 
-// What is tried may be so odd that no rim can be drawn about it: that is no advice, and no bug of the design at hand.
-bool body_possible(const Mechanism& mechanism) {
-  const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
-  if (!synthesis.made()) return false;
-  // The nearest tie-offs decide; how much further round they may go takes a search of its own.
-  Mechanism nearest = mechanism;
-  if (nearest.body.wrap <= 0) nearest.body.wrap = 1e-9;
-  try {
-    return plan_body(nearest, synthesis).possible();
-  } catch (const Bug&) {
-    return false;
-  }
+std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+  return failed_of(plan_body(mechanism, synthesis, WrapChoice::nearest).conditions);
 }
 
-std::vector<Change> body_advice(const Mechanism& mechanism) {
-  const std::vector<std::string> keys = written_keys(mechanism);
-  const auto possible = [&keys](const Mechanism& changed) {
-    return written_keys(changed).size() == keys.size() && body_possible(changed);
-  };
-  std::vector<Change> changes = nearest_changes(mechanism, possible, keys);
-  for (const std::string& key : keys) {
-    if (key.starts_with("body.")) add_automatic(changes, mechanism, key);
-  }
-  return changes;
+std::vector<Condition> obstacles(const Mechanism& mechanism) {
+  const SynthesisResult synthesis = synthesise(mechanism, {.advice = false});
+  return synthesis.made() ? body_obstacles(mechanism, synthesis) : failed_of(synthesis.conditions);
 }
+
+Advice body_advice(const Mechanism& mechanism, const Judge& judge) { return BodyAdviser(mechanism, judge).all(); }
 
 }  // namespace fusee

@@ -43,6 +43,7 @@ class Conditions {
         d_(mechanism.tendon.diameter) {}
 
   std::vector<Condition> all(const std::vector<AnchorRoom>& rooms) {
+    add_rims();
     add_groove();
     add_bore_wall(synthesis_.p1);
     add_bore_wall(synthesis_.p2);
@@ -72,6 +73,13 @@ class Conditions {
   }
   void add_most(std::string name, double value, double most, std::string message) {
     add(std::move(name), value, most, value <= most + k_grain, std::move(message));
+  }
+
+  // What has rims says nothing about them.
+  void add_rims() {
+    if (rims_.outside) return;
+    add("flange_rims", 0, 0, false,
+        "the outlines are sampled too coarsely (--tolerance-mm) for a flange that stands out over the lips of both grooves");
   }
 
   void add_groove() {

@@ -26,15 +26,11 @@ constexpr double k_least_wall = 0.4;
 // One print is made as long as the cone under its middle flange is no higher: two take pins and glue.
 constexpr double k_highest_cone = 3.0;
 
-// Distances are measured to a floor of about this many points: no more are needed to keep a wall.
-constexpr std::size_t k_floor_points = 256;
-
 // Some of the points of a convex floor: they span no more than it.
-Polygon coarse_floor(const Outline& outline, double tendon_diameter) {
+Polygon floor_within(const Outline& outline, double tendon_diameter) {
   const Polygon all = parallel(outline, -0.5 * tendon_diameter);
-  const std::size_t stride = std::max<std::size_t>(1, all.size() / k_floor_points);
   Polygon floor;
-  for (std::size_t i = 0; i < all.size(); i += stride) floor.push_back(all[i]);
+  for (const std::size_t i : coarse_floor(all.size())) floor.push_back(all[i]);
   return floor;
 }
 
@@ -45,19 +41,20 @@ FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& synthesis)
 
 class Planner {
  public:
-  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, Parts parts)
+  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, const BodyLayout& base,
+          WrapChoice wrap)
       : mechanism_(mechanism),
         synthesis_(synthesis),
         d_(mechanism.tendon.diameter),
-        base_(axial_layout(mechanism, rims, parts)),
+        base_(base),
         rims_(rims),
-        tie_offs_(mechanism, synthesis) {}
+        tie_offs_(mechanism, synthesis, wrap) {}
 
   BodyPlan plan() {
     BodyPlan plan;
     plan.rims = rims_;
-    plan.floor1 = coarse_floor(synthesis_.p1, d_);
-    plan.floor2 = coarse_floor(synthesis_.p2, d_);
+    plan.floor1 = floor_within(synthesis_.p1, d_);
+    plan.floor2 = floor_within(synthesis_.p2, d_);
     plan.layout = preferred_layout();
     const WoundTieOffs wound = tie_offs_.wound(plan.layout);
     tie_offs_.settle_pockets(plan.layout, wound);
@@ -151,7 +148,7 @@ class Planner {
   const Mechanism& mechanism_;
   const SynthesisResult& synthesis_;
   double d_;
-  BodyLayout base_;
+  const BodyLayout& base_;
   const FlangeRims& rims_;
   TieOffPlanner tie_offs_;
 };
@@ -168,14 +165,23 @@ bool BodyPlan::possible() const {
   return std::all_of(conditions.begin(), conditions.end(), [](const Condition& condition) { return condition.ok; });
 }
 
-BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, WrapChoice wrap) {
   const FlangeRims rims = rims_of(mechanism, synthesis);
-  const auto plan_in = [&](Parts parts) { return Planner(mechanism, synthesis, rims, parts).plan(); };
-  if (mechanism.print.parts != Parts::automatic) return plan_in(mechanism.print.parts);
-  if (axial_layout(mechanism, rims, Parts::one).middle_cone <= k_highest_cone) return plan_in(Parts::one);
-  BodyPlan two = plan_in(Parts::two);
+  const auto plan_on = [&](const BodyLayout& base) {
+    BodyPlan plan = Planner(mechanism, synthesis, rims, base, wrap).plan();
+    if (plan.possible() || wrap == WrapChoice::nearest) return plan;
+    BodyPlan nearest = Planner(mechanism, synthesis, rims, base, WrapChoice::nearest).plan();
+    if (!nearest.possible()) return plan;
+    nearest.layout.notes.push_back("the tie-offs have no more wrap than they need: further round, something else had no place");
+    return nearest;
+  };
+  const auto base_in = [&](Parts parts) { return axial_layout(mechanism, rims, parts); };
+  if (mechanism.print.parts != Parts::automatic) return plan_on(base_in(mechanism.print.parts));
+  const BodyLayout whole = base_in(Parts::one);
+  if (whole.middle_cone <= k_highest_cone) return plan_on(whole);
+  BodyPlan two = plan_on(base_in(Parts::two));
   if (two.possible() && is_located(two.layout)) return two;
-  BodyPlan one = plan_in(Parts::one);
+  BodyPlan one = plan_on(whole);
   one.layout.notes.push_back(
       fmt::format("a cone of {:.1f} mm stands under the middle flange: there is no room for pins to print P1 and P2 apart",
                   one.layout.middle_cone));

@@ -273,7 +273,6 @@ std::string Pulley::brief() const {
   for (const Condition& condition : conditions) {
     if (!condition.ok) text += "; " + condition.message;
   }
-  if (!advice.empty()) text += "; " + advice_sentence(advice);
   return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "solid/bore.h"
 #include "solid/plane_distance.h"
 #include "solid/set_screw.h"
 #include "solid/tie_off_tools.h"
@@ -121,7 +122,7 @@ class TailPlacer {
 
   // The pilot hole goes deep: it keeps clear of all that is cut into either pulley.
   bool takes_pilot(const TailSlot& slot) const {
-    const double radius = 0.5 * slot.pilot_diameter, wall = layout_.min_wall;
+    const double radius = circumradius(polyhole(slot.pilot_diameter, Vec2::Zero())), wall = layout_.min_wall;
     if (std::min(depth_inside(floor1_, slot.to), depth_inside(floor2_, slot.to)) < radius + wall) return false;
     std::vector<Bar> bars{{Vec2::Zero(), Vec2::Zero(), layout_.bore.radius}};
     add_holes(bars);
@@ -151,7 +152,7 @@ Condition clamp_condition(const std::string& screw, Side side, bool placed) {
   condition.limit = 1;
   condition.unit = "1";
   condition.message = fmt::format(
-      "{} has no room for clamp screw {} (body.clamp_screw) at the end of a tail's slot: a smaller screw, or \"none\"",
+      "{} has no room for clamp screw {} (body.clamp_screw) at the end of a tail's slot",
       pulley_name(side), screw);
   return condition;
 }

@@ -192,7 +192,7 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
 TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outline& outline,
                                            const TieOff& first) const {
   const TieOffPair nearest{first, spare_beside(layout, outline, first)};
-  if (mechanism_.body.wrap > 0) return nearest;
+  if (mechanism_.body.wrap > 0 || wrap_ == WrapChoice::nearest) return nearest;
   const double radius = pocket_radius_of(first, layout);
   for (double wrap = k_two_pi; wrap > wrap_of(first); wrap -= k_wrap_step) {
     LapRange there = lap_range(outline, true, wrap);

@@ -56,11 +56,14 @@ bool clears_set_screw(const BodyLayout& layout, double angle, const TieOff& way)
 /// Width and fillet of the channels.
 void choose_channel(BodyLayout& layout, const Mechanism& mechanism);
 
+/// Where on the closing arc a tie-off that carries load is put when the file does not say.
+enum class WrapChoice { furthest, nearest };
+
 /// Refers to what it is made from.
 class TieOffPlanner {
  public:
-  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis)
-      : mechanism_(mechanism), synthesis_(synthesis) {}
+  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, WrapChoice wrap)
+      : mechanism_(mechanism), synthesis_(synthesis), wrap_(wrap) {}
 
   /// From now on a hole to the face is taken where a channel and its pocket have no room.
   void allow_face_holes() { face_holes_ = true; }
@@ -89,6 +92,7 @@ class TieOffPlanner {
 
   const Mechanism& mechanism_;
   const SynthesisResult& synthesis_;
+  WrapChoice wrap_;
   bool face_holes_ = false;
 };
 

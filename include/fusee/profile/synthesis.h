@@ -31,6 +31,9 @@ struct Condition {
   std::string message;  ///< for a person: what happens, where, by how much
 };
 
+/// Those that do not hold.
+std::vector<Condition> failed_of(const std::vector<Condition>& conditions);
+
 enum class SynthesisStatus { made, infeasible };
 
 struct SynthesisResult {

@@ -70,7 +70,6 @@ struct Pulley {
   std::vector<PrintedPart> parts;     ///< P1 and P2 of a pulley in two parts; empty: the whole is printed as it stands
   std::vector<Anchor> anchors;
   std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too
-  std::vector<Change> advice;         ///< body_advice() of an impossible one, when somebody asked for it
   double expected_volume = 0;         ///< exact volume of the discretised part, by areas of sections, mm³
   int expected_euler = 0;             ///< V − E + F
 
@@ -83,10 +82,13 @@ TriangleMesh plate_of(const Pulley& pulley);
 
 Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis);
 
-/// Do all conditions of curves and body hold? Makes no mesh.
-bool body_possible(const Mechanism& mechanism);
-/// The nearest change of each single number, of the joint or written for the body, with which body_possible() holds. Hundreds of tries.
-std::vector<Change> body_advice(const Mechanism& mechanism);
+/// The conditions of a body on these curves that do not hold. Makes no mesh.
+std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis);
+/// The same of curves and body.
+std::vector<Condition> obstacles(const Mechanism& mechanism);
+/// What would make a refused mechanism possible: numbers of the joint or written for the body, screws of another size, what is
+/// written left to the program. Each was tried, as `judge` says.
+Advice body_advice(const Mechanism& mechanism, const Judge& judge = {obstacles});
 
 /// What a mesh of this pulley must be, measured on `mesh` (usually one read back from a file): check_mesh, then Euler number, volume, deviation
 /// from the analytic surface within `tolerance`, smallest wall, groove depth and width.
