@@ -338,6 +338,25 @@ void note_small_features(Plates& plates, const Stock& stock) {
 // Sheets
 // ---------------------------------------------------------------------------------------------------------------
 
+/// The workshop's, or where a plate is larger the one that it takes, in whole mm: what is cut is the same, and somebody else may
+/// have a larger machine.
+void choose_sheet(Plates& plates, const Cut& cut, const std::vector<Vec2>& sizes, double gap) {
+  const Vec2 workshop(cut.sheet_width, cut.sheet_height);
+  plates.sheet = workshop;
+  std::string larger;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const Vec2 needed = (sizes[i] + Vec2::Constant(2 * gap)).array().ceil().matrix();
+    if ((needed.array() <= workshop.array()).all()) continue;
+    plates.sheet = plates.sheet.cwiseMax(needed);
+    larger += fmt::format("{}{} takes {} x {} mm", larger.empty() ? "" : ", ", plates.layers[plates.placed[i].layer].name,
+                          rounded(needed.x()), rounded(needed.y()));
+  }
+  if (larger.empty()) return;
+  plates.notes.push_back(
+      fmt::format("a sheet of {} x {} mm (cut.sheet_width_mm, cut.sheet_height_mm) is too small, drawn is one of {} x {} mm: {}",
+                  rounded(workshop.x()), rounded(workshop.y()), rounded(plates.sheet.x()), rounded(plates.sheet.y()), larger));
+}
+
 void lay_on_sheets(Plates& plates, const Cut& cut) {
   std::vector<Vec2> sizes;
   std::vector<Vec2> axes;  // from the box's lower left corner
@@ -349,18 +368,13 @@ void lay_on_sheets(Plates& plates, const Cut& cut) {
       axes.push_back(-box.low);
     }
   }
-  const Vec2 sheet(cut.sheet_width, cut.sheet_height);
-  const std::vector<NestedPlace> places = nest(sizes, sheet, std::max(2.0, 2 * cut.kerf));
-  bool fits = true;
+  const double gap = std::max(2.0, 2 * cut.kerf);
+  choose_sheet(plates, cut, sizes, gap);
+  const std::vector<NestedPlace> places = nest(sizes, plates.sheet, gap);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    plates.placed[i].shift = places[i].corner + axes[i] + Vec2(places[i].sheet * (sheet.x() + k_sheet_gap), 0);
+    plates.placed[i].shift = places[i].corner + axes[i] + Vec2(places[i].sheet * (plates.sheet.x() + k_sheet_gap), 0);
     plates.sheets = std::max(plates.sheets, places[i].sheet + 1);
-    fits = fits && places[i].fits;
   }
-  if (!fits)
-    plates.notes.push_back(
-        fmt::format("a plate is larger than a sheet of {} x {} mm: see cut.sheet_width_mm, cut.sheet_height_mm",
-                    rounded(sheet.x()), rounded(sheet.y())));
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ struct Plates {
   std::vector<Vec2>
       dowels;  ///< centres; all on different radii and not in line with the axis, so that a plate fits in one way
   double dowel_diameter = 0;
+  Vec2 sheet = Vec2::Zero();       ///< what they are drawn on: the workshop's, larger where a plate asks for it
   int sheets = 1;                  ///< side by side from x = 0, k_sheet_gap between them
   std::vector<std::string> notes;  ///< which plates make what, and what could not be had
 };

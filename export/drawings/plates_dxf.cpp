@@ -21,10 +21,10 @@ Polygon shifted(Polygon points, const Vec2& shift) {
   return points;
 }
 
-void add_sheets(DxfDocument& drawing, const Plates& plates, const Cut& cut) {
+void add_sheets(DxfDocument& drawing, const Plates& plates) {
   for (int i = 0; i < plates.sheets; ++i) {
-    const Vec2 corner(i * (cut.sheet_width + k_sheet_gap), 0);
-    drawing.closed("SHEET", rectangle(corner, corner + Vec2(cut.sheet_width, cut.sheet_height)));
+    const Vec2 corner(i * (plates.sheet.x() + k_sheet_gap), 0);
+    drawing.closed("SHEET", rectangle(corner, corner + plates.sheet));
   }
 }
 
@@ -72,7 +72,7 @@ std::string plates_dxf(const Product& product, DxfVersion version) {
                               " mm) outside, holes half a kerf inside; the square is 10 mm wide"});
   add_engraving(drawing, plates);
   add_cuts(drawing, plates);
-  add_sheets(drawing, plates, mechanism.cut);
+  add_sheets(drawing, plates);
   add_notes(drawing, drawing.remarks);
   return dxf_text(drawing, version);
 }

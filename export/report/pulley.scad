@@ -240,7 +240,7 @@ module tail_slot(t) {
 }
 
 module clamp_pilot(t) {
-  from_face(t[0]) translate([t[1][0], t[1][1], t[3]]) linear_extrude(t[4] - t[3]) round_hole(t[2] + hole_compensation);
+  from_face(t[0]) translate([t[1][0], t[1][1], -1]) linear_extrude(t[3] + 1) round_hole(t[2] + hole_compensation);
 }
 
 // Round below, a roof above: it prints lying down without support. In the middle of the hub, or where its roof has a wall

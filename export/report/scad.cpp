@@ -348,8 +348,8 @@ std::string tail_slot_text(const Anchor& anchor) {
 
 std::string clamp_pilot_text(const Anchor& anchor, double compensation) {
   const TailSlot& slot = *anchor.tail;
-  return fmt::format("[{}, {}, {}, {}, {}]", groove_of(anchor), point_text(slot.to),
-                     decimal(slot.pilot_diameter - compensation), decimal(0.5 * slot.depth), decimal(slot.pilot_depth));
+  return fmt::format("[{}, {}, {}, {}]", groove_of(anchor), point_text(slot.to),
+                     decimal(slot.pilot_diameter - compensation), decimal(slot.pilot_depth));
 }
 
 std::string tie_off_arrays(const Product& product) {
@@ -375,7 +375,7 @@ std::string tie_off_arrays(const Product& product) {
                     holes) +
          array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
                     slots) +
-         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, from, to below the face", pilots) +
+         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) +
          "\n";
 }
 

@@ -12,6 +12,8 @@ constexpr double k_largest_turn = radians(2.0);
 constexpr double k_probe = radians(0.2);
 /// Directions nearer than this are one: a strip between them would be a sliver.
 constexpr double k_smallest_turn = radians(0.1);
+/// Chords that turn by no more are not halved.
+constexpr double k_finest_turn = radians(0.02);
 
 /// P1's curve in the world: the mirror image of its right-hand image.
 CurvePoint mirrored(const PitchCurve& image, double psi) {
@@ -72,6 +74,24 @@ std::size_t nearest(const std::vector<double>& directions, double psi) {
   return wanted - *(above - 1) < above_value - wanted ? static_cast<std::size_t>(above - directions.begin()) - 1 : index;
 }
 
+/// Beside the bridge over a hollow a drawn curve bends within a probe: chords there are halved until none has more sagitta, as
+/// an arc, than is allowed.
+void halve_coarse_chords(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
+  constexpr int k_halvings = 8;
+  for (int pass = 0; pass < k_halvings; ++pass) {
+    std::vector<double> finer;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const double here = directions[i], next = i + 1 < directions.size() ? directions[i + 1] : directions.front() + k_two_pi;
+      finer.push_back(here);
+      const double chord = std::max((right.at(next).position() - right.at(here).position()).norm(),
+                                    (mirrored(left, next).position() - mirrored(left, here).position()).norm());
+      if (next - here > k_finest_turn && chord * (next - here) / 8.0 > options.tolerance) finer.push_back(0.5 * (here + next));
+    }
+    if (finer.size() == directions.size()) return;
+    directions = std::move(finer);
+  }
+}
+
 OutlinePoint outline_point(const CurvePoint& curve) { return {curve.psi, curve.position(), unit(curve.psi), curve.radius}; }
 
 }  // namespace
@@ -89,6 +109,8 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
     const double end = i + 1 < mandatory.size() ? mandatory[i + 1] : mandatory.front() + k_two_pi;
     append_directions(directions, left, right, mandatory[i], end, options);
   }
+
+  halve_coarse_chords(directions, left, right, options);
 
   std::array<Outline, 2> outlines;
   outlines[0] = {Side::left, {}, nearest(directions, ends[2]), nearest(directions, ends[3])};

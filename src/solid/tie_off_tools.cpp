@@ -211,8 +211,8 @@ TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot&
 
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
   const Polygon hole = polyhole(slot.pilot_diameter, slot.to);
-  if (side == Side::left) return prism({hole}, 0.5 * slot.depth, slot.pilot_depth);
-  return prism({hole}, layout.z_top - slot.pilot_depth, layout.z_top - 0.5 * slot.depth);
+  if (side == Side::left) return prism({hole}, -k_overshoot, slot.pilot_depth);
+  return prism({hole}, layout.z_top - slot.pilot_depth, layout.z_top + k_overshoot);
 }
 
 }  // namespace fusee

@@ -15,7 +15,7 @@ Polygon hole_outline(const FaceHole& hole, int variant);
 
 /// Open to the face, out of a body that has its tie-off …
 TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
-/// … and open to the slot.
+/// … and open to the face too: it is wider than the slot, which ends at its middle.
 TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlot& slot);
 
 /// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over it?

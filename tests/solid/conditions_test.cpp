@@ -6,6 +6,7 @@
 
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/pulley.h"
+#include "solid/conditions.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
@@ -144,8 +145,8 @@ TEST(BodyAdvice, EachChangeAloneMakesItPossible) {
                           Case{&Body::hub_diameter, 60, "body.hub_diameter_mm"}}) {
     Mechanism mechanism = forearm();
     mechanism.body.*bad.number = bad.value;
-    ASSERT_FALSE(body_possible(mechanism));
-    const std::vector<Change> advice = body_advice(mechanism);
+    ASSERT_FALSE(obstacles(mechanism).empty());
+    const std::vector<Change> advice = body_advice(mechanism).alone;
     EXPECT_TRUE(std::any_of(advice.begin(), advice.end(), [&](const Change& change) { return change.key == bad.key; }));
     for (const Change& change : advice) {
       const Field* field = find_field(change.key);
@@ -153,13 +154,57 @@ TEST(BodyAdvice, EachChangeAloneMakesItPossible) {
       EXPECT_GE(change.to, field->least) << change.text;
       Mechanism changed = mechanism;
       set_number(changed, *field, 0, change.to);
-      EXPECT_TRUE(body_possible(changed)) << change.text;
+      EXPECT_TRUE(obstacles(changed).empty()) << change.text;
       set_number(changed, *field, 0, change.to + 0.02 * (change.from - change.to));
       if (change.to != 0) {
-        EXPECT_FALSE(body_possible(changed)) << change.text;
+        EXPECT_FALSE(obstacles(changed).empty()) << change.text;
       }
     }
   }
+}
+
+// What no change of one number mends two may: both are tried, and neither does alone.
+TEST(BodyAdvice, TwoNumbersTogetherWhereNoneDoesAlone) {
+  Mechanism mechanism = forearm();
+  const auto judge = [](const Mechanism& m) {
+    std::vector<Condition> left;
+    if (m.pulley.r1 > 12.0) left.push_back({.name = "a", .ok = false, .value = m.pulley.r1, .limit = 12.0});
+    if (m.pulley.EF < 90.0) left.push_back({.name = "b", .ok = false, .value = m.pulley.EF, .limit = 90.0});
+    return left;
+  };
+  const Advice advice = body_advice(mechanism, {judge});
+  EXPECT_TRUE(advice.alone.empty());
+  ASSERT_EQ(advice.together.size(), 2U);
+  for (const Change& change : advice.together) set_number(mechanism, *find_field(change.key), 0, change.to);
+  EXPECT_TRUE(judge(mechanism).empty());
+}
+
+// A screw without a place: what is said was tried, and a thicker flange is found where it helps.
+TEST(BodyAdvice, AClampScrewWithoutRoomTakesAThickerFlangeOrNone) {
+  Mechanism mechanism = forearm();
+  mechanism.body.clamp_screw = "M3";
+  mechanism.body.wrap = radians(20);
+  ASSERT_FALSE(obstacles(mechanism).empty());
+  const Advice advice = body_advice(mechanism);
+  const auto has = [&advice](const char* key) {
+    return std::any_of(advice.alone.begin(), advice.alone.end(), [key](const Change& change) { return change.key == key; });
+  };
+  EXPECT_TRUE(has("body.flange_thickness_mm"));
+  EXPECT_TRUE(has("body.clamp_screw"));
+  for (const Condition& condition : obstacles(mechanism))
+    EXPECT_EQ(condition.message.find("smaller screw"), std::string::npos) << condition.message;
+}
+
+// Outlines too coarse for a rim about both lips are a condition, and no bug.
+TEST(Conditions, NoRimAboutTheLipsIsSaid) {
+  const Mechanism mechanism = plain_mechanism();
+  FlangeRims rims = flange_rims(round_pulley().p1, round_pulley().p2, mechanism.tendon.diameter, 2.0, Flange::round);
+  ASSERT_TRUE(rims.outside);
+  rims.outside = false;
+  const auto conditions = conditions_of(mechanism, round_pulley(), resolve_layout(mechanism, round_pulley()), rims, {});
+  const std::vector<Condition> failed = failed_of(conditions);
+  ASSERT_EQ(failed.size(), 1U);
+  EXPECT_EQ(failed[0].name, "flange_rims");
 }
 
 // What is automatic is made to fit, with a note, before anything is refused.

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
+#include "fusee/mechanism/file.h"
 #include "solid/broken.h"
 #include "support/shapes.h"
 
@@ -166,6 +168,17 @@ TEST(CheckPulley, ShallowAndNarrowGroove) {
   const std::string names = failures(narrow.pulley, narrow.mechanism, narrow.shape);
   EXPECT_NE(names.find("groove_width_P1"), std::string::npos);
   EXPECT_NE(names.find("groove_width_P2"), std::string::npos);
+}
+
+// The flange is looked at beside what was cut into it: here the tail's slot lies in the section that shows the lip.
+TEST(CheckPulley, TheGroovesDepthIsMeasuredBesideATailsSlot) {
+  const Mechanism mechanism = parse_mechanism(find_template("paper_optimum"), "paper_optimum.toml", ".",
+                                              {{"body.flange", "round"}, {"print.parts", "two"}});
+  const SynthesisResult shape = synthesise(mechanism);
+  ASSERT_TRUE(shape.made());
+  const Pulley pulley = make_pulley(mechanism, shape);
+  ASSERT_TRUE(pulley.made()) << pulley.brief();
+  EXPECT_EQ(failures(pulley, mechanism, shape), "");
 }
 
 TEST(CheckPulley, EmptyAndBrokenMeshesAreMeasuredAsFarAsTheyGo) {

@@ -260,11 +260,14 @@ TEST(PlatesDxf, NoPlateLiesOnAnother) {
   }
 }
 
-TEST(PlatesDxf, APlateLargerThanItsSheetIsSaidAndFailsTheCheck) {
+TEST(PlatesDxf, APlateLargerThanItsSheetIsSaidAndDrawnOnTheSheetItTakes) {
   Product product = egg();
   product.joint.mechanism.cut.sheet_width = 30;
-  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("larger than a sheet of 30 x 200 mm")));
-  EXPECT_THAT(failed(check_drawing(drawn(product))), Contains("nothing_outside"));
+  const Plates plates = make_plates(product);
+  EXPECT_THAT(plates.notes, Contains(::testing::AllOf(HasSubstr("a sheet of 30 x 200 mm"), HasSubstr("MIDDLE takes "))));
+  EXPECT_GT(plates.sheet.x(), 30);
+  EXPECT_EQ(plates.sheet.y(), 200);
+  EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
 }
 
 TEST(PlatesDxf, AKerfWiderThanTheHolesIsSaid) {

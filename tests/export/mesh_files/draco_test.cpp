@@ -40,6 +40,20 @@ TEST(Draco, ThinFacesKeepTheirShapeBelowTheTolerance) {
   EXPECT_NEAR(enclosed_volume(read) / enclosed_volume(needle), 1.0, 0.5);
 }
 
+TEST(Draco, AMeshFinerThanAnyGridKeepsItsFloats) {
+  // A small part far from a large one: the finest of Draco's grids, 24 bits of a kilometre, has no room for it.
+  TriangleMesh small = testing::tetrahedron(), large = testing::tetrahedron();
+  for (Vec3& vertex : small.vertices) vertex *= 1e-6;
+  for (Vec3& vertex : large.vertices) vertex = 1e5 * vertex + Vec3(1e3, 1e3, 1e3);
+  TriangleMesh both = small;
+  both.vertices.insert(both.vertices.end(), large.vertices.begin(), large.vertices.end());
+  for (const auto& [a, b, c] : large.triangles) both.triangles.push_back({a + 4, b + 4, c + 4});
+  both = rounded_to_float(std::move(both));
+  const TriangleMesh read = read_mesh(draco_bytes(both, 0.01), "both.drc");
+  ASSERT_EQ(read.vertices.size(), both.vertices.size());
+  for (const Vec3& vertex : both.vertices) EXPECT_EQ(distance_to_nearest(vertex, read), 0.0);
+}
+
 TEST(Draco, TheSameMeshGivesTheSameBytes) {
   EXPECT_EQ(draco_bytes(testing::torus(), 0.01), draco_bytes(testing::torus(), 0.01));
 }
