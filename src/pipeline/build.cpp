@@ -152,25 +152,13 @@ void write_texts(Workshop& shop) {
   shop.stage("manifest.json", manifest_json(product, shop.result.outputs));
 }
 
-/// As far as every check; false where it is infeasible.
-bool make(Workshop& shop) {
-  if (!design(shop)) {
-    shop.result.status = BuildStatus::infeasible;
-    return false;
-  }
-  write_parts(shop);
-  check_written(shop);
-  shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
-  return true;
-}
-
 /// What is tried stands in place of what was declared; what was found to be otherwise stays.
 MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
   static_cast<Mechanism&>(file.mechanism) = changed;
   return file;
 }
 
-/// The whole making, in a folder of its own.
+/// Curves, body and plates with the checks that a design can fail; the other files say the same.
 bool is_made(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
   result.product.file = file;
@@ -182,7 +170,16 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
     if (options.between_tries) options.between_tries();
   };
   Workshop shop{quietly, staging, result};
-  return make(shop) && result.status == BuildStatus::done;
+  if (!design(shop)) return false;
+  const Product& product = result.product;
+  const TriangleMesh& mesh = product.pulley.mesh;
+  shop.add(check_pulley(mesh, product.joint.mechanism, product.synthesis, product.pulley, options.tolerance));
+  shop.add(as_built_checks(product.joint.mechanism, rewind_part(product.joint, mesh), options.limits));
+  if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
+  for (const PrintedPart& part : product.pulley.parts) check_print_of(shop, part.mesh, {});
+  shop.stage("plates.dxf", plates_dxf(product, options.dxf));
+  shop.add(check_part(shop.read_back("plates.dxf")));
+  return all_ok(product.checks);
 }
 
 /// Curves and body of the joint as it is, without a mesh. A number that makes the file bad input is in the way as well.
@@ -202,12 +199,16 @@ Advice advice_for(const MechanismFile& file, const BuildOptions& options) {
 }
 
 void work(Workshop& shop) {
-  if (make(shop)) {
-    write_texts(shop);
+  if (!design(shop)) {
+    shop.result.status = BuildStatus::infeasible;
+    shop.step("looking for what would make it possible");
+    shop.result.advice = advice_for(shop.result.product.file, shop.options);
     return;
   }
-  shop.step("looking for what would make it possible");
-  shop.result.advice = advice_for(shop.result.product.file, shop.options);
+  write_parts(shop);
+  check_written(shop);
+  write_texts(shop);
+  shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
 
 }  // namespace

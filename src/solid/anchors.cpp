@@ -169,8 +169,14 @@ class AnchorSearch {
       }
     }
     const double clear = 0.5 * site_.width + k_floor_gap;
+    Vec2 low = bars.front().a, high = low;
+    for (const Bar& bar : bars) {
+      low = low.cwiseMin(bar.b);
+      high = high.cwiseMax(bar.b);
+    }
     return std::none_of(active_floor_.begin(), active_floor_.end(), [&](const Vec2& point) {
-      return std::any_of(bars.begin(), bars.end(),
+      const bool is_far = ((low - point).array() > clear).any() || ((point - high).array() > clear).any();
+      return !is_far && std::any_of(bars.begin(), bars.end(),
                          [&](const Bar& bar) { return distance_to_segment(point, bar.a, bar.b) < clear; });
     });
   }

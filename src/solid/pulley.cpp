@@ -234,6 +234,18 @@ class PieceMaker {
   std::vector<Blank> blanks_;
 };
 
+// No variant left a solid: walls between features, each wide enough seen along the axis, meet in space.
+Condition uncut_features() {
+  Condition condition;
+  condition.name = "features";
+  condition.ok = false;
+  condition.value = 0;
+  condition.limit = 1;
+  condition.unit = "1";
+  condition.message = fmt::format("tie-offs, screws and marks run into one another: none of {} ways to cut them leaves a solid", k_variants);
+  return condition;
+}
+
 Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant) {
   const BodyLayout& layout = plan.layout;
   Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, {}, planned.pocket(), {}, planned.tail};
@@ -298,7 +310,10 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
     best = soundness;
     if (best == k_sound) break;
   }
-  demand(!pieces.empty(), "the features cannot be cut into the body of " + mechanism.name);
+  if (pieces.empty()) {
+    pulley.conditions.push_back(uncut_features());
+    return pulley;
+  }
   for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan, taken));
   pulley.mesh = std::move(pieces.front().mesh);
   pulley.expected_volume = pieces.front().volume;

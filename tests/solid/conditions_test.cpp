@@ -168,8 +168,8 @@ TEST(BodyAdvice, TwoNumbersTogetherWhereNoneDoesAlone) {
   Mechanism mechanism = forearm();
   const auto judge = [](const Mechanism& m) {
     std::vector<Condition> left;
-    if (m.pulley.r1 > 12.0) left.push_back({.name = "a", .ok = false, .value = m.pulley.r1, .limit = 12.0});
-    if (m.pulley.EF < 90.0) left.push_back({.name = "b", .ok = false, .value = m.pulley.EF, .limit = 90.0});
+    if (m.pulley.r1 > 12.0) left.push_back({"a", false, 0, m.pulley.r1, 12.0, "mm", ""});
+    if (m.pulley.EF < 90.0) left.push_back({"b", false, 0, m.pulley.EF, 90.0, "mm", ""});
     return left;
   };
   const Advice advice = body_advice(mechanism, {judge});
