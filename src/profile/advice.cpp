@@ -112,18 +112,18 @@ struct Turn {
   bool ends_before(double step, double before) const { return at(step) == at(before); }
 };
 
-// A turn by 1 % of the number, and further each time; six times its size is another joint.
+// A turn by 1 % of the number, and further each time; five times its size is another joint.
 constexpr double k_first_step = 0.01;
-constexpr double k_step_ratio = 1.6;
-constexpr double k_last_step = 6.0;
+constexpr double k_step_ratio = 1.8;
+constexpr double k_last_step = 4.0;
 // The border is halved down to this share of the number's size: three digits.
 constexpr double k_border = 5e-4;
 // So many changes are enough to choose from; each takes a whole making.
 constexpr std::size_t k_enough = 3;
 // And no more than these are begun.
-constexpr int k_most_makings = 6;
+constexpr int k_most_makings = 4;
 // Pairs are tried among so many turns that help most.
-constexpr std::size_t k_helpful = 6;
+constexpr std::size_t k_helpful = 4;
 
 /// The search for one mechanism.
 class Adviser {
