@@ -159,7 +159,7 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
 }
 
 /// Curves, body and plates with the checks that a design can fail; the other files say the same.
-bool is_made(const MechanismFile& file, const BuildOptions& options) {
+bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
   result.product.file = file;
   result.product.joint = as_it_is(file.mechanism);
@@ -182,7 +182,16 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
   return all_ok(product.checks);
 }
 
-/// Curves and body of the joint as it is, without a mesh. A number that makes the file bad input is in the way as well.
+/// A number that makes the file bad input, or a part on which no tendon can be wound, is no advice.
+bool is_made(const MechanismFile& file, const BuildOptions& options) {
+  try {
+    return passes_checks(file, options);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Curves and body of the joint as it is, without a mesh.
 std::vector<Condition> obstacles_of(const MechanismFile& file, const BuildOptions& options) {
   if (options.between_tries) options.between_tries();
   const JointAsItIs joint = as_it_is(file.mechanism);
