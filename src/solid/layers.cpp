@@ -12,8 +12,8 @@ namespace fusee {
 namespace {
 
 constexpr double k_layer = 0.2;
-// PrusaSlicer 2.5 takes "below 45°" as "below 46°" (measured on cones and wedges, and so it says in its source).
-constexpr double k_threshold = radians(1);
+// PrusaSlicer 2.5 takes "below 45°" as "below 46°" (measured on cones and wedges); a little more, so that no rounding decides.
+constexpr double k_threshold = radians(1.3);
 // Outlines are looked at in steps of this.
 constexpr double k_stride = 0.02;
 

@@ -45,13 +45,15 @@ FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& synthesis)
 
 class Planner {
  public:
-  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, Parts parts)
+  Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, Parts parts,
+          const std::vector<Rejection>& rejected)
       : mechanism_(mechanism),
         synthesis_(synthesis),
         d_(mechanism.tendon.diameter),
         base_(axial_layout(mechanism, rims, parts)),
         rims_(rims),
-        tie_offs_(mechanism, synthesis) {}
+        rejected_(rejected),
+        tie_offs_(mechanism, synthesis, rejected) {}
 
   BodyPlan plan() {
     BodyPlan plan;
@@ -66,7 +68,7 @@ class Planner {
     roof_pockets(plan.layout);
     if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
-    const std::vector<Condition> of_tails = place_tails(plan, mechanism_);
+    const std::vector<Condition> of_tails = place_tails(plan, mechanism_, rejected_);
     plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
     return plan;
   }
@@ -153,6 +155,7 @@ class Planner {
   double d_;
   BodyLayout base_;
   const FlangeRims& rims_;
+  const std::vector<Rejection>& rejected_;
   TieOffPlanner tie_offs_;
 };
 
@@ -168,9 +171,9 @@ bool BodyPlan::possible() const {
   return std::all_of(conditions.begin(), conditions.end(), [](const Condition& condition) { return condition.ok; });
 }
 
-BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<Rejection>& rejected) {
   const FlangeRims rims = rims_of(mechanism, synthesis);
-  const auto plan_in = [&](Parts parts) { return Planner(mechanism, synthesis, rims, parts).plan(); };
+  const auto plan_in = [&](Parts parts) { return Planner(mechanism, synthesis, rims, parts, rejected).plan(); };
   if (mechanism.print.parts != Parts::automatic) return plan_in(mechanism.print.parts);
   if (axial_layout(mechanism, rims, Parts::one).middle_cone <= k_highest_cone) return plan_in(Parts::one);
   BodyPlan two = plan_in(Parts::two);

@@ -21,6 +21,8 @@ struct BodyPlan {
   bool possible() const;
 };
 
-BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis);
+/// `rejected`: what is not to be planned again.
+BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                   const std::vector<Rejection>& rejected = {});
 
 }  // namespace fusee
