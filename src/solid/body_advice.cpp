@@ -61,8 +61,8 @@ bool body_possible(const Mechanism& mechanism) {
 }
 
 std::vector<Change> body_advice(const Mechanism& mechanism) {
-  // What is only not printable says itself what helps.
-  if (body_possible(mechanism)) return {};
+  // What only does not print says what helps; it was tried.
+  if (body_possible(mechanism)) return {{"print.supports", 0, 1, "", "print.supports = true"}};
   const std::vector<std::string> keys = written_keys(mechanism);
   const auto possible = [&keys](const Mechanism& changed) {
     return written_keys(changed).size() == keys.size() && body_possible(changed);

@@ -321,7 +321,7 @@ Pulley refused(Pulley pulley, const Mechanism& mechanism, const SynthesisResult&
   condition.unit = "1";
   condition.message =
       fmt::format("{} has no form that prints without supports: at {} a layer would stand out too far, wherever its tie-offs lie{}",
-                  mechanism.name, place_of(places.front()), helps ? "; print.supports = true makes it for a printer that supports it" : "");
+                  mechanism.name, place_of(places.front()), helps ? "; print.supports = true makes it with supports" : "");
   pulley.conditions.push_back(std::move(condition));
   pulley.status = PulleyStatus::impossible;
   return pulley;
