@@ -38,8 +38,9 @@ Suspect suspect_for(const Vec3& place, const BodyPlan& plan) {
     const Rejection itself{side, anchor.wound_end, anchor.wrap(), false};
     for (const Bar& bar : anchor.bars(layout)) nearest.look(gap(at, bar), itself);
     if (anchor.tail) {
-      nearest.look(gap(at, {anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->width}) - anchor.pocket_radius(layout) * 0.1,
-                   {side, anchor.wound_end, anchor.wrap(), true});
+      nearest.look(
+          gap(at, {anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->width}) - anchor.pocket_radius(layout) * 0.1,
+          {side, anchor.wound_end, anchor.wrap(), true});
     }
   }
   return nearest;
@@ -47,7 +48,8 @@ Suspect suspect_for(const Vec3& place, const BodyPlan& plan) {
 
 }  // namespace
 
-std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout, double overhang) {
+std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout,
+                                     double overhang) {
   std::vector<Vec3> places = ledges_in_layers(lying, overhang);
   const std::vector<Vec3> islands = find_islands(lying, PrintLimits{}.first_layer);
   places.insert(places.end(), islands.begin(), islands.end());

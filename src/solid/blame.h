@@ -10,8 +10,8 @@
 
 namespace fusee {
 
-/// Places of a part that would need a support as it lies: layers that stand out too far, and what begins in mid-air; where
-/// they are in the whole, without the mesh's scale.
+/// Places of a part that would need a support as it lies: layers that stand out too far, and what begins in mid-air;
+/// where they are in the whole, without the mesh's scale.
 std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout, double overhang);
 
 /// The tie-off, or its tail's slot, that is nearest to each place; what is too far from all is nobody's.

@@ -12,7 +12,8 @@ namespace fusee {
 namespace {
 
 constexpr double k_layer = 0.2;
-// PrusaSlicer 2.5 takes "below 45°" as "below 46°" (measured on cones and wedges); a little more, so that no rounding decides.
+// PrusaSlicer 2.5 takes "below 45°" as "below 46°" (measured on cones and wedges); a little more, so that no rounding
+// decides.
 constexpr double k_threshold = radians(1.3);
 // Outlines are looked at in steps of this.
 constexpr double k_stride = 0.02;
@@ -51,7 +52,8 @@ class WidenedLayer {
         const Vec2 after = (loop[(i + 1) % loop.size()] - loop[i]).normalized();
         if (cross(before, after) <= 0) continue;
         const Vec2 bisector = (before - after).normalized();
-        const double furthest = std::max({-away.dot(turned_left(before)), -away.dot(turned_left(after)), away.dot(bisector)});
+        const double furthest =
+            std::max({-away.dot(turned_left(before)), -away.dot(turned_left(after)), away.dot(bisector)});
         if (furthest <= reach_ && away.dot(before) >= 0 && away.dot(after) <= 0) return true;
       }
     }

@@ -1,4 +1,7 @@
-// Layers as a slicer takes them, on parts whose every layer is known; and what is done about a place that does not print.
+// Layers as a slicer takes them, on parts whose every layer is known; and what is done about a place that does not
+// print.
+#include "solid/layers.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +10,6 @@
 #include "fusee/base/units.h"
 #include "solid/blame.h"
 #include "solid/broken.h"
-#include "solid/layers.h"
 #include "solid/plan.h"
 #include "support/shapes.h"
 
