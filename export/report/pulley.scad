@@ -1,5 +1,5 @@
 // ---- printing: what looks down is made steep where nothing may hang ----
-slope = supports ? 0 : overhang_deg + 1.5;  // slicers take up to a degree more for too flat
+slope = supports ? 0 : overhang_deg + 2.5;  // slicers take up to a degree more for too flat
 function rise(width) = width * tan(slope > 0 ? slope : 45);
 // of a ceiling or a cone, which may be flat where supports hold it
 function roof(width) = slope > 0 ? rise(width) : 0;

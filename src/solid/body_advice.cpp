@@ -46,6 +46,11 @@ const std::vector<Words>& words_of_screws() {
                                       {"clamp_screw", "print.parts", {"two"}}};
   return all;
 }
+/// Where every condition holds, what was cut does not print as it lies.
+const std::vector<Words>& words_of_printing() {
+  static const std::vector<Words> all{{"", "print.parts", {"two", "one"}}, {"", "print.supports", {"true"}}};
+  return all;
+}
 
 class BodyAdviser {
  public:
@@ -54,6 +59,10 @@ class BodyAdviser {
   Advice all() const {
     Advice advice;
     const std::vector<Condition> failed = judge_.obstacles(mechanism_);
+    if (failed.empty()) {
+      for (const Words& words : words_of_printing()) add_word(advice.alone, words);
+      return advice;
+    }
     for (const Words& words : words_of_screws()) {
       const auto is_about = [&words](const Condition& condition) { return condition.name.starts_with(words.condition); };
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
@@ -82,7 +91,8 @@ class BodyAdviser {
     for (auto word = written == words.words.end() ? words.words.begin() : written + 1; word != words.words.end(); ++word) {
       field.set_text(changed, *word);
       if (*word == from || !helps(changed)) continue;
-      changes.push_back({words.key, 0, 0, {}, fmt::format("{} = \"{}\"", words.key, *word), from, std::string(*word)});
+      const char* quote = field.kind == FieldKind::boolean ? "" : "\"";
+      changes.push_back({words.key, 0, 0, {}, fmt::format("{} = {}{}{}", words.key, quote, *word, quote), from, std::string(*word)});
       return;
     }
   }
@@ -103,7 +113,7 @@ class BodyAdviser {
 }  // namespace
 
 std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  return failed_of(plan_body(mechanism, synthesis, WrapChoice::nearest).conditions);
+  return failed_of(plan_body(mechanism, synthesis, {WrapChoice::nearest}).conditions);
 }
 
 std::vector<Condition> obstacles(const Mechanism& mechanism) {

@@ -42,13 +42,14 @@ FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& synthesis)
 class Planner {
  public:
   Planner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims, const BodyLayout& base,
-          WrapChoice wrap)
+          const TieOffWishes& wishes)
       : mechanism_(mechanism),
         synthesis_(synthesis),
         d_(mechanism.tendon.diameter),
         base_(base),
         rims_(rims),
-        tie_offs_(mechanism, synthesis, wrap) {}
+        wishes_(wishes),
+        tie_offs_(mechanism, synthesis, wishes) {}
 
   BodyPlan plan() {
     BodyPlan plan;
@@ -63,7 +64,7 @@ class Planner {
     roof_pockets(plan.layout);
     if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
-    const std::vector<Condition> of_tails = place_tails(plan, mechanism_);
+    const std::vector<Condition> of_tails = place_tails(plan, mechanism_, wishes_.rejected);
     plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
     return plan;
   }
@@ -150,6 +151,7 @@ class Planner {
   double d_;
   const BodyLayout& base_;
   const FlangeRims& rims_;
+  const TieOffWishes& wishes_;
   TieOffPlanner tie_offs_;
 };
 
@@ -165,12 +167,13 @@ bool BodyPlan::possible() const {
   return std::all_of(conditions.begin(), conditions.end(), [](const Condition& condition) { return condition.ok; });
 }
 
-BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, WrapChoice wrap) {
+BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes) {
   const FlangeRims rims = rims_of(mechanism, synthesis);
+  const TieOffWishes nearest_wishes{WrapChoice::nearest, wishes.rejected};
   const auto plan_on = [&](const BodyLayout& base) {
-    BodyPlan plan = Planner(mechanism, synthesis, rims, base, wrap).plan();
-    if (plan.possible() || wrap == WrapChoice::nearest) return plan;
-    BodyPlan nearest = Planner(mechanism, synthesis, rims, base, WrapChoice::nearest).plan();
+    BodyPlan plan = Planner(mechanism, synthesis, rims, base, wishes).plan();
+    if (plan.possible() || wishes.wrap == WrapChoice::nearest) return plan;
+    BodyPlan nearest = Planner(mechanism, synthesis, rims, base, nearest_wishes).plan();
     if (!nearest.possible()) return plan;
     nearest.layout.notes.push_back("the tie-offs have no more wrap than they need: further round, something else had no place");
     return nearest;

@@ -22,8 +22,6 @@ struct BodyPlan {
 };
 
 /// With tie-offs as far round as there is room for, or where something else then has no place, near the active arc.
-/// `wrap` nearest: these alone, which say as well whether there is any plan, in a tenth of the time.
-BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                   WrapChoice wrap = WrapChoice::furthest);
+BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes = {});
 
 }  // namespace fusee

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fusee/base/diagnostics.h"
+#include "solid/blame.h"
 #include "solid/body.h"
 #include "solid/boolean.h"
 #include "solid/dowels.h"
@@ -15,6 +16,7 @@
 #include "solid/gate.h"
 #include "solid/marks.h"
 #include "solid/mouths.h"
+#include "solid/place.h"
 #include "solid/plan.h"
 #include "solid/rings.h"
 #include "solid/self_intersection.h"
@@ -26,6 +28,8 @@ namespace {
 
 // A cut whose rounding to float left a fault is tried again with other facets on the tools.
 constexpr int k_variants = 8;
+// How often tie-offs that do not print are planned anew.
+constexpr int k_rounds = 8;
 // Room between two parts on the printer.
 constexpr double k_between_parts = 5.0;
 
@@ -265,32 +269,8 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
   return anchor;
 }
 
-}  // namespace
-
-Polygon TailSlot::outline() const {
-  const Vec2 across = 0.5 * width * turned_left((to - from).normalized());
-  return {from - across, to - across, to + across, from + across};
-}
-
-double pocket_radius(const Anchor& anchor, const BodyLayout& layout) {
-  return anchor.seat ? anchor.seat->radius : layout.pocket_radius;
-}
-
-std::string Pulley::brief() const {
-  if (made()) {
-    return fmt::format("a body of {} facets, {:.1f} cm³, {} tie-offs", mesh.triangles.size(), expected_volume / 1000.0,
-                       anchors.size());
-  }
-  std::string text = "no such body can be made";
-  for (const Condition& condition : conditions) {
-    if (!condition.ok) text += "; " + condition.message;
-  }
-  return text;
-}
-
-Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  demand(synthesis.made(), "a body of an infeasible profile");
-  BodyPlan plan = plan_body(mechanism, synthesis);
+// Whether it prints is another question.
+Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan) {
   Pulley pulley;
   pulley.conditions = plan.conditions;
   pulley.layout = plan.layout;
@@ -323,6 +303,78 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis)
         {k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume, pieces[k].euler});
   pulley.status = PulleyStatus::made;
   return pulley;
+}
+
+std::vector<Vec3> unprintable_places(const Pulley& pulley, double overhang) {
+  if (pulley.parts.empty()) return unprintable_places(pulley.mesh, Piece::whole, pulley.layout, overhang);
+  std::vector<Vec3> places;
+  for (const PrintedPart& part : pulley.parts) {
+    const Piece piece = part.side == Side::left ? Piece::p1 : Piece::p2;
+    const std::vector<Vec3> of_part = unprintable_places(part.mesh, piece, pulley.layout, overhang);
+    places.insert(places.end(), of_part.begin(), of_part.end());
+  }
+  return places;
+}
+
+std::vector<Rejection> news(std::vector<Rejection> blamed, const std::vector<Rejection>& known) {
+  std::erase_if(blamed, [&known](const Rejection& rejection) {
+    return std::find(known.begin(), known.end(), rejection) != known.end();
+  });
+  return blamed;
+}
+
+// No way was found to print it without supports.
+Pulley refused(Pulley pulley, const Mechanism& mechanism, const std::vector<Vec3>& places) {
+  Condition condition;
+  condition.name = "prints";
+  condition.ok = false;
+  condition.value = static_cast<double>(places.size());
+  condition.limit = 0;
+  condition.unit = "1";
+  condition.message =
+      fmt::format("{} has no form that prints without supports: at {} a layer would stand out too far, wherever its tie-offs lie",
+                  mechanism.name, place_of(places.front()));
+  pulley.conditions.push_back(std::move(condition));
+  pulley.status = PulleyStatus::impossible;
+  return pulley;
+}
+
+}  // namespace
+
+Polygon TailSlot::outline() const {
+  const Vec2 across = 0.5 * width * turned_left((to - from).normalized());
+  return {from - across, to - across, to + across, from + across};
+}
+
+double pocket_radius(const Anchor& anchor, const BodyLayout& layout) {
+  return anchor.seat ? anchor.seat->radius : layout.pocket_radius;
+}
+
+std::string Pulley::brief() const {
+  if (made()) {
+    return fmt::format("a body of {} facets, {:.1f} cm³, {} tie-offs", mesh.triangles.size(), expected_volume / 1000.0,
+                       anchors.size());
+  }
+  std::string text = "no such body can be made";
+  for (const Condition& condition : conditions) {
+    if (!condition.ok) text += "; " + condition.message;
+  }
+  return text;
+}
+
+Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+  demand(synthesis.made(), "a body of an infeasible profile");
+  TieOffWishes wishes;
+  for (int round = 0;; ++round) {
+    const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
+    Pulley pulley = pulley_of(mechanism, synthesis, plan);
+    if (!pulley.made() || mechanism.print.supports) return pulley;
+    const std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang);
+    if (places.empty()) return pulley;
+    const std::vector<Rejection> blamed = news(blamed_for(places, plan), wishes.rejected);
+    if (blamed.empty() || round == k_rounds) return refused(std::move(pulley), mechanism, places);
+    wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
+  }
 }
 
 TriangleMesh plate_of(const Pulley& pulley) {

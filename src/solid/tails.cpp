@@ -159,7 +159,7 @@ Condition clamp_condition(const std::string& screw, Side side, bool placed) {
 
 }  // namespace
 
-std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism) {
+std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism, const std::vector<Rejection>& rejected) {
   const std::string& screw = mechanism.body.clamp_screw;
   const bool clamps = find_screw(screw) != nullptr;
   std::vector<Condition> conditions;
@@ -167,7 +167,8 @@ std::vector<Condition> place_tails(BodyPlan& plan, const Mechanism& mechanism) {
   const TailPlacer placer(plan, mechanism);
   for (PlannedAnchor& anchor : plan.anchors) {
     if (!anchor.wound_end) continue;
-    anchor.tail = placer.place(anchor);
+    if (std::find(rejected.begin(), rejected.end(), Rejection{anchor.side, true, anchor.wrap(), true}) == rejected.end())
+      anchor.tail = placer.place(anchor);
     if (clamps) conditions.push_back(clamp_condition(screw, anchor.side, anchor.tail.has_value()));
     if (!anchor.tail && !clamps) {
       plan.layout.notes.push_back(

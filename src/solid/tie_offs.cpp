@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fusee/base/units.h"
 #include "solid/face_holes.h"
@@ -21,6 +22,8 @@ constexpr double k_hub_gap = 0.4;
 
 // A wound tie-off is tried at steps of this, from the far end of the closing arc.
 constexpr double k_wrap_step = radians(5);
+// How far round one that did not print is kept away from.
+constexpr double k_rejected_around = radians(9);
 
 // Near its end of the arc where there is room; a wound one anywhere else.
 std::optional<AnchorPath> anchor_at(const AnchorSite& site, bool wound_end, double wanted, const LapRange& laps) {
@@ -187,23 +190,33 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
   }
 }
 
+// What did not print at one place does not print right beside it either; a spare one has but one place.
+bool TieOffPlanner::is_rejected(Side side, bool wound_end, double wrap) const {
+  return std::any_of(wishes_.rejected.begin(), wishes_.rejected.end(), [&](const Rejection& rejection) {
+    return !rejection.tail && rejection.side == side && rejection.wound_end == wound_end &&
+           (!wound_end || std::abs(rejection.wrap - wrap) < k_rejected_around);
+  });
+}
+
 // Wrap takes e^(−μφ) off what the knot bears, so the tie-off goes as far round the closing arc as leaves room for the
 // spare one, but not into the hub, where the set screw is.
 TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outline& outline,
                                            const TieOff& first) const {
   const TieOffPair nearest{first, spare_beside(layout, outline, first)};
-  if (mechanism_.body.wrap > 0 || wrap_ == WrapChoice::nearest) return nearest;
+  if (mechanism_.body.wrap > 0 || wishes_.wrap == WrapChoice::nearest) return nearest;
   const double radius = pocket_radius_of(first, layout);
   for (double wrap = k_two_pi; wrap > wrap_of(first); wrap -= k_wrap_step) {
     LapRange there = lap_range(outline, true, wrap);
     there.most = there.least;
     const auto wound = tie_off(site(layout, outline), layout, true, radius, there);
     if (!wound || is_channel(*wound) != is_channel(first) || room_of(*wound) < radius) continue;
+    if (is_rejected(outline.side, true, wrap_of(*wound))) continue;
     const TieOffPair further{*wound, spare_beside(layout, outline, *wound)};
     const bool in_the_way =
         outline.side == Side::right &&
         (cuts_into_hub(layout, further) > cuts_into_hub(layout, nearest) || blocks_set_screw(layout, further));
-    if (further.spare && !in_the_way) return further;
+    const bool complete = further.spare || is_rejected(outline.side, false, 0.0);
+    if (complete && !in_the_way) return further;
   }
   return nearest;
 }
@@ -211,6 +224,7 @@ TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outli
 // At the other end of the arc, its mouth beyond all that the tendon of the first lies on.
 std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, const Outline& outline,
                                                   const TieOff& first) const {
+  if (is_rejected(outline.side, false, 0.0)) return std::nullopt;
   const double radius = pocket_radius_of(first, layout);
   AnchorSite beside = site(layout, outline);
   const std::vector<Bar> bars = bars_of(first, layout);

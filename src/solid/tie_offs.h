@@ -31,6 +31,16 @@ struct PlannedAnchor {
   std::vector<Bar> bars(const BodyLayout& layout) const;
 };
 
+/// A tie-off, or the slot for its tail alone, that did not print where it was: it is not planned there again.
+struct Rejection {
+  Side side = Side::left;
+  bool wound_end = true;
+  double wrap = 0;
+  bool tail = false;
+
+  bool operator==(const Rejection&) const = default;
+};
+
 /// The tie-offs that carry load.
 struct WoundTieOffs {
   std::optional<TieOff> p1, p2;
@@ -59,11 +69,17 @@ void choose_channel(BodyLayout& layout, const Mechanism& mechanism);
 /// Where on the closing arc a tie-off that carries load is put when the file does not say.
 enum class WrapChoice { furthest, nearest };
 
+/// How tie-offs are to be planned. The nearest alone say as well whether there is any plan, in a tenth of the time.
+struct TieOffWishes {
+  WrapChoice wrap = WrapChoice::furthest;
+  std::vector<Rejection> rejected = {};  ///< what is not to be planned again
+};
+
 /// Refers to what it is made from.
 class TieOffPlanner {
  public:
-  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, WrapChoice wrap)
-      : mechanism_(mechanism), synthesis_(synthesis), wrap_(wrap) {}
+  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes)
+      : mechanism_(mechanism), synthesis_(synthesis), wishes_(wishes) {}
 
   /// From now on a hole to the face is taken where a channel and its pocket have no room.
   void allow_face_holes() { face_holes_ = true; }
@@ -87,12 +103,13 @@ class TieOffPlanner {
   std::optional<TieOff> tie_off(const AnchorSite& site, const BodyLayout& layout, bool wound_end, double wanted,
                                 const LapRange& laps) const;
   void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline, const TieOff& first) const;
+  bool is_rejected(Side side, bool wound_end, double wrap) const;
   TieOffPair wrapped_furthest(const BodyLayout& layout, const Outline& outline, const TieOff& first) const;
   std::optional<TieOff> spare_beside(const BodyLayout& layout, const Outline& outline, const TieOff& first) const;
 
   const Mechanism& mechanism_;
   const SynthesisResult& synthesis_;
-  WrapChoice wrap_;
+  const TieOffWishes& wishes_;
   bool face_holes_ = false;
 };
 

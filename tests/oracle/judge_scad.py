@@ -119,7 +119,7 @@ def part_faults(folder, scratch):
 
 
 # Of a pulley in two parts: what is broken, and what must be seen to be wrong.
-BROKEN = (("a roof of another slope", "slope = supports ? 0 : overhang_deg + 1.5", "slope = overhang_deg - 10", "assembled"),
+BROKEN = (("a roof of another slope", "slope = supports ? 0 : overhang_deg + 2.5", "slope = overhang_deg - 10", "assembled"),
           ("P1 not turned over", "rotate([piece == 1 ? 180 : 0, 0, 0])", "", "P1"),
           ("a part without its pockets", "if (knot_pocket > 0) pocket(t)", "", "P2"),
           ("no place for P2 to lie", "near_side(p2_rings) + 5", "near_side(p2_rings)", "print"))

@@ -61,7 +61,7 @@ TEST(Body, RoundPulleyHasTheVolumeOfItsFrustums) {
   const SynthesisResult shape = pulley_of(circle(20), circle(20), n);
   const BodyLayout layout = layout_of(mechanism, shape, Parts::one, 8);
   const RingStack stack = body_stack(shape.p1, shape.p2, 1.0, Flange::follow, layout);
-  const double slope = std::tan(radians(46.5)), t = 1.2, foot = 0.4, foot_rise = foot * slope;
+  const double slope = std::tan(radians(47.5)), t = 1.2, foot = 0.4, foot_rise = foot * slope;
   const double lip = 19.5 + layout.groove_depth;
   // Round both circles by the smooth maximum of their support functions, with a margin.
   const double middle = lip + 0.5 * std::log(2.0) + 0.2;
@@ -88,7 +88,7 @@ TEST(Body, RoundPulleyInTwoPartsHasTheVolumeOfItsFrustums) {
   mechanism.body.flange = Flange::round;
   const SynthesisResult shape = pulley_of(circle(20), circle(18), n);
   const BodyLayout layout = layout_of(mechanism, shape, Parts::two);
-  const double foot = 0.4, foot_rise = foot * std::tan(radians(46.5));
+  const double foot = 0.4, foot_rise = foot * std::tan(radians(47.5));
   const double lip1 = 19.5 + layout.groove_depth, lip2 = 17.5 + layout.groove_depth;
   const double rim1 = lip1 + 0.2, rim2 = lip2 + 0.2, middle = lip1 + 0.2;
   const double bore = signed_area(layout.bore.outline);

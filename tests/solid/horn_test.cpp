@@ -173,7 +173,7 @@ void expect_holes(const Made& made, const Horn& horn) {
     const double hole = horn.centre_hole + k_compensation, ceiling = sinks + 0.2;
     const Loop wide = bore_of(sliced(made.pulley.mesh, sinks + 0.1));
     EXPECT_GT(wide.reach, hole + 0.2);
-    const double cone = 0.5 * (wide.reach - hole) * std::tan(radians(46.5));
+    const double cone = 0.5 * (wide.reach - hole) * std::tan(radians(47.5));
     EXPECT_NEAR(bore_of(sliced(made.pulley.mesh, ceiling + cone + 0.05)).room, hole, 1e-3);
     for (const double share : {0.25, 0.5}) {
       const double narrowed = 2.0 * share * cone / std::tan(radians(45));

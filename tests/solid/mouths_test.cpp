@@ -168,7 +168,7 @@ TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
 // The ceiling rises from the inner edge to the outer one by what a roof needs over that width.
 TEST(Mouths, CeilingsAreNoFlatterThanTheirRise) {
   for (const Case& one : cases()) {
-    for (const double slope : {30.0, 46.5, 61.5}) {
+    for (const double slope : {30.0, 47.5, 62.5}) {
       const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, one.beyond);
       const auto at = [&](std::size_t k, bool outer) {
         const Vec2 across = edges.outer[k] - edges.inner[k], place = outer ? edges.outer[k] : edges.inner[k];

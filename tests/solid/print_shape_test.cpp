@@ -27,7 +27,7 @@ using ::testing::Not;
 // Heights are floats of scaled numbers.
 constexpr double k_flat = 1e-5;
 // Roofs are drawn steeper than asked for by this (heights.cpp); what is measured may be off by a float's grain.
-constexpr double k_margin = radians(1.5);
+constexpr double k_margin = radians(2.5);
 constexpr double k_grain = radians(0.05);
 // The first layer, and ceilings of marks 0.4 mm deep, which are narrow bridges.
 constexpr double k_above_bed = 0.41;

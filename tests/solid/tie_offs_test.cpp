@@ -81,7 +81,13 @@ TEST(TieOffs, SmallPulleysAreMade) {
         mechanism.body.min_wall = 0;
         mechanism.body.bore_diameter = radius < 4 ? std::min(bore, 2.0) : bore;
         const SynthesisResult shape = pulley_of(circle(radius), circle(1.05 * radius, {0.1, 0}));
-        const Pulley pulley = make_pulley(mechanism, shape);
+        Pulley pulley = make_pulley(mechanism, shape);
+        // A hole to the face of so small a pulley may need a support: it is said, and with one it is possible.
+        if (!pulley.made()) {
+          EXPECT_EQ(pulley.conditions.back().name, "prints") << radius << " " << diameter << " " << bore;
+          mechanism.print.supports = true;
+          pulley = make_pulley(mechanism, shape);
+        }
         ASSERT_TRUE(pulley.made()) << radius << " " << diameter << " " << bore << ": " << pulley.brief();
         EXPECT_EQ(failures(pulley, mechanism, shape), "") << radius << " " << diameter << " " << bore;
         for (const Anchor& anchor : pulley.anchors) through_the_face += anchor.seat.has_value();
@@ -97,6 +103,7 @@ TEST(TieOffs, AHoleToTheFaceStandsInTheGrooveAndWithinTheFlange) {
   mechanism.tendon.diameter = 0.5;
   mechanism.body.min_wall = 0.5;
   mechanism.body.bore_diameter = 3;
+  mechanism.print.supports = true;
   const SynthesisResult shape = pulley_of(circle(3.2), circle(3.4));
   const Pulley pulley = make_pulley(mechanism, shape);
   ASSERT_TRUE(pulley.made()) << pulley.brief();

@@ -1,0 +1,75 @@
+#include "solid/blame.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "fusee/solid/print.h"
+#include "solid/hanging.h"
+#include "solid/layers.h"
+#include "solid/plane_distance.h"
+
+namespace fusee {
+namespace {
+
+// A mouth opens by about this many groove depths and channel widths beyond what its bars cover.
+constexpr double k_mouth_depths = 2.0;
+constexpr double k_mouth_widths = 2.0;
+
+struct Suspect {
+  double gap = std::numeric_limits<double>::infinity();
+  std::optional<Rejection> who;
+
+  void look(double candidate, const Rejection& rejection) {
+    if (candidate >= gap) return;
+    gap = candidate;
+    who = rejection;
+  }
+};
+
+// P1's tie-offs lie below the plane in which a pulley is parted, P2's above.
+Suspect suspect_for(const Vec3& place, const BodyPlan& plan) {
+  const BodyLayout& layout = plan.layout;
+  const Side side = place.z() < layout.z_mate ? Side::left : Side::right;
+  const Bar at{place.head<2>(), place.head<2>(), 0.0};
+  Suspect nearest;
+  for (const PlannedAnchor& anchor : plan.anchors) {
+    if (anchor.side != side) continue;
+    const Rejection itself{side, anchor.wound_end, anchor.wrap(), false};
+    for (const Bar& bar : anchor.bars(layout)) nearest.look(gap(at, bar), itself);
+    if (anchor.tail) {
+      nearest.look(
+          gap(at, {anchor.tail->from, anchor.tail->to, 0.5 * anchor.tail->width}) - anchor.pocket_radius(layout) * 0.1,
+          {side, anchor.wound_end, anchor.wrap(), true});
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout,
+                                     double overhang) {
+  std::vector<Vec3> places = ledges_in_layers(lying, overhang);
+  const std::vector<Vec3> islands = find_islands(lying, PrintLimits{}.first_layer);
+  places.insert(places.end(), islands.begin(), islands.end());
+  for (Vec3& place : places) {
+    if (piece == Piece::p1) place.tail<2>() = -place.tail<2>();
+    place /= layout.scale;
+    if (piece != Piece::whole) place.z() += layout.z_mate;
+  }
+  return places;
+}
+
+std::vector<Rejection> blamed_for(const std::vector<Vec3>& places, const BodyPlan& plan) {
+  const double reach = k_mouth_depths * plan.layout.groove_depth + k_mouth_widths * plan.layout.channel_width;
+  std::vector<Rejection> blamed;
+  for (const Vec3& place : places) {
+    const Suspect suspect = suspect_for(place, plan);
+    if (!suspect.who || suspect.gap > reach) continue;
+    if (std::find(blamed.begin(), blamed.end(), *suspect.who) == blamed.end()) blamed.push_back(*suspect.who);
+  }
+  return blamed;
+}
+
+}  // namespace fusee

@@ -1,0 +1,91 @@
+// Layers as a slicer takes them, on parts whose every layer is known; and what is done about a place that does not
+// print.
+#include "solid/layers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fusee/base/units.h"
+#include "solid/blame.h"
+#include "solid/broken.h"
+#include "solid/plan.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using testing::circle;
+using testing::plain_mechanism;
+using testing::pulley_of;
+
+// Regular loops of {inradius, z}, from the bottom up.
+TriangleMesh tower(const std::vector<std::pair<double, double>>& profile, std::uint32_t n) {
+  TriangleMesh mesh;
+  for (const auto& [inner, z] : profile) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Vec2 at = inner / std::cos(k_pi / n) * unit(k_two_pi * i / n);
+      mesh.vertices.emplace_back(at.x(), at.y(), z);
+    }
+  }
+  const auto last = static_cast<std::uint32_t>(profile.size() - 1) * n;
+  for (std::uint32_t i = 1; i + 1 < n; ++i) {
+    mesh.triangles.push_back({0, i + 1, i});
+    mesh.triangles.push_back({last, last + i, last + i + 1});
+  }
+  for (std::uint32_t first = 0; first < last; first += n) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = first + i, b = first + (i + 1) % n;
+      mesh.triangles.push_back({a, b, b + n});
+      mesh.triangles.push_back({a, b + n, a + n});
+    }
+  }
+  return mesh;
+}
+
+// Grows by `by` a layer of 0.2 mm.
+std::vector<std::pair<double, double>> growing(double by) { return {{5, 0}, {5, 2}, {5 + 20 * by, 6}}; }
+
+std::size_t ledges(const TriangleMesh& mesh) { return ledges_in_layers(mesh, radians(45)).size(); }
+
+TEST(Layers, ARoundConeIsHeldAsLongAsItsStepIs) {
+  for (const double by : {0.0, 0.1, 0.185, 0.19}) EXPECT_EQ(ledges(tower(growing(by), 256)), 0u) << by;
+  // Every layer of the cone stands out.
+  for (const double by : {0.193, 0.2, 0.5}) EXPECT_GE(ledges(tower(growing(by), 256)), 19u) << by;
+}
+
+// Its corner goes by √2 of its sides' step, and a squared corner of the layer below reaches as far as its sides do.
+TEST(Layers, ASquareCornerNeedsASteeperCone) {
+  const double reach = 0.2 / std::tan(radians(46.3));
+  EXPECT_EQ(ledges(tower(growing(0.99 * reach / std::numbers::sqrt2), 4)), 0u);
+  EXPECT_GE(ledges(tower(growing(1.01 * reach / std::numbers::sqrt2), 4)), 19u);
+}
+
+TEST(Layers, AMushroomStandsOutOnce) {
+  EXPECT_EQ(ledges(tower({{4, 0}, {4, 5}, {9, 5}, {9, 7}}, 64)), 1u);
+  EXPECT_EQ(ledges(tower({{4, 0}, {4, 5}, {4.15, 5}, {4.15, 7}}, 64)), 0u);
+}
+
+TEST(Blame, IsTheNearestTieOffsAndItIsNotPlannedThereAgain) {
+  const Mechanism mechanism = plain_mechanism();
+  const SynthesisResult shape = pulley_of(circle(20), circle(18));
+  const BodyPlan plan = plan_body(mechanism, shape);
+  const Vec3 far(0, 0, plan.layout.z_p1);
+  EXPECT_TRUE(blamed_for({far}, plan).empty());
+  for (const PlannedAnchor& anchor : plan.anchors) {
+    const double z = anchor.side == Side::left ? plan.layout.z_p1 : plan.layout.z_p2;
+    const Vec3 place(anchor.start().x(), anchor.start().y(), z);
+    const std::vector<Rejection> blamed = blamed_for({place, place}, plan);
+    ASSERT_EQ(blamed.size(), 1u);
+    EXPECT_EQ(blamed.front(), (Rejection{anchor.side, anchor.wound_end, anchor.wrap(), false}));
+    for (const PlannedAnchor& other : plan_body(mechanism, shape, {WrapChoice::furthest, blamed}).anchors) {
+      if (other.side != anchor.side || other.wound_end != anchor.wound_end) continue;
+      EXPECT_TRUE(anchor.wound_end);
+      EXPECT_GT(std::abs(other.wrap() - anchor.wrap()), radians(4));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fusee
