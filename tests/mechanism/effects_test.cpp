@@ -26,6 +26,11 @@ TEST_P(EveryKind, HasNumbersThatAreApart) {
     for (const EffectParameter& parameter : effect.parameters) {
       EXPECT_LT(parameter.least, parameter.most) << effect.name << " " << parameter.name;
       EXPECT_GT(parameter.step, 0) << effect.name << " " << parameter.name;
+      EXPECT_EQ(parameter.prior > 0, !parameter.searched) << effect.name << " " << parameter.name;
+      if (!parameter.searched && !parameter.prior_at_load) {
+        EXPECT_GT(parameter.prior, parameter.step) << effect.name << " " << parameter.name;
+        EXPECT_LE(parameter.prior, parameter.most) << effect.name << " " << parameter.name;
+      }
       Imperfections joint;
       set_value(joint, parameter, 0.25);
       EXPECT_EQ(value_of(joint, parameter), 0.25);

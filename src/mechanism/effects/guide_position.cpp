@@ -36,6 +36,7 @@ Effect guide_position(JointKind) {
        .least = -20,
        .most = 20,
        .step = 1e-2,
+       .prior = 1,  // holes drilled or printed by hand
        .shown = shown::as_is,
        .key = key::plain("guide_outward_mm", "mm", -10000, 10000, "added to guides.EB_mm and ED_mm"),
        .again = WhenFoundAgain::added,
@@ -47,6 +48,7 @@ Effect guide_position(JointKind) {
        .least = -20,
        .most = 20,
        .step = 1e-2,
+       .prior = 1,  // holes drilled or printed by hand
        .shown = shown::as_is,
        .key = key::plain("guide_down_mm", "mm", -10000, 10000, "added to guides.OE_mm, taken from pulley.EF_mm"),
        .again = WhenFoundAgain::added,

@@ -16,6 +16,7 @@ Effect sensor_lag(JointKind) {
                         .least = 0,
                         .most = 2,
                         .step = 2e-3,
+                        .prior = 0.05,  // a control period to a filtered sensor on a bus: 1 to 100 ms
                         .shown = shown::in_ms,
                         .key = key::plain("lag_s", "s", 0, 1000, "by which the joint sensor is late")}};
   effect.starts = {{0.02}, {0.1}, {0.5}};

@@ -24,6 +24,7 @@ Effect slack(JointKind) {
        .least = 0,
        .most = 10,
        .step = 5e-3,
+       .prior = 1,  // a knot that draws tight, a tendon tied by hand
        .shown = shown::as_is,
        .key = key::plain("slack_mm", "mm", 0, 1000, "of both tendons together, beyond what pretension takes up")},
       {.name = "pretension_N",
@@ -31,6 +32,7 @@ Effect slack(JointKind) {
        .least = -1000,
        .most = 1000,
        .step = 0.1,
+       .prior = 5,  // set by feel
        .shown = total,
        .key = key::plain("pretension_N", "N", -100000, 100000, "added to tendon.pretension_N"),
        .again = WhenFoundAgain::added}};
