@@ -293,10 +293,11 @@ double energy_of_spans(const TendonHistory& tendon, double EA) {
          tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 
+/// Above that of home, where the pin gives way already.
 double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial, double per_newton) {
   if (!(per_newton > 0)) return 0;
   const AtPin pin(trial.span.normal, at.path.normal);
-  return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower) - tendon.home_push).squaredNorm();
+  return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
 }
 
 }  // namespace
