@@ -128,7 +128,7 @@ double work_missing(const std::vector<EquilibriumPoint>& points) {
     motor += 0.5 * (points[i].motor_torque + points[i - 1].motor_torque) * (points[i].alpha - points[i - 1].alpha);
     load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
   }
-  return motor - load - points.back().stored - points.back().friction - points.back().shed;
+  return motor - load - points.back().stored - points.back().friction - points.back().groove_friction;
 }
 
 TEST(PinGive, IsASpring) {
