@@ -31,7 +31,7 @@ struct Moment {
   std::array<Vec2, 2> pull{Vec2::Zero(), Vec2::Zero()};  ///< unit, from the link's end towards the pins
 };
 
-/// Two actions of one name are the same function.
+/// A function of a moment with its numbers; equal where name, numbers and function are.
 struct Action {
   std::string name;
   std::vector<double> numbers;

@@ -117,7 +117,7 @@ class Session {
         bench_(joint, hidden),
         drive_(hidden, high_ - low_),
         reading_(hidden.reading),
-        load_cell_(hidden.load_cell) {}
+        load_(hidden.load) {}
 
   Log run(const RunPlan& plan) {
     const Way way = planned_way(plan, motion_, low_, high_);
@@ -140,7 +140,9 @@ class Session {
     at_.theta = bench_.theta();
     at_.theta_speed = bench_.now().theta_speed;
     at_.tension = bench_.now().tension;
-    return bench_.to(drive_.to(alpha, at_), alpha, at_);
+    Conditions pulled = at_;
+    pulled.load += load_(at_);
+    return bench_.to(drive_.to(alpha, at_), alpha, pulled);
   }
   /// In even steps of time and α.
   void go(double alpha, double load, double seconds) {
@@ -210,11 +212,11 @@ class Session {
       if (way[row].reversal || row == 0) zero_walk_ += hidden_.zero_walk * walk.normal();
       const Moment& now = followed.rows[row];
       double theta = shown(late.at(way[row].time - hidden_.lag), now) + zero_walk_;
-      const double load = way[row].load + load_cell_(now);
       if (!way[row].logged) continue;
       theta += noise.next();
       if (sensors_.quantum > 0) theta = sensors_.quantum * std::round(theta / sensors_.quantum);
-      log.push_back({time_ + way[row].time, way[row].alpha, theta, load, temperature_at(time_ + way[row].time)});
+      log.push_back(
+          {time_ + way[row].time, way[row].alpha, theta, way[row].load, temperature_at(time_ + way[row].time)});
     }
     return log;
   }
@@ -226,7 +228,7 @@ class Session {
   Bench bench_;
   Drive drive_;
   Actors reading_;
-  Actors load_cell_;
+  Actors load_;
   Conditions at_;
   double time_ = 0;
   double zero_walk_ = 0;

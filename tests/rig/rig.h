@@ -101,7 +101,7 @@ struct Hidden {
   std::vector<Action> torque = {};                 ///< on the joint, towards +θ, N·mm
   std::vector<Action> dry = {};                    ///< added to the joint's dry friction, N·mm
   std::vector<Action> reading = {};                ///< added to what the joint's sensor shows, rad
-  std::vector<Action> load_cell = {};              ///< added to the load that is logged, N
+  std::vector<Action> load = {};                   ///< pulls beyond the load that is logged, N
 
   bool operator==(const Hidden&) const = default;
 };
