@@ -280,12 +280,13 @@ Spent wind(WoundProfile& wound, const AtAlpha& at) {
 }
 
 /// Takes a trial as what happened.
-Spent settle(TendonHistory& tendon, const AtAlpha& at, const Trial& trial) {
+Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
   const auto head = [EA](double upper, double lower) {
     return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
   };
+  at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
   Spent spent = wind(tendon.wound, at);
   spent.friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;

@@ -86,6 +86,7 @@ double theta_under(const Mechanism& mechanism, double give, double tip_force) {
 /// Nothing slides but over the pins, and there freely.
 Mechanism frictionless(Mechanism mechanism) {
   mechanism.guides.mu = 0;
+  mechanism.pulley.mu = 1e12;
   return mechanism;
 }
 
