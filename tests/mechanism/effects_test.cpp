@@ -26,6 +26,11 @@ TEST_P(EveryKind, HasNumbersThatAreApart) {
     for (const EffectParameter& parameter : effect.parameters) {
       EXPECT_LT(parameter.least, parameter.most) << effect.name << " " << parameter.name;
       EXPECT_GT(parameter.step, 0) << effect.name << " " << parameter.name;
+      EXPECT_EQ(parameter.prior > 0, !parameter.searched) << effect.name << " " << parameter.name;
+      if (!parameter.searched && !parameter.prior_at_load) {
+        EXPECT_GT(parameter.prior, parameter.step) << effect.name << " " << parameter.name;
+        EXPECT_LE(parameter.prior, parameter.most) << effect.name << " " << parameter.name;
+      }
       Imperfections joint;
       set_value(joint, parameter, 0.25);
       EXPECT_EQ(value_of(joint, parameter), 0.25);
@@ -72,14 +77,14 @@ TEST(Identified, HasNoKeyBesideThoseOfEffects) {
 
 TEST(FoundAgain, AddsCompoundsOrTakesTheNewFinding) {
   Imperfections before, found;
-  before.pins.place.radius = 1;
-  found.pins.place.radius = 0.5;
+  before.pins.radius = 1;
+  found.pins.radius = 0.5;
   before.tendon.stretch = 1;
   found.tendon.stretch = 0.5;
   before.shaft.backlash = 0.1;
   found.shaft.backlash = 0.02;
   const Imperfections total = found_again(before, found, JointKind::tendons);
-  EXPECT_EQ(total.pins.place.radius, 1.5);
+  EXPECT_EQ(total.pins.radius, 1.5);
   EXPECT_EQ(total.tendon.stretch, 2);
   EXPECT_EQ(total.shaft.backlash, 0.02);
   const Imperfections rest = beyond_mechanism(total, JointKind::tendons);

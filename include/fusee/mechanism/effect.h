@@ -74,6 +74,10 @@ struct EffectParameter {
   double least = 0;  ///< bounds of the number
   double most = 0;
   double step = 0;  ///< a change of the number that a sensor may just see: the scale of the fit
+  /// How large it is in practice: the standard deviation over joints that people build, in the number's own unit, as
+  /// good as declared in the middle. Positive, but 0 where the number is searched.
+  double prior = 0;
+  bool prior_at_load = false;  ///< of a number per unit of load, whose unit is the log's: what the largest load does
   /// From the number to what is reported; may fall where the number grows.
   double (*shown)(double value, const Mechanism& declared) = nullptr;
   IdentifiedKey key;

@@ -19,6 +19,7 @@ Effect backlash(JointKind) {
        .least = 0,
        .most = 0.5,
        .step = 2e-3,
+       .prior = radians(2.0),  // of hobby servos and printed couplings; 0.3 to 5 degrees are common
        .shown = shown::in_degrees,
        .key = key::in_degrees("backlash_deg", 0, 360,
                               "play of alpha, full width; no pulley takes it out, compensation.csv does")}};

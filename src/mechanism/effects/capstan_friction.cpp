@@ -20,14 +20,17 @@ Effect capstan_friction(JointKind kind) {
   effect.needs = {};
   if (kind == JointKind::ratio) {
     effect.needs = {.load = true};
-    effect.parameters = {{.name = "half_loop_deg_per_load",
-                          .number = [](Imperfections& at) -> double& { return at.ratio_joint.dry_friction; },
-                          .least = 0,
-                          .most = 1e6,
-                          .step = 1e-3,
-                          .shown = shown::in_degrees,
-                          .key = key::in_degrees("dry_friction_deg", -360, 360,
-                                                 "of a joint declared by a ratio: half loop per unit of load")}};
+    effect.parameters = {
+        {.name = "half_loop_deg_per_load",
+         .number = [](Imperfections& at) -> double& { return at.ratio_joint.dry_friction; },
+         .least = 0,
+         .most = 1e6,
+         .step = 1e-3,
+         .prior = radians(2.0),  // at the largest load: a sheathed cable loses some tenths of its stretch
+         .prior_at_load = true,
+         .shown = shown::in_degrees,
+         .key = key::in_degrees("dry_friction_deg", -360, 360,
+                                "of a joint declared by a ratio: half loop per unit of load")}};
     return effect;
   }
   effect.parameters = {{.name = "mu",
@@ -35,6 +38,7 @@ Effect capstan_friction(JointKind kind) {
                         .least = -1,
                         .most = 2,
                         .step = 5e-3,
+                        .prior = 0.15,  // steel or HMPE over metal pins 0.05 to 0.4, declared 0.1 to 0.2
                         .shown = total,
                         .key = key::plain("friction", "", -2, 2, "added to guides.friction"),
                         .again = WhenFoundAgain::added}};

@@ -16,6 +16,7 @@ Effect gravity(JointKind) {
                         .least = -1e6,
                         .most = 1e6,
                         .step = 1,
+                        .prior = 500,  // half a kilogram at 100 mm
                         .shown = shown::as_is,
                         .key = key::plain("gravity_cos_Nmm", "Nmm", -1e+07, 1e+07, "torque against +theta: cos theta"),
                         .again = WhenFoundAgain::added},
@@ -24,6 +25,7 @@ Effect gravity(JointKind) {
                         .least = -1e6,
                         .most = 1e6,
                         .step = 1,
+                        .prior = 500,  // half a kilogram at 100 mm
                         .shown = shown::as_is,
                         .key = key::plain("gravity_sin_Nmm", "Nmm", -1e+07, 1e+07, "torque against +theta: sin theta"),
                         .again = WhenFoundAgain::added}};

@@ -25,10 +25,11 @@ Effect guide_radius(JointKind) {
   effect.needs = {.tendons = true};
   effect.parameters = {
       {.name = "radius_mm",
-       .number = [](Imperfections& at) -> double& { return at.pins.place.radius; },
+       .number = [](Imperfections& at) -> double& { return at.pins.radius; },
        .least = -20,
        .most = 20,
        .step = 5e-3,
+       .prior = 0.5,  // a bushing, a pin of the next size
        .shown = total,
        .key = key::plain("guide_radius_mm", "mm", -500, 500, "added to guides.radius_mm"),
        .again = WhenFoundAgain::added,

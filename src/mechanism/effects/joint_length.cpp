@@ -27,6 +27,7 @@ Effect joint_length(JointKind) {
        .least = -50,
        .most = 50,
        .step = 1e-2,
+       .prior = 1,  // where a tendon is tied and bends
        .shown = total,
        .key = key::plain("length_mm", "mm", -10000, 10000, "added to joint.length_mm"),
        .again = WhenFoundAgain::added,

@@ -22,6 +22,7 @@ Effect joint_sensor_gain(JointKind) {
        .least = -0.3,
        .most = 0.3,
        .step = 1e-3,
+       .prior = 0.02,  // potentiometers and linear Hall sensors; an encoder has none
        .shown = shown::in_percent,
        .key = key::in_percent("gain_percent", -99, 1000, "by how much the joint sensor shows too much"),
        .by_hand = {"read the joint's sensor against a square at two angles", k_square},

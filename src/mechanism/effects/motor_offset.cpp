@@ -16,6 +16,7 @@ Effect motor_offset(JointKind) {
                         .least = -0.35,
                         .most = 0.35,
                         .step = 1e-3,
+                        .prior = radians(2.0),  // a spline tooth is 14 degrees, a mark by eye 1 to 2
                         .shown = shown::in_degrees,
                         .key = key::in_degrees("motor_offset_deg", -360, 360,
                                                "the shaft stands this much further than the motor sensor shows")}};

@@ -40,6 +40,7 @@ Effect profile_error(JointKind) {
                         .least = -2,
                         .most = 2,
                         .step = 2e-3,
+                        .prior = 0.2,  // layers, seams and three-jaw chucks: 0.05 to 0.3 mm
                         .shown = shown::as_is,
                         .key = key::plain("profile_sin_mm", "mm", -100, 100,
                                           "a wave of the made curves, further out along the normal psi by sin n psi"),
@@ -49,6 +50,7 @@ Effect profile_error(JointKind) {
                         .least = -2,
                         .most = 2,
                         .step = 2e-3,
+                        .prior = 0.2,  // layers, seams and three-jaw chucks: 0.05 to 0.3 mm
                         .shown = shown::as_is,
                         .key = key::plain("profile_cos_mm", "mm", -100, 100, "the same: cos n psi"),
                         .again = WhenFoundAgain::added},

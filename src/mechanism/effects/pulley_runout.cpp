@@ -17,6 +17,7 @@ Effect pulley_runout(JointKind) {
        .least = -2,
        .most = 2,
        .step = 2e-3,
+       .prior = 0.3,  // a printed bore over a shaft with its play and set screw
        .shown = shown::as_is,
        .key = key::plain("runout_x_mm", "mm", -100, 100, "centre of the made curves off the axis, at home"),
        .again = WhenFoundAgain::added},
@@ -25,6 +26,7 @@ Effect pulley_runout(JointKind) {
        .least = -2,
        .most = 2,
        .step = 2e-3,
+       .prior = 0.3,  // a printed bore over a shaft with its play and set screw
        .shown = shown::as_is,
        .key = key::plain("runout_y_mm", "mm", -100, 100, "the same across"),
        .again = WhenFoundAgain::added}};

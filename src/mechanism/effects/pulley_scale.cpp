@@ -27,6 +27,7 @@ Effect pulley_scale(JointKind) {
        .least = -0.15,
        .most = 0.15,
        .step = 2e-4,
+       .prior = 0.01,  // shrinkage of printed plastics: 0.2 to 2 percent
        .shown = shown::in_percent,
        .key = key::in_percent("pulley_scale_percent", -50, 100, "the made pulley is larger than drawn by this"),
        .again = WhenFoundAgain::compounded,

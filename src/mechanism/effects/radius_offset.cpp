@@ -25,6 +25,7 @@ Effect radius_offset(JointKind) {
        .least = -2,
        .most = 2,
        .step = 2e-3,
+       .prior = 0.2,  // a line width too much, a tendon that lies flat
        .shown = shown::as_is,
        .key = key::plain("radius_offset_mm", "mm", -100, 100,
                          "tendons run this much further out on the made pulley than drawn"),

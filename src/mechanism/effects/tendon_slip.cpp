@@ -22,6 +22,7 @@ EffectParameter released() {
       .least = -20,
       .most = 20,
       .step = 1e-2,
+      .prior = 1,  // a knot that draws tight
       .shown = shown::as_is,
       .key = key::plain("slip_mm", "mm", -1000, 1000, "let go by the anchor of tendon 1, of tendon 2 where negative")};
 }
@@ -33,6 +34,7 @@ EffectParameter turned() {
           .least = -0.5,
           .most = 0.5,
           .step = 1e-3,
+          .prior = radians(1.0),  // a knot that draws tight, on a pulley of some centimetres
           .shown = shown::in_degrees,
           .key = key::in_degrees("step_deg", -360, 360, "of a joint declared by a ratio: turned at slip_time_s")};
 }

@@ -32,6 +32,8 @@ Effect tendon_stretch(JointKind kind) {
                           .least = -1e6,
                           .most = 1e6,
                           .step = 1e-3,
+                          .prior = radians(5.0),  // at the largest load: what cable-driven fingers give
+                          .prior_at_load = true,
                           .shown = shown::in_degrees,
                           .key = key::in_degrees("compliance_deg", -360, 360,
                                                  "of a joint declared by a ratio: turned by a unit of load")}};
@@ -42,6 +44,7 @@ Effect tendon_stretch(JointKind kind) {
                         .least = -0.9,
                         .most = 60,
                         .step = 0.01,
+                        .prior = 1,  // catalogue moduli of braids are known to a factor of two
                         .shown = section,
                         .key = key::plain("stretch", "", -0.999, 1e+06,
                                           "the tendon's compliance beyond the declared one, per the declared one"),

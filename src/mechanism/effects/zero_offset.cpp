@@ -21,6 +21,7 @@ Effect zero_offset(JointKind) {
                         .least = -0.35,
                         .most = 0.35,
                         .step = 1e-3,
+                        .prior = radians(2.0),  // a magnet glued on, a mark by eye
                         .shown = shown::in_degrees,
                         .key = key::in_degrees("zero_deg", -360, 360, "what the joint sensor shows at theta = 0"),
                         .by_hand = {"drive the joint to a mark at home and read its sensor there", k_mark}}};
