@@ -19,7 +19,8 @@ struct SameFault {
   void (*hide)(Hidden&);
   void (*say)(Imperfections&);
   /// Of the action that may be missed, rms. Most of it under the full load: the rig's arc on the pulley ends where the
-  /// tendon leaves it, that of LowerPath::wound at the foot of the axis' perpendicular, up to 5 mm off at a stroke's end.
+  /// tendon leaves it, that of LowerPath::wound at the foot of the axis' perpendicular, up to 5 mm off at a stroke's
+  /// end.
   double share;
 };
 
