@@ -323,11 +323,17 @@ Scatter scatter_within_runs(const Measurement& measurement) {
   return scatter;
 }
 
-/// Whether differences go on from row to row, and are larger than what neighbours scatter by: noise that is white shows
-/// there whole, and 0.3 of correlation hides a tenth of it. Tests: a joint wired anew between two runs; noise alone.
+/// Variance of noise that third differences show, of which neighbours are correlated by r: rᵏ against their weights
+/// 20, −15, 6, −1.
+double seen_by_neighbours(double r) { return 1 + (-15 * r + 6 * r * r - r * r * r) / 10; }
+
+/// Whether differences go on from row to row, and are twice as large as noise that neighbours scatter by could make
+/// them. Noise may have a colour of its own; what goes on by more than 0.7 is taken for none. Tests: a joint wired anew
+/// between two runs; noise alone, white and coloured.
 bool is_smooth(const Scatter::Result& differences, double variance_of_neighbours) {
+  const double noise = variance_of_neighbours / seen_by_neighbours(std::min(differences.colour, 0.7));
   return differences.colour > 0.3 && differences.colour * std::sqrt(differences.pairs) > 3.0 &&
-         differences.variance > 2.0 * variance_of_neighbours;
+         differences.variance > 2.0 * noise;
 }
 
 /// What runs that repeat one another differ by.

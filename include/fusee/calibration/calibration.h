@@ -15,6 +15,7 @@ namespace fusee {
 struct CalibrationOptions {
   std::vector<std::string>
       hold_out;  ///< names of runs kept for validation only; empty: whole runs are left out in turn
+  bool look_for_effects = true;  ///< false: the file is known not to be of this joint (is_plainly_a_slip())
   std::vector<const Effect*> more_effects;  ///< beside those of the program; they must outlive the call
   std::function<void(const std::string& what, double share)> progress;
 };
