@@ -207,7 +207,10 @@ std::vector<Fold> speed_levels(const Evidence& evidence) {
   std::vector<double> speeds;
   for (const Block& block : evidence.blocks) {
     const Run& run = evidence.measurement.runs[block.run];
-    speeds.push_back(!run.has_time ? 0.0 : run.speed > 0 ? std::log(run.speed) : is_from_point_to_point(run) ? held : 0.0);
+    speeds.push_back(!run.has_time                 ? 0.0
+                     : run.speed > 0               ? std::log(run.speed)
+                     : is_from_point_to_point(run) ? held
+                                                   : 0.0);
   }
   return levels(speeds, 0.15);
 }

@@ -66,8 +66,7 @@ void cut(Run& run, Measurement& into, double alpha_quantum) {
   const double theta_quantum = quantum_of(run.samples, &Sample::theta);
   const double alpha_step = quantum_beside(holds, run.samples, &Sample::alpha, alpha_quantum);
   into.alpha_quantum = std::max(into.alpha_quantum, alpha_step);
-  into.theta_quantum =
-      std::max(into.theta_quantum, quantum_beside(holds, run.samples, &Sample::theta, theta_quantum));
+  into.theta_quantum = std::max(into.theta_quantum, quantum_beside(holds, run.samples, &Sample::theta, theta_quantum));
   run.strokes = split_strokes(run.samples, holds, alpha_step, run.has_time);
   if (run.strokes.empty() && has_levels_of_load(run)) {
     holds = {{0, run.samples.size() - 1}};

@@ -222,8 +222,8 @@ struct Alike {
 
 Alike alike_in(const Measurement& measurement, bool across_runs) {
   const SeenSpan alphas = seen_span(measurement, &Sample::alpha);
-  return {load_tolerance(measurement), std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum),
-          across_runs};
+  return {load_tolerance(measurement),
+          std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum), across_runs};
 }
 
 /// Of more stands than that every n-th pair is looked at: each is compared with every group.
@@ -274,8 +274,8 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
       const Sample& sample = run.samples[row];
       const double share =
           static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
-      const Looked looked =
-          rows.held ? look_up_held(pass, share, sample.alpha, slope) : look_up(*pass.run, pass.rows, pass.direction, sample.alpha);
+      const Looked looked = rows.held ? look_up_held(pass, share, sample.alpha, slope)
+                                      : look_up(*pass.run, pass.rows, pass.direction, sample.alpha);
       return !run.has_load || std::abs(looked.load - sample.load) <= tolerance ? looked : Looked{};
     };
     for (std::size_t i = rows.first; i <= rows.last; ++i) {

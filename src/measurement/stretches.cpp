@@ -70,8 +70,8 @@ Hold within(const std::vector<Sample>& samples, double Sample::*value, std::size
 /// Noise now and then reaches beyond the width of a hold: its parts are one.
 void add_or_join(std::vector<Hold>& holds, const Hold& next, const std::vector<Sample>& samples, double width) {
   const bool follows = !holds.empty() && holds.back().last + 1 == next.first;
-  if (follows && std::abs(mean_of(samples, &Sample::alpha, holds.back()) - mean_of(samples, &Sample::alpha, next)) <
-                     0.5 * width) {
+  if (follows &&
+      std::abs(mean_of(samples, &Sample::alpha, holds.back()) - mean_of(samples, &Sample::alpha, next)) < 0.5 * width) {
     holds.back().last = next.last;
   } else {
     holds.push_back(next);
@@ -130,8 +130,7 @@ std::optional<Levels> levels_of(const Run& run) {
   if (!run.has_load || run.samples.empty()) return std::nullopt;
   const SeenSpan span = span_of(run.samples, &Sample::load);
   const double largest = std::max(std::abs(span.least), std::abs(span.most));
-  const double width =
-      std::max(k_one_level * span.size(), 2 * k_beyond_noise * noise_of(run.samples, &Sample::load));
+  const double width = std::max(k_one_level * span.size(), 2 * k_beyond_noise * noise_of(run.samples, &Sample::load));
   if (span.size() <= 0.1 * largest || span.size() <= 1.5 * width) return std::nullopt;
   return Levels{width, span.size()};
 }
@@ -233,8 +232,8 @@ class Cutter {
   }
 
   void add_moving(std::size_t stroke, const Hold& rows) {
-    if (count_of(rows) < k_fewest_of_a_shape && count_of(rows) == count_of({run_.strokes[stroke].first,
-                                                                           run_.strokes[stroke].last})) {
+    if (count_of(rows) < k_fewest_of_a_shape &&
+        count_of(rows) == count_of({run_.strokes[stroke].first, run_.strokes[stroke].last})) {
       for (std::size_t i = rows.first; i <= rows.last; ++i) add(stroke, {i, i}, true, 0);
       return;
     }

@@ -207,7 +207,8 @@ TEST(NoiseFloor, SaysItsColour) {
   for (const double colour : {0.0, 0.5, 0.9}) {
     const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 20, .colour = colour});
     EXPECT_NEAR(floor.colour, colour, 0.08);  // looking up between rows adds a little
-    // The variance of a mean of n rows with correlation r^k is (1 + r)/(1 − r)/n, of every second one (1 + r²)/(1 − r²).
+    // The variance of a mean of n rows with correlation r^k is (1 + r)/(1 − r)/n, of every second one (1 + r²)/(1 −
+    // r²).
     const double r = floor.colour;
     EXPECT_DOUBLE_EQ(floor.effective_rows(100), 100 * (1 - r) / (1 + r));
     EXPECT_DOUBLE_EQ(floor.effective_rows(100, 2), 100 * (1 - r * r) / (1 + r * r));

@@ -63,7 +63,9 @@ std::string stands_of(const fusee::Run& run) {
   for (const Stretch& stretch : run.stretches) {
     const int direction = run.strokes[stretch.stroke].direction;
     words += (words.empty() ? "" : " ") +
-             (stretch.held ? (direction > 0 ? "+" : direction < 0 ? "-" : "") +
+             (stretch.held ? (direction > 0   ? "+"
+                              : direction < 0 ? "-"
+                                              : "") +
                                  rounded(std::round(degrees(run.samples[(stretch.first + stretch.last) / 2].alpha)))
                            : std::string("·"));
   }
@@ -188,7 +190,8 @@ TEST(Stretches, LevelsOfLoadCutAStroke) {
   EXPECT_EQ(read(bound).runs[0].stretches.size(), 6u) << "a spring's load belongs to the place";
   EXPECT_EQ(read(ramped).runs[0].stretches.size(), 6u) << "within a stroke it hardly changes";
   std::vector<Row> waves;
-  for (std::size_t i = 0; i < alphas.size(); ++i) waves.push_back({alphas[i], 5 + 5 * std::sin(0.05 * static_cast<double>(i))});
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+    waves.push_back({alphas[i], 5 + 5 * std::sin(0.05 * static_cast<double>(i))});
   EXPECT_GT(read(waves).runs[0].stretches.size(), 12u);
 }
 
