@@ -336,7 +336,7 @@ Selection Selector::run() {
       catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects, options_.without);
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
-  if (!selection_.none.usable) return std::move(selection_);
+  if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);
   for (int exchanges = 0;;) {
     while (!is_done(selection_.best) && selection_.best.effects.size() < k_thresholds.most_effects && grow()) {
     }
