@@ -58,8 +58,7 @@ Json tried_json(const std::vector<Candidate>& tried) {
   for (const Candidate& candidate : tried) {
     list.push_back({{"name", candidate.name},
                     {"held_out_rms_deg", angle(candidate.held_out_rms)},
-                    {"margin", number(candidate.margin)},
-                    {"delta_bic", number(candidate.delta_bic)},
+                    {"evidence", number(candidate.evidence)},
                     {"accepted", candidate.accepted},
                     {"why", candidate.why}});
   }

@@ -302,8 +302,7 @@ std::string evidence_row(const Candidate& candidate, double most, bool as_good) 
                                   : "") +
               open_words(candidate.name)) +
          "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
-         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.margin, 1)) +
-         number_cell(readable(candidate.delta_bic, 1)) + cell(why) + "</tr>";
+         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.evidence, 1)) + cell(why) + "</tr>";
 }
 
 /// Candidates that were tried together, the one that was taken first.
@@ -321,7 +320,7 @@ std::string evidence_step(const Calibration& calibration, std::vector<Candidate>
                          first.accepted && !candidate.accepted && is_as_good(calibration, candidate.name, first.name));
   return "<h3>" + std::to_string(number) + ". " +
          (first.accepted ? "Taken: " + safe_text(open_words(first.name)) : std::string("Nothing more was taken")) +
-         "</h3>" + html_table({"candidate", "", "#held-out RMS", "#margin", "#BIC drop", "why"}, rows);
+         "</h3>" + html_table({"candidate", "", "#held-out RMS", "#evidence", "why"}, rows);
 }
 
 std::string evidence_section(const Calibration& calibration) {

@@ -58,18 +58,8 @@ Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better
   return comparison;
 }
 
-bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best) {
-  if (rival.against_readings > best.against_readings + k_thresholds.contradicted) return false;
-  const Comparison worse = compare(evidence, rival, best);
-  return worse.mean <= std::max(worse.standard_error, std::pow(k_thresholds.least_drop * evidence.floor, 2));
-}
-
-double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better) {
-  const double r = std::clamp(lag_one_correlation(evidence, better), 0.0, 0.999);
-  const double rows = static_cast<double>(evidence.rows_used());
-  const double independent = std::max(rows * (1.0 - r) / (1.0 + r), static_cast<double>(evidence.blocks.size()));
-  const double more = static_cast<double>(better.x.size() - worse.x.size());
-  return independent * std::log(worse.mean_square / better.mean_square) - more * std::log(independent);
+bool as_good(const Evidence&, const Fit& rival, const Fit& best) {
+  return rival.log_evidence > best.log_evidence - k_thresholds.as_good;
 }
 
 double lag_one_correlation(const Evidence& evidence, const Fit& fit) {

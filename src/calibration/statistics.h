@@ -20,9 +20,6 @@ Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better
 /// part of the noise.
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 
-/// Drop of the Bayesian information criterion with as many rows as the rest's autocorrelation leaves.
-double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better);
-
 /// Of the residual from row to row within blocks, −1 … 1.
 double lag_one_correlation(const Evidence& evidence, const Fit& fit);
 

@@ -83,13 +83,12 @@ std::string tried_table(const Calibration& c) {
   if (c.tried.empty()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : c.tried) {
-    rows.push_back({"  " + candidate.name, deg(candidate.held_out_rms), fixed(candidate.margin, 1),
-                    fixed(candidate.delta_bic, 1), candidate.accepted ? "taken" : ""});
+    rows.push_back({"  " + candidate.name, deg(candidate.held_out_rms), fixed(candidate.evidence, 1),
+                    candidate.accepted ? "taken" : ""});
   }
-  return "\n" + table({{"Tried, in this order"},
+  return "\n" + table({{"Tried, in nats"},
                        {"deg held out", Align::right},
-                       {"margin", Align::right},
-                       {"BIC drop", Align::right},
+                       {"evidence", Align::right},
                        {""}},
                       rows);
 }

@@ -40,9 +40,8 @@ struct FoundEffect {
 /// A candidate that was tried: the evidence for it, or against.
 struct Candidate {
   std::string name;
-  double held_out_rms = 0;  ///< rad, with it added to what was accepted before
-  double margin = 0;        ///< drop of the held-out error in standard errors over blocks
-  double delta_bic = 0;
+  double held_out_rms = 0;  ///< rad, with it beside what was accepted
+  double evidence = 0;      ///< log of how many times likelier the data are with it than without
   bool accepted = false;
   std::string why;  ///< in words
 };

@@ -1,0 +1,78 @@
+/// \file
+/// The evidence of a set of effects: how likely the data are with it, numbers and discrepancy integrated out.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "calibration/discrepancy.h"
+
+namespace fusee {
+
+/// How large the families of the discrepancy and the noise are, rad.
+struct Amplitudes {
+  Eigen::VectorXd families;
+  double noise = 0;
+};
+
+/// A place in the space of the parameters and what is known there: rows in use alone.
+struct Tangent {
+  Eigen::MatrixXd J;         ///< dθ/dx
+  Eigen::VectorXd residual;  ///< measured − model, rad
+  Eigen::VectorXd x;
+  Eigen::VectorXd prior;     ///< size of each x in practice; infinite: not known
+  Eigen::MatrixXd read;      ///< of what was measured by hand: information about x …
+  Eigen::VectorXd pull;      ///< … and its gradient
+  double against = 0;        ///< … and squares at x
+};
+
+/// What the data say at a tangent.
+struct Explained {
+  double log_evidence = 0;
+  Eigen::VectorXd step;        ///< of x to the posterior's summit
+  Eigen::MatrixXd covariance;  ///< of x
+  Eigen::VectorXd unnamed;     ///< what the discrepancy's columns add at the summit, rad each
+  Amplitudes amplitudes;
+  Eigen::VectorXd known;       ///< of each family: how many of its columns the data determine
+};
+
+/// Sums over the rows in use that every set of effects shares.
+class Marginal {
+ public:
+  /// `worth`: independent rows in each row; `floor`: rms noise, rad.
+  Marginal(Discrepancy discrepancy, double floor, double worth);
+
+  const Discrepancy& discrepancy() const { return discrepancy_; }
+  double floor() const { return floor_; }
+  double worth() const { return worth_; }
+  Amplitudes first_guess() const;
+  /// Of the noise and what is stated alone.
+  Amplitudes nothing_unnamed() const;
+
+  /// With amplitudes as they are given.
+  Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const;
+  /// With those that make the data likeliest, sought from there.
+  Explained best(const Tangent& tangent, Amplitudes from) const;
+  /// Log of posterior density at x itself but for a constant.
+  double summit(const Tangent& tangent, const Amplitudes& amplitudes) const;
+
+ private:
+  struct Sums;
+  struct Solved;
+  Sums sums_of(const Tangent& tangent) const;
+  std::vector<Eigen::Index> active(const Amplitudes& amplitudes) const;
+  Solved solved(const Sums& sums, const Tangent& tangent, const Amplitudes& amplitudes) const;
+  Explained explained(const Sums& sums, const Tangent& tangent, const Amplitudes& amplitudes, Solved& solved) const;
+  Amplitudes reestimated(const Sums& sums, const Explained& now, const Solved& solved) const;
+
+  Discrepancy discrepancy_;
+  Eigen::MatrixXd gram_;
+  double floor_;
+  double worth_;
+};
+
+/// Log of the density of a number of this size in practice at `x`: bounded tails, since some joints are worse than any
+/// practice, and no pair of giants that cancel is cheap.
+double log_prior(double x, double prior);
+
+}  // namespace fusee
