@@ -2,8 +2,8 @@
 /// The joint in quasi-static equilibrium along any sequence of pulley angles and loads, history carried along.
 ///
 /// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them; what is wound on a
-/// pulley holds what JointModel::wound says; a tendon cannot push. Source of the limits: the paper's [6]-[11]
-/// (tension.h).
+/// pulley slides in its groove as far as friction lets it (JointModel::groove_friction); a tendon cannot push. Source of
+/// the limits: the paper's [6]-[11] (tension.h).
 #pragma once
 
 #include <array>
@@ -68,13 +68,11 @@ struct EquilibriumPoint {
   /// Torque per joint angle with the pulley held, N·mm/rad: with no material crossing the pins (small disturbances,
   /// upper spans alone) …
   double stiffness_stuck = 0;
-  /// … and with pins that let it pass at the present ratio of tensions (large ones, whole tendons).
+  /// … and with pins and groove that let it pass at the present ratio of tensions (large ones, whole tendons).
   double stiffness = 0;
   double stored = 0;    ///< elastic energy, above that of home unloaded, N·mm
-  double friction = 0;  ///< lost at the pins since home, N·mm
-  /// Lost where tendon leaves a pulley at another strain than it lay there, since home, N·mm; with WoundTendon::at_home
-  /// winding gives it back.
-  double shed = 0;
+  double friction = 0;         ///< lost at the pins since home, N·mm
+  double groove_friction = 0;  ///< lost in the grooves since home, N·mm
 };
 
 /// A joint on its way. Copies are snapshots: each goes on from the same history.
