@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "rig/cord.h"
+#include "rig/groove_chain.h"
 #include "rig/rig.h"
 #include "rig/string_geometry.h"
 
@@ -20,12 +22,6 @@ struct Conditions {
   std::array<double, 2> let_go{};  ///< material let go at each anchor so far, mm
 };
 
-/// Tendon on the pulley from this arc on, up to the next piece.
-struct LaidTendon {
-  double from = 0;
-  double density = 1;  ///< unstretched per wound length
-};
-
 /// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
 struct BenchTendon {
   Hull hull;  ///< its pulley, in the pulley's frame at home
@@ -35,8 +31,8 @@ struct BenchTendon {
   double mark = 0;            ///< direction of the point of the pin's rim between the upper and the lower part
   double upper = 0;           ///< unstretched length above the mark, mm
   double lower = 0;           ///< below it, up to the pulley
-  double density = 1;         ///< unstretched per wound length, of home
   double wound = 0;           ///< arc on the pulley
+  GrooveChain laid;           ///< what lies on it, up to the knot
   std::ptrdiff_t corner = 0;  ///< at which it begins
   double bristle = 0;         ///< −1…1: share of the friction in use; > 0 where tendon went down over the pin
   double let_go = 0;
@@ -44,7 +40,6 @@ struct BenchTendon {
   double lower_tension = 0;
   Vec2 home_push = Vec2::Zero();  ///< force on the pin at home, N
   Vec2 push = Vec2::Zero();
-  std::vector<LaidTendon> laid;  ///< wound since home
 };
 
 class Bench {
@@ -64,10 +59,13 @@ class Bench {
   struct Below {
     Circle pin;
     double length = 0;
-    double material = 0;
+    double material = 0;  ///< before the groove takes or gives
     double wound = 0;
     double normal = 0;
     std::ptrdiff_t corner = 0;
+    Cord cord;
+    GrooveChain laid;
+    double guess = 0;  ///< of the tension above the groove, N
   };
   /// A tendon at a trial θ.
   struct Trial {
@@ -78,14 +76,13 @@ class Bench {
     Vec2 push = Vec2::Zero();
   };
 
-  void hang(BenchTendon& tendon, double tension, double slack);
-  double strain_at(double tension) const;
-  double tension(double length, double material, std::size_t side, const Conditions& conditions) const;
+  void hang(BenchTendon& tendon, double tension, double slack, double unwound);
+  Cord cord(std::size_t side, const Conditions& conditions) const;
   Below below(std::size_t side, double pulley, double alpha, const Conditions& conditions, const Vec2& push) const;
-  Trial tried(std::size_t side, const Below& below, double theta, const Conditions& conditions) const;
-  double excess(const std::array<Below, 2>& below, double theta, const Conditions& conditions) const;
+  Trial tried(std::size_t side, Below& below, double theta) const;
+  double excess(std::array<Below, 2>& below, double theta, const Conditions& conditions) const;
   double dry_friction(const Conditions& conditions) const;
-  double balanced(const std::array<Below, 2>& below, const Conditions& conditions) const;
+  double balanced(std::array<Below, 2>& below, const Conditions& conditions) const;
   double lump(double alpha) const;
 
   Hidden hidden_;

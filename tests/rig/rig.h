@@ -36,16 +36,16 @@ struct Hidden {
   double profile_phase = 0;
 
   // Tendons.
-  double modulus = 0;                 ///< the true one, MPa; 0: as declared
-  bool keeps_winding_strain = false;  ///< tendon on the pulley keeps the strain it was wound at; else that of home
-  double slack = 0;                   ///< material too much, of both together; they hang loose at home, mm
-  double creep = 0;                   ///< the elastic strain grows by this share with every decade of time in a run
-  double slip = 0;                    ///< material let go at one anchor, mm
-  std::size_t slip_side = 1;          ///< 0: tendon 1, 1: tendon 2
-  std::size_t slip_run = 0;           ///< the run in which it happens
-  double slip_at = 0.5;               ///< share of that run
-  double expansion = 0;               ///< strain per K
-  double expansion_other = 0.3;       ///< tendon 1 stands in the draught: it follows by this share
+  double modulus = 0;            ///< the true one, MPa; 0: as declared
+  double groove_friction = 0.2;  ///< between tendon and groove, whatever the file says
+  double slack = 0;              ///< material too much, of both together; they hang loose at home, mm
+  double creep = 0;              ///< the elastic strain grows by this share with every decade of time in a run
+  double slip = 0;               ///< material let go at one anchor, mm
+  std::size_t slip_side = 1;     ///< 0: tendon 1, 1: tendon 2
+  std::size_t slip_run = 0;      ///< the run in which it happens
+  double slip_at = 0.5;          ///< share of that run
+  double expansion = 0;          ///< strain per K
+  double expansion_other = 0.3;  ///< tendon 1 stands in the draught: it follows by this share
 
   // Pins.
   double friction = 0;       ///< added to μ
