@@ -2,6 +2,7 @@
 
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "calibration/thresholds.h"
 
@@ -79,7 +80,7 @@ namespace {
 
 /// Sums of squares of a residual about the means of its strokes.
 struct Within {
-  std::map<std::pair<std::size_t, int>, std::vector<double>> means;  ///< of alike strokes: run and direction
+  std::map<std::tuple<std::size_t, int, std::size_t>, std::vector<double>> means;  ///< run, direction, Block::alike
   double squares = 0;
   double products = 0;  ///< of neighbours
   double rows = 0;
@@ -91,7 +92,8 @@ Within within_strokes(const Evidence& evidence, const Fit& fit) {
     double mean = 0;
     for (const std::size_t row : block.rows)
       mean += fit.residual[static_cast<Eigen::Index>(row)] / static_cast<double>(block.rows.size());
-    sums.means[{block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction}].push_back(mean);
+    const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
+    sums.means[{block.run, direction, block.alike}].push_back(mean);
     double last = 0;
     for (const std::size_t row : block.rows) {
       const double deviation = fit.residual[static_cast<Eigen::Index>(row)] - mean;
