@@ -490,11 +490,10 @@ void weigh(Evidence& evidence) {
   Tangent nothing;
   nothing.residual = left.unaryExpr([](double angle) { return std::isfinite(angle) ? angle : 0.0; });
   nothing.J.resize(left.size(), 0);
-  const Marginal blind(unnamed, evidence.floor, 1.0);
-  const Eigen::VectorXd rest =
-      nothing.residual - unnamed.columns * blind.best(nothing, blind.first_guess()).unnamed;
-  const double colour = colour_of(evidence, rest);
-  evidence.marginal = std::make_shared<const Marginal>(std::move(unnamed), evidence.floor, (1.0 - colour) / (1.0 + colour));
+  const Marginal blind(std::move(unnamed), evidence.floor, 1.0);
+  const Explained blindly = blind.best(nothing, blind.first_guess());
+  const double colour = colour_of(evidence, nothing.residual - blind.discrepancy().columns * blindly.unnamed);
+  evidence.marginal = std::make_shared<const Marginal>(blind, (1.0 - colour) / (1.0 + colour), blindly.amplitudes);
 }
 
 Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run) {

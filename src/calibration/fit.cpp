@@ -15,6 +15,8 @@ namespace {
 
 constexpr int k_steps = 8;
 constexpr int k_chords = 4;
+/// Of amplitudes, on the way.
+constexpr int k_few_rounds = 3;
 /// Of a step that made things worse.
 constexpr double k_shorter = 0.3;
 /// Nats: a step that gains less is the last.
@@ -50,14 +52,25 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// Play that a loose joint must answer for, by independent places: rows of a block repeat one another.
+/// Play that a loose joint must answer for, nats. A row that stands anywhere within the play leaves nothing, which is
+/// half a nat better than noise does: that is taken back. And where the joint stood in it, smoothly along a stroke, is
+/// as many unknown places as the stroke has room for.
 double price_of(const Evidence& evidence, const Fit& fit) {
   double price = 0;
   for (const Block& block : evidence.blocks) {
-    double sum = 0;
-    for (const std::size_t row : block.rows)
-      sum += 0.5 * price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor) / (evidence.floor * evidence.floor);
-    price += k_thresholds.places_a_stroke * sum / static_cast<double>(block.rows.size());
+    double loose = 0;
+    double room = 0;
+    for (const std::size_t row : block.rows) {
+      const auto i = static_cast<Eigen::Index>(row);
+      const double play = fit.loose[i] / evidence.floor;
+      if (!(play > 0)) continue;
+      const double share = std::min(1.0, play);
+      price += 0.5 * evidence.marginal->worth() * share * std::max(0.0, 1.0 - std::pow(fit.residual[i] / evidence.floor, 2));
+      loose += share;
+      room += share * std::log1p(2.0 * play / std::sqrt(k_two_pi));
+    }
+    if (loose > 0)
+      price += k_thresholds.places_a_stroke * std::sqrt(loose / static_cast<double>(block.rows.size())) * room / loose;
   }
   return price;
 }
@@ -121,10 +134,10 @@ Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& a
 }
 
 /// Steps while they gain; slopes before `from` stay what they are.
-Fit Fitter::descended(Fit fit, Eigen::Index from, int steps) const {
+Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes) const {
   const Marginal& marginal = *evidence().marginal;
   Tangent here = tangent_of(evidence(), fit);
-  Explained known = marginal.best(here, marginal.first_guess());
+  Explained known = marginal.best(here, amplitudes, k_few_rounds);
   double height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
   double share = 1.0;
   for (int i = 0; i < steps; ++i) {
@@ -142,7 +155,7 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps) const {
     const bool settled = reached < height + k_settled;
     fit = std::move(next);
     here = there;
-    known = i % 2 == 1 ? marginal.best(here, known.amplitudes) : marginal.at(here, known.amplitudes);
+    known = i % 2 == 1 ? marginal.best(here, known.amplitudes, k_few_rounds) : marginal.at(here, known.amplitudes);
     height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
     share = 1.0;
     if (settled) break;
@@ -155,7 +168,7 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   take_slopes(start, 0);
   start.usable = is_finite(evidence(), start);
   if (!start.usable) return start;
-  Fit fit = start.x.size() > 0 ? descended(std::move(start), 0, k_steps) : std::move(start);
+  Fit fit = start.x.size() > 0 ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess()) : std::move(start);
   hold_at_bounds(fit);
   judge(fit);
   return fit;
@@ -178,7 +191,7 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
     best = std::move(fit);
   }
   if (!best.usable) return best;
-  best = descended(std::move(best), base.x.size(), k_chords);
+  best = descended(std::move(best), base.x.size(), k_chords, base.explained.amplitudes);
   hold_at_bounds(best);
   judge(best);
   return best;

@@ -64,7 +64,7 @@ class Fitter {
   Fit placed(const EffectSet& effects, const Imperfections& at) const;
   void take_slopes(Fit& fit, Eigen::Index from) const;
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
-  Fit descended(Fit fit, Eigen::Index from, int steps) const;
+  Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes) const;
   void judge(Fit& fit) const;
 
   Model model_;

@@ -11,7 +11,6 @@
 namespace fusee {
 namespace {
 
-constexpr int k_rounds = 12;
 constexpr double k_settled = 0.02;  // nats
 /// Of the floor: below it a family is nothing.
 constexpr double k_nothing = 0.03;
@@ -55,14 +54,14 @@ Marginal::Marginal(Discrepancy discrepancy, double floor, double worth)
     : discrepancy_(std::move(discrepancy)),
       gram_(discrepancy_.columns.transpose() * discrepancy_.columns),
       floor_(floor),
-      worth_(worth) {}
+      worth_(worth),
+      first_guess_(nothing_unnamed()) {
+  for (double& amplitude : first_guess_.families) amplitude = amplitude == 0 ? floor : amplitude;
+}
 
-Amplitudes Marginal::first_guess() const {
-  Amplitudes guess = nothing_unnamed();
-  for (Eigen::Index f = 0; f < guess.families.size(); ++f) {
-    if (guess.families[f] == 0) guess.families[f] = floor_;
-  }
-  return guess;
+Marginal::Marginal(const Marginal& other, double worth, Amplitudes first_guess) : Marginal(other) {
+  worth_ = worth;
+  first_guess_ = std::move(first_guess);
 }
 
 Amplitudes Marginal::nothing_unnamed() const {
@@ -192,10 +191,10 @@ Explained Marginal::at(const Tangent& tangent, const Amplitudes& amplitudes) con
   return explained(sums, tangent, amplitudes, s);
 }
 
-Explained Marginal::best(const Tangent& tangent, Amplitudes from) const {
+Explained Marginal::best(const Tangent& tangent, Amplitudes from, int rounds) const {
   const Sums sums = sums_of(tangent);
   Explained best;
-  for (int round = 0; round < k_rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     Solved s = solved(sums, tangent, from);
     Explained now = explained(sums, tangent, from, s);
     const bool settled = round > 0 && now.log_evidence < best.log_evidence + k_settled;

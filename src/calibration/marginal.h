@@ -39,20 +39,24 @@ struct Explained {
 /// Sums over the rows in use that every set of effects shares.
 class Marginal {
  public:
-  /// `worth`: independent rows in each row; `floor`: rms noise, rad.
+  static constexpr int k_rounds = 12;
+
+  /// `worth`: independent rows in each row; `floor`: rms noise, rad. The first guess: every family of the floor's size.
   Marginal(Discrepancy discrepancy, double floor, double worth);
+  /// Of another worth, and with another first guess.
+  Marginal(const Marginal& other, double worth, Amplitudes first_guess);
 
   const Discrepancy& discrepancy() const { return discrepancy_; }
   double floor() const { return floor_; }
   double worth() const { return worth_; }
-  Amplitudes first_guess() const;
+  const Amplitudes& first_guess() const { return first_guess_; }
   /// Of the noise and what is stated alone.
   Amplitudes nothing_unnamed() const;
 
   /// With amplitudes as they are given.
   Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const;
   /// With those that make the data likeliest, sought from there.
-  Explained best(const Tangent& tangent, Amplitudes from) const;
+  Explained best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const;
   /// Log of posterior density at x itself but for a constant.
   double summit(const Tangent& tangent, const Amplitudes& amplitudes) const;
 
@@ -69,6 +73,7 @@ class Marginal {
   Eigen::MatrixXd gram_;
   double floor_;
   double worth_;
+  Amplitudes first_guess_;
 };
 
 /// Log of the density of a number of this size in practice at `x`: bounded tails, since some joints are worse than any

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <map>
 
 #include "calibration/catalogue.h"
@@ -14,6 +16,9 @@
 
 namespace fusee {
 namespace {
+
+/// Of amplitudes, in a linear look.
+constexpr int k_look_rounds = 4;
 
 /// What an effect adds to a linear look: slopes over the rows in use.
 struct Look {
@@ -40,7 +45,7 @@ class Selector {
   Key key_of(const EffectSet& effects) const;
   void keep(Fit fit);
   std::vector<const Fit*> ranked() const;
-  double promised(const Fit& base, const std::vector<std::size_t>& added) const;
+  double promised(const Fit& base, const std::vector<std::size_t>& added, int rounds) const;
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added);
   void try_singles();
   void try_pairs();
@@ -74,6 +79,16 @@ Selector::Key Selector::key_of(const EffectSet& effects) const {
 }
 
 void Selector::keep(Fit fit) {
+  if (std::getenv("FUSEE_DEBUG")) {
+    std::string t = "keep";
+    for (auto* e : fit.effects) t += " " + e->name;
+    t += fit.usable ? "" : " UNUSABLE";
+    t += " logZ " + std::to_string(fit.log_evidence) + " price " + std::to_string(fit.explained.log_evidence - fit.log_evidence) + " score " + std::to_string(score(fit)) + " noise " + std::to_string(degrees(fit.explained.amplitudes.noise)) + " x";
+    for (double x : fit.x) t += " " + std::to_string(x);
+    t += " fam";
+    for (double x : fit.explained.amplitudes.families) t += " " + std::to_string(degrees(x)).substr(0, 6);
+    fprintf(stderr, "%s\n", t.c_str());
+  }
   if (!fit.usable) return;
   const auto [place, added] = seen_.try_emplace(key_of(fit.effects), fit);
   if (!added && fit.log_evidence > place->second.log_evidence) place->second = std::move(fit);
@@ -119,9 +134,9 @@ void Selector::try_singles() {
 }
 
 /// Score of `base` with these effects by a linear look.
-double Selector::promised(const Fit& base, const std::vector<std::size_t>& added) const {
+double Selector::promised(const Fit& base, const std::vector<std::size_t>& added, int rounds) const {
   Tangent tangent = tangent_of(evidence_, base);
-  double cost = 0;
+  double cost = base.log_evidence - score(base);
   for (const std::size_t i : added) {
     const Look& look = looks_[i];
     if (look.J.size() == 0) return -std::numeric_limits<double>::infinity();
@@ -140,7 +155,8 @@ double Selector::promised(const Fit& base, const std::vector<std::size_t>& added
     tangent.pull.tail(look.J.cols()).setZero();
     cost += k_thresholds.price_of_a_name;
   }
-  return evidence_.marginal->best(tangent, base.explained.amplitudes).log_evidence - cost;
+  const double loose = base.explained.log_evidence - base.log_evidence;
+  return evidence_.marginal->best(tangent, base.explained.amplitudes, rounds).log_evidence - loose - cost;
 }
 
 /// The best of all pairs by a linear look.
@@ -153,10 +169,15 @@ void Selector::try_pairs() {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     for (std::size_t j = i + 1; j < looks_.size(); ++j) pairs.push_back({0, i, j});
   }
-  workers_.each(pairs.size(), [&](const Fitter&, std::size_t k) {
-    pairs[k].promise = promised(selection_.none, {pairs[k].one, pairs[k].other});
-  });
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.promise > b.promise; });
+  const auto look_at = [&](int rounds) {
+    workers_.each(pairs.size(), [&](const Fitter&, std::size_t k) {
+      pairs[k].promise = promised(selection_.none, {pairs[k].one, pairs[k].other}, rounds);
+    });
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.promise > b.promise; });
+  };
+  look_at(1);
+  pairs.resize(std::min(pairs.size(), k_thresholds.most_looks_at_pairs));
+  look_at(k_look_rounds);
   std::vector<Addition> added;
   for (const Pair& pair : pairs) {
     const auto base = seen_.find({pair.one});
@@ -172,7 +193,7 @@ std::vector<Addition> Selector::promising(const Fit& base, std::size_t most) con
   std::vector<Addition> all;
   for (std::size_t i = 0; i < selection_.catalogue.size(); ++i) {
     if (contains(base.effects, *selection_.catalogue[i])) continue;
-    all.push_back({&base, selection_.catalogue[i], promised(base, {i})});
+    all.push_back({&base, selection_.catalogue[i], promised(base, {i}, k_look_rounds)});
   }
   std::stable_sort(all.begin(), all.end(), [](const Addition& a, const Addition& b) { return a.promise > b.promise; });
   all.resize(std::min(all.size(), most));
@@ -193,7 +214,7 @@ bool Selector::widen() {
     for (const Addition& addition : look) {
       EffectSet effects = addition.base->effects;
       effects.push_back(addition.effect);
-      if (!seen_.count(key_of(effects))) added.push_back(addition);
+      if (addition.promise > before - k_thresholds.hopeless && !seen_.count(key_of(effects))) added.push_back(addition);
     }
   }
   std::vector<Fit> fits = fitted("trying wider sets of effects", added);
@@ -236,7 +257,8 @@ bool Selector::challenge() {
   for (std::size_t i = 0; i < looks.size(); ++i) {
     std::size_t taken = 0;
     for (const Addition& addition : looks[i]) {
-      if (contains(best.effects, *addition.effect) || taken++ == k_thresholds.most_rivals) continue;
+      const bool hopeless = addition.promise < score(best) - k_thresholds.hopeless;
+      if (contains(best.effects, *addition.effect) || hopeless || taken++ >= k_thresholds.most_rivals) continue;
       selection_.rivals.push_back({best.effects[i], addition.effect, {}});
       added.push_back(addition);
     }
@@ -272,21 +294,13 @@ void Selector::write_down() {
     candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
     selection_.tried.push_back(candidate);
   }
-  std::vector<Addition> added;
-  for (const Effect* effect : selection_.catalogue) {
-    if (!contains(best.effects, *effect)) added.push_back({&best, effect});
-  }
-  const std::vector<Fit> fits = fitted("looking at what was not found", added);
-  for (std::size_t i = 0; i < added.size(); ++i) {
+  for (const Addition& look : promising(best, selection_.catalogue.size())) {
     Candidate candidate;
-    candidate.name = added[i].effect->name;
-    candidate.why = "the joint could not be simulated with it";
-    if (fits[i].usable) {
-      candidate.evidence = fits[i].log_evidence - best.log_evidence;
-      candidate.held_out_rms = held_out_rms(fits[i]);
-      candidate.why = candidate.evidence < 0 ? "the data are likelier without it"
-                                             : "it adds less than a name needs";
-    }
+    candidate.name = look.effect->name;
+    candidate.evidence = look.promise + k_thresholds.price_of_a_name - score(best);
+    candidate.held_out_rms = held_out_rms(best);
+    candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a name needs";
+    if (!std::isfinite(candidate.evidence)) candidate.why = "the joint could not be simulated with it";
     selection_.tried.push_back(candidate);
   }
 }

@@ -36,7 +36,7 @@ struct Thresholds {
   /// Degrees of freedom that the noise floor is taken to have.
   double noise_freedom = 30.0;
   /// Independent places of play in a stroke of a loose joint.
-  double places_a_stroke = 2.0;
+  double places_a_stroke = 4.0;
   /// rms of the smallest effect worth a name, as a part of the floor.
   double least_drop = 0.5;
   double contradicted = 9.0;
@@ -53,7 +53,10 @@ struct Thresholds {
   std::size_t beam = 4;
   /// The best of all by a linear look: what is not among them costs a dozen simulations each.
   std::size_t most_pairs = 10;
+  std::size_t most_looks_at_pairs = 40;
   std::size_t most_looks = 6;
+  /// Nats below the best by which a linear look says that a fit is not worth it.
+  double hopeless = 15.0;
   std::size_t most_rivals = 10;
   /// Every exchange betters the score; this bounds the wait (7f333b1).
   int most_exchanges = 4;
