@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "fusee/base/plane.h"
 #include "fusee/transmission/load.h"
 #include "joint/tendon_balance.h"
 #include "joint/upper_span_table.h"
@@ -30,6 +31,12 @@ namespace {
 
 /// Both tendons slack by more than this together: the joint has play. mm
 constexpr double k_least_play = 1e-6;
+/// Searches for what slides on the pulleys, and for the ratio of a tendon's tensions over a pin that gives way. Two or
+/// three do; where a tendon sticks on such a pin each leaves the give's share of the compliance, and where what slides
+/// turns round it may take some halving.
+constexpr int k_rounds = 40;
+/// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
+constexpr double k_least_hold = 1e-4;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
@@ -42,7 +49,39 @@ struct TendonHistory {
   WoundProfile wound;
   double upper = 0;  ///< tensions at the last step
   double lower = 0;
+  Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
+  double ratio = 1;      ///< lower per upper tension that Give is seen with
   double strained = 0;  ///< by how much the strain of the lower span grew in the last step
+};
+
+/// A tendon's directions at its pin, away from it, and what it pushes the pin with.
+struct AtPin {
+  Vec2 up, down;
+
+  AtPin(double upper_normal, double lower_normal)
+      : up(-std::sin(upper_normal), std::cos(upper_normal)), down(std::sin(lower_normal), -std::cos(lower_normal)) {}
+  Vec2 push(double upper, double lower) const { return upper * up + lower * down; }
+};
+
+/// A pin that gives way by c N⁻¹ takes up·d and down·d from the path's two parts, d = c (push − home's): to first
+/// order, with the moment arms of the pin where it was. By the span's own tension that is a spring behind it, and as EA
+/// times its compliance is a length of tendon that nobody sees, no equation changes: both spans get their `unseen`
+/// length of path and material. The tension of the other span acts by its ratio to this one's, which the step finds by
+/// repeating.
+struct Give {
+  double upper_unseen = 0;
+  double lower_unseen = 0;
+  double upper_length = 0;  ///< by what home's push no longer takes
+  double lower_length = 0;
+
+  Give() = default;
+  Give(const AtPin& at, const TendonHistory& tendon, double per_newton, double EA) {
+    const double across = at.up.dot(at.down);
+    upper_unseen = per_newton * EA * (1.0 + across * tendon.ratio);
+    lower_unseen = per_newton * EA * (1.0 + across / tendon.ratio);
+    upper_length = per_newton * at.up.dot(tendon.home_push);
+    lower_length = per_newton * at.down.dot(tendon.home_push);
+  }
 };
 
 /// A tendon at the pulley angle of a step, before θ is known.
@@ -52,7 +91,9 @@ struct AtAlpha {
   double swelling = 1;      ///< 1 + expansion: of material since home
   Spans spans;              ///< all but the upper length and the capstan factor, without what comes from the pulley
   Turned turned;
-  Slide slide;  ///< of the latest trial: the next one begins there
+  Slide slide;        ///< what slides on the pulley, at a strain near the one that will be found
+  double least = 0;   ///< what is known of that
+  double most = std::numeric_limits<double>::infinity();
 };
 
 GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
@@ -76,33 +117,47 @@ AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho,
   return at;
 }
 
-/// Two strains are one below this part of them: what is left of a tension's miss is its square.
-constexpr double k_same_strain = 1e-8;
+void give_way(Spans& spans, const Give& give) {
+  spans.upper_length += give.upper_unseen + give.upper_length;
+  spans.upper_material += give.upper_unseen;
+  spans.lower_length += give.lower_unseen + give.lower_length;
+  spans.lower_material += give.lower_unseen;
+}
 
-/// The balance in which what slides on the pulley slides by the lower span's own tension: Newton's steps, since
-/// Slide::length makes value and slope of the longer span exact, kept within what is known to enclose the strain (what
-/// slides changes where its direction does).
-TendonBalance balance(Spans& spans, AtAlpha& at, const WoundProfile& wound) {
-  const Spans alone = spans;
-  double least = 0;
-  double most = std::numeric_limits<double>::infinity();
-  for (int i = 0;; ++i) {
-    const Slide& slide = at.slide;
-    spans.lower_length = alone.lower_length + slide.length;
-    spans.lower_material = alone.lower_material + at.swelling * slide.freed + slide.length / (1.0 + slide.strain);
-    const TendonBalance found = balance(spans);
-    double next = found.lower / spans.EA;
-    if (std::abs(next - slide.strain) <= k_same_strain * next || i == 60) return found;
-    (next > slide.strain ? least : most) = slide.strain;
-    const bool outside = !(next >= least && next <= most) || next == least || next == most;
-    if (outside && std::isfinite(most) && i > 0) next = 0.5 * (least + most);
-    at.slide = wound.slide(at.turned, next, at.swelling);
+/// With what slides on the pulley as a part of the lower span: exact in value and slope at the slide's own strain.
+Spans with_slide(Spans spans, const AtAlpha& at) {
+  spans.lower_length += at.slide.length;
+  spans.lower_material += at.swelling * at.slide.freed + at.slide.length / (1.0 + at.slide.strain);
+  return spans;
+}
+
+/// Two strains are one below this part of them, or where this little is left.
+constexpr double k_same_strain = 1e-9;
+constexpr double k_least_strain = 1e-15;
+
+/// Slides by the strain that was found with the present slide. Was it that already?
+///
+/// Newton's steps, kept within what is known to enclose the strain: what slides changes where its direction does.
+bool slide_found(AtAlpha& at, const WoundProfile& wound, double found) {
+  const double now = at.slide.strain;
+  if (std::abs(found - now) <= k_same_strain * found + k_least_strain) return true;
+  (found > now ? at.least : at.most) = now;
+  double next = found;
+  if (!(next > at.least && next < at.most) && next > 0) next = 0.5 * (at.least + at.most);
+  // The other tendon moves it too: what was known may be wrong.
+  if (!(std::abs(next - now) > k_same_strain * now) || !std::isfinite(next)) {
+    at.least = 0;
+    at.most = std::numeric_limits<double>::infinity();
+    next = found;
   }
+  at.slide = wound.slide(at.turned, next, at.swelling);
+  return false;
 }
 
 /// A tendon at a trial θ.
 struct Trial {
   UpperSpanTable::Look span;
+  double upper_length = 0;  ///< of the path
   Spans spans;
   TendonBalance balance;
   double wrap = 0;
@@ -110,15 +165,19 @@ struct Trial {
   double slope = 0;  ///< of pull with respect to the image's θ
 };
 
-Trial tried(const TendonHistory& tendon, AtAlpha& at, const UpperSpanTable& upper, double rho, double mu,
+Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
+  const double rho = model.pins[tendon.side == Side::left ? 0 : 1].rho;
+  const double mu = model.mu;
   Trial trial;
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
-  trial.spans = at.spans;
-  trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
+  trial.spans = with_slide(at.spans, at);
+  trial.upper_length = trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
+  if (model.pin_give > 0)
+    give_way(trial.spans, Give({trial.span.normal, at.path.normal}, tendon, model.pin_give, at.spans.EA));
   trial.wrap = trial.span.normal - at.path.normal;
   trial.spans.capstan = std::exp(mu * std::max(0.0, trial.wrap));
-  trial.balance = balance(trial.spans, at, tendon.wound);
+  trial.balance = balance(trial.spans);
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
@@ -200,6 +259,7 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   tendon.wound =
       WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
   tendon.upper = tendon.lower = tension;
+  tendon.home_push = AtPin(span.normal, path.normal).push(tension, tension);
   return tendon;
 }
 
@@ -229,12 +289,13 @@ Spent wind(WoundProfile& wound, const AtAlpha& at) {
 }
 
 /// Takes a trial as what happened.
-Spent settle(TendonHistory& tendon, const AtAlpha& at, const Trial& trial) {
+Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
   const auto head = [EA](double upper, double lower) {
     return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
   };
+  at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
   Spent spent = wind(tendon.wound, at);
   spent.friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
@@ -251,7 +312,7 @@ TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial
   state.lower = trial.balance.lower;
   state.wrap = trial.wrap;
   state.contact = trial.balance.contact;
-  for (const double stretch : {trial.spans.upper_length - at.swelling * tendon.upper_material,
+  for (const double stretch : {trial.upper_length - at.swelling * tendon.upper_material,
                                at.lower_length - at.swelling * tendon.lower_material}) {
     (stretch > 0 ? state.stretch : state.slack) += std::abs(stretch);
   }
@@ -263,6 +324,13 @@ double energy_of_spans(const TendonHistory& tendon, double EA) {
          tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 
+/// Above that of home, where the pin gives way already.
+double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial, double per_newton) {
+  if (!(per_newton > 0)) return 0;
+  const AtPin pin(trial.span.normal, at.path.normal);
+  return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
+}
+
 }  // namespace
 
 struct JointMotion::State {
@@ -270,6 +338,7 @@ struct JointMotion::State {
   std::array<TendonHistory, 2> tendons;
   std::array<double, 2> released{};  ///< so far, mm
   double theta = 0;
+  bool loose = false;       ///< at the last step
   double expected = 0;      ///< model.expected at the last step
   double wound_energy = 0;  ///< since home
   double home_energy = 0;
@@ -278,9 +347,10 @@ struct JointMotion::State {
 
   explicit State(JointModel joint);
   /// Pull of the tendons beyond the load, towards +θ.
-  Residual residual(std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
-  std::array<Trial, 2> trials(std::array<AtAlpha, 2>& at, double at_theta) const;
-  std::optional<double> balanced(std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const;
+  Residual residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
+  std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
+  std::optional<double> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start) const;
+  bool consistent(std::array<AtAlpha, 2>& at, double found);
   EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, double found);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
@@ -295,38 +365,68 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model.EA);
 }
 
-std::array<Trial, 2> JointMotion::State::trials(std::array<AtAlpha, 2>& at, double at_theta) const {
-  return {tried(tendons[0], at[0], model.upper->left, model.pins[0].rho, model.mu, at_theta),
-          tried(tendons[1], at[1], model.upper->right, model.pins[1].rho, model.mu, at_theta)};
+std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
+  return {tried(tendons[0], at[0], model.upper->left, model, at_theta),
+          tried(tendons[1], at[1], model.upper->right, model, at_theta)};
 }
 
-Residual JointMotion::State::residual(std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
+Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
   const auto [left, right] = trials(at, at_theta);
   return {right.pull - left.pull - step.tip_force * model.pins[1].R - step.torque - model.weight_torque(at_theta),
           right.slope + left.slope - model.weight_slope(at_theta)};
 }
 
-std::optional<double> JointMotion::State::balanced(std::array<AtAlpha, 2>& at, const JointStep& step,
-                                                   double expected_now) const {
-  const auto pull = [&](double at_theta) { return residual(at, step, at_theta); };
-  // A joint that nothing pulls stays where it is; any other keeps its deviation from where it is expected.
-  if (theta > model.theta_least && theta < model.theta_most && pull(theta).value == 0) return theta;
-  return fallen_to_zero(theta + expected_now - expected, model.theta_least, model.theta_most, model.last_step, pull);
+std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step,
+                                                   double start) const {
+  // Its bearing holds the joint as long as it is not pulled by more; then it moves on until it is pulled by that much.
+  double held = 0;
+  const auto pull = [&](double at_theta) {
+    Residual beyond = residual(at, step, at_theta);
+    beyond.value -= held;
+    return beyond;
+  };
+  // A joint that nothing pulls stays where it is, and one that is loose is only pushed; any other keeps its deviation
+  // from where it is expected.
+  if (theta > model.theta_least && theta < model.theta_most) {
+    const double here = pull(theta).value;
+    if (std::abs(here) <= model.bearing_friction) return theta;
+    held = std::copysign(model.bearing_friction, here);
+    if (loose || model.bearing_friction > 0) start = theta;
+  }
+  return fallen_to_zero(start, model.theta_least, model.theta_most, model.last_step, pull);
+}
+
+/// What slides on both pulleys, and where pins give way the ratios of both tendons' tensions, taken as they were found;
+/// were they so already?
+bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, double found) {
+  constexpr double near = 1e-7;
+  bool same = true;
+  const std::array<Trial, 2> now = trials(at, found);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TendonBalance& balance = now[i].balance;
+    same = slide_found(at[i], tendons[i].wound, balance.lower / at[i].spans.EA) && same;
+    if (!(model.pin_give > 0 && balance.upper > 0 && balance.lower > 0)) continue;
+    const double ratio = balance.lower / balance.upper;
+    same = std::abs(ratio - tendons[i].ratio) <= near && same;
+    tendons[i].ratio = ratio;
+  }
+  return same;
 }
 
 EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const JointStep& step, double found) {
   const std::array<Trial, 2> now = trials(at, found);
   EquilibriumPoint point;
   point.alpha = step.alpha;
-  point.theta = theta = found;
   point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(found);
+  friction += model.bearing_friction * std::abs(found - theta);
+  point.theta = theta = found;
   point.stiffness = point.stiffness_stuck = model.weight_slope(found);
   for (std::size_t i = 0; i < 2; ++i) {
     const Spent spent = settle(tendons[i], at[i], now[i]);
     wound_energy += spent.wound;
     friction += spent.friction;
     groove_friction += spent.groove_friction;
-    point.stored += energy_of_spans(tendons[i], model.EA);
+    point.stored += energy_of_spans(tendons[i], model.EA) + energy_of_pin(tendons[i], at[i], now[i], model.pin_give);
     (i == 0 ? point.t1 : point.t2) = state_of(tendons[i], at[i], now[i]);
     const double m = now[i].span.m;
     const double geometric = now[i].balance.upper * now[i].span.dm;
@@ -337,8 +437,8 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   point.stored += wound_energy - home_energy;
   point.friction = friction;
   point.groove_friction = groove_friction;
-  const bool free = point.t1.upper == 0 && point.t2.upper == 0 && point.t1.slack + point.t2.slack > k_least_play;
-  if (free) {
+  loose = std::max(point.t1.upper, point.t2.upper) < k_least_hold && point.t1.slack + point.t2.slack > k_least_play;
+  if (loose) {
     point.status = EquilibriumStatus::loose;
     point.loose_below = point.t2.slack / now[1].span.m;
     point.loose_above = point.t1.slack / now[0].span.m;
@@ -380,7 +480,10 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
     if (!has_path) return state.refuse(step);
   }
   const double expected = model.expected(step.alpha);
-  const auto found = state.balanced(at, step, expected);
+  // A joint keeps its deviation from where it is expected.
+  auto found = state.balanced(at, step, state.theta + expected - state.expected);
+  for (int i = 0; i < k_rounds && found && !state.consistent(at, *found); ++i)
+    found = state.balanced(at, step, *found);
   if (!found) return state.refuse(step);
   state.expected = expected;
   state.released = step.tendon.released;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 // With T at the take-off, the sliding part ends where the bound T e^{∓μφ} meets what lies there: the stored profile
 // obeys the law itself, so that nothing beyond can slide. Material that slides moves along the arc by its strain's
@@ -31,11 +30,14 @@ WoundContent linear(double arc, double density_from, double density_to, double s
 }
 
 /// Gauss's places and weights on [0, 1].
-constexpr std::array<std::array<double, 2>, 4> k_gauss{{{0.069431844202973712, 0.173927422568726929},
-                                                        {0.330009478207571868, 0.326072577431273071},
-                                                        {0.669990521792428132, 0.326072577431273071},
-                                                        {0.930568155797026288, 0.173927422568726929}}};
-constexpr double k_panel = 1.0;  ///< rad: e^{μφ} for μ ≤ 2 to 1e-7 of its change
+constexpr std::array<std::array<double, 2>, 3> k_gauss{
+    {{0.112701665379258311, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.887298334620741689, 5.0 / 18.0}}};
+/// Of the wrap, rad, and of what falls over it by e^{μφ}: 1e-7 of its change.
+constexpr double k_panel = 1.0;
+/// Less strain than this is none: to logarithms it is that much.
+constexpr double k_no_strain = 1e-17;
+
+double log_of(double strain) { return std::log(std::max(strain, k_no_strain)); }
 
 struct SlidStretch {
   WoundContent held;
@@ -53,7 +55,8 @@ SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const Groo
   SlidStretch sum{{arc / whole, 0.5 * strain * strain / whole * arc}, arc};
   const double turn = to.turn - from.turn;
   if (fall != 0 && turn > 0) {
-    const int panels = std::max(1, static_cast<int>(std::ceil(turn / k_panel)));
+    const int panels = static_cast<int>(std::ceil(turn * std::max(1.0, std::abs(fall)) / k_panel));
+    const double origin = groove.arc(to.turn) - arc;
     const double width = turn / panels;
     double material = 0, energy = 0, length = 0;
     for (int panel = 0; panel < panels; ++panel) {
@@ -62,7 +65,7 @@ SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const Groo
         const double q = std::exp(fall * behind);
         const double here = strain * q;
         const double stretched = 1.0 / (1.0 + here);
-        const double moved = weight * q * stretched * stretched * (groove.arc(to.turn - behind) - from.arc);
+        const double moved = weight * q * stretched * stretched * (groove.arc(to.turn - behind) - origin);
         material -= moved;
         energy += moved * here * (1.0 + 0.5 * here);
         length += moved * (1.0 - here) * stretched;
@@ -93,43 +96,32 @@ WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& p
   return piece;
 }
 
-/// The bound of what slides: a strain at a place and how it falls behind it.
+/// The bound of what slides, as its logarithm: a straight line over the turning.
 struct Bound {
-  GroovePlace top;
-  double strain = 0;
-  double fall = 0;  ///< −μ: it pulls; μ: it lets go
+  double turn = 0;  ///< of its upper end
+  double log_strain = 0;
+  double fall = 0;
+  bool pulls = true;  ///< else it lets go
 
-  double at(double turn) const {
-    const double bound = strain * std::exp(fall * (top.turn - turn));
-    // Nothing times what overflowed: friction without end holds what is there.
-    return std::isnan(bound) ? std::numeric_limits<double>::infinity() : bound;
+  /// By how much it is beyond what has this strain, which it moves where that is positive.
+  double beyond(double at, double there) const {
+    const double by = log_strain + fall * (turn - at) - log_of(there);
+    return pulls ? by : -by;
   }
-  /// Does it move what has this strain?
-  bool moves(double bound_there, double there) const { return fall < 0 ? bound_there > there : bound_there < there; }
 };
 
-/// Where the bound stops moving `piece`, which it moves at its upper end; `piece.from` where it moves all.
-GroovePlace cut_of(const WoundPiece& piece, const Bound& bound, double bound_at_to, const GrooveArc& groove,
-                   double swelling) {
-  const double to = strain_of(piece.density_to, swelling);
-  const double turn = piece.to.turn - piece.from.turn;
-  if (piece.slid) {
-    // ln ε + f φ of both: they meet where the difference is gone.
-    const double faster = bound.fall - piece.fall;
-    if (faster == 0 || !(to > 0) || !(bound_at_to > 0)) return piece.from;
-    const double behind = std::log(to / bound_at_to) / faster;
-    if (!(behind >= 0 && behind < turn)) return piece.from;
-    const double at = piece.to.turn - behind;
-    return {at, std::clamp(groove.arc(at), piece.from.arc, piece.to.arc)};
-  }
-  const double from = strain_of(piece.density_from, swelling);
-  const double bound_at_from = bound.at(piece.from.turn);
-  if (bound.moves(bound_at_from, from)) return piece.from;
-  const double miss_to = bound_at_to - to;
-  const double miss_from = bound_at_from - from;
-  if (!std::isfinite(miss_from)) return piece.to;
-  const double share = miss_to / (miss_to - miss_from);
-  return {piece.to.turn - share * turn, piece.to.arc - share * (piece.to.arc - piece.from.arc)};
+/// Where the bound stops moving `piece`; `piece.to` where it moves nothing of it, `piece.from` where all.
+GroovePlace cut_of(const WoundPiece& piece, const Bound& bound, const GrooveArc& groove, double swelling) {
+  const double at_to = bound.beyond(piece.to.turn, strain_of(piece.density_to, swelling));
+  if (!(at_to > 0)) return piece.to;
+  const double at_from = bound.beyond(piece.from.turn, strain_of(piece.density_from, swelling));
+  if (at_from > 0) return piece.from;
+  // Straight in between: exact where the piece has slid, and what was laid in a step is short.
+  const double share = at_to / (at_to - at_from);
+  const double turn = piece.to.turn - share * (piece.to.turn - piece.from.turn);
+  if (!piece.slid) return {turn, piece.to.arc - share * (piece.to.arc - piece.from.arc)};
+  const double arc = piece.to.arc - (groove.arc(piece.to.turn) - groove.arc(turn));
+  return {turn, std::clamp(arc, piece.from.arc, piece.to.arc)};
 }
 
 }  // namespace
@@ -170,21 +162,20 @@ double GrooveArc::arc(double turn) const {
 
 WoundProfile::WoundProfile(std::shared_ptr<const GrooveArc> groove, double friction, const GroovePlace& take_off,
                            double density)
-    : groove_(std::move(groove)), friction_(friction), home_density_(density), take_off_(take_off) {
+    : groove_(std::move(groove)), friction_(friction), home_density_(density), take_off_(take_off), density_(density) {
   if (!(groove_->knot().arc < take_off.arc)) return;
   WoundPiece all{groove_->knot(), take_off, density, density, true, 0.0, {}};
   all.held = sliding(*groove_, all.from, all.to, strain_of(density, 1.0), 0.0, 1.0).held;
   pieces_.push_back(all);
 }
 
-double WoundProfile::strain(double swelling) const {
-  return strain_of(pieces_.empty() ? home_density_ : pieces_.back().density_to, swelling);
-}
+double WoundProfile::strain(double swelling) const { return strain_of(density_, swelling); }
 
 Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) const {
   Turned turned;
   turned.take_off = take_off;
   turned.before = take_off.arc > take_off_.arc ? take_off_ : take_off;
+  turned.lies = strain(swelling);
   std::size_t left = pieces_.size();
   while (left > 0 && pieces_[left - 1].from.arc >= turned.before.arc)
     turned.came_off += pieces_[--left].held.material;
@@ -202,6 +193,7 @@ Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) con
     turned.top = below(*groove_, turned.top, turned.before, swelling);
     turned.came_off -= turned.top.held.material;
   }
+  if (take_off.arc < take_off_.arc) turned.lies = strain_of(turned.top.density_to, swelling);
   return turned;
 }
 
@@ -213,29 +205,26 @@ Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) 
   slide.has_rest = turned.has_top;
   slide.freed = turned.came_off;
   const double laid = turned.take_off.arc - turned.before.arc;
-  const double lies = turned.has_top ? strain_of(turned.top.density_to, swelling) : strain_of(home_density_, swelling);
-  Bound bound{turned.before, strain, strain > lies ? -friction_ : friction_};
-  const double q = laid > 0 ? std::exp(bound.fall * (turned.take_off.turn - turned.before.turn)) : 1.0;
-  slide.slides = turned.has_top && bound.moves(strain * q, lies);
-  bound.strain = slide.slides ? strain * q : lies;
-  slide.at_before = laid > 0 ? bound.strain : strain;
-  const double ratio = (1.0 + strain) / (1.0 + bound.strain);
+  const double lies = turned.lies;
+  Bound bound{turned.before.turn, 0, strain > lies ? -friction_ : friction_, strain > lies};
+  const double falls = bound.fall * (turned.take_off.turn - turned.before.turn);
+  bound.log_strain = log_of(strain) + falls;
+  slide.slides = turned.has_top && bound.beyond(bound.turn, lies) > 0;
+  const double q = slide.slides ? std::exp(falls) : 1.0;
+  const double top = slide.slides ? strain * q : lies;
+  slide.at_before = laid > 0 ? top : strain;
+  const double ratio = (1.0 + strain) / (1.0 + top);
   const double shared = slide.slides ? q * ratio * ratio : 0.0;
   if (laid > 0) {
-    slide.freed -= 0.5 * laid * (density_of(bound.strain, swelling) + density_of(strain, swelling));
+    slide.freed -= 0.5 * laid * (density_of(top, swelling) + density_of(strain, swelling));
     slide.length = 0.5 * laid * (1.0 + shared);
   }
   if (!slide.slides) return slide;
   slide.fall = bound.fall;
-  slide.cut = turned.top.from;
   double came_loose = 0;
   for (;;) {
-    const double bound_there = slide.rest.to.turn == bound.top.turn ? bound.strain : bound.at(slide.rest.to.turn);
-    if (!bound.moves(bound_there, strain_of(slide.rest.density_to, swelling))) {
-      slide.cut = slide.rest.to;
-      break;
-    }
-    slide.cut = cut_of(slide.rest, bound, bound_there, *groove_, swelling);
+    slide.cut = cut_of(slide.rest, bound, *groove_, swelling);
+    if (slide.cut.arc >= slide.rest.to.arc) break;
     came_loose += slide.rest.held.material;
     if (slide.cut.arc > slide.rest.from.arc) {
       slide.rest = below(*groove_, slide.rest, slide.cut, swelling);
@@ -246,7 +235,7 @@ Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) 
     if (!slide.has_rest) break;
     slide.rest = pieces_[--slide.below];
   }
-  const SlidStretch moved = sliding(*groove_, slide.cut, turned.before, bound.strain, bound.fall, swelling);
+  const SlidStretch moved = sliding(*groove_, slide.cut, turned.before, top, bound.fall, swelling);
   slide.sliding = moved.held;
   slide.freed += came_loose - moved.held.material;
   slide.length += moved.length * shared;
@@ -254,7 +243,7 @@ Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) 
 }
 
 WoundContent WoundProfile::accept(const Turned& turned, const Slide& slide, double swelling) {
-  WoundContent more{turned.past_knot.material, turned.past_knot.energy};
+  WoundContent more{-turned.past_knot.material, -turned.past_knot.energy};
   for (std::size_t i = slide.below; i < pieces_.size(); ++i) {
     more.material -= pieces_[i].held.material;
     more.energy -= pieces_[i].held.energy;
@@ -276,6 +265,7 @@ WoundContent WoundProfile::accept(const Turned& turned, const Slide& slide, doub
     put({turned.before, turned.take_off, at_before, now, false, 0.0, linear(laid, at_before, now, swelling)});
   }
   take_off_ = turned.take_off;
+  density_ = density_of(slide.strain, swelling);
   return more;
 }
 

@@ -64,6 +64,7 @@ struct Turned {
   std::size_t below = 0;     ///< pieces that stay as they are …
   WoundPiece top;            ///< … and the one above them, cut at the take-off
   bool has_top = false;      ///< else nothing is left on the pulley
+  double lies = 0;           ///< strain of what lies at `before`
   double came_off = 0;       ///< material, with the turning alone, mm
   WoundContent past_knot;            ///< of that: what the range was left for by
 };
@@ -107,6 +108,7 @@ class WoundProfile {
   double friction_ = 0;
   double home_density_ = 1;
   GroovePlace take_off_;
+  double density_ = 1;  ///< there; what lies next to it may have none of it where friction has no end
   std::vector<WoundPiece> pieces_;
 };
 

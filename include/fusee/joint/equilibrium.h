@@ -71,7 +71,7 @@ struct EquilibriumPoint {
   /// … and with pins and groove that let it pass at the present ratio of tensions (large ones, whole tendons).
   double stiffness = 0;
   double stored = 0;    ///< elastic energy, above that of home unloaded, N·mm
-  double friction = 0;         ///< lost at the pins since home, N·mm
+  double friction = 0;         ///< lost at the pins and in the joint's bearing since home, N·mm
   double groove_friction = 0;  ///< lost in the grooves since home, N·mm
 };
 

@@ -65,6 +65,8 @@ struct JointModel {
   double mu = 0;                                 ///< of the pins
   double pretension = 0;                         ///< of tendon 1 at home, unloaded, N
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
+  double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm
+  double pin_give = 0;                           ///< a pin moves by this along what its tendon pushes it with, mm/N
   /// Between tendon and groove: what lies on a pulley slides as far as this lets it, up to the knot. Infinite: it keeps
   /// the strain that it was wound at; 0: it is a part of the spring.
   double groove_friction = 0;
