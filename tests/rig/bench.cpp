@@ -13,6 +13,8 @@ constexpr double k_bristle = 2e-4;
 constexpr double k_furthest = radians(85.0);
 /// The knot lies this much further along the groove than the tendon leaves it anywhere in the range. mm
 constexpr double k_knot_beyond = 5.0;
+/// Of the quickest part of creep: the middle of the first decade. s
+constexpr double k_first_decade = 3.16;
 
 Vec2 mirrored(const Vec2& point) { return {-point.x(), point.y()}; }
 
@@ -99,7 +101,11 @@ Vec2 turned(const Vec2& v, double angle) {
 
 // ---- at home --------------------------------------------------------------------------------------------------------
 
-Bench::Bench(const MadeJoint& joint, const Hidden& hidden) : hidden_(hidden) {
+Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
+    : hidden_(hidden),
+      longer_{Actors(hidden.longer[0]), Actors(hidden.longer[1])},
+      torque_(hidden.torque),
+      dry_(hidden.dry) {
   const DeclaredMechanism& declared = joint.declared;
   R_ = declared.joint.R + hidden.joint_length;
   friction_ = std::max(0.0, declared.guides.mu + hidden.friction);
@@ -111,8 +117,9 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden) : hidden_(hidden) {
     BenchTendon& tendon = tendons_[side];
     tendon.hull = printed(side == 0 ? joint.p1 : joint.p2, side, hidden);
     tendon.sign = side == 0 ? -1.0 : 1.0;
-    const double outward = (side == 0 ? declared.guides.EB : declared.guides.ED) + hidden.guide_outward;
-    tendon.pin = {{outward, -declared.guides.OE - hidden.guide_down},
+    const double outward =
+        (side == 0 ? declared.guides.EB : declared.guides.ED) + hidden.guide_outward + hidden.pin_outward[side];
+    tendon.pin = {{outward, -declared.guides.OE - hidden.guide_down - hidden.pin_down[side]},
                   declared.guides.radius + hidden.guide_radius + 0.5 * declared.tendon.diameter};
     tendon.axis = {0.0, -declared.guides.OE - declared.pulley.EF};
     const double own_arm = upper_string({0.0, R_}, tendon.pin).arm;
@@ -140,7 +147,7 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
   const Circle at_end{turned(seen.centre, unwound), seen.radius};
   const double knot = lower_string(tendon.hull, at_end, low.corner).arc - k_knot_beyond;
   tendon.laid = GrooveChain(tendon.hull, knot, low.arc, tension, hidden_.groove_friction, cord);
-  tendon.upper_tension = tendon.lower_tension = tension;
+  tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
   tendon.push = tendon.home_push = tension * (turned(low.normal, -0.5 * k_pi) - turned(up.normal, -0.5 * k_pi));
 }
 
@@ -148,8 +155,19 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
 
 Cord Bench::cord(std::size_t side, const Conditions& at) const {
   const double warmth = at.warmth * (side == 0 ? hidden_.expansion_other : 1.0);
-  const double yielding = 1.0 + hidden_.creep * std::log10(1.0 + std::max(0.0, at.creep_time));
-  return {EA_ / yielding, hidden_.hardening, 1.0 + hidden_.expansion * warmth};
+  double crept = 0;
+  for (const double strain : tendons_[side].crept) crept += strain;
+  return {EA_, hidden_.hardening, (1.0 + hidden_.expansion * warmth) * (1.0 + crept)};
+}
+
+void Bench::creep(BenchTendon& tendon, double seconds) const {
+  if (hidden_.creep == 0) return;
+  const double tension = 0.5 * (tendon.upper_tension + tendon.lower_tension) - tendon.home_tension;
+  double time = k_first_decade;
+  for (double& strain : tendon.crept) {
+    strain += (hidden_.creep * tension / EA_ - strain) * (1.0 - std::exp(-seconds / time));
+    time *= 10.0;
+  }
 }
 
 // ---- a step ---------------------------------------------------------------------------------------------------------
@@ -160,9 +178,9 @@ double Bench::lump(double alpha) const {
   return hidden_.lump * std::exp(-0.5 * x * x);
 }
 
-Bench::Below Bench::below(std::size_t side, double pulley, double alpha, const Conditions& at, const Vec2& push) const {
+Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer, const Vec2& push) const {
   const BenchTendon& tendon = tendons_[side];
-  const double image_angle = tendon.sign * pulley;
+  const double image_angle = tendon.sign * at.pulley;
   Below below;
   below.pin = {tendon.pin.centre + hidden_.frame_give * (push - tendon.home_push), tendon.pin.radius};
   // The pulley stands still and the pin goes round it.
@@ -172,7 +190,7 @@ Bench::Below Bench::below(std::size_t side, double pulley, double alpha, const C
   below.corner = string.corner;
   below.wound = string.arc;
   below.length = string.length + tendon.pin.radius * (tendon.mark - below.normal);
-  below.length += tendon.sign * (lump(alpha) - lump(0.0));
+  below.length += tendon.sign * (lump(at.alpha) - lump(0.0)) + longer;
   below.material = tendon.lower;
   below.cord = cord(side, at);
   below.laid = tendon.laid;
@@ -213,24 +231,32 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
     slip(std::clamp(0.0, trial.slipped, std::max(trial.slipped, tendon.upper - length / below.cord.natural)));
   }
   trial.torque = trial.upper_tension * up.arm;
+  trial.pull = turned(up.normal, -0.5 * k_pi);
   const Vec2 down = turned(Vec2(std::cos(below.normal), std::sin(below.normal)), -0.5 * k_pi);
-  trial.push = trial.lower_tension * down - trial.upper_tension * turned(up.normal, -0.5 * k_pi);
+  trial.push = trial.lower_tension * down - trial.upper_tension * trial.pull;
   return trial;
 }
 
 double Bench::excess(std::array<Below, 2>& below, double theta, const Conditions& at) const {
   const double weight = hidden_.gravity * std::sin(theta - hidden_.gravity_direction);
-  return tried(1, below[1], theta).torque - tried(0, below[0], theta).torque - at.load * R_ + weight;
+  double all = tried(1, below[1], theta).torque - tried(0, below[0], theta).torque - at.load * R_ + weight;
+  if (!torque_.empty()) {
+    Moment then = at;
+    then.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);
+    then.theta = theta;
+    all += torque_.tried(then);
+  }
+  return all;
 }
 
-double Bench::dry_friction(const Conditions& at) const {
+double Bench::dry_friction(const Conditions& at) {
   const double speed = std::abs(step_) / std::max(1e-9, at.seconds) / hidden_.bearing_speed;
-  return hidden_.bearing + hidden_.bearing_stick * std::exp(-speed * speed);
+  const double stick = hidden_.bearing_stick > 0 ? hidden_.bearing_stick * std::exp(-speed * speed) : 0.0;
+  return std::max(0.0, hidden_.bearing + stick + dry_(at));
 }
 
 // From where it stands the joint goes towards what pulls harder, until the pull is used up.
-double Bench::balanced(std::array<Below, 2>& below, const Conditions& at) const {
-  const double dry = hidden_.bearing + hidden_.bearing_stick > 0 ? dry_friction(at) : 0.0;
+double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double dry) const {
   const double now = excess(below, theta_, at);
   if (std::isnan(now)) return now;
   if (std::abs(now) <= dry) return theta_;
@@ -250,7 +276,16 @@ double Bench::balanced(std::array<Below, 2>& below, const Conditions& at) const 
   return theta_ + towards * crossing(low, at_low, high, at_high, 1e-12, left);
 }
 
-double Bench::to(double pulley, double alpha, const Conditions& at) {
+double Bench::to(double pulley, double alpha, const Conditions& conditions) {
+  Conditions at = conditions;
+  at.alpha = alpha;
+  at.pulley = pulley;
+  at.theta = theta_;
+  at.theta_speed = now_.theta_speed;
+  at.tension = now_.tension;
+  at.pull = now_.pull;
+  const std::array<double, 2> longer{longer_[0](at), longer_[1](at)};
+  const double dry = dry_friction(at);
   std::array<Vec2, 2> push{tendons_[0].push, tendons_[1].push};
   std::array<Below, 2> lower;
   std::array<Trial, 2> now;
@@ -258,8 +293,8 @@ double Bench::to(double pulley, double alpha, const Conditions& at) {
   // A frame that gives moves the pins, which changes the pull.
   const int looks = hidden_.frame_give > 0 ? 6 : 1;
   for (int look = 0; look < looks; ++look) {
-    for (std::size_t side = 0; side < 2; ++side) lower[side] = below(side, pulley, alpha, at, push[side]);
-    theta = balanced(lower, at);
+    for (std::size_t side = 0; side < 2; ++side) lower[side] = below(side, at, longer[side], push[side]);
+    theta = balanced(lower, at, dry);
     if (!std::isfinite(theta)) return theta;
     for (std::size_t side = 0; side < 2; ++side) {
       now[side] = tried(side, lower[side], theta);
@@ -279,9 +314,16 @@ double Bench::to(double pulley, double alpha, const Conditions& at) {
     tendon.upper_tension = now[side].upper_tension;
     tendon.lower_tension = now[side].lower_tension;
     tendon.push = now[side].push;
+    creep(tendon, at.seconds);
+    at.tension[side] = now[side].upper_tension;
+    at.pull[side] = side == 0 ? mirrored(now[side].pull) : now[side].pull;
   }
   step_ = theta - theta_;
   theta_ = theta;
+  at.theta = theta;
+  at.theta_speed = step_ / std::max(1e-9, at.seconds);
+  if (!torque_.empty()) torque_(at);
+  now_ = at;
   return theta;
 }
 

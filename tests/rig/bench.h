@@ -13,13 +13,9 @@
 
 namespace fusee::rig {
 
-/// What acts on the joint at a step.
-struct Conditions {
-  double load = 0;                 ///< tip force across OC, against +θ, N
-  double creep_time = 0;           ///< since the load came on, s
-  double warmth = 0;               ///< K above home's temperature
-  double seconds = 1;              ///< since the last step
-  std::array<double, 2> let_go{};  ///< material let go at each anchor so far, mm
+/// What acts on the joint at a step; Bench fills in what it knows itself (pulley, θ, tensions, pull).
+struct Conditions : Moment {
+  std::array<double, 2> let_go{};  ///< material let go at each knot so far, mm
 };
 
 /// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
@@ -38,6 +34,8 @@ struct BenchTendon {
   double let_go = 0;
   double upper_tension = 0;  ///< N
   double lower_tension = 0;
+  std::array<double, 5> crept{};  ///< strain of each decade's spring beyond that of home
+  double home_tension = 0;
   Vec2 home_push = Vec2::Zero();  ///< force on the pin at home, N
   Vec2 push = Vec2::Zero();
 };
@@ -49,6 +47,8 @@ class Bench {
 
   /// θ with the pulley turned to `pulley`; a lump is met at `alpha`. NaN when nothing holds the joint.
   double to(double pulley, double alpha, const Conditions& conditions);
+  /// As it stands, for what acts outside the bench.
+  const Moment& now() const { return now_; }
 
   /// tendon(0): tendon 1.
   const BenchTendon& tendon(std::size_t side) const { return tendons_[side]; }
@@ -73,16 +73,18 @@ class Bench {
     double slipped = 0;
     double bristle = 0;
     double upper_tension = 0, lower_tension = 0;
+    Vec2 pull = Vec2::Zero();  ///< unit, from the link's end to the pin, in the image
     Vec2 push = Vec2::Zero();
   };
 
   void hang(BenchTendon& tendon, double tension, double slack, double unwound);
   Cord cord(std::size_t side, const Conditions& conditions) const;
-  Below below(std::size_t side, double pulley, double alpha, const Conditions& conditions, const Vec2& push) const;
+  void creep(BenchTendon& tendon, double seconds) const;
+  Below below(std::size_t side, const Conditions& conditions, double longer, const Vec2& push) const;
   Trial tried(std::size_t side, Below& below, double theta) const;
   double excess(std::array<Below, 2>& below, double theta, const Conditions& conditions) const;
-  double dry_friction(const Conditions& conditions) const;
-  double balanced(std::array<Below, 2>& below, const Conditions& conditions) const;
+  double dry_friction(const Conditions& conditions);
+  double balanced(std::array<Below, 2>& below, const Conditions& conditions, double dry) const;
   double lump(double alpha) const;
 
   Hidden hidden_;
@@ -92,6 +94,10 @@ class Bench {
   double step_ = 0;  ///< of θ, the last one
   double theta_ = 0;
   std::array<BenchTendon, 2> tendons_;
+  std::array<Actors, 2> longer_;
+  Actors torque_;
+  Actors dry_;
+  Moment now_;
 };
 
 }  // namespace fusee::rig

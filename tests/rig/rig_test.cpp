@@ -250,6 +250,37 @@ TEST(Fault, sensors_show_what_they_should) {
   }
 }
 
+TEST(Fault, waves_of_both_sensors_are_waves) {
+  const Transmission law(forearm().declared);
+  Hidden hidden;
+  hidden.motor_harmonic = 0.01;
+  hidden.motor_harmonic_phase = 0.3;
+  hidden.motor_harmonic_order = 3;
+  hidden.joint_harmonic = 0.002;
+  hidden.joint_harmonic_phase = 1.1;
+  for (const Row& row : unloaded(hidden)) {
+    const double theta = law.theta(row.alpha + 0.01 * (std::sin(3 * row.alpha + 0.3) - std::sin(0.3)));
+    EXPECT_NEAR(row.theta, theta + 0.002 * (std::sin(2 * theta + 1.1) - std::sin(1.1)), 3e-6);
+  }
+}
+
+TEST(Fault, a_filter_is_as_late_as_a_delay_in_a_long_stroke_and_softer_at_its_ends) {
+  Hidden late, filter;
+  late.lag = filter.lag_filter = 0.05;
+  const Log delayed = unloaded(late);
+  const Log filtered = unloaded(filter);
+  EXPECT_NEAR(filtered[200].theta, delayed[200].theta, 2e-5);
+  Hidden slow;
+  slow.lag_filter = 2.0;
+  const Log plain = unloaded({});
+  const Log soft = unloaded(slow);
+  // From rest into a ramp: behind by τ (1 − e^(−t/τ)) times the speed, while the law is straight enough.
+  const double speed = (plain[3].theta - plain[0].theta) / (plain[3].time - plain[0].time);
+  const double time = plain[3].time - plain[0].time;
+  const double behind = speed * 2.0 * (1.0 - std::exp(-time / 2.0));
+  EXPECT_NEAR(plain[3].theta - soft[3].theta, behind, 0.02 * behind);
+}
+
 TEST(Fault, backlash_and_delay_open_loops_of_known_width) {
   Hidden lash, late;
   lash.backlash = 0.03;
@@ -359,6 +390,28 @@ TEST(Fault, a_wrong_geometry_does_what_rewinding_it_does) {
     }
     EXPECT_GT(moved, 1e-3) << twin.name << ": a twin that is no different tells nothing";
   }
+}
+
+/// Each pin by itself is a mechanism of its own.
+TEST(Fault, one_pin_out_of_place_moves_its_own_tendon) {
+  Hidden left;
+  left.pin_outward[0] = 0.7;
+  left.pin_down[0] = -0.4;
+  DeclaredMechanism twin = forearm().declared;
+  twin.guides.EB += 0.7;
+  twin.guides.OE -= 0.4;
+  twin.pulley.EF += 0.4;
+  Twin unmoved{"", {}, twin, {}};
+  unmoved.floor = [&](const OutlinePoint& point) -> Vec2 {
+    return point.position - 0.5 * twin.tendon.diameter * point.normal;
+  };
+  Bench bench(forearm(), left);
+  Conditions at;
+  at.load = -1.0;
+  at.let_go[1] = 30.0;
+  for (const RewindPoint& point :
+       rewind(twin, floor_of(forearm().p1, unmoved), floor_of(forearm().p2, unmoved), 20).points)
+    EXPECT_NEAR(bench.to(point.alpha, point.alpha, at), point.theta, 1e-5);
 }
 
 /// What lies in the groove stays as it was laid: the springs that give are the free spans.
@@ -474,16 +527,32 @@ TEST(Fault, a_groove_without_friction_makes_the_tendon_longer_and_a_rubbing_one_
   EXPECT_GT(under_load(0.2), 1.01 * under_load(1e3));
 }
 
-TEST(Fault, creep_adds_its_share_with_every_decade) {
+TEST(Fault, creep_adds_its_share_with_every_decade_and_remembers) {
   const MadeJoint joint = make_joint(elastic());
   Hidden hidden;
   hidden.creep = 0.2;
   Bench bench(joint, held(hidden));
   Conditions at;
   at.load = 3.0;
+  at.seconds = 1e-6;
   const double first = bench.to(0.0, 0.0, at);
-  at.creep_time = 99.0;
-  EXPECT_NEAR(bench.to(0.0, 0.0, at) / first, 1.4, 0.01);
+  const auto after = [&](double load, int seconds) {
+    at.load = load;
+    at.seconds = 1.0;
+    double theta = 0;
+    for (int i = 0; i < seconds; ++i) theta = bench.to(0.0, 0.0, at);
+    return theta / first;
+  };
+  // What the springs of five decades have given by then.
+  const auto given = [](double time) {
+    double all = 0;
+    for (double decade = 3.16; decade < 1e5; decade *= 10.0) all += 1.0 - std::exp(-time / decade);
+    return all;
+  };
+  EXPECT_NEAR(after(3.0, 100), 1.0 + 0.2 * given(99.0), 0.01);
+  EXPECT_NEAR(after(3.0, 900), 1.0 + 0.2 * given(999.0), 0.01);
+  EXPECT_NEAR(given(1e3) - given(1e2), 1.0, 0.1) << "a decade is a decade";
+  EXPECT_NEAR(after(0.0, 101), 0.2 * (given(1100.0) - given(100.0)), 0.015) << "let go, it comes back by decades too";
 }
 
 TEST(Fault, a_tendon_that_carries_alone_lets_the_joint_down_by_what_it_slips) {
