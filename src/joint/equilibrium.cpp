@@ -106,7 +106,7 @@ AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho,
   at.path = path;
   at.lower_length = path.reach + rho * (tendon.rim_reference - path.normal);
   at.swelling = 1.0 + expansion;
-  at.spans.EA = EA / step.tendon.compliance;
+  at.spans.EA = EA;
   at.spans.upper_material = at.swelling * tendon.upper_material;
   at.spans.lower_length = at.lower_length;
   at.spans.lower_material = at.swelling * tendon.lower_material;

@@ -17,7 +17,6 @@ namespace fusee {
 /// By how much both tendons are not what they were at home: creep, heat, an anchor that gave way. Energies are counted
 /// for none of it.
 struct TendonChange {
-  double compliance = 1;              ///< strain per tension, as a multiple of that at home
   std::array<double, 2> expansion{};  ///< of tendon 1 and 2: unloaded length added, as a fraction
   std::array<double, 2> released{};   ///< material that the anchors of tendon 1 and 2 have let go since home, mm
 };
