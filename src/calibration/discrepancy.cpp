@@ -19,6 +19,9 @@ namespace {
 constexpr Eigen::Index k_smooth = 7;
 constexpr Eigen::Index k_simple = 5;
 constexpr Eigen::Index k_rough = 18;
+/// Share of the span over which the latter bend, and places at which they are known.
+constexpr double k_bend = 0.06;
+constexpr int k_nodes = 41;
 
 /// What a row stands for.
 struct RowFacts {
@@ -72,14 +75,22 @@ Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index c
   return curves;
 }
 
-/// Cosines over the span that bend more often than the smooth ones.
+/// Eigenfunctions of a Gaussian process that bends over a small part of the span: φ φᵀ is its covariance. A lump
+/// anywhere is as likely as any.
 Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
-  Eigen::MatrixXd curves(static_cast<Eigen::Index>(facts.size()), k_rough);
-  for (Eigen::Index i = 0; i < curves.rows(); ++i) {
-    for (Eigen::Index k = 0; k < k_rough; ++k)
-      curves(i, k) = std::cos(k_pi * static_cast<double>(k_smooth + k) * facts[static_cast<std::size_t>(i)].place);
+  const auto kernel = [](double a, double b) { return std::exp(-0.5 * (a - b) * (a - b) / (k_bend * k_bend)); };
+  const auto node = [](Eigen::Index i) { return static_cast<double>(i) / (k_nodes - 1); };
+  Eigen::MatrixXd K(k_nodes, k_nodes);
+  for (Eigen::Index i = 0; i < k_nodes; ++i) {
+    for (Eigen::Index j = 0; j < k_nodes; ++j) K(i, j) = kernel(node(i), node(j));
   }
-  return curves;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
+  Eigen::MatrixXd at_rows(static_cast<Eigen::Index>(facts.size()), k_nodes);
+  for (Eigen::Index i = 0; i < at_rows.rows(); ++i) {
+    for (Eigen::Index j = 0; j < k_nodes; ++j) at_rows(i, j) = kernel(facts[static_cast<std::size_t>(i)].place, node(j));
+  }
+  const Eigen::VectorXd size = eigen.eigenvalues().tail(k_rough).cwiseSqrt().cwiseInverse();
+  return at_rows * eigen.eigenvectors().rightCols(k_rough) * size.asDiagonal();
 }
 
 class Builder {
@@ -159,7 +170,7 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   if (evidence.blocks.size() <= k_thresholds.most_strokes)
     builder.add(Factor::stroke, indicators(facts, &RowFacts::block, one));
   const std::vector<Eigen::Index> rows = evidence.rows();
-  if (deflection.size() > 0) {
+  if (deflection.size() > 0) {  // of a joint declared by a ratio: what a unit of load does to one of compliance 1
     const Eigen::VectorXd yielding = deflection(rows);
     const Eigen::MatrixXd even = yielding.asDiagonal() * smooth;
     const Eigen::MatrixXd odd = column(facts, [](const RowFacts& r) { return r.direction; }).asDiagonal() * even;

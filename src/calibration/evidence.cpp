@@ -210,7 +210,10 @@ std::vector<Fold> speed_levels(const Evidence& evidence) {
   std::vector<double> speeds;
   for (const Block& block : evidence.blocks) {
     const Run& run = evidence.measurement.runs[block.run];
-    speeds.push_back(!run.has_time ? 0.0 : run.speed > 0 ? std::log(run.speed) : is_from_point_to_point(run) ? held : 0.0);
+    speeds.push_back(!run.has_time                 ? 0.0
+                     : run.speed > 0               ? std::log(run.speed)
+                     : is_from_point_to_point(run) ? held
+                                                   : 0.0);
   }
   return levels(speeds, 0.15);
 }
@@ -453,11 +456,19 @@ class BlockMaker {
 
 namespace {
 
-/// By how much the declared joint gives way, all rows, rad; nothing of a joint declared by a ratio.
+/// By how much the declared joint gives way, all rows, rad; of a joint declared by a ratio, which gives way by nothing,
+/// the load.
 Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
   const DeclaredLaw law(*evidence.declared);
-  if (evidence.declared->transmission || !law.exists()) return {};
   Eigen::VectorXd given = declared;
+  if (evidence.declared->transmission) {
+    Eigen::Index at = 0;
+    for (const Run& run : evidence.measurement.runs) {
+      for (const Sample& sample : run.samples) given[at++] = run.has_load ? sample.load : 0.0;
+    }
+    return given;
+  }
+  if (!law.exists()) return {};
   Eigen::Index row = 0;
   for (const Run& run : evidence.measurement.runs) {
     for (const Sample& sample : run.samples) given[row++] -= law.theta_straight_on(sample.alpha);

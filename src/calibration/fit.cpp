@@ -99,6 +99,7 @@ Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
   tangent.read = readings.JJ / unit;
   tangent.pull = readings.Jr / unit;
   tangent.against = against_readings(evidence, fit.at);
+  tangent.give = evidence.declared->transmission ? std::abs(fit.at.ratio_joint.compliance) : 1.0 + fit.at.tendon.stretch;
   return tangent;
 }
 

@@ -30,12 +30,6 @@ double log_prior(double x, double prior) {
   return constant - std::log(prior) - 0.5 * (k_tail + 1.0) * std::log1p(x * x / (k_tail * prior * prior));
 }
 
-struct Marginal::Sums {
-  Eigen::MatrixXd JJ, JD;
-  Eigen::VectorXd Jr, Dr;
-  double rr = 0;
-};
-
 /// Of one pair of amplitudes: everything over the columns in use, scaled by their amplitudes.
 struct Marginal::Solved {
   std::vector<Eigen::Index> columns;
@@ -71,35 +65,35 @@ Amplitudes Marginal::nothing_unnamed() const {
   return nothing;
 }
 
-Marginal::Sums Marginal::sums_of(const Tangent& tangent) const {
-  Sums sums;
+TangentSums Marginal::sums_of(const Tangent& tangent) const {
+  TangentSums sums;
   sums.JJ = tangent.J.transpose() * tangent.J;
   sums.JD = tangent.J.transpose() * discrepancy_.columns;
   sums.Jr = tangent.J.transpose() * tangent.residual;
   sums.Dr = discrepancy_.columns.transpose() * tangent.residual;
   sums.rr = tangent.residual.squaredNorm();
+  sums.rows = static_cast<double>(tangent.residual.size());
+  sums.x = tangent.x;
+  sums.prior = tangent.prior;
+  sums.read = tangent.read;
+  sums.pull = tangent.pull;
+  sums.against = tangent.against;
+  sums.give = tangent.give;
   return sums;
 }
 
-std::vector<Eigen::Index> Marginal::active(const Amplitudes& amplitudes) const {
-  std::vector<Eigen::Index> columns;
+Marginal::Solved Marginal::solved(const TangentSums& sums, const Amplitudes& amplitudes) const {
+  Solved s;
+  std::vector<double> size;
   for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
     const Family& family = discrepancy_.families[f];
-    if (!(amplitudes.families[static_cast<Eigen::Index>(f)] > 0)) continue;
-    for (Eigen::Index k = 0; k < family.count; ++k) columns.push_back(family.first + k);
-  }
-  return columns;
-}
-
-Marginal::Solved Marginal::solved(const Sums& sums, const Tangent& tangent, const Amplitudes& amplitudes) const {
-  Solved s;
-  s.columns = active(amplitudes);
-  s.size.resize(static_cast<Eigen::Index>(s.columns.size()));
-  Eigen::Index place = 0;
-  for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
-    for (Eigen::Index k = 0; amplitude > 0 && k < discrepancy_.families[f].count; ++k) s.size[place++] = amplitude;
+    for (Eigen::Index k = 0; amplitude > 0 && k < family.count; ++k) {
+      s.columns.push_back(family.first + k);
+      size.push_back(family.fixed > 0 ? amplitude * sums.give : amplitude);
+    }
   }
+  s.size = Eigen::Map<const Eigen::VectorXd>(size.data(), static_cast<Eigen::Index>(size.size()));
   const double beta = worth_ / (amplitudes.noise * amplitudes.noise);
   Eigen::MatrixXd A = beta * (s.size.asDiagonal() * gram_(s.columns, s.columns) * s.size.asDiagonal());
   A.diagonal().array() += 1.0;
@@ -111,7 +105,7 @@ Marginal::Solved Marginal::solved(const Sums& sums, const Tangent& tangent, cons
   s.JJ = beta * sums.JJ - s.B.transpose() * s.AB;
   s.Jr = beta * sums.Jr - s.AB.transpose() * s.t;
   s.rr = beta * sums.rr - s.t.dot(s.At);
-  const double rows = worth_ * static_cast<double>(tangent.residual.size());
+  const double rows = worth_ * sums.rows;
   const double freedom = k_thresholds.noise_freedom;
   const double excess = floor_ * floor_ / (amplitudes.noise * amplitudes.noise);
   s.constant = 0.5 * rows * std::log(beta) - s.A.matrixLLT().diagonal().array().log().sum() +
@@ -119,8 +113,7 @@ Marginal::Solved Marginal::solved(const Sums& sums, const Tangent& tangent, cons
   return s;
 }
 
-Explained Marginal::explained(const Sums& sums, const Tangent& tangent, const Amplitudes& amplitudes, Solved& s) const {
-  (void)sums;
+Explained Marginal::explained(const TangentSums& tangent, const Amplitudes& amplitudes, const Solved& s) const {
   const Eigen::Index count = tangent.x.size();
   Eigen::MatrixXd H = s.JJ + tangent.read;
   Eigen::VectorXd g = s.Jr + tangent.pull;
@@ -154,7 +147,7 @@ Explained Marginal::explained(const Sums& sums, const Tangent& tangent, const Am
   return explained;
 }
 
-Amplitudes Marginal::reestimated(const Sums& sums, const Explained& now, const Solved& s) const {
+Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, const Solved& s) const {
   const Eigen::Index active = s.size.size();
   const Eigen::MatrixXd A_inverse = s.A.solve(Eigen::MatrixXd::Identity(active, active));
   Eigen::VectorXd unknown = A_inverse.diagonal();
@@ -179,27 +172,24 @@ Amplitudes Marginal::reestimated(const Sums& sums, const Explained& now, const S
   if (now.step.size() > 0)
     squares += now.step.dot(sums.JJ * now.step) - 2.0 * now.step.dot(sums.Jr) + 2.0 * now.step.dot(sums.JD * a);
   const double freedom = k_thresholds.noise_freedom;
-  const double rows = worth_ * static_cast<double>(discrepancy_.columns.rows());
+  const double rows = worth_ * sums.rows;
   const double left = freedom + std::max(1.0, rows - determined);
   better.noise = std::max(floor_, std::sqrt((freedom * floor_ * floor_ + worth_ * squares) / left));
   return better;
 }
 
-Explained Marginal::at(const Tangent& tangent, const Amplitudes& amplitudes) const {
-  const Sums sums = sums_of(tangent);
-  Solved s = solved(sums, tangent, amplitudes);
-  return explained(sums, tangent, amplitudes, s);
+Explained Marginal::at(const TangentSums& sums, const Amplitudes& amplitudes) const {
+  return explained(sums, amplitudes, solved(sums, amplitudes));
 }
 
-Explained Marginal::best(const Tangent& tangent, Amplitudes from, int rounds) const {
-  const Sums sums = sums_of(tangent);
+Explained Marginal::best(const TangentSums& sums, Amplitudes from, int rounds) const {
   Explained best;
   for (int round = 0; round < rounds; ++round) {
-    Solved s = solved(sums, tangent, from);
-    Explained now = explained(sums, tangent, from, s);
+    const Solved s = solved(sums, from);
+    Explained now = explained(sums, from, s);
     const bool settled = round > 0 && now.log_evidence < best.log_evidence + k_settled;
     if (round == 0 || now.log_evidence > best.log_evidence) best = now;
-    if (settled) break;
+    if (settled || round + 1 == rounds) break;
     from = reestimated(sums, now, s);
   }
   return best;
@@ -208,7 +198,7 @@ Explained Marginal::best(const Tangent& tangent, Amplitudes from, int rounds) co
 double Marginal::summit(const Tangent& tangent, const Amplitudes& amplitudes) const {
   Tangent here = tangent;
   here.J.resize(tangent.J.rows(), 0);
-  const Solved s = solved(sums_of(here), here, amplitudes);
+  const Solved s = solved(sums_of(here), amplitudes);
   double density = s.constant - 0.5 * (s.rr + tangent.against);
   for (Eigen::Index k = 0; k < tangent.x.size(); ++k) density += log_prior(tangent.x[k], tangent.prior[k]);
   return density;

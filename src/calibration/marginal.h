@@ -24,6 +24,20 @@ struct Tangent {
   Eigen::MatrixXd read;      ///< of what was measured by hand: information about x …
   Eigen::VectorXd pull;      ///< … and its gradient
   double against = 0;        ///< … and squares at x
+  double give = 1;           ///< deflection there by the declared joint's: what the model is trusted to grows with it
+};
+
+/// A tangent's sums over rows, not weighted: all that its evidence needs.
+struct TangentSums {
+  Eigen::MatrixXd JJ, JD;
+  Eigen::VectorXd Jr, Dr;
+  double rr = 0;
+  double rows = 0;
+  Eigen::VectorXd x, prior;
+  Eigen::MatrixXd read;
+  Eigen::VectorXd pull;
+  double against = 0;
+  double give = 1;
 };
 
 /// What the data say at a tangent.
@@ -33,7 +47,6 @@ struct Explained {
   Eigen::MatrixXd covariance;  ///< of x
   Eigen::VectorXd unnamed;     ///< what the discrepancy's columns add at the summit, rad each
   Amplitudes amplitudes;
-  Eigen::VectorXd known;       ///< of each family: how many of its columns the data determine
 };
 
 /// Sums over the rows in use that every set of effects shares.
@@ -53,21 +66,26 @@ class Marginal {
   /// Of the noise and what is stated alone.
   Amplitudes nothing_unnamed() const;
 
+  TangentSums sums_of(const Tangent& tangent) const;
+  /// DᵀD
+  const Eigen::MatrixXd& gram() const { return gram_; }
+
   /// With amplitudes as they are given.
-  Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const;
-  /// With those that make the data likeliest, sought from there.
-  Explained best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const;
+  Explained at(const TangentSums& sums, const Amplitudes& amplitudes) const;
+  Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const { return at(sums_of(tangent), amplitudes); }
+  /// With those that make the data likeliest, sought from there; a family of none there has none.
+  Explained best(const TangentSums& sums, Amplitudes from, int rounds = k_rounds) const;
+  Explained best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const {
+    return best(sums_of(tangent), std::move(from), rounds);
+  }
   /// Log of posterior density at x itself but for a constant.
   double summit(const Tangent& tangent, const Amplitudes& amplitudes) const;
 
  private:
-  struct Sums;
   struct Solved;
-  Sums sums_of(const Tangent& tangent) const;
-  std::vector<Eigen::Index> active(const Amplitudes& amplitudes) const;
-  Solved solved(const Sums& sums, const Tangent& tangent, const Amplitudes& amplitudes) const;
-  Explained explained(const Sums& sums, const Tangent& tangent, const Amplitudes& amplitudes, Solved& solved) const;
-  Amplitudes reestimated(const Sums& sums, const Explained& now, const Solved& solved) const;
+  Solved solved(const TangentSums& sums, const Amplitudes& amplitudes) const;
+  Explained explained(const TangentSums& sums, const Amplitudes& amplitudes, const Solved& solved) const;
+  Amplitudes reestimated(const TangentSums& sums, const Explained& now, const Solved& solved) const;
 
   Discrepancy discrepancy_;
   Eigen::MatrixXd gram_;

@@ -309,7 +309,7 @@ Selection Selector::run() {
   selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects);
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
-  if (!selection_.none.usable) return std::move(selection_);
+  if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);
   keep(selection_.none);
   try_singles();
   try_pairs();

@@ -106,8 +106,13 @@ Within within_strokes(const Evidence& evidence, const Fit& fit) {
   return sums;
 }
 
+struct VarianceOfMeans {
+  double variance = 0;
+  double freedom = 0;
+};
+
 /// Mean square of means about those that are alike; zero where no stroke has a like.
-double variance_of_means(const Within& sums) {
+VarianceOfMeans variance_of_means(const Within& sums) {
   double between = 0;
   double freedom = 0;
   for (const auto& [key, means] : sums.means) {
@@ -115,7 +120,7 @@ double variance_of_means(const Within& sums) {
     for (const double mean : means) between += (mean - centre) * (mean - centre);
     freedom += static_cast<double>(means.size()) - 1.0;
   }
-  return freedom > 0 ? between / freedom : 0.0;
+  return {freedom > 0 ? between / freedom : 0.0, freedom};
 }
 
 }  // namespace
@@ -128,7 +133,10 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   const double rows_a_stroke = sums.rows / static_cast<double>(std::max<std::size_t>(1, evidence.blocks.size()));
   const double of_noise =
       scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) / std::max(1.0, rows_a_stroke);
-  scatter.between = std::sqrt(std::max(0.0, variance_of_means(sums) - of_noise));
+  const VarianceOfMeans means = variance_of_means(sums);
+  // Few means of few rows differ by more than that now and then: three standard errors of a variance.
+  const double by_chance = of_noise * (1.0 + 3.0 * std::sqrt(2.0 / std::max(1.0, means.freedom)));
+  if (means.variance > by_chance) scatter.between = std::sqrt(means.variance - of_noise);
   return scatter;
 }
 

@@ -37,7 +37,7 @@ std::string unit_of(const std::string& column) {
   return mark == std::string::npos ? "" : column.substr(mark + 1);
 }
 
-void repair(Run& run, Measurement& into, const Say& say) {
+void repair(Run& run, const Say& say) {
   if (run.has_time) order_time(run, say);
   // θ first: a turn of α at which θ goes far is a motion.
   unwrap(run.samples, &Sample::theta, "theta", say);
@@ -45,7 +45,6 @@ void repair(Run& run, Measurement& into, const Say& say) {
   drop_outliers(run, say);
   run.has_load = run.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
   run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
-  into.theta_quantum = std::max(into.theta_quantum, quantum_of(run.samples, &Sample::theta));
 }
 
 void describe(Run& run) {
@@ -62,9 +61,13 @@ void describe(Run& run) {
 }
 
 /// Strokes, and what stands or falls together in them.
-void cut(Run& run, double alpha_quantum) {
+void cut(Run& run, Measurement& into, double alpha_quantum) {
   std::vector<Hold> holds = holds_in(run.samples, alpha_quantum);
-  run.strokes = split_strokes(run.samples, holds, alpha_quantum, run.has_time);
+  const double theta_quantum = quantum_of(run.samples, &Sample::theta);
+  const double alpha_step = quantum_beside(holds, run.samples, &Sample::alpha, alpha_quantum);
+  into.alpha_quantum = std::max(into.alpha_quantum, alpha_step);
+  into.theta_quantum = std::max(into.theta_quantum, quantum_beside(holds, run.samples, &Sample::theta, theta_quantum));
+  run.strokes = split_strokes(run.samples, holds, alpha_step, run.has_time);
   if (run.strokes.empty() && has_levels_of_load(run)) {
     holds = {{0, run.samples.size() - 1}};
     run.strokes = {{0, run.samples.size() - 1, 0, 0, false}};
@@ -83,9 +86,8 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   run.has_temperature = rows.has_temperature;
   if (!run.samples.empty()) {
     const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);
-    into.alpha_quantum = std::max(into.alpha_quantum, alpha_quantum);
-    repair(run, into, say);
-    cut(run, alpha_quantum);
+    repair(run, say);
+    cut(run, into, alpha_quantum);
     describe(run);
   }
   look_at_run(run, into, say);

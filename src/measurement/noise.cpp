@@ -222,8 +222,8 @@ struct Alike {
 
 Alike alike_in(const Measurement& measurement, bool across_runs) {
   const SeenSpan alphas = seen_span(measurement, &Sample::alpha);
-  return {load_tolerance(measurement), std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum),
-          across_runs};
+  return {load_tolerance(measurement),
+          std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum), across_runs};
 }
 
 /// Of more stands than that every n-th pair is looked at: each is compared with every group.
@@ -274,8 +274,8 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
       const Sample& sample = run.samples[row];
       const double share =
           static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
-      const Looked looked =
-          rows.held ? look_up_held(pass, share, sample.alpha, slope) : look_up(*pass.run, pass.rows, pass.direction, sample.alpha);
+      const Looked looked = rows.held ? look_up_held(pass, share, sample.alpha, slope)
+                                      : look_up(*pass.run, pass.rows, pass.direction, sample.alpha);
       return !run.has_load || std::abs(looked.load - sample.load) <= tolerance ? looked : Looked{};
     };
     for (std::size_t i = rows.first; i <= rows.last; ++i) {
@@ -323,11 +323,17 @@ Scatter scatter_within_runs(const Measurement& measurement) {
   return scatter;
 }
 
-/// Whether differences go on from row to row, and are larger than what neighbours scatter by: noise that is white shows
-/// there whole, and 0.3 of correlation hides a tenth of it. Tests: a joint wired anew between two runs; noise alone.
+/// Variance of noise that third differences show, of which neighbours are correlated by r: rᵏ against their weights
+/// 20, −15, 6, −1.
+double seen_by_neighbours(double r) { return 1 + (-15 * r + 6 * r * r - r * r * r) / 10; }
+
+/// Whether differences go on from row to row, and are twice as large as noise that neighbours scatter by could make
+/// them. Noise may have a colour of its own; what goes on by more than 0.7 is taken for none. Tests: a joint wired anew
+/// between two runs; noise alone, white and coloured.
 bool is_smooth(const Scatter::Result& differences, double variance_of_neighbours) {
+  const double noise = variance_of_neighbours / seen_by_neighbours(std::min(differences.colour, 0.7));
   return differences.colour > 0.3 && differences.colour * std::sqrt(differences.pairs) > 3.0 &&
-         differences.variance > 2.0 * variance_of_neighbours;
+         differences.variance > 2.0 * noise;
 }
 
 /// What runs that repeat one another differ by.

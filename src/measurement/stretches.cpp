@@ -22,6 +22,8 @@ constexpr std::size_t k_fewest_held = 3;
 constexpr std::size_t k_fewest_of_a_shape = 6;
 /// α wanders by this part of its span while a motor is held.
 constexpr double k_wander = 1e-3;
+/// A sensor has more steps over a motion; held angles are fewer.
+constexpr double k_steps_of_a_sensor = 40;
 /// Standing must save this many times the way that counts as standing: a slow sweep saves one.
 constexpr double k_standing = 5;
 /// Levels of load are wider apart than this part of what the run's load spans, …
@@ -68,20 +70,25 @@ Hold within(const std::vector<Sample>& samples, double Sample::*value, std::size
 /// Noise now and then reaches beyond the width of a hold: its parts are one.
 void add_or_join(std::vector<Hold>& holds, const Hold& next, const std::vector<Sample>& samples, double width) {
   const bool follows = !holds.empty() && holds.back().last + 1 == next.first;
-  if (follows && std::abs(mean_of(samples, &Sample::alpha, holds.back()) - mean_of(samples, &Sample::alpha, next)) <
-                     0.5 * width) {
+  if (follows &&
+      std::abs(mean_of(samples, &Sample::alpha, holds.back()) - mean_of(samples, &Sample::alpha, next)) < 0.5 * width) {
     holds.back().last = next.last;
   } else {
     holds.push_back(next);
   }
 }
 
-std::vector<Hold> standing(const std::vector<Sample>& samples, double alpha_quantum) {
+/// What may be the step of the motor's sensor; 0 where steps are as wide as between held angles.
+double sensor_step(const std::vector<Sample>& samples, double quantum) {
+  return k_steps_of_a_sensor * quantum < span_of(samples, &Sample::alpha).size() ? quantum : 0;
+}
+
+std::vector<Hold> standing(const std::vector<Sample>& samples, double step) {
   double way = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) way += std::abs(samples[i].alpha - samples[i - 1].alpha);
   const double noise = noise_of(samples, &Sample::alpha);
-  const double width = std::max({k_wander * span_of(samples, &Sample::alpha).size(), 1.5 * alpha_quantum,
-                                 2 * k_beyond_noise * noise});
+  const double width =
+      std::max({k_wander * span_of(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_beyond_noise * noise});
   // What noise adds to the way is none: 2/√π of its spread from row to row.
   const double rows = static_cast<double>(samples.size());
   const double pace = way / rows - 1.13 * noise;
@@ -94,6 +101,20 @@ std::vector<Hold> standing(const std::vector<Sample>& samples, double alpha_quan
     i += stands ? count : std::max<std::size_t>(1, count / 2);
   }
   return holds;
+}
+
+/// A sweep seen by a coarse sensor: α seems to stand while θ goes on to where it stands next.
+bool goes_on_meanwhile(const std::vector<Sample>& samples, const std::vector<Hold>& holds) {
+  std::vector<double> shares;
+  for (std::size_t k = 1; k < holds.size(); ++k) {
+    const Hold& here = holds[k - 1];
+    const std::size_t third = count_of(here) / 3;
+    const double next = mean_of(samples, &Sample::theta, holds[k]) - mean_of(samples, &Sample::theta, here);
+    const double meanwhile = mean_of(samples, &Sample::theta, {here.last + 1 - third, here.last}) -
+                             mean_of(samples, &Sample::theta, {here.first, here.first + third - 1});
+    if (next != 0) shares.push_back(meanwhile / next);
+  }
+  return median_of(std::move(shares)) > 0.25;
 }
 
 // ---- levels of load -------------------------------------------------------------------------------------------------
@@ -109,8 +130,7 @@ std::optional<Levels> levels_of(const Run& run) {
   if (!run.has_load || run.samples.empty()) return std::nullopt;
   const SeenSpan span = span_of(run.samples, &Sample::load);
   const double largest = std::max(std::abs(span.least), std::abs(span.most));
-  const double width =
-      std::max(k_one_level * span.size(), 2 * k_beyond_noise * noise_of(run.samples, &Sample::load));
+  const double width = std::max(k_one_level * span.size(), 2 * k_beyond_noise * noise_of(run.samples, &Sample::load));
   if (span.size() <= 0.1 * largest || span.size() <= 1.5 * width) return std::nullopt;
   return Levels{width, span.size()};
 }
@@ -212,8 +232,8 @@ class Cutter {
   }
 
   void add_moving(std::size_t stroke, const Hold& rows) {
-    if (count_of(rows) < k_fewest_of_a_shape && count_of(rows) == count_of({run_.strokes[stroke].first,
-                                                                           run_.strokes[stroke].last})) {
+    if (count_of(rows) < k_fewest_of_a_shape &&
+        count_of(rows) == count_of({run_.strokes[stroke].first, run_.strokes[stroke].last})) {
       for (std::size_t i = rows.first; i <= rows.last; ++i) add(stroke, {i, i}, true, 0);
       return;
     }
@@ -249,10 +269,15 @@ class Cutter {
 
 std::vector<Hold> holds_in(const std::vector<Sample>& samples, double alpha_quantum) {
   if (samples.size() < k_fewest_held) return {};
-  std::vector<Hold> holds = standing(samples, alpha_quantum);
+  std::vector<Hold> holds = standing(samples, sensor_step(samples, alpha_quantum));
   std::size_t rows = 0;
   for (const Hold& hold : holds) rows += count_of(hold);
-  return 2 * rows >= samples.size() ? holds : std::vector<Hold>{};
+  return 2 * rows >= samples.size() && !goes_on_meanwhile(samples, holds) ? holds : std::vector<Hold>{};
+}
+
+double quantum_beside(const std::vector<Hold>& holds, const std::vector<Sample>& samples, double Sample::*angle,
+                      double quantum) {
+  return holds.empty() || k_steps_of_a_sensor * quantum < span_of(samples, angle).size() ? quantum : 0;
 }
 
 std::vector<Sample> settled(std::vector<Sample> samples, const std::vector<Hold>& holds) {

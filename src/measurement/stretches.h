@@ -18,6 +18,10 @@ struct Hold {
 /// strokes.
 std::vector<Hold> holds_in(const std::vector<Sample>& samples, double alpha_quantum);
 
+/// Of what looks like a sensor's step, what is one: held angles lie on a grid too, of steps that no sensor has.
+double quantum_beside(const std::vector<Hold>& holds, const std::vector<Sample>& samples, double Sample::*angle,
+                      double quantum);
+
 /// Each row of a hold at the hold's mean: the direction of what follows is that of the motor and not of its noise.
 std::vector<Sample> settled(std::vector<Sample> samples, const std::vector<Hold>& holds);
 

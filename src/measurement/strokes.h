@@ -11,7 +11,8 @@ namespace fusee {
 
 /// By direction of α, robust to noise and to a quantum: a reversal counts once α has come back from its extreme by more
 /// than both and by a hundredth of the run's span. A gap in time over which α moved begins a new stroke, whose play
-/// state is unknown: `partial`. Between holds there are no gaps: α went from one to the next. None where α only jitters.
+/// state is unknown: `partial`. Between holds there are no gaps: α went from one to the next. None where α only
+/// jitters.
 std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<Hold>& holds,
                                   double alpha_quantum, bool has_time);
 

@@ -38,7 +38,7 @@ struct Sample {
 struct Stroke {
   std::size_t first = 0;  ///< index into the run's samples
   std::size_t last = 0;   ///< included
-  int direction = 0;      ///< +1: α grows, −1: α falls, 0: α stands throughout the run and the load moves the joint
+  int direction = 0;  ///< +1: α grows, −1: α falls, 0: α stands throughout the run and the load moves the joint
   int cycle = 0;
   bool partial = false;  ///< the first stroke of a run that did not begin at a reversal: its play state is unknown
 };
@@ -49,7 +49,7 @@ struct Stretch {
   std::size_t last = 0;    ///< included
   std::size_t stroke = 0;  ///< index into the run's strokes: from which side α came
   bool held = false;       ///< α stands
-  int pull = 0;  ///< held, what came last: 0: α moved here, +1: the load grew to what it is, −1: it fell
+  int pull = 0;            ///< held, what came last: 0: α moved here, +1: the load grew to what it is, −1: it fell
 };
 
 struct Run {
@@ -57,8 +57,8 @@ struct Run {
   std::vector<Sample> samples;  ///< by time
   std::vector<Stroke> strokes;
   std::vector<Stretch> stretches;  ///< of the strokes, in their order; see stretches_of()
-  double speed = 0;      ///< median |dα/dt|, rad/s; 0 without time, and from point to point
-  double mean_load = 0;  ///< mean of the load column; 0 without
+  double speed = 0;                ///< median |dα/dt|, rad/s; 0 without time, and from point to point
+  double mean_load = 0;            ///< mean of the load column; 0 without
   bool has_time = false, has_load = false, has_temperature = false;
 };
 
