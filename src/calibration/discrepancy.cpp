@@ -98,10 +98,10 @@ class Builder {
   explicit Builder(Eigen::Index rows) : rows_(rows) {}
 
   /// Nothing where the columns are nothing.
-  void add(Factor factor, const Eigen::MatrixXd& columns, double fixed = 0, double order = 0) {
+  void add(Factor factor, const Eigen::MatrixXd& columns, double fixed = 0) {
     const double square = columns.squaredNorm() / static_cast<double>(rows_);
     if (!(square > 1e-12)) return;
-    made_.families.push_back({factor, made_.columns.cols(), columns.cols(), fixed > 0 ? fixed * std::sqrt(square) : 0.0, order});
+    made_.families.push_back({factor, made_.columns.cols(), columns.cols(), fixed > 0 ? fixed * std::sqrt(square) : 0.0});
     Eigen::MatrixXd all(rows_, made_.columns.cols() + columns.cols());
     if (made_.columns.cols() > 0) all.leftCols(made_.columns.cols()) = made_.columns;
     all.rightCols(columns.cols()) = columns / std::sqrt(square);

@@ -23,8 +23,6 @@ enum class Factor {
   run,               ///< one constant a run
   drift,             ///< steadily in time within a run
   stroke,            ///< one constant a stroke
-  motor_harmonic,    ///< so many times a turn of the motor
-  joint_harmonic,    ///< so many times a turn of the joint
   model_error,       ///< what the model itself is not trusted to
 };
 
@@ -34,7 +32,6 @@ struct Family {
   Eigen::Index first = 0;
   Eigen::Index count = 0;
   double fixed = 0;  ///< amplitude that is stated and not found, rad; 0: found
-  double order = 0;  ///< of a harmonic
 };
 
 /// Columns over the rows in use, block by block: those of a family have a mean square of 1 over the rows in sum.
@@ -43,11 +40,7 @@ struct Discrepancy {
   std::vector<Family> families;
 };
 
-/// Of everything that these runs vary. `deflection`: of the declared joint, all rows, rad; `residual`: what the
-/// declared joint leaves, where harmonics are looked for.
+/// Of everything that these runs vary. `deflection`: of the declared joint, all rows, rad.
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection);
-
-/// With a family of the order that takes most of `residual` (rows in use), of α (motor) or θ (joint).
-void add_harmonics(const Evidence& evidence, const Eigen::VectorXd& residual, Discrepancy& discrepancy);
 
 }  // namespace fusee

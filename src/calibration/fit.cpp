@@ -223,7 +223,8 @@ void Fitter::judge(Fit& fit) const {
   fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
 }
 
-Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
+/// `fit` with the numbers of `effect` at zero, of what is searched at its first start.
+Fit Fitter::beside(const Fit& fit, const Effect& effect) const {
   Fit wider = fit;
   wider.effects.push_back(&effect);
   wider.parameters = model_.varied(wider.effects);
@@ -234,8 +235,29 @@ Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
   }
   wider.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wider.parameters.size()));
   wider.x.head(fit.x.size()) = fit.x;
+  return wider;
+}
+
+Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
+  Fit wider = beside(fit, effect);
   take_slopes(wider, fit.x.size());
   judge(wider);
+  return wider;
+}
+
+Fit Fitter::with_chords(const Fit& fit, const Effect& effect) const {
+  Fit wider = beside(fit, effect);
+  wider.J.conservativeResize(wider.residual.size(), wider.x.size());
+  for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
+    const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
+    const double value = value_of(wider.at, parameter);
+    Imperfections moved = wider.at;
+    const double size = size_in_practice(evidence(), parameter) * parameter.step;
+    set_value(moved, parameter, value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
+    const double steps = (value_of(moved, parameter) - value) / parameter.step;
+    wider.J.col(k) = (wider.residual - model_.said(moved).residual) / steps;
+  }
+  wider.usable = is_finite(evidence(), wider);
   return wider;
 }
 

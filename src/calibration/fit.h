@@ -59,10 +59,14 @@ class Fitter {
   /// `fit` with `effect` added where it does nothing: what the data would say of it. No fit.
   Fit with_direction(const Fit& fit, const Effect& effect) const;
 
+  /// The same with chords in place of slopes: each number's over its size in practice. Not weighed.
+  Fit with_chords(const Fit& fit, const Effect& effect) const;
+
  private:
   const Evidence& evidence() const { return model_.evidence(); }
   Fit placed(const EffectSet& effects, const Imperfections& at) const;
   void take_slopes(Fit& fit, Eigen::Index from) const;
+  Fit beside(const Fit& fit, const Effect& effect) const;
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
   Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes) const;
   void judge(Fit& fit) const;

@@ -153,7 +153,7 @@ double Selector::promised(const Fit& base, const std::vector<std::size_t>& added
     tangent.read = read;
     tangent.pull.conservativeResize(all);
     tangent.pull.tail(look.J.cols()).setZero();
-    cost += k_thresholds.price_of_a_name;
+    cost += cost_of(*selection_.catalogue[i]);
   }
   const double loose = base.explained.log_evidence - base.log_evidence;
   return evidence_.marginal->best(tangent, base.explained.amplitudes, rounds).log_evidence - loose - cost;
@@ -297,7 +297,7 @@ void Selector::write_down() {
   for (const Addition& look : promising(best, selection_.catalogue.size())) {
     Candidate candidate;
     candidate.name = look.effect->name;
-    candidate.evidence = look.promise + k_thresholds.price_of_a_name - score(best);
+    candidate.evidence = look.promise + cost_of(*look.effect) - score(best);
     candidate.held_out_rms = held_out_rms(best);
     candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a name needs";
     if (!std::isfinite(candidate.evidence)) candidate.why = "the joint could not be simulated with it";
@@ -325,14 +325,16 @@ Selection Selector::run() {
 
 }  // namespace
 
+double cost_of(const Effect& effect) {
+  const bool searched = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                    [](const EffectParameter& p) { return p.searched; });
+  return k_thresholds.price_of_a_name + (searched ? k_thresholds.price_of_a_search : 0.0);
+}
+
 double score(const Fit& fit) {
-  double cost = 0;
-  for (const Effect* effect : fit.effects) {
-    const bool searched = std::any_of(effect->parameters.begin(), effect->parameters.end(),
-                                      [](const EffectParameter& p) { return p.searched; });
-    cost += k_thresholds.price_of_a_name + (searched ? k_thresholds.price_of_a_search : 0.0);
-  }
-  return fit.log_evidence - cost;
+  double score = fit.log_evidence;
+  for (const Effect* effect : fit.effects) score -= cost_of(*effect);
+  return score;
 }
 
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {

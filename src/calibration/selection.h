@@ -27,6 +27,9 @@ struct Selection {
   std::vector<Candidate> tried;
 };
 
+/// What a name costs, nats.
+double cost_of(const Effect& effect);
+
 /// Evidence of a set against the others: that of the data, less what every name costs.
 double score(const Fit& fit);
 

@@ -20,6 +20,13 @@ struct Thresholds {
   /// two joints whose effects were found (1.26 and 1.29) would be called unexplained; at 1.35 no verdict
   /// changes.
   double at_floor = 1.35;
+  /// Nats by which the data ask for something beside noise and the model's own error, and its rms in noise floors,
+  /// before a rest is called unexplained.
+  double unexplained = 8.0;
+  double least_left = 0.35;
+  /// The same of a part of it, before it is described.
+  double least_unnamed = 3.0;
+  double least_seen = 0.2;
 
   // ---- what is accepted ----
 
@@ -40,6 +47,10 @@ struct Thresholds {
   /// rms of the smallest effect worth a name, as a part of the floor.
   double least_drop = 0.5;
   double contradicted = 9.0;
+
+  /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
+  int worlds = 200;
+  double most_mistaken = 0.02;
 
   // ---- what is given up ----
 
@@ -90,8 +101,8 @@ struct Thresholds {
 
   // ---- what is said of the rest ----
 
-  /// In standard errors: a one-sided 95 % test with 80 % power takes 2.5, blocks being few 2.8.
-  double detectable = 2.8;
+  /// Standard errors beyond what a name needs at which it comes up in four cases of five.
+  double power = 0.84;
   /// Two explanations that a proposed run puts apart by this many times the noise are told apart by it.
   double told_apart = 3.0;
 };

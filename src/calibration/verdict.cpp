@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibration/unknown.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -145,14 +146,15 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
 void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  // Held out, a rest is larger than where it was fitted: below the floor there, it is the noise that the fit met.
-  const bool above_floor = !is_at_floor(selection.best, evidence.floor) && rest.fitted > evidence.floor;
+  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
+  const bool unexplained = is_unexplained(unnamed, evidence.floor);
   calibration.rest_autocorrelation = rest.autocorrelation;
-  if (above_floor) {
-    calibration.unexplained_rms = rest.structure;
+  if (unexplained) {
+    calibration.unexplained_rms = unnamed.rms;
     calibration.unexplained_where = rest.where;
+    calibration.unknown = unnamed.parts;
   }
-  calibration.verdict = verdict_of(is_walking(scatter), above_floor, calibration.effects);
+  calibration.verdict = verdict_of(is_walking(scatter), unexplained, calibration.effects);
   calibration.summary =
       finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
   ask_for_runs(calibration);
