@@ -161,13 +161,14 @@ struct Pass {
   int direction = 0;
   double load = 0;   ///< in its middle
   double alpha = 0;  ///< held: where
+  double slope = 0;  ///< dθ/dα of the run on the whole
 };
 
 /// The run's rows at the same share of a stand; its α is a little elsewhere.
-Looked look_up_held(const Pass& pass, double share, double alpha, double slope) {
+Looked look_up_held(const Pass& pass, double share, double alpha) {
   const auto rows = static_cast<double>(pass.rows.last - pass.rows.first);
   const Sample& sample = pass.run->samples[pass.rows.first + static_cast<std::size_t>(std::lround(share * rows))];
-  return {true, sample.theta + slope * (alpha - sample.alpha), sample.load, 1};
+  return {true, sample.theta + pass.slope * (alpha - sample.alpha), sample.load, 1};
 }
 
 /// How far two loads may be apart that count as one: a part of all there are, or the load cell's own noise.
@@ -186,9 +187,9 @@ double load_tolerance(const Measurement& measurement) {
 
 bool same_speed(const Run& a, const Run& b) { return std::abs(a.speed - b.speed) <= 0.15 * std::max(a.speed, b.speed); }
 
-Pass pass_of(const Run& run, const Stretch& stretch) {
+Pass pass_of(const Run& run, const Stretch& stretch, double slope) {
   const Sample& middle = run.samples[stretch.first + (stretch.last - stretch.first) / 2];
-  return {&run, stretch, run.strokes[stretch.stroke].direction, run.has_load ? middle.load : 0, middle.alpha};
+  return {&run, stretch, run.strokes[stretch.stroke].direction, run.has_load ? middle.load : 0, middle.alpha, slope};
 }
 
 /// Of several strokes the first is not judged by (evidence.cpp): play, and what must bed in, are still on their way. Of
@@ -235,12 +236,13 @@ std::vector<std::vector<Pass>> repeats(const Measurement& measurement, const Ali
   for (const Run& run : measurement.runs) {
     const std::vector<Stretch> stretches = stretches_of(run);
     const std::size_t every = stretches.size() / k_most_stands + 1;
+    const double slope = run.samples.empty() ? 0 : slope_of(run);
     for (std::size_t i = 0; i < stretches.size(); ++i) {
       const Stretch& stretch = stretches[i];
       if (run.strokes[stretch.stroke].partial || is_still_settling(run, stretch) ||
           (stretch.held && i / 2 % every != 0))
         continue;
-      const Pass pass = pass_of(run, stretch);
+      const Pass pass = pass_of(run, stretch, slope);
       const auto group = std::find_if(groups.begin(), groups.end(),
                                       [&](const std::vector<Pass>& g) { return alike(g.front(), pass); });
       if (group != groups.end()) {
@@ -269,12 +271,11 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
     std::vector<double> differences;
     const Run& run = *group[k].run;
     const Stretch& rows = group[k].rows;
-    const double slope = rows.held ? slope_of(run) : 0;
     const auto look = [&](const Pass& pass, std::size_t row) {
       const Sample& sample = run.samples[row];
       const double share =
           static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
-      const Looked looked = rows.held ? look_up_held(pass, share, sample.alpha, slope)
+      const Looked looked = rows.held ? look_up_held(pass, share, sample.alpha)
                                       : look_up(*pass.run, pass.rows, pass.direction, sample.alpha);
       return !run.has_load || std::abs(looked.load - sample.load) <= tolerance ? looked : Looked{};
     };

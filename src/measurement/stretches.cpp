@@ -204,7 +204,11 @@ bool is_bound_to_place(const Run& run, const Levels& levels) {
 class Cutter {
  public:
   Cutter(const Run& run, const std::vector<Hold>& holds)
-      : run_(run), holds_(holds), levels_(levels_of(run)), ramps_(levels_ && !is_bound_to_place(run, *levels_)) {}
+      : run_(run),
+        holds_(holds),
+        levels_(levels_of(run)),
+        ramps_(levels_ && !is_bound_to_place(run, *levels_)),
+        steps_(ramps_ || run.strokes.size() < 3) {}
 
   std::vector<Stretch> cut() {
     for (std::size_t s = 0; s < run_.strokes.size(); ++s) cut_stroke(s);
@@ -242,7 +246,7 @@ class Cutter {
 
   std::vector<Hold> moving_pieces(const Hold& rows) const {
     if (!levels_) return {rows};
-    if (is_stepped(run_, rows)) return pieces_of(run_, rows, levels_->width, k_fewest_of_a_shape);
+    if (steps_ && is_stepped(run_, rows)) return pieces_of(run_, rows, levels_->width, k_fewest_of_a_shape);
     return ramps_ ? pieces_of(run_, rows, k_piece_of_ramp * levels_->span, k_fewest_of_a_shape)
                   : std::vector<Hold>{rows};
   }
@@ -261,6 +265,7 @@ class Cutter {
   const std::vector<Hold>& holds_;
   std::optional<Levels> levels_;
   bool ramps_ = false;  ///< slow changes of the load are the load's own and not the place's
+  bool steps_ = false;  ///< so are sudden ones; of a stroke each way nothing says that they belong to the place
   std::size_t next_hold_ = 0;
   std::vector<Stretch> stretches_;
 };
