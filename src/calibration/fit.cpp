@@ -77,8 +77,6 @@ double price_of(const Evidence& evidence, const Fit& fit) {
 
 }  // namespace
 
-bool is_at_floor(const Fit& fit, double floor) { return held_out_square(fit) <= k_thresholds.at_floor * floor * floor; }
-
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     if (at_bound(fit.at, *fit.parameters[k])) fit.J.col(static_cast<Eigen::Index>(k)).setZero();

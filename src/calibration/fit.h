@@ -39,9 +39,6 @@ inline double held_out_square(const Fit& fit) { return std::max(0.0, fit.by_run.
 /// Its root, rad.
 inline double held_out_rms(const Fit& fit) { return std::sqrt(held_out_square(fit)); }
 
-/// Whether what the fit leaves is noise.
-bool is_at_floor(const Fit& fit, double floor);
-
 /// At its bound a parameter stays there, whatever part of the data it is fitted to: its slopes become nothing.
 void hold_at_bounds(Fit& fit);
 

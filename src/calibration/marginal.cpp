@@ -15,7 +15,7 @@ constexpr double k_settled = 0.02;  // nats
 /// Of the floor: below it a family is nothing.
 constexpr double k_nothing = 0.03;
 /// Degrees of freedom of Student's t.
-constexpr double k_tail = 4.0;
+constexpr double k_tail = 2.0;
 
 /// Information that the prior gives near x.
 double information(double x, double prior) {

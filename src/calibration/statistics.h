@@ -6,18 +6,7 @@
 
 namespace fusee {
 
-/// How much lower the held-out error of `better` is: mean over the blocks, and standard error of that mean.
-struct Comparison {
-  double mean = 0;  ///< rad²
-  double standard_error = 0;
-  double t = 0;
-  double t_over_runs = 0;
-  double needed_t = 0;  ///< one-sided 95 %
-};
-Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better);
-
-/// Whether two held-out errors are the same as far as the data can tell: within a standard error, or within a small
-/// part of the noise.
+/// Whether the evidence of two sets is the same as far as the data can tell.
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 
 /// Of the residual from row to row within blocks, −1 … 1.

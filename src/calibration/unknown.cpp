@@ -7,6 +7,7 @@
 #include "calibration/thresholds.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
+#include "measurement/strokes.h"
 
 namespace fusee {
 namespace {
@@ -16,7 +17,7 @@ constexpr int k_places = 61;
 /// Orders of a harmonic, times a turn: the least, the most that rows can show, and how finely they are looked through.
 constexpr double k_least_order = 1.0;
 constexpr double k_most_order = 400.0;
-constexpr double k_rows_a_period = 5.0;
+constexpr double k_rows_a_period = 2.5;
 
 struct FactorWords {
   Factor factor;
@@ -53,8 +54,15 @@ double rms_of(const Eigen::VectorXd& values) {
 /// Rows in use: the angle of the motor and of the joint.
 struct Angles {
   Eigen::VectorXd motor, joint;
-  std::vector<int> direction;
+  double motor_step = 0;  ///< median from row to row
+  double joint_step = 0;
 };
+
+double median_step(const Eigen::VectorXd& angle) {
+  std::vector<double> steps;
+  for (Eigen::Index i = 1; i < angle.size(); ++i) steps.push_back(std::abs(angle[i] - angle[i - 1]));
+  return steps.empty() ? 0.0 : median_of(steps);
+}
 
 Angles angles_of(const Evidence& evidence) {
   std::vector<const Sample*> all;
@@ -62,11 +70,13 @@ Angles angles_of(const Evidence& evidence) {
     for (const Sample& sample : run.samples) all.push_back(&sample);
   }
   const std::vector<Eigen::Index> rows = evidence.rows();
-  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())), Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())), {}};
+  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())), Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     angles.motor[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->alpha;
     angles.joint[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->theta;
   }
+  angles.motor_step = median_step(angles.motor);
+  angles.joint_step = median_step(angles.joint);
   return angles;
 }
 
@@ -104,12 +114,11 @@ struct Harmonic {
   Eigen::VectorXd part;
 };
 
-Harmonic strongest(const Eigen::VectorXd& angle, const Eigen::VectorXd& left) {
+Harmonic strongest(const Eigen::VectorXd& angle, double row_step, const Eigen::VectorXd& left) {
   Harmonic best;
   const double span = angle.maxCoeff() - angle.minCoeff();
-  if (!(span > 0) || !(left.squaredNorm() > 0)) return best;
-  // Rows of a stroke: about as many as differ in angle.
-  const double most = std::min(k_most_order, k_two_pi / span * static_cast<double>(left.size()) / k_rows_a_period);
+  if (!(span > 0) || !(row_step > 0) || !(left.squaredNorm() > 0)) return best;
+  const double most = std::min(k_most_order, k_two_pi / (k_rows_a_period * row_step));
   const double step = 0.25 * k_two_pi / span;
   for (double order = std::max(k_least_order, 1.5 * k_two_pi / span); order < most; order += step) {
     Eigen::MatrixXd wave(left.size(), 2);
@@ -125,8 +134,8 @@ Harmonic strongest(const Eigen::VectorXd& angle, const Eigen::VectorXd& left) {
 
 /// Of the motor or of the joint, if a single harmonic is more than half of what is left, or of what noise leaves of it.
 void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noise, std::vector<Unknown>& parts) {
-  const Harmonic motor = strongest(angles.motor, left);
-  const Harmonic joint = strongest(angles.joint, left);
+  const Harmonic motor = strongest(angles.motor, angles.motor_step, left);
+  const Harmonic joint = strongest(angles.joint, angles.joint_step, left);
   const bool of_motor = motor.taken >= joint.taken;
   const Harmonic& best = of_motor ? motor : joint;
   const double squares = left.squaredNorm();
