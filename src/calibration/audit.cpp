@@ -174,8 +174,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
     for (Eigen::Index k = 0; k < other.count; ++k)
       part += prior_[other.first + k] * normal(dice) * all_.col(other.first + k);
-    const double now = rms(part);
-    if (now > 0) z += part * (size / now);
+    z += part;
     made.there = other.effect;
     if (kind == 2) made.unknown = other.effect;
   } else if (kind == 3 && !shapes.empty()) {
