@@ -78,7 +78,6 @@ Json tried_json(const std::vector<Candidate>& tried) {
   Json list = Json::array();
   for (const Candidate& candidate : tried) {
     list.push_back({{"name", candidate.name},
-                    {"held_out_rms_deg", angle(candidate.held_out_rms)},
                     {"evidence", number(candidate.evidence)},
                     {"accepted", candidate.accepted},
                     {"why", candidate.why}});

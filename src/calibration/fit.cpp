@@ -52,27 +52,14 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// Play that a loose joint must answer for, nats. A row that stands anywhere within the play leaves nothing, which is
-/// half a nat better than noise does: that is taken back. And where the joint stood in it, smoothly along a stroke, is
-/// as many unknown places as the stroke has room for.
+/// What loose rows leave less than noise does, nats.
 double price_of(const Evidence& evidence, const Fit& fit) {
-  double price = 0;
+  double squares = 0;
   for (const Block& block : evidence.blocks) {
-    double loose = 0;
-    double room = 0;
-    for (const std::size_t row : block.rows) {
-      const auto i = static_cast<Eigen::Index>(row);
-      const double play = fit.loose[i] / evidence.floor;
-      if (!(play > 0)) continue;
-      const double share = std::min(1.0, play);
-      price += 0.5 * evidence.marginal->worth() * share * std::max(0.0, 1.0 - std::pow(fit.residual[i] / evidence.floor, 2));
-      loose += share;
-      room += share * std::log1p(2.0 * play / std::sqrt(k_two_pi));
-    }
-    if (loose > 0)
-      price += k_thresholds.places_a_stroke * std::sqrt(loose / static_cast<double>(block.rows.size())) * room / loose;
+    for (const std::size_t row : block.rows)
+      squares += price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor);
   }
-  return price;
+  return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
 }
 
 }  // namespace

@@ -289,7 +289,6 @@ void Selector::write_down() {
     Candidate candidate;
     candidate.name = best.effects[i]->name;
     candidate.evidence = best.log_evidence - selection_.without[i].log_evidence;
-    candidate.held_out_rms = held_out_rms(best);
     candidate.accepted = true;
     candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
     selection_.tried.push_back(candidate);
@@ -298,7 +297,6 @@ void Selector::write_down() {
     Candidate candidate;
     candidate.name = look.effect->name;
     candidate.evidence = look.promise + cost_of(*look.effect) - score(best);
-    candidate.held_out_rms = held_out_rms(best);
     candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a name needs";
     if (!std::isfinite(candidate.evidence)) candidate.why = "the joint could not be simulated with it";
     selection_.tried.push_back(candidate);

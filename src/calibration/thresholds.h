@@ -42,8 +42,6 @@ struct Thresholds {
   double better = 0.1;
   /// Degrees of freedom that the noise floor is taken to have.
   double noise_freedom = 30.0;
-  /// Independent places of play in a stroke of a loose joint.
-  double places_a_stroke = 1.0;
   /// rms of the smallest effect worth a name, as a part of the floor.
   double least_drop = 0.5;
   double contradicted = 9.0;

@@ -51,8 +51,7 @@ struct FoundEffect {
 /// A candidate that was tried: the evidence for it, or against.
 struct Candidate {
   std::string name;
-  double held_out_rms = 0;  ///< rad, with it beside what was accepted
-  double evidence = 0;      ///< log of how many times likelier the data are with it than without
+  double evidence = 0;  ///< log of how many times likelier the data are with it than without
   bool accepted = false;
   std::string why;  ///< in words
 };
