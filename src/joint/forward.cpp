@@ -39,6 +39,24 @@ double decades(const BenchRun& run, const BenchRow& row) {
   return std::log10(1.0 + std::max(0.0, row.time - run.rows.front().time));
 }
 
+/// Where the joint stands; within its play in the middle.
+double standing(const EquilibriumPoint& point) {
+  return point.status == EquilibriumStatus::no_equilibrium
+             ? std::numeric_limits<double>::quiet_NaN()
+             : point.theta + 0.5 * (point.loose_above - point.loose_below);
+}
+double half_play(const EquilibriumPoint& point) { return 0.5 * (point.loose_above + point.loose_below); }
+
+JointState state_of(const EquilibriumPoint& point) {
+  JointState state{point.status, standing(point)};
+  state.loose = half_play(point);
+  if (point.status == EquilibriumStatus::no_equilibrium) return state;
+  state.t1 = point.t1;
+  state.t2 = point.t2;
+  state.motor_torque = point.motor_torque;
+  return state;
+}
+
 void look_paths_up(JointModel& model, double least, double most) {
   const auto table = std::make_shared<const LowerPathTable>(model, least, most);
   model.lower = [table](double alpha) { return table->paths(alpha); };
@@ -87,10 +105,9 @@ TendonChange Forward::change(std::size_t index, const BenchRow& row, const Imper
   return change;
 }
 
-void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at, Motion& into) const {
+void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at,
+                      const std::function<void(const EquilibriumPoint&)>& found) const {
   const BenchRun& run = log_[index];
-  std::vector<double>& theta = into.theta.emplace_back();
-  std::vector<double>& loose = into.loose.emplace_back();
   if (run.rows.empty()) return;
   Play play(at.shaft.backlash, 0.0);
   const auto step = [&](double alpha, const BenchRow& row) {
@@ -99,13 +116,7 @@ void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections
   };
   const BenchRow& first = run.rows.front();
   for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first);
-  for (const BenchRow& row : run.rows) {
-    const EquilibriumPoint point = step(row.alpha, row);
-    const bool held = point.status != EquilibriumStatus::no_equilibrium;
-    theta.push_back(held ? point.theta + 0.5 * (point.loose_above - point.loose_below)
-                         : std::numeric_limits<double>::quiet_NaN());
-    loose.push_back(0.5 * (point.loose_above + point.loose_below));
-  }
+  for (const BenchRow& row : run.rows) found(step(row.alpha, row));
 }
 
 std::vector<double> Forward::geared(std::size_t index, const Imperfections& at) const {
@@ -145,7 +156,12 @@ const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
   if (made_) home.emplace(at_home(key));
   for (std::size_t i = 0; i < log_.size(); ++i) {
     if (home) {
-      elastic(i, *home, key, place);
+      std::vector<double>& theta = place.theta.emplace_back();
+      std::vector<double>& loose = place.loose.emplace_back();
+      elastic(i, *home, key, [&](const EquilibriumPoint& point) {
+        theta.push_back(standing(point));
+        loose.push_back(half_play(point));
+      });
     } else {
       place.theta.push_back(geared(i, key));
       place.loose.emplace_back(place.theta.back().size(), 0.0);
@@ -159,6 +175,30 @@ Readings Forward::operator()(const Imperfections& imperfections) {
   for (std::size_t i = 0; i < readings.size(); ++i)
     readings[i] = sensed(log_[i], std::move(readings[i]), imperfections.sensor);
   return readings;
+}
+
+std::vector<std::vector<JointState>> Forward::states(const Imperfections& at) {
+  const Imperfections key = without_sensor(at);
+  std::optional<JointMotion> home;
+  if (made_) home.emplace(at_home(key));
+  std::vector<std::vector<JointState>> all(log_.size());
+  for (std::size_t i = 0; i < log_.size(); ++i) {
+    if (home) {
+      elastic(i, *home, key, [&](const EquilibriumPoint& point) { all[i].push_back(state_of(point)); });
+    } else {
+      for (const double theta : geared(i, key)) all[i].push_back({EquilibriumStatus::held, theta});
+    }
+    std::vector<double> theta;
+    for (const JointState& state : all[i]) theta.push_back(state.theta);
+    theta = sensed(log_[i], std::move(theta), at.sensor);
+    for (std::size_t k = 0; k < theta.size(); ++k) all[i][k].shown = theta[k];
+  }
+  return all;
+}
+
+std::vector<std::vector<JointState>> simulate(const Mechanism& declared, const Imperfections& imperfections,
+                                              const BenchLog& log) {
+  return Forward(declared, log).states(imperfections);
 }
 
 Readings predict(const Mechanism& declared, const Imperfections& imperfections, const BenchLog& log) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +27,8 @@ class Forward {
   Readings operator()(const Imperfections& imperfections);
   /// Half the angle within which nothing holds the joint, rad; zero where a tendon is taut.
   const Readings& looseness(const Imperfections& imperfections) { return mechanism(imperfections).loose; }
+  /// All that is known of the joint, row by row.
+  std::vector<std::vector<JointState>> states(const Imperfections& imperfections);
 
  private:
   struct Motion {
@@ -41,7 +44,9 @@ class Forward {
 
   const Motion& mechanism(const Imperfections& imperfections);
   JointMotion at_home(const Imperfections& imperfections);
-  void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections, Motion& into) const;
+  /// Calls `found` with the equilibrium of each row.
+  void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections,
+               const std::function<void(const EquilibriumPoint&)>& found) const;
   std::vector<double> geared(std::size_t run, const Imperfections& imperfections) const;
   TendonChange change(std::size_t run, const BenchRow& row, const Imperfections& imperfections) const;
 

@@ -17,6 +17,11 @@
 namespace fusee {
 namespace {
 
+/// A run of `fusee plan` before anything was measured.
+bool is_unfilled(const LoggedRows& rows) { return rows.rows > 0 && rows.without_theta == rows.rows; }
+
+std::string all_of(std::size_t rows) { return rows == 1 ? "its only row" : "all " + rows_text(rows); }
+
 void say_what_was_read(const LoggedRows& rows, const std::string& name, const Say& say, Measurement& into) {
   for (const std::string& words : rows.notes) say(words);
   if (rows.stride > 1) {
@@ -24,6 +29,11 @@ void say_what_was_read(const LoggedRows& rows, const std::string& name, const Sa
         std::to_string(k_most_samples) + " rows of all files are kept");
   }
   if (rows.without_angle == 0) return;
+  if (is_unfilled(rows)) {
+    into.not_testable.push_back(name + ": no measured rows: theta is empty in " + all_of(rows.rows) +
+                                "; a run of 'fusee plan' waits for what the joint's sensor shows");
+    return;
+  }
   say(rows_text(rows.without_angle) + " without alpha or theta, the first in line " +
       std::to_string(rows.first_without_angle) + ": left out");
   if (2 * rows.without_angle > rows.rows)
@@ -75,7 +85,7 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
     run.strokes = split_strokes(run.samples, alpha_quantum, run.has_time);
     describe(run);
   }
-  look_at_run(run, into, say);
+  if (!is_unfilled(rows)) look_at_run(run, into, say);
   if (run.has_load) into.load_unit = unit_of(rows.load_column);
   return run;
 }
@@ -152,6 +162,28 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
                              const MeasurementOptions& options) {
   Measurement measurement = read_measurement(files, options);
   compare_with_declared(declared, measurement);
+  return measurement;
+}
+
+Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options) {
+  options.needs_theta = false;
+  check_roles(options);
+  Measurement measurement;
+  Run& run = measurement.runs.emplace_back();
+  run.name = file.filename().string();
+  const Say say = [&](const std::string& words) { measurement.notes.push_back(run.name + ": " + words); };
+  LoggedRows rows = read_rows(file, file.string(), options);
+  if (rows.samples.empty())
+    throw InputError(file.string(), "no row holds alpha", "one row a line: alpha_deg and, if known, time_s,load_N");
+  say_what_was_read(rows, run.name, say, measurement);
+  run.samples = std::move(rows.samples);
+  run.has_time = rows.has_time;
+  if (run.has_time) order_time(run, say);
+  unwrap(run.samples, &Sample::alpha, "alpha", say);
+  run.has_load = rows.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
+  run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
+  if (run.has_load) measurement.load_unit = unit_of(rows.load_column);
+  take_torques_as_forces(declared, measurement);
   return measurement;
 }
 

@@ -220,7 +220,7 @@ class RowReader {
         if (std::find(found + 1, names.end(), wanted) != names.end()) {
           fail(1, "two columns are called " + shown(wanted), "each column needs a name of its own");
         }
-      } else if (is_angle(role) || given != options_.columns.end()) {
+      } else if (is_needed(role) || given != options_.columns.end()) {
         missing(role, wanted, names);
       }
     }
@@ -232,6 +232,10 @@ class RowReader {
     for (const Column& column : columns_) {
       if (column.role == "load") found_.load_column = column.name;
     }
+  }
+
+  bool is_needed(const std::string& role) const {
+    return role == "alpha" || (role == "theta" && options_.needs_theta);
   }
 
   bool has(const std::string& role) const {
@@ -347,7 +351,8 @@ class RowReader {
   }
 
   void keep(const Sample& sample) {
-    if (std::isnan(sample.alpha) || std::isnan(sample.theta)) {
+    if (std::isnan(sample.alpha) || (options_.needs_theta && std::isnan(sample.theta))) {
+      found_.without_theta += !std::isnan(sample.alpha);
       if (found_.without_angle++ == 0) found_.first_without_angle = line_;
       return;
     }

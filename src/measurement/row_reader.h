@@ -23,6 +23,7 @@ struct LoggedRows {
   bool has_time = false, has_load = false, has_temperature = false;
   std::size_t rows = 0;  ///< in the file
   std::size_t without_angle = 0;
+  std::size_t without_theta = 0;      ///< of these: with α alone
   long long first_without_angle = 0;  ///< line
   std::size_t stride = 1;
 };

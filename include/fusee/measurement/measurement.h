@@ -21,6 +21,7 @@ namespace fusee {
 /// degrees and time in s, unless the column's name ends in _rad, _ms or _us.
 struct MeasurementOptions {
   std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
+  bool needs_theta = true;                     ///< false: what drove the joint is enough, as in read_driving()
 };
 
 /// One logged row. NaN where a column is absent.
@@ -70,6 +71,12 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
                              const MeasurementOptions& options = {});
 
+/// What drives a joint, logged or planned, for those who ask what the joint will do: one run, rows in order of time, α
+/// unwrapped, load and temperature without gaps. θ is NaN where there is none; strokes are not looked for. A torque is
+/// taken as a tip force, as in compare_with_declared(). InputError, also where no row holds α.
+Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared,
+                         MeasurementOptions options = {});
+
 /// One run from text; `name` stands in the messages. InputError. Notes and reasons go to `into`.
 Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into);
 
@@ -85,6 +92,8 @@ BenchLog bench_log(const Measurement& measurement);
 /// in noise. Adds the reasons to `not_testable`. A torque is taken as a tip force where the joint has tendons (with a
 /// note).
 void compare_with_declared(const Mechanism& declared, Measurement& measurement);
+/// Its last step: the tendons' elastic model takes N across OC.
+void take_torques_as_forces(const Mechanism& declared, Measurement& measurement);
 
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or
 /// where there are none, of runs that repeat one another. Single wild rows do not count.
