@@ -21,12 +21,33 @@ std::vector<double> delayed(const BenchRun& run, const std::vector<double>& thet
   return late;
 }
 
+/// Through τ y' = θ − y, exact for θ that goes straight between samples. Before the first sample the joint stood still;
+/// after a place without a reading the filter begins anew.
+std::vector<double> filtered(const BenchRun& run, const std::vector<double>& theta, double lag) {
+  std::vector<double> smooth = theta;
+  for (std::size_t i = 1; i < theta.size(); ++i) {
+    const double time = run.rows[i].time - run.rows[i - 1].time;
+    if (!(time > 0)) {
+      smooth[i] = smooth[i - 1];
+    } else if (std::isfinite(smooth[i - 1])) {
+      const double behind = lag * (theta[i] - theta[i - 1]) / time;  // of a ramp, once it has settled
+      smooth[i] = theta[i] - behind + (smooth[i - 1] - theta[i - 1] + behind) * std::exp(-time / lag);
+    }
+  }
+  return smooth;
+}
+
+/// sin · sin nφ + cos · (cos nφ − 1)
+double wave(double angle, double order, double sin_part, double cos_part) {
+  if (sin_part == 0 && cos_part == 0) return 0;
+  return sin_part * std::sin(order * angle) + cos_part * (std::cos(order * angle) - 1.0);
+}
+
 }  // namespace
 
 double shaft_angle(double alpha, const MotorSensorError& error) {
-  if (error.eccentricity_sin == 0 && error.eccentricity_cos == 0) return alpha + error.offset;
-  return alpha + error.offset + error.eccentricity_sin * std::sin(alpha) +
-         error.eccentricity_cos * (std::cos(alpha) - 1.0);
+  return alpha + error.offset + wave(alpha, 1, error.eccentricity_sin, error.eccentricity_cos) +
+         wave(alpha, error.wave_order, error.wave_sin, error.wave_cos);
 }
 
 double Play::to(double input) {
@@ -35,11 +56,12 @@ double Play::to(double input) {
 }
 
 std::vector<double> sensed(const BenchRun& run, std::vector<double> theta, const JointSensorError& error) {
-  if (error.lag != 0) theta = delayed(run, theta, error.lag);
+  if (error.lag != 0) theta = error.first_order > 0 ? filtered(run, theta, error.lag) : delayed(run, theta, error.lag);
   for (double& angle : theta) {
     const double true_angle = angle;
-    angle = error.zero + (1.0 + error.gain) * true_angle + error.eccentricity_sin * std::sin(true_angle) +
-            error.eccentricity_cos * (std::cos(true_angle) - 1.0);
+    angle = error.zero + (1.0 + error.gain) * true_angle +
+            wave(true_angle, 1, error.eccentricity_sin, error.eccentricity_cos) +
+            wave(true_angle, error.wave_order, error.wave_sin, error.wave_cos);
   }
   return theta;
 }

@@ -8,11 +8,15 @@
 
 namespace fusee {
 
-/// The shaft stands at α + offset + sin · sin α + cos · (cos α − 1), where the sensor shows α. rad
+/// The shaft stands at α + offset + sin · sin α + cos · (cos α − 1), and a wave of the same kind in nα, where the sensor
+/// shows α. rad
 struct MotorSensorError {
   double offset = 0;
   double eccentricity_sin = 0;
   double eccentricity_cos = 0;
+  double wave_sin = 0;
+  double wave_cos = 0;
+  double wave_order = 2;  ///< n
 
   bool operator==(const MotorSensorError&) const = default;
 };
@@ -100,13 +104,17 @@ struct RatioJointError {
   bool operator==(const RatioJointError&) const = default;
 };
 
-/// It shows zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1), late by `lag`.
+/// It shows zero + (1 + gain) θ + sin · sin θ + cos · (cos θ − 1) and a wave of the same kind in nθ, late by `lag`.
 struct JointSensorError {
   double zero = 0;  ///< rad
   double gain = 0;
   double eccentricity_sin = 0;  ///< rad
   double eccentricity_cos = 0;  ///< rad
+  double wave_sin = 0;          ///< rad
+  double wave_cos = 0;          ///< rad
+  double wave_order = 2;        ///< n
   double lag = 0;               ///< s
+  double first_order = 0;       ///< 0: all of it is late by that much; 1: a filter of that time constant
 
   bool operator==(const JointSensorError&) const = default;
 };
