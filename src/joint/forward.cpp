@@ -39,6 +39,10 @@ double decades(const BenchRun& run, const BenchRow& row) {
   return std::log10(1.0 + std::max(0.0, row.time - run.rows.front().time));
 }
 
+std::vector<double> shown_by_sensor(const BenchRun& run, std::vector<double> theta, const Imperfections& at) {
+  return sensed(run, std::move(theta), turned(at.sensor, run.mounting.joint_sensor_turned));
+}
+
 /// Where the joint stands; within its play in the middle.
 double standing(const EquilibriumPoint& point) {
   return point.status == EquilibriumStatus::no_equilibrium
@@ -110,8 +114,9 @@ void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections
   const BenchRun& run = log_[index];
   if (run.rows.empty()) return;
   Play play(at.shaft.backlash, 0.0);
+  const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
   const auto step = [&](double alpha, const BenchRow& row) {
-    const double pulley = play.to(shaft_angle(alpha, at.motor));
+    const double pulley = play.to(shaft_angle(alpha, motor));
     return motion.to({pulley, tip_force(run, row, declared_), declared_.load.torque, change(index, row, at)});
   };
   const BenchRow& first = run.rows.front();
@@ -125,13 +130,14 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at) 
   theta.reserve(run.rows.size());
   if (run.rows.empty()) return theta;
   const double ratio = declared_.transmission->ratio;
-  Play play(at.shaft.backlash, shaft_angle(0.0, at.motor));
+  const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
+  Play play(at.shaft.backlash, shaft_angle(0.0, motor));
   const double start = run.rows.front().alpha;
-  for (int i = 1; i < k_approach; ++i) play.to(shaft_angle(start * i / k_approach, at.motor));
+  for (int i = 1; i < k_approach; ++i) play.to(shaft_angle(start * i / k_approach, motor));
   double direction = 0;
-  double before = play.to(shaft_angle(start, at.motor));
+  double before = play.to(shaft_angle(start, motor));
   for (const BenchRow& row : run.rows) {
-    const double pulley = play.to(shaft_angle(row.alpha, at.motor));
+    const double pulley = play.to(shaft_angle(row.alpha, motor));
     if (pulley != before) direction = (pulley > before) == (ratio > 0) ? 1.0 : -1.0;
     before = pulley;
     const double load = run.has_load ? row.load : 0.0;
@@ -173,7 +179,7 @@ const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
 Readings Forward::operator()(const Imperfections& imperfections) {
   Readings readings = mechanism(imperfections).theta;
   for (std::size_t i = 0; i < readings.size(); ++i)
-    readings[i] = sensed(log_[i], std::move(readings[i]), imperfections.sensor);
+    readings[i] = shown_by_sensor(log_[i], std::move(readings[i]), imperfections);
   return readings;
 }
 
@@ -190,7 +196,7 @@ std::vector<std::vector<JointState>> Forward::states(const Imperfections& at) {
     }
     std::vector<double> theta;
     for (const JointState& state : all[i]) theta.push_back(state.theta);
-    theta = sensed(log_[i], std::move(theta), at.sensor);
+    theta = shown_by_sensor(log_[i], std::move(theta), at);
     for (std::size_t k = 0; k < theta.size(); ++k) all[i][k].shown = theta[k];
   }
   return all;

@@ -78,6 +78,7 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   run.has_time = rows.has_time;
   run.has_load = rows.has_load;
   run.has_temperature = rows.has_temperature;
+  run.mounting = rows.mounting;
   if (!run.samples.empty()) {
     const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);
     into.alpha_quantum = std::max(into.alpha_quantum, alpha_quantum);
@@ -129,7 +130,9 @@ void refuse_copies(const std::vector<std::filesystem::path>& files, const std::v
 const std::vector<std::pair<std::string, std::string>>& column_roles() {
   static const std::vector<std::pair<std::string, std::string>> roles = {
       {"alpha", "alpha_deg"},           {"theta", "theta_deg"},     {"time", "time_s"},         {"load", "load_N"},
-      {"temperature", "temperature_C"}, {"tension1", "tension1_N"}, {"tension2", "tension2_N"}, {"cycle", "cycle"}};
+      {"temperature", "temperature_C"}, {"tension1", "tension1_N"}, {"tension2", "tension2_N"}, {"cycle", "cycle"},
+      {std::string(k_motor_sensor_turned), "motor_sensor_turned_deg"},
+      {std::string(k_joint_sensor_turned), "joint_sensor_turned_deg"}};
   return roles;
 }
 
@@ -177,6 +180,7 @@ Measurement read_driving(const std::filesystem::path& file, const Mechanism& dec
     throw InputError(file.string(), "no row holds alpha", "one row a line: alpha_deg and, if known, time_s,load_N");
   say_what_was_read(rows, run.name, say, measurement);
   run.samples = std::move(rows.samples);
+  run.mounting = rows.mounting;
   run.has_time = rows.has_time;
   if (run.has_time) order_time(run, say);
   unwrap(run.samples, &Sample::alpha, "alpha", say);
@@ -193,6 +197,7 @@ BenchLog bench_log(const Measurement& measurement) {
     BenchRun& into = log.emplace_back();
     into.has_load = run.has_load;
     into.has_temperature = run.has_temperature;
+    into.mounting = run.mounting;
     into.rows.reserve(run.samples.size());
     for (const Sample& sample : run.samples)
       into.rows.push_back({sample.time, sample.alpha, sample.load, sample.temperature});

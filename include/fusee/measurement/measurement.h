@@ -51,6 +51,7 @@ struct Run {
   double speed = 0;      ///< median |dα/dt|, rad/s; 0 without time
   double mean_load = 0;  ///< mean of the load column; 0 without
   bool has_time = false, has_load = false, has_temperature = false;
+  Mounting mounting = {};  ///< of its encoders
 };
 
 struct Measurement {
@@ -83,6 +84,9 @@ Run parse_run(std::string_view text, const std::string& name, const MeasurementO
 /// The roles that a column can have, and the column that has each unless the options say otherwise: {"alpha",
 /// "alpha_deg"} …
 const std::vector<std::pair<std::string, std::string>>& column_roles();
+/// Columns that hold one value a run: how the encoders were mounted in it.
+inline constexpr std::string_view k_motor_sensor_turned = "motor_sensor_turned";  ///< role; column …_deg
+inline constexpr std::string_view k_joint_sensor_turned = "joint_sensor_turned";
 
 /// What drove the joint in these runs.
 BenchLog bench_log(const Measurement& measurement);
