@@ -86,7 +86,8 @@ std::vector<Vec2> arc(const Vec2& centre, double radius, double from, double to)
 Vec2 pulley_axis(const Mechanism& mechanism) { return {0, -mechanism.guides.OE - mechanism.pulley.EF}; }
 
 Vec2 pin_centre(const Mechanism& mechanism, Side side) {
-  return {side == Side::left ? -mechanism.guides.EB : mechanism.guides.ED, -mechanism.guides.OE};
+  const Guides& guides = mechanism.guides;
+  return side == Side::left ? Vec2(-guides.EB, -guides.OE) : Vec2(guides.ED, -guides.OE - guides.D_below_B);
 }
 
 Vec2 attachment(const Mechanism& mechanism, double theta) {

@@ -14,7 +14,10 @@
 namespace fusee {
 namespace {
 
-bool changes_geometry(const Imperfections& at) { return at.pins.place != PinPlaceError{} || at.joint.length != 0; }
+bool changes_geometry(const Imperfections& at) {
+  return at.pins.left != PinPlaceError{} || at.pins.right != PinPlaceError{} || at.pins.radius != 0 ||
+         at.joint.length != 0;
+}
 bool changes_statics(const Imperfections& at) {
   return at.tendon.stretch != 0 || at.tendon.pretension != 0 || at.pins.friction != 0 ||
          at.joint.weight != WeightError{} || at.joint.mean_load != 0;

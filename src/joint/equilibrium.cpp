@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "fusee/base/plane.h"
 #include "fusee/transmission/load.h"
 #include "joint/tendon_balance.h"
 #include "joint/upper_span_table.h"
@@ -33,6 +34,11 @@ namespace {
 
 /// Both tendons slack by more than this together: the joint has play. mm
 constexpr double k_least_play = 1e-6;
+/// Searches for the ratio of a tendon's tensions over a pin that gives way. Where it slips, two do; where it sticks,
+/// each leaves less than the give's share of the compliance.
+constexpr int k_give_rounds = 12;
+/// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
+constexpr double k_least_hold = 1e-4;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
@@ -52,6 +58,38 @@ struct TendonHistory {
   WoundProfile wound;
   double upper = 0;  ///< tensions at the last step
   double lower = 0;
+  Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
+  double ratio = 1;      ///< lower per upper tension that Give is seen with
+};
+
+/// A tendon's directions at its pin, away from it, and what it pushes the pin with.
+struct AtPin {
+  Vec2 up, down;
+
+  AtPin(double upper_normal, double lower_normal)
+      : up(-std::sin(upper_normal), std::cos(upper_normal)), down(std::sin(lower_normal), -std::cos(lower_normal)) {}
+  Vec2 push(double upper, double lower) const { return upper * up + lower * down; }
+};
+
+/// A pin that gives way by c N⁻¹ takes up·d and down·d from the path's two parts, d = c (push − home's): to first
+/// order, with the moment arms of the pin where it was. By the span's own tension that is a spring behind it, and as EA
+/// times its compliance is a length of tendon that nobody sees, no equation changes: both spans get their `unseen`
+/// length of path and material. The tension of the other span acts by its ratio to this one's, which the step finds by
+/// repeating.
+struct Give {
+  double upper_unseen = 0;
+  double lower_unseen = 0;
+  double upper_length = 0;  ///< by what home's push no longer takes
+  double lower_length = 0;
+
+  Give() = default;
+  Give(const AtPin& at, const TendonHistory& tendon, double per_newton, double EA) {
+    const double across = at.up.dot(at.down);
+    upper_unseen = per_newton * EA * (1.0 + across * tendon.ratio);
+    lower_unseen = per_newton * EA * (1.0 + across / tendon.ratio);
+    upper_length = per_newton * at.up.dot(tendon.home_push);
+    lower_length = per_newton * at.down.dot(tendon.home_push);
+  }
 };
 
 /// A tendon at the pulley angle of a step, before θ is known.
@@ -80,9 +118,17 @@ AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho,
   return at;
 }
 
+void give_way(Spans& spans, const Give& give) {
+  spans.upper_length += give.upper_unseen + give.upper_length;
+  spans.upper_material += give.upper_unseen;
+  spans.lower_length += give.lower_unseen + give.lower_length;
+  spans.lower_material += give.lower_unseen;
+}
+
 /// A tendon at a trial θ.
 struct Trial {
   UpperSpanTable::Look span;
+  double upper_length = 0;  ///< of the path
   Spans spans;
   TendonBalance balance;
   double wrap = 0;
@@ -90,12 +136,16 @@ struct Trial {
   double slope = 0;  ///< of pull with respect to the image's θ
 };
 
-Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, double rho, double mu,
+Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
+  const double rho = model.pins[tendon.side == Side::left ? 0 : 1].rho;
+  const double mu = model.mu;
   Trial trial;
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
   trial.spans = at.spans;
-  trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
+  trial.upper_length = trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
+  if (model.pin_give > 0)
+    give_way(trial.spans, Give({trial.span.normal, at.path.normal}, tendon, model.pin_give, at.spans.EA));
   trial.wrap = trial.span.normal - at.path.normal;
   trial.spans.capstan = std::exp(mu * std::max(0.0, trial.wrap));
   trial.balance = balance(trial.spans);
@@ -159,6 +209,7 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
       tendon.density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
   tendon.wound = WoundProfile(path.wound, tendon.density, model.wound == WoundTendon::keeps_strain);
   tendon.upper = tendon.lower = tension;
+  tendon.home_push = AtPin(span.normal, path.normal).push(tension, tension);
   return tendon;
 }
 
@@ -230,7 +281,7 @@ TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial
   state.lower = trial.balance.lower;
   state.wrap = trial.wrap;
   state.contact = trial.balance.contact;
-  for (const double stretch : {trial.spans.upper_length - at.swelling * tendon.upper_material,
+  for (const double stretch : {trial.upper_length - at.swelling * tendon.upper_material,
                                at.lower_length - at.swelling * tendon.lower_material}) {
     (stretch > 0 ? state.stretch : state.slack) += std::abs(stretch);
   }
@@ -242,6 +293,12 @@ double energy_of_spans(const TendonHistory& tendon, double EA) {
          tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 
+double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial, double per_newton) {
+  if (!(per_newton > 0)) return 0;
+  const AtPin pin(trial.span.normal, at.path.normal);
+  return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower) - tendon.home_push).squaredNorm();
+}
+
 }  // namespace
 
 struct JointMotion::State {
@@ -249,6 +306,7 @@ struct JointMotion::State {
   std::array<TendonHistory, 2> tendons;
   std::array<double, 2> released{};  ///< so far, mm
   double theta = 0;
+  bool loose = false;       ///< at the last step
   double expected = 0;      ///< model.expected at the last step
   double wound_energy = 0;  ///< since home
   double home_energy = 0;
@@ -260,6 +318,7 @@ struct JointMotion::State {
   Residual residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
   std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
   std::optional<double> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const;
+  bool ratios_found(const std::array<AtAlpha, 2>& at, double found);
   EquilibriumPoint accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
@@ -275,8 +334,8 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
 }
 
 std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
-  return {tried(tendons[0], at[0], model.upper->left, model.pins[0].rho, model.mu, at_theta),
-          tried(tendons[1], at[1], model.upper->right, model.pins[1].rho, model.mu, at_theta)};
+  return {tried(tendons[0], at[0], model.upper->left, model, at_theta),
+          tried(tendons[1], at[1], model.upper->right, model, at_theta)};
 }
 
 Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
@@ -287,25 +346,53 @@ Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const Jo
 
 std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step,
                                                    double expected_now) const {
-  const auto pull = [&](double at_theta) { return residual(at, step, at_theta); };
-  // A joint that nothing pulls stays where it is; any other keeps its deviation from where it is expected.
-  if (theta > model.theta_least && theta < model.theta_most && pull(theta).value == 0) return theta;
-  return fallen_to_zero(theta + expected_now - expected, model.theta_least, model.theta_most, model.last_step, pull);
+  // Its bearing holds the joint as long as it is not pulled by more; then it moves on until it is pulled by that much.
+  double held = 0;
+  const auto pull = [&](double at_theta) {
+    Residual beyond = residual(at, step, at_theta);
+    beyond.value -= held;
+    return beyond;
+  };
+  // A joint that nothing pulls stays where it is, and one that is loose is only pushed; any other keeps its deviation
+  // from where it is expected.
+  double start = theta + expected_now - expected;
+  if (theta > model.theta_least && theta < model.theta_most) {
+    const double here = pull(theta).value;
+    if (std::abs(here) <= model.bearing_friction) return theta;
+    held = std::copysign(model.bearing_friction, here);
+    if (loose || model.bearing_friction > 0) start = theta;
+  }
+  return fallen_to_zero(start, model.theta_least, model.theta_most, model.last_step, pull);
+}
+
+/// Takes the ratios of both tendons' tensions as they were found; were they so already?
+bool JointMotion::State::ratios_found(const std::array<AtAlpha, 2>& at, double found) {
+  constexpr double near = 1e-7;
+  bool same = true;
+  const std::array<Trial, 2> now = trials(at, found);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!(now[i].balance.upper > 0 && now[i].balance.lower > 0)) continue;
+    const double ratio = now[i].balance.lower / now[i].balance.upper;
+    same = same && std::abs(ratio - tendons[i].ratio) <= near;
+    tendons[i].ratio = ratio;
+  }
+  return same;
 }
 
 EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found) {
   const std::array<Trial, 2> now = trials(at, found);
   EquilibriumPoint point;
   point.alpha = step.alpha;
-  point.theta = theta = found;
   point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(found);
+  friction += model.bearing_friction * std::abs(found - theta);
+  point.theta = theta = found;
   point.stiffness = point.stiffness_stuck = model.weight_slope(found);
   for (std::size_t i = 0; i < 2; ++i) {
     const Spent spent = settle(tendons[i], at[i], now[i]);
     wound_energy += spent.wound;
     friction += spent.friction;
     shed += spent.shed;
-    point.stored += energy_of_spans(tendons[i], model.EA);
+    point.stored += energy_of_spans(tendons[i], model.EA) + energy_of_pin(tendons[i], at[i], now[i], model.pin_give);
     (i == 0 ? point.t1 : point.t2) = state_of(tendons[i], at[i], now[i]);
     const double m = now[i].span.m;
     const double geometric = now[i].balance.upper * now[i].span.dm;
@@ -316,8 +403,8 @@ EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, co
   point.stored += wound_energy - home_energy;
   point.friction = friction;
   point.shed = shed;
-  const bool free = point.t1.upper == 0 && point.t2.upper == 0 && point.t1.slack + point.t2.slack > k_least_play;
-  if (free) {
+  loose = std::max(point.t1.upper, point.t2.upper) < k_least_hold && point.t1.slack + point.t2.slack > k_least_play;
+  if (loose) {
     point.status = EquilibriumStatus::loose;
     point.loose_below = point.t2.slack / now[1].span.m;
     point.loose_above = point.t1.slack / now[0].span.m;
@@ -358,7 +445,9 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
     if (!has_path) return state.refuse(step);
   }
   const double expected = model.expected(step.alpha);
-  const auto found = state.balanced(at, step, expected);
+  auto found = state.balanced(at, step, expected);
+  for (int i = 0; i < k_give_rounds && model.pin_give > 0 && found && !state.ratios_found(at, *found); ++i)
+    found = state.balanced(at, step, expected);
   if (!found) return state.refuse(step);
   state.expected = expected;
   state.released = step.tendon.released;

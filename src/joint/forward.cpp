@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fusee/joint/simulate.h"
 #include "joint/lower_path_table.h"
@@ -35,25 +36,24 @@ double first_temperature(const BenchLog& log) {
   return 0;
 }
 
-double decades(const BenchRun& run, const BenchRow& row) {
-  return std::log10(1.0 + std::max(0.0, row.time - run.rows.front().time));
+/// Play of α that `load` has not taken up, rad.
+double slack_of(const RatioJointError& joint, double load) {
+  return joint.slack / (1.0 + joint.slack_taken_up * std::abs(load));
 }
 
 std::vector<double> shown_by_sensor(const BenchRun& run, std::vector<double> theta, const Imperfections& at) {
   return sensed(run, std::move(theta), turned(at.sensor, run.mounting.joint_sensor_turned));
 }
 
-/// Where the joint stands; within its play in the middle.
+/// Where the joint stands; within its play where it was last pushed.
 double standing(const EquilibriumPoint& point) {
-  return point.status == EquilibriumStatus::no_equilibrium
-             ? std::numeric_limits<double>::quiet_NaN()
-             : point.theta + 0.5 * (point.loose_above - point.loose_below);
+  return point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
 }
-double half_play(const EquilibriumPoint& point) { return 0.5 * (point.loose_above + point.loose_below); }
+double play_of(const EquilibriumPoint& point) { return std::max(point.loose_above, point.loose_below); }
 
 JointState state_of(const EquilibriumPoint& point) {
   JointState state{point.status, standing(point)};
-  state.loose = half_play(point);
+  state.loose = play_of(point);
   if (point.status == EquilibriumStatus::no_equilibrium) return state;
   state.t1 = point.t1;
   state.t2 = point.t2;
@@ -68,6 +68,40 @@ void look_paths_up(JointModel& model, double least, double most) {
 }
 
 }  // namespace
+
+TendonCreep::TendonCreep(double per_decade, double EA, JointMotion home, const JointStep& rest)
+    : per_decade_(per_decade), EA_(EA) {
+  if (per_decade_ != 0) at_rest_ = strains(home.to(rest));
+}
+
+std::array<double, 2> TendonCreep::strains(const EquilibriumPoint& point) const {
+  const auto of = [this](const TendonState& tendon) { return 0.5 * (tendon.upper + tendon.lower) / EA_; };
+  return {of(point.t1), of(point.t2)};
+}
+
+std::array<double, 2> TendonCreep::after(double time) const {
+  std::array<double, 2> added{};
+  for (std::size_t i = 0; i < 2 && per_decade_ != 0; ++i) {
+    CreepMemory then = memory_[i];
+    then.hold(beyond_[i], time);
+    added[i] = per_decade_ * then.crept();
+  }
+  return added;
+}
+
+void TendonCreep::hold(const EquilibriumPoint& now, double time) {
+  if (per_decade_ == 0 || now.status == EquilibriumStatus::no_equilibrium) return;
+  const std::array<double, 2> strain = strains(now);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double before = std::exchange(beyond_[i], strain[i] - at_rest_[i]);
+    memory_[i].hold(0.5 * (before + beyond_[i]), time);
+  }
+}
+
+void TendonCreep::rest(double time) {
+  beyond_ = {};
+  for (CreepMemory& memory : memory_) memory.hold(0, time);
+}
 
 Forward::Forward(const Mechanism& declared, const BenchLog& log, const Mechanism& made_for)
     : declared_(declared), log_(log), clock_(bench_clock(log)), first_temperature_(first_temperature(log)) {
@@ -99,7 +133,6 @@ JointMotion Forward::at_home(const Imperfections& at) {
 TendonChange Forward::change(std::size_t index, const BenchRow& row, const Imperfections& at) const {
   const BenchRun& run = log_[index];
   TendonChange change;
-  change.compliance = 1.0 + at.tendon.creep * (at.tendon.creep != 0 ? decades(run, row) : 0.0);
   if (run.has_temperature) {
     const double warmer = row.temperature - first_temperature_;
     change.expansion = {at.tendon.thermal1 * warmer, at.tendon.thermal2 * warmer};
@@ -109,46 +142,89 @@ TendonChange Forward::change(std::size_t index, const BenchRow& row, const Imper
   return change;
 }
 
-void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at,
+/// Between the end of the run before and the first row, s.
+double Forward::time_before(std::size_t index) const {
+  if (index == 0 || log_[index].rows.empty() || log_[index - 1].rows.empty()) return 0;
+  const double end = log_[index - 1].rows.back().time + clock_[index - 1];
+  return std::max(0.0, log_[index].rows.front().time + clock_[index] - end);
+}
+
+void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at, TendonCreep& creep,
                       const std::function<void(const EquilibriumPoint&)>& found) const {
   const BenchRun& run = log_[index];
   if (run.rows.empty()) return;
-  Play play(at.shaft.backlash, 0.0);
+  creep.rest(time_before(index));
+  Play play(0.0);
   const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
-  const auto step = [&](double alpha, const BenchRow& row) {
-    const double pulley = play.to(shaft_angle(alpha, motor));
-    return motion.to({pulley, tip_force(run, row, declared_), declared_.load.torque, change(index, row, at)});
+  const auto step = [&](double alpha, const BenchRow& row, double time) {
+    const double pulley = play.to(shaft_angle(alpha, motor), at.shaft.backlash);
+    TendonChange changed = change(index, row, at);
+    const std::array<double, 2> crept = creep.after(time);
+    for (std::size_t i = 0; i < 2; ++i) changed.expansion[i] += crept[i];
+    const EquilibriumPoint point = motion.to({pulley, tip_force(run, row, declared_), declared_.load.torque, changed});
+    creep.hold(point, time);
+    return point;
   };
   const BenchRow& first = run.rows.front();
-  for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first);
-  for (const BenchRow& row : run.rows) found(step(row.alpha, row));
+  for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first, 0.0);
+  double time = first.time;
+  for (const BenchRow& row : run.rows) found(step(row.alpha, row, row.time - std::exchange(time, row.time)));
 }
 
-std::vector<double> Forward::geared(std::size_t index, const Imperfections& at) const {
+std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, CreepMemory& drift) const {
   const BenchRun& run = log_[index];
   std::vector<double> theta;
   theta.reserve(run.rows.size());
   if (run.rows.empty()) return theta;
   const double ratio = declared_.transmission->ratio;
+  const auto load_of = [&run](const BenchRow& row) { return run.has_load ? row.load : 0.0; };
   const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
-  Play play(at.shaft.backlash, shaft_angle(0.0, motor));
-  const double start = run.rows.front().alpha;
-  for (int i = 1; i < k_approach; ++i) play.to(shaft_angle(start * i / k_approach, motor));
+  Play play(shaft_angle(0.0, motor));
+  const auto pulley_at = [&](double alpha, const BenchRow& row) {
+    return play.to(shaft_angle(alpha, motor), at.shaft.backlash + slack_of(at.ratio_joint, load_of(row)));
+  };
+  const BenchRow& first = run.rows.front();
+  for (int i = 1; i < k_approach; ++i) pulley_at(first.alpha * i / k_approach, first);
+  drift.hold(0, time_before(index));
   double direction = 0;
-  double before = play.to(shaft_angle(start, motor));
+  double before = pulley_at(first.alpha, first);
+  const BenchRow* last = &first;
   for (const BenchRow& row : run.rows) {
-    const double pulley = play.to(shaft_angle(row.alpha, motor));
+    const double pulley = pulley_at(row.alpha, row);
     if (pulley != before) direction = (pulley > before) == (ratio > 0) ? 1.0 : -1.0;
     before = pulley;
-    const double load = run.has_load ? row.load : 0.0;
+    const double load = load_of(row);
     double angle =
         pulley / ratio - at.ratio_joint.compliance * load - at.ratio_joint.dry_friction * std::abs(load) * direction;
-    if (at.ratio_joint.drift != 0) angle -= at.ratio_joint.drift * load * decades(run, row);
+    if (at.ratio_joint.drift != 0) {
+      drift.hold(0.5 * (load_of(*last) + load), row.time - last->time);
+      angle -= at.ratio_joint.drift * drift.crept();
+    }
+    last = &row;
     if (at.ratio_joint.step != 0 && row.time + clock_[index] >= at.tendon.slip_time) angle += at.ratio_joint.step;
     if (run.has_temperature) angle += at.ratio_joint.warmth * (row.temperature - first_temperature_);
     theta.push_back(angle);
   }
   return theta;
+}
+
+void Forward::move(const Imperfections& at, const std::function<void(std::size_t, const EquilibriumPoint&)>& found) {
+  if (made_) {
+    const JointMotion home = at_home(at);
+    const double EA = section_stiffness(mounted(declared_, at).mechanism.tendon);
+    TendonCreep creep(at.tendon.creep, EA, home, {.torque = declared_.load.torque});
+    for (std::size_t i = 0; i < log_.size(); ++i)
+      elastic(i, home, at, creep, [&](const EquilibriumPoint& point) { found(i, point); });
+    return;
+  }
+  CreepMemory drift;
+  for (std::size_t i = 0; i < log_.size(); ++i) {
+    for (const double theta : geared(i, at, drift)) {
+      EquilibriumPoint point;
+      point.theta = theta;
+      found(i, point);
+    }
+  }
 }
 
 const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
@@ -157,22 +233,11 @@ const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
     if (motion.key == key && !motion.theta.empty()) return motion;
   }
   Motion& place = latest_[next_++ % latest_.size()];
-  place = {key, {}, {}};
-  std::optional<JointMotion> home;
-  if (made_) home.emplace(at_home(key));
-  for (std::size_t i = 0; i < log_.size(); ++i) {
-    if (home) {
-      std::vector<double>& theta = place.theta.emplace_back();
-      std::vector<double>& loose = place.loose.emplace_back();
-      elastic(i, *home, key, [&](const EquilibriumPoint& point) {
-        theta.push_back(standing(point));
-        loose.push_back(half_play(point));
-      });
-    } else {
-      place.theta.push_back(geared(i, key));
-      place.loose.emplace_back(place.theta.back().size(), 0.0);
-    }
-  }
+  place = {key, Readings(log_.size()), Readings(log_.size())};
+  move(key, [&](std::size_t run, const EquilibriumPoint& point) {
+    place.theta[run].push_back(standing(point));
+    place.loose[run].push_back(play_of(point));
+  });
   return place;
 }
 
@@ -184,16 +249,11 @@ Readings Forward::operator()(const Imperfections& imperfections) {
 }
 
 std::vector<std::vector<JointState>> Forward::states(const Imperfections& at) {
-  const Imperfections key = without_sensor(at);
-  std::optional<JointMotion> home;
-  if (made_) home.emplace(at_home(key));
   std::vector<std::vector<JointState>> all(log_.size());
+  move(without_sensor(at), [&](std::size_t run, const EquilibriumPoint& point) {
+    all[run].push_back(made_ ? state_of(point) : JointState{point.status, point.theta});
+  });
   for (std::size_t i = 0; i < log_.size(); ++i) {
-    if (home) {
-      elastic(i, *home, key, [&](const EquilibriumPoint& point) { all[i].push_back(state_of(point)); });
-    } else {
-      for (const double theta : geared(i, key)) all[i].push_back({EquilibriumStatus::held, theta});
-    }
     std::vector<double> theta;
     for (const JointState& state : all[i]) theta.push_back(state.theta);
     theta = shown_by_sensor(log_[i], std::move(theta), at);

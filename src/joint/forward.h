@@ -11,9 +11,32 @@
 #include "fusee/joint/equilibrium.h"
 #include "fusee/joint/joint_model.h"
 #include "fusee/joint/simulate.h"
+#include "joint/creep_memory.h"
 #include "joint/imperfect_joint.h"
 
 namespace fusee {
+
+/// What both tendons of a joint have crept by. It is kept between runs, while the joint rests at home without load.
+class TendonCreep {
+ public:
+  /// `per_decade` of the elastic strain, and the joint at home; tendons that hung there for long creep no more there.
+  TendonCreep(double per_decade, double EA, JointMotion home, const JointStep& rest);
+
+  /// Unloaded length added, as a fraction, when the tensions of the moment go on for `time` s.
+  std::array<double, 2> after(double time) const;
+  /// From the tensions of the moment to those of `now` within `time` s.
+  void hold(const EquilibriumPoint& now, double time);
+  void rest(double time);
+
+ private:
+  std::array<double, 2> strains(const EquilibriumPoint& point) const;
+
+  double per_decade_;
+  double EA_;
+  std::array<double, 2> at_rest_{};  ///< strain
+  std::array<double, 2> beyond_{};   ///< strain beyond that, at the moment
+  std::array<CreepMemory, 2> memory_;
+};
 
 /// The joint on its bench. Keeps the latest motions of the mechanism, since sensors do not change them, and the
 /// latest geometries, which few of the effects change. For one thread.
@@ -23,9 +46,9 @@ class Forward {
   /// With a pulley that was made for another joint.
   Forward(const Mechanism& declared, const BenchLog& log, const Mechanism& made_for);
 
-  /// NaN where the mechanism has no equilibrium. Where both tendons are slack, the middle of where the joint may be.
+  /// NaN where the mechanism has no equilibrium. Where both tendons are slack, where the joint was last pushed.
   Readings operator()(const Imperfections& imperfections);
-  /// Half the angle within which nothing holds the joint, rad; zero where a tendon is taut.
+  /// How far from there the joint could be, since nothing holds it, rad; zero where a tendon is taut.
   const Readings& looseness(const Imperfections& imperfections) { return mechanism(imperfections).loose; }
   /// All that is known of the joint, row by row.
   std::vector<std::vector<JointState>> states(const Imperfections& imperfections);
@@ -44,15 +67,15 @@ class Forward {
 
   const Motion& mechanism(const Imperfections& imperfections);
   JointMotion at_home(const Imperfections& imperfections);
-  /// Calls `found` with the equilibrium of each row.
-  void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections,
-               const std::function<void(const EquilibriumPoint&)>& found) const;
-  std::vector<double> geared(std::size_t run, const Imperfections& imperfections) const;
+  void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections, TendonCreep& creep,
+               Motion& into) const;
+  std::vector<double> geared(std::size_t run, const Imperfections& imperfections, CreepMemory& drift) const;
   TendonChange change(std::size_t run, const BenchRow& row, const Imperfections& imperfections) const;
+  double time_before(std::size_t run) const;
 
   const Mechanism& declared_;
   const BenchLog& log_;
-  std::vector<double> clock_;
+  std::vector<double> clock_;  ///< added to the time of each run
   double first_temperature_ = 0;
   std::optional<MadePulleys> made_;
   double alpha_least_ = 0;

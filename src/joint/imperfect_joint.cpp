@@ -18,18 +18,21 @@ constexpr double k_least_stiffness = 1e-3;  // of the declared EA
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   Mechanism mechanism = declared;
   mechanism.joint.R += at.joint.length;
-  mechanism.guides.EB += at.pins.place.outward;
-  mechanism.guides.ED += at.pins.place.outward;
-  mechanism.guides.OE += at.pins.place.down;
-  mechanism.pulley.EF -= at.pins.place.down;  // the pulley's axis stays
-  mechanism.guides.radius = std::max(0.0, mechanism.guides.radius + at.pins.place.radius);
+  mechanism.guides.EB += at.pins.left.outward;
+  mechanism.guides.ED += at.pins.right.outward;
+  mechanism.guides.OE += at.pins.left.down;
+  mechanism.pulley.EF -= at.pins.left.down;  // the pulley's axis stays
+  mechanism.guides.D_below_B += at.pins.right.down - at.pins.left.down;
+  mechanism.guides.radius = std::max(0.0, mechanism.guides.radius + at.pins.radius);
   mechanism.guides.mu = std::max(0.0, mechanism.guides.mu + at.pins.friction);
   mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.tendon.stretch);
   mechanism.tendon.pretension = std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);
   return {std::move(mechanism)};
 }
 
-GeometryError geometry_of(const Imperfections& at) { return {at.pulley, at.pins.place, at.joint.length}; }
+GeometryError geometry_of(const Imperfections& at) {
+  return {at.pulley, at.pins.left, at.pins.right, at.pins.radius, at.joint.length};
+}
 
 /// Pulleys made for `declared` and imperfect themselves, seen from pins as mounted.
 JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared, const Imperfections& at) {
@@ -95,6 +98,8 @@ void set_imperfect_statics(JointModel& model, const Mechanism& declared, const I
   model.wound = WoundTendon::at_home;
   model.last_step = k_last_step;
   model.slack = 0.5 * at.tendon.slack;
+  model.bearing_friction = std::max(0.0, at.joint.friction);
+  model.pin_give = std::max(0.0, at.pins.give);
   const Weight weight = with_error({model.weight, model.tilt}, at.joint.weight);
   model.weight = weight.moment;
   model.tilt = weight.tilt;

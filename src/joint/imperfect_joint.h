@@ -11,7 +11,9 @@ namespace fusee {
 /// What the tendons' paths depend on: joints that have it in common have their geometry in common.
 struct GeometryError {
   PulleyError pulley;
-  PinPlaceError pins;
+  PinPlaceError left_pin;
+  PinPlaceError right_pin;
+  double pin_radius = 0;
   double joint_length = 0;
 
   bool operator==(const GeometryError&) const = default;

@@ -71,8 +71,8 @@ double shaft_angle(double alpha, const MotorSensorError& error) {
          wave(alpha, error.wave_order, error.wave_sin, error.wave_cos);
 }
 
-double Play::to(double input) {
-  output_ = std::clamp(output_, input - half_, input + half_);
+double Play::to(double input, double width) {
+  output_ = std::clamp(output_, input - 0.5 * width, input + 0.5 * width);
   return output_;
 }
 

@@ -17,14 +17,13 @@ JointSensorError turned(JointSensorError error, double angle);
 /// Where the shaft stands when the sensor shows `alpha`, rad.
 double shaft_angle(double alpha, const MotorSensorError& error);
 
-/// The play operator: follows `input` at a distance of half the `width`, and stands still in between.
+/// The play operator: follows its input at a distance of half the width, and stands still in between.
 class Play {
  public:
-  Play(double width, double input) : half_(0.5 * width), output_(input) {}
-  double to(double input);
+  explicit Play(double input) : output_(input) {}
+  double to(double input, double width);
 
  private:
-  double half_;
   double output_;
 };
 

@@ -21,6 +21,12 @@ double turned_near(double angle, double near) { return angle - k_two_pi * std::r
 
 double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
+/// The centre of a string's pin, seen from the joint.
+Vec2 pin_of(const Mechanism& mechanism, double hand) {
+  const Guides& guides = mechanism.guides;
+  return hand > 0 ? Vec2(guides.ED, -guides.OE - guides.D_below_B) : Vec2(-guides.EB, -guides.OE);
+}
+
 /// One string on its pulley, pin and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
 class String {
  public:
@@ -30,8 +36,8 @@ class String {
         half_(0.5 * mechanism.tendon.diameter),
         rho_(mechanism.guides.radius + half_),
         R_(mechanism.joint.R),
-        pin_(hand > 0 ? mechanism.guides.ED : -mechanism.guides.EB, -mechanism.guides.OE),
-        pin_from_axis_(pin_.x(), mechanism.pulley.EF) {
+        pin_(pin_of(mechanism, hand)),
+        pin_from_axis_(pin_.x(), pin_.y() + mechanism.guides.OE + mechanism.pulley.EF) {
     const std::string name = pulley_name();
     if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
     double along = 0;

@@ -52,7 +52,7 @@ class Conditions {
     for (const AnchorRoom& room : rooms) add_anchor(room);
     add_channel();
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
-    add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF}, "guides.ED_mm");
+    add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF - mechanism_.guides.D_below_B}, "guides.ED_mm");
     return std::move(result_);
   }
 

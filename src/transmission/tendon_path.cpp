@@ -8,7 +8,8 @@ namespace fusee {
 
 PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
   const Guides& guides = mechanism.guides;
-  return {side == Side::right ? guides.ED : guides.EB, guides.OE, mechanism.pulley.EF, rho, mechanism.joint.R};
+  if (side == Side::left) return {guides.EB, guides.OE, mechanism.pulley.EF, rho, mechanism.joint.R};
+  return {guides.ED, guides.OE + guides.D_below_B, mechanism.pulley.EF - guides.D_below_B, rho, mechanism.joint.R};
 }
 
 // Differentiating (C − P)·n = ρ (upper_line) with C = R (sin θ, cos θ), C' = R (cos θ, −sin θ) gives, with ψ the

@@ -66,6 +66,76 @@ TEST_F(Geared, ADelayShowsWhatWas) {
   });
 }
 
+TEST_F(Geared, AFilterOfThatTimeConstantShowsWhatWasRoundedOff) {
+  constexpr double tau = 0.8;
+  Imperfections late;
+  late.sensor.lag = tau;
+  late.sensor.first_order = 1;
+  // By small steps of τ ẏ = θ − y along straight lines from row to row, a second apart.
+  const auto by_steps = [y = 0.0](const fusee::Run& run, std::size_t i) mutable {
+    if (i == 0) return y = declared(run, 0);
+    constexpr int steps = 20000;
+    const double from = declared(run, i - 1), by = declared(run, i) - from;
+    for (int k = 0; k < steps; ++k) y += (from + by * (k + 0.5) / steps - y) / (tau * steps);
+    return y;
+  };
+  const Readings found = forward(late);
+  const fusee::Run& run = measurement.runs[0];
+  for (std::size_t i = 0; i < run.samples.size(); ++i) EXPECT_NEAR(found[0][i], by_steps(run, i), 1e-5) << i;
+}
+
+TEST_F(Geared, ASensorWavesSoOftenATurn) {
+  Imperfections at;
+  at.sensor.wave_sin = 0.01;
+  at.sensor.wave_cos = -0.02;
+  at.sensor.wave_order = 3;
+  expect(at, [](const fusee::Run& run, std::size_t i) {
+    const double theta = declared(run, i);
+    return theta + 0.01 * std::sin(3 * theta) - 0.02 * (std::cos(3 * theta) - 1);
+  });
+  at = {};
+  at.motor.wave_cos = 0.03;
+  at.motor.wave_order = 4;
+  expect(at, [](const fusee::Run& run, std::size_t i) {
+    return declared(run, i) + 0.03 * (std::cos(4 * run.samples[i].alpha) - 1) / k_ratio;
+  });
+}
+
+TEST_F(Geared, SlackIsPlayThatTheLoadTakesUp) {
+  Imperfections at;
+  at.ratio_joint.slack = 0.3;
+  at.ratio_joint.slack_taken_up = 0.2;
+  expect(at, [play = 0.0](const fusee::Run& run, std::size_t i) mutable {
+    const double width = 0.3 / (1 + 0.2 * run.samples[i].load);  // half of it under 5
+    if (i == 0) play = run.samples[0].alpha + 0.5 * width;       // came from home, downwards
+    const double alpha = run.samples[i].alpha;
+    play = std::clamp(play, alpha - 0.5 * width, alpha + 0.5 * width);
+    return play / k_ratio;
+  });
+}
+
+TEST_F(Geared, CreepGoesOnWithTheLogarithmOfTimeUnderLoad) {
+  const Readings found = forward(with("creep", 1e-3));
+  const fusee::Run& loaded = measurement.runs[1];
+  for (std::size_t i = 0; i < loaded.samples.size(); ++i) {
+    EXPECT_NEAR(found[0][i], declared(measurement.runs[0], i), 1e-15);
+    const double time = loaded.samples[i].time - loaded.samples[0].time;
+    EXPECT_NEAR(found[1][i], declared(loaded, i) - 5e-3 * std::log10(1 + time), 0.15 * 5e-3) << i;
+  }
+}
+
+TEST(Creep, IsRememberedInTheNextRun) {
+  const Measurement measurement = measured({0, 5, 0}, [](const Sample&) { return 0.0; });
+  const BenchLog log = bench_log(measurement);
+  Forward forward(joint(), log);
+  Imperfections at;
+  at.ratio_joint.drift = 1e-3;
+  const Readings found = forward(at);
+  // A run is 79 s long: what it was before is undone by the opposite since then.
+  const double left = 5e-3 * (std::log10(1.0 + 79 + 20) - std::log10(1.0 + 20));
+  EXPECT_NEAR(declared(measurement.runs[2], 20) - found[2][20], left, 0.1 * 5e-3);
+}
+
 TEST_F(Geared, NothingHoldsALooseJointButTendons) {
   for (const std::vector<double>& run : forward.looseness({})) EXPECT_THAT(run, testing::Each(0.0));
 }

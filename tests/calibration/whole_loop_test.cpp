@@ -40,9 +40,9 @@ Imperfections truth_of(const Hidden& hidden, const DeclaredMechanism& declared) 
   at.pulley.scale = hidden.pulley_scale;
   at.pulley.outline.runout_x = hidden.runout_x;
   at.pulley.outline.runout_y = hidden.runout_y;
-  at.pins.place.radius = hidden.guide_radius;
-  at.pins.place.outward = hidden.guide_outward;
-  at.pins.place.down = hidden.guide_down;
+  at.pins.radius = hidden.guide_radius;
+  at.pins.left.outward = at.pins.right.outward = hidden.guide_outward;
+  at.pins.left.down = at.pins.right.down = hidden.guide_down;
   at.joint.length = hidden.joint_length;
   if (hidden.modulus > 0) at.tendon.stretch = declared.tendon.modulus / hidden.modulus - 1;
   at.joint.weight.cos = hidden.gravity * std::sin(hidden.gravity_direction);
@@ -201,17 +201,17 @@ TEST(WholeLoop, GoesOnFromACorrectedFile) {
 TEST(WholeLoop, WhatIsFoundLaterIsAdded) {
   const Joint joint = joint_of("profiles/forearm.toml");
   DeclaredMechanism corrected = joint.made.declared;
-  corrected.identified.pins.place.radius = 1;
+  corrected.identified.pins.radius = 1;
   corrected.identified.tendon.stretch = 1;
   corrected.identified.pulley.scale = 0.01;
   corrected.identified.shaft.backlash = 0.02;
   Calibration second;
-  second.identified.pins.place.radius = 0.5;
+  second.identified.pins.radius = 0.5;
   second.identified.tendon.stretch = 0.5;
   second.identified.pulley.scale = 0.01;
   const Imperfections total =
       correct(corrected, measured(joint.made, case_of(joint, "guide_radius"), scratch("added")), second).identified;
-  EXPECT_EQ(total.pins.place.radius, 1.5);
+  EXPECT_EQ(total.pins.radius, 1.5);
   EXPECT_EQ(total.tendon.stretch, 2.0);
   EXPECT_NEAR(total.pulley.scale, 0.0201, 1e-12);
   EXPECT_EQ(total.shaft.backlash, 0);  // a table's matter: not found again, it is gone

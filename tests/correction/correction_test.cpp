@@ -85,7 +85,7 @@ TEST(AsItIs, NothingIdentifiedChangesNothing) {
 
 TEST(AsItIs, IsExpectedOfTheNextCalibration) {
   DeclaredMechanism mechanism = declared();
-  mechanism.identified.pins.place.radius = 1.5;
+  mechanism.identified.pins.radius = 1.5;
   mechanism.identified.pulley.outline.runout_x = 0.1;
   const DeclaredMechanism expected = expected_joint(mechanism);
   EXPECT_EQ(static_cast<const Mechanism&>(expected), as_it_is(mechanism).mechanism);
@@ -95,7 +95,7 @@ TEST(AsItIs, IsExpectedOfTheNextCalibration) {
 
 TEST(AsItIs, AnotherGuideRadiusIsTakenOut) {
   DeclaredMechanism mechanism = declared();
-  mechanism.identified.pins.place.radius = 2.0;
+  mechanism.identified.pins.radius = 2.0;
   DeclaredMechanism truth = declared();
   truth.guides.radius += 2.0;
   const double before = miss(declared(), truth, as_it_is(declared()));
@@ -143,7 +143,7 @@ TEST(RoundChoice, StaysRoundWhereThatSuffices) {
   DeclaredMechanism mechanism = declared();
   EXPECT_TRUE(round_choice(mechanism).suffices);
   EXPECT_NEAR(round_choice(mechanism).r1, 16, 1e-3);
-  mechanism.identified.pins.place.outward = 5;
+  mechanism.identified.pins.left.outward = mechanism.identified.pins.right.outward = 5;
   EXPECT_FALSE(round_choice(mechanism).suffices);
   EXPECT_GT(degrees(round_choice(mechanism).max_error), 0.005);
 }
@@ -157,7 +157,7 @@ Calibration found_guide_radius() {
   effect.group = {"guide_radius"};
   effect.parameters = {{"radius_mm", 3.5, 3.4, 3.6}};
   calibration.effects = {effect};
-  calibration.identified.pins.place.radius = 1.5;
+  calibration.identified.pins.radius = 1.5;
   return calibration;
 }
 
@@ -171,7 +171,7 @@ TEST(CorrectedToml, KeepsTheFileAndAddsWhatWasFound) {
   EXPECT_EQ(text.substr(0, text.find("\n[identified]")), k_declared);
   EXPECT_THAT(text, HasSubstr("# guide_radius (pins): radius_mm = 3.5"));
   DeclaredMechanism read = parse_mechanism(text, "corrected.toml");
-  EXPECT_EQ(read.identified.pins.place.radius, 1.5);
+  EXPECT_EQ(read.identified.pins.radius, 1.5);
   read.identified = {};
   EXPECT_EQ(read, declared());
 }
@@ -181,9 +181,9 @@ TEST(CorrectedToml, ASecondCalibrationReplacesTheFirst) {
   correction.identified = found_guide_radius().identified;
   const std::string once = corrected_toml(k_declared, declared(), found_guide_radius(), correction);
   EXPECT_EQ(corrected_toml(once, parse_mechanism(once, "a.toml"), found_guide_radius(), correction), once);
-  correction.identified.pins.place.radius = 1.6;
+  correction.identified.pins.radius = 1.6;
   const std::string twice = corrected_toml(once, parse_mechanism(once, "a.toml"), found_guide_radius(), correction);
-  EXPECT_EQ(parse_mechanism(twice, "b.toml").identified.pins.place.radius, 1.6);
+  EXPECT_EQ(parse_mechanism(twice, "b.toml").identified.pins.radius, 1.6);
   EXPECT_EQ(twice.find("\n[identified]"), twice.rfind("\n[identified]"));
 }
 
@@ -238,7 +238,7 @@ TEST(Correct, ALoopGoesIntoTheTable) {
 TEST(Correct, AGuideRadiusGoesIntoThePulley) {
   Loop data = loop_of(frictionless(), 0);
   data.calibration.identified = {};
-  data.calibration.identified.pins.place.radius = 1.5;
+  data.calibration.identified.pins.radius = 1.5;
   const Correction correction = correct(frictionless(), data.measurement, data.calibration);
   EXPECT_TRUE(correction.has_pulley);
   EXPECT_FALSE(correction.round.suffices);

@@ -77,14 +77,14 @@ TEST(Identified, HasNoKeyBesideThoseOfEffects) {
 
 TEST(FoundAgain, AddsCompoundsOrTakesTheNewFinding) {
   Imperfections before, found;
-  before.pins.place.radius = 1;
-  found.pins.place.radius = 0.5;
+  before.pins.radius = 1;
+  found.pins.radius = 0.5;
   before.tendon.stretch = 1;
   found.tendon.stretch = 0.5;
   before.shaft.backlash = 0.1;
   found.shaft.backlash = 0.02;
   const Imperfections total = found_again(before, found, JointKind::tendons);
-  EXPECT_EQ(total.pins.place.radius, 1.5);
+  EXPECT_EQ(total.pins.radius, 1.5);
   EXPECT_EQ(total.tendon.stretch, 2);
   EXPECT_EQ(total.shaft.backlash, 0.02);
   const Imperfections rest = beyond_mechanism(total, JointKind::tendons);

@@ -24,7 +24,7 @@ struct SimulationColumn {
   std::vector<double> values;
 };
 /// In the order of the table, which ends with `status`. theta_deg is what the joint's sensor shows, joint_deg where the
-/// joint stands; loose_deg by how much it may stand elsewhere, either way, because nothing holds it. tension1_N and
+/// joint stands; loose_deg how far from there it may stand, because nothing holds it. tension1_N and
 /// tension2_N are between pulley and pin, tension1_joint_N and tension2_joint_N between pin and joint; the motor's
 /// torque is positive towards +α. time_s and temperature_C are there where they were logged; of a joint declared by a
 /// ratio no tensions and no torque are known.

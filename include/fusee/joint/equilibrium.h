@@ -71,7 +71,7 @@ struct EquilibriumPoint {
   /// … and with pins that let it pass at the present ratio of tensions (large ones, whole tendons).
   double stiffness = 0;
   double stored = 0;    ///< elastic energy, above that of home unloaded, N·mm
-  double friction = 0;  ///< lost at the pins since home, N·mm
+  double friction = 0;  ///< lost at the pins and in the joint's bearing since home, N·mm
   /// Lost where tendon leaves a pulley at another strain than it lay there, since home, N·mm; with WoundTendon::at_home
   /// winding gives it back.
   double shed = 0;

@@ -67,6 +67,8 @@ struct JointModel {
   double mu = 0;                                 ///< of the pins
   double pretension = 0;                         ///< of tendon 1 at home, unloaded, N
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
+  double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm
+  double pin_give = 0;                           ///< a pin moves by this along what its tendon pushes it with, mm/N
   WoundTendon wound = WoundTendon::keeps_strain;
   double weight = 0;         ///< mass · g · lever, N·mm
   double tilt = 0;           ///< θ at which the link points straight up, rad

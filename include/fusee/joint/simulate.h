@@ -23,7 +23,7 @@ struct JointState {
   EquilibriumStatus status = EquilibriumStatus::held;
   double theta = std::numeric_limits<double>::quiet_NaN();  ///< where the joint stands, rad; NaN without an equilibrium
   double shown = std::numeric_limits<double>::quiet_NaN();  ///< by the joint's sensor, rad: what predict() says
-  double loose = 0;              ///< by how much it may stand elsewhere, either way, because nothing holds it, rad
+  double loose = 0;              ///< how far from there it may stand, because nothing holds it, rad
   TendonState t1 = {}, t2 = {};  ///< left, right; N, mm
   double motor_torque = std::numeric_limits<double>::quiet_NaN();  ///< towards +α, N·mm
 };

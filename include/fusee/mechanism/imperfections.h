@@ -8,8 +8,8 @@
 
 namespace fusee {
 
-/// The shaft stands at α + offset + sin · sin α + cos · (cos α − 1), and a wave of the same kind in nα, where the sensor
-/// shows α. rad
+/// The shaft stands at α + offset + sin · sin α + cos · (cos α − 1), and a wave of the same kind in nα, where the
+/// sensor shows α. rad
 struct MotorSensorError {
   double offset = 0;
   double eccentricity_sin = 0;
@@ -52,7 +52,7 @@ struct TendonError {
   double stretch = 0;     ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
   double pretension = 0;  ///< added to that of tendon 1 at home, N
   double slack = 0;       ///< of both tendons together, beyond what pretension takes up, mm
-  double creep = 0;       ///< compliance added in every decade of time since a run began, as a fraction
+  double creep = 0;       ///< compliance added in every decade of time that a tension acts, as a fraction
   double slip = 0;        ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
   double slip_time = 0;   ///< s, on the bench's clock: runs one after another
   double thermal1 = 0;    ///< unloaded length of tendon 1 added per kelvin, as a fraction
@@ -61,9 +61,7 @@ struct TendonError {
   bool operator==(const TendonError&) const = default;
 };
 
-/// Both pins alike.
 struct PinPlaceError {
-  double radius = 0;   ///< added to the pins' radius, mm
   double outward = 0;  ///< further from the middle, mm
   double down = 0;     ///< further from the joint, mm; the pulley's axis stays
 
@@ -71,8 +69,11 @@ struct PinPlaceError {
 };
 
 struct PinError {
-  PinPlaceError place;
+  PinPlaceError left;
+  PinPlaceError right;
+  double radius = 0;    ///< added to both pins' radius, mm
   double friction = 0;  ///< added to the capstan coefficient
+  double give = 0;      ///< each pin moves along the tendon's force on it, mm/N
 
   bool operator==(const PinError&) const = default;
 };
@@ -86,7 +87,8 @@ struct WeightError {
 };
 
 struct JointError {
-  double length = 0;  ///< added to OC, mm
+  double length = 0;    ///< added to OC, mm
+  double friction = 0;  ///< dry friction of the bearing, N·mm
   WeightError weight;
   double mean_load = 0;  ///< tip force beside the declared one, under which the joint is to follow its law, N
 
@@ -95,11 +97,13 @@ struct JointError {
 
 /// Of a joint declared by a ratio, whose tendons are not known. rad.
 struct RatioJointError {
-  double compliance = 0;    ///< turned by a unit of load
-  double dry_friction = 0;  ///< half loop per unit of |load|
-  double drift = 0;         ///< turned by a unit of load in every decade of time since a run began
-  double step = 0;          ///< turned at TendonError::slip_time
-  double warmth = 0;        ///< turned by a kelvin
+  double compliance = 0;      ///< turned by a unit of load
+  double dry_friction = 0;    ///< half loop per unit of |load|
+  double drift = 0;           ///< turned by a unit of load in every decade of time that it acts
+  double slack = 0;           ///< play of α, full width, without load; it shrinks by 1 + slack_taken_up · |load|
+  double slack_taken_up = 0;  ///< per unit of load
+  double step = 0;            ///< turned at TendonError::slip_time
+  double warmth = 0;          ///< turned by a kelvin
 
   bool operator==(const RatioJointError&) const = default;
 };

@@ -34,6 +34,8 @@ struct Guides {
   double OE = 0;      ///< positive: the pins are below the joint, away from C
   double radius = 0;  ///< of the pin itself; 0 is a point
   double mu = 0;      ///< capstan coefficient at the pins
+  /// D stands lower than B by this, at (ED, −OE − this). No key has it: joints are found to be so (mounted()).
+  double D_below_B = 0;
 
   bool operator==(const Guides&) const = default;
 };

@@ -1,17 +1,19 @@
+#include <string>
+
 #include "fusee/mechanism/effect.h"
 #include "mechanism/effects/by_hand.h"
 
 namespace fusee {
 namespace {
 
-std::vector<CaliperReading> outward_by_caliper(const DeclaredMechanism& declared) {
-  std::vector<CaliperReading> both = hand_reading(declared.prior.EB, declared.guides.EB);
-  const std::vector<CaliperReading> right = hand_reading(declared.prior.ED, declared.guides.ED);
-  both.insert(both.end(), right.begin(), right.end());
-  return both;
+std::vector<CaliperReading> left_by_caliper(const DeclaredMechanism& declared) {
+  return hand_reading(declared.prior.EB, declared.guides.EB);
+}
+std::vector<CaliperReading> right_by_caliper(const DeclaredMechanism& declared) {
+  return hand_reading(declared.prior.ED, declared.guides.ED);
 }
 
-/// The pulley's axis stays where it is declared: pins further down are pins closer to it.
+/// Of either pin. The pulley's axis stays where it is declared: pins further down are pins closer to it.
 std::vector<CaliperReading> down_by_caliper(const DeclaredMechanism& declared) {
   std::vector<CaliperReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
   const std::vector<double>& EF = declared.prior.EF;
@@ -19,42 +21,56 @@ std::vector<CaliperReading> down_by_caliper(const DeclaredMechanism& declared) {
   return both;
 }
 
+/// One number of one pin: `by_hand` says how it is read, `sign` what its sign means.
+EffectParameter place_part(std::string name, double& (*number)(Imperfections&), const IdentifiedKey& key,
+                           const ByHand& by_hand, const SignWords& sign) {
+  return {.name = std::move(name),
+          .number = number,
+          .least = -20,
+          .most = 20,
+          .step = 1e-2,
+          .prior = 1,  // holes drilled or printed by hand
+          .shown = shown::as_is,
+          .key = key,
+          .again = WhenFoundAgain::added,
+          .by_hand = by_hand,
+          .sign = sign};
+}
+
+constexpr std::string_view k_how_low =
+    "measure how far below the joint's axis the pins lie (above it: negative) and write [prior] OE_mm";
+
 }  // namespace
 
+// Four numbers for two pins. Both pins turned about the joint are a zero of the joint and pulleys tied elsewhere: what
+// data do not say of them their priors keep small.
 Effect guide_position(JointKind) {
   Effect effect;
   effect.name = "guide_position";
   effect.place = ChainPlace::pins;
   effect.rank = 3;
   effect.signature = "smooth in theta, no direction, no load";
-  effect.separating_run = "measure the pins' distance from each other and from the joint's axis with a caliper";
+  effect.separating_run = "measure each pin's distance from the middle and from the joint's axis with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true};
   effect.parameters = {
-      {.name = "outward_mm",
-       .number = [](Imperfections& at) -> double& { return at.pins.place.outward; },
-       .least = -20,
-       .most = 20,
-       .step = 1e-2,
-       .prior = 1,  // holes drilled or printed by hand
-       .shown = shown::as_is,
-       .key = key::plain("guide_outward_mm", "mm", -10000, 10000, "added to guides.EB_mm and ED_mm"),
-       .again = WhenFoundAgain::added,
-       .by_hand = {"measure the pins' distance from the middle and write [prior] EB_mm and ED_mm", k_caliper,
-                   outward_by_caliper},
-       .sign = {"pins too near to the middle", "pins too far from the middle"}},
-      {.name = "down_mm",
-       .number = [](Imperfections& at) -> double& { return at.pins.place.down; },
-       .least = -20,
-       .most = 20,
-       .step = 1e-2,
-       .prior = 1,  // holes drilled or printed by hand
-       .shown = shown::as_is,
-       .key = key::plain("guide_down_mm", "mm", -10000, 10000, "added to guides.OE_mm, taken from pulley.EF_mm"),
-       .again = WhenFoundAgain::added,
-       .by_hand = {"measure how far below the joint's axis the pins lie (above it: negative) and write [prior] OE_mm",
-                   k_caliper, down_by_caliper},
-       .sign = {"pins too high", "pins too low"}}};
+      place_part(
+          "outward1_mm", [](Imperfections& at) -> double& { return at.pins.left.outward; },
+          key::plain("guide1_outward_mm", "mm", -10000, 10000, "added to guides.EB_mm"),
+          {"measure the left pin's distance from the middle and write [prior] EB_mm", k_caliper, left_by_caliper},
+          {"left pin too near to the middle", "left pin too far from the middle"}),
+      place_part("down1_mm", [](Imperfections& at) -> double& { return at.pins.left.down; },
+                 key::plain("guide1_down_mm", "mm", -10000, 10000,
+                            "the left pin is this much lower than guides.OE_mm says; the pulley's axis stays"),
+                 {k_how_low, k_caliper, down_by_caliper}, {"left pin too high", "left pin too low"}),
+      place_part(
+          "outward2_mm", [](Imperfections& at) -> double& { return at.pins.right.outward; },
+          key::plain("guide2_outward_mm", "mm", -10000, 10000, "added to guides.ED_mm"),
+          {"measure the right pin's distance from the middle and write [prior] ED_mm", k_caliper, right_by_caliper},
+          {"right pin too near to the middle", "right pin too far from the middle"}),
+      place_part("down2_mm", [](Imperfections& at) -> double& { return at.pins.right.down; },
+                 key::plain("guide2_down_mm", "mm", -10000, 10000, "the same of the right pin"),
+                 {k_how_low, k_caliper, down_by_caliper}, {"right pin too high", "right pin too low"})};
   return effect;
 }
 

@@ -25,7 +25,7 @@ Effect guide_radius(JointKind) {
   effect.needs = {.tendons = true};
   effect.parameters = {
       {.name = "radius_mm",
-       .number = [](Imperfections& at) -> double& { return at.pins.place.radius; },
+       .number = [](Imperfections& at) -> double& { return at.pins.radius; },
        .least = -20,
        .most = 20,
        .step = 5e-3,

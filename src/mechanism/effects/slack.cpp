@@ -7,9 +7,33 @@ double total(double added, const Mechanism& declared) {
   return declared.tendon.pretension + added > 0 ? declared.tendon.pretension + added : 0.0;
 }
 
+/// Of a joint whose tendons are not known: a cable that lies wavy between its guides lacks w of its length; tension
+/// pulls the waves straight, their amplitude falls by 1/(1 + T/T0) as that of a bent beam under tension does, and with
+/// it the play that they make. The larger the load, the smaller the loop: play and stretch know no such thing.
+std::vector<EffectParameter> of_ratio() {
+  return {{.name = "width_deg",
+           .number = [](Imperfections& at) -> double& { return at.ratio_joint.slack; },
+           .least = 0,
+           .most = 0.5,
+           .step = 2e-3,
+           .prior = radians(2.0),  // as backlash
+           .shown = shown::in_degrees,
+           .key = key::in_degrees("slack_deg", 0, 360,
+                                  "of a joint declared by a ratio: play of alpha without load, full width")},
+          {.name = "taken_up_per_load",
+           .number = [](Imperfections& at) -> double& { return at.ratio_joint.slack_taken_up; },
+           .least = 0,
+           .most = 1e6,
+           .step = 1e-2,
+           .prior = 1,  // at the largest load: half of it
+           .prior_at_load = true,
+           .shown = shown::as_is,
+           .key = key::plain("slack_taken_up", "", 0, 1e6, "it shrinks by 1 + this for every unit of load")}};
+}
+
 }  // namespace
 
-Effect slack(JointKind) {
+Effect slack(JointKind kind) {
   Effect effect;
   effect.name = "slack";
   effect.place = ChainPlace::tendon;
@@ -17,7 +41,16 @@ Effect slack(JointKind) {
   effect.signature = "lost motion that grows as the moment arm shrinks, taken up by load and gone with pretension";
   effect.separating_run = "repeat one run with twice the pretension: slack goes, backlash stays";
   effect.correctable_by = CorrectableBy::table;
-  effect.needs = {.tendons = true};
+  if (kind == JointKind::ratio) {
+    effect.signature = "a loop that shrinks as the load grows";
+    effect.separating_run = "repeat one run at twice the load: slack goes, backlash stays";
+    effect.needs = {.load = true};
+    effect.parameters = of_ratio();
+    for (const double width : {1.5, 5.0}) {
+      for (const double taken_up : {0.02, 0.3, 5.0, 80.0}) effect.starts.push_back({radians(width), taken_up});
+    }
+    return effect;
+  }
   effect.parameters = {
       {.name = "slack_mm",
        .number = [](Imperfections& at) -> double& { return at.tendon.slack; },

@@ -128,7 +128,7 @@ TEST(TendonLengths, APulleyWithoutAnchorsHasNone) { EXPECT_TRUE(tendon_lengths(m
 TEST(Manifest, SaysWhatWasMadeOtherwiseThanDeclared) {
   Product product = made_product();
   EXPECT_FALSE(Json::parse(manifest_json(product, {})).contains("derived"));
-  product.file.mechanism.identified.pins.place.radius = 1.5;
+  product.file.mechanism.identified.pins.radius = 1.5;
   product.joint.mechanism.guides.radius += 1.5;
   product.joint.mechanism.pulley.law = Law::table;
   const Json manifest = Json::parse(manifest_json(product, {}));

@@ -1,0 +1,30 @@
+#include "fusee/mechanism/effect.h"
+
+namespace fusee {
+
+// Of a joint declared by a ratio, dry friction under a compliance that is one number is play of a constant width:
+// backlash says it.
+Effect joint_friction(JointKind) {
+  Effect effect;
+  effect.name = "joint_friction";
+  effect.place = ChainPlace::joint;
+  effect.rank = 3;
+  effect.signature = "a loop as wide as the tendons are soft, whatever load; the joint sticks after a reversal";
+  effect.separating_run =
+      "repeat one run with twice the pretension or a stiffer tendon: friction's loop shrinks, backlash's does not";
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.tendons = true};
+  effect.parameters = {{.name = "torque_Nmm",
+                        .number = [](Imperfections& at) -> double& { return at.joint.friction; },
+                        .least = 0,
+                        .most = 1e5,
+                        .step = 0.5,
+                        .prior = 30,  // 50 N on a plain bearing of 3 mm at 0.2; a seal, a cable over the joint
+                        .shown = shown::as_is,
+                        .key = key::plain("joint_friction_Nmm", "Nmm", 0, 1e+07,
+                                          "dry friction of the joint's bearing, against either direction")}};
+  effect.starts = {{10}, {100}};
+  return effect;
+}
+
+}  // namespace fusee

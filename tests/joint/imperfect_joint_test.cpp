@@ -1,0 +1,98 @@
+// What imperfections of a joint with tendons do to what its sensor shows.
+#include <gtest/gtest.h>
+
+#include "joint/creep_memory.h"
+#include "joint/forward.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+/// Every angle twice, up and down, a second apart.
+BenchRun swept(const Mechanism& mechanism, double load) {
+  const Transmission law(mechanism);
+  BenchRun run;
+  run.has_load = true;
+  for (int i = 0; i <= 240; ++i) {
+    const double share = std::sin(k_two_pi * i / 240.0);
+    run.rows.push_back({1.0 * i, share * 0.9 * (share > 0 ? law.alpha_max() : -law.alpha_min()), load, 20});
+  }
+  return run;
+}
+
+/// The same seen in a mirror.
+BenchLog mirrored(BenchLog log) {
+  for (BenchRun& run : log) {
+    for (BenchRow& row : run.rows) row.alpha = -row.alpha, row.load = -row.load;
+  }
+  return log;
+}
+
+double rms(const std::vector<double>& one, const std::vector<double>& other) {
+  double squares = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) squares += (one[i] - other[i]) * (one[i] - other[i]);
+  return std::sqrt(squares / static_cast<double>(one.size()));
+}
+
+TEST(Pins, OfTheMirroredJointAreMirrored) {
+  Mechanism mechanism = testing::linear_wrist();
+  mechanism.guides.EB = 44;
+  mechanism.tendon.pretension = 0;
+  const BenchLog log{swept(mechanism, 6)};
+  Imperfections left, right;
+  left.pins.left = {1.2, -0.7};
+  right.pins.right = left.pins.left;
+  Mechanism other = testing::mirrored(mechanism);
+  const std::vector<double> found = predict(mechanism, left, log)[0], seen = predict(other, right, mirrored(log))[0];
+  EXPECT_GT(rms(found, predict(mechanism, {}, log)[0]), radians(0.05));
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], -seen[i], 1e-7) << i;
+}
+
+TEST(Pins, BothMovedAreThoseOfAnotherFile) {
+  // A pulley of the declared mechanism between pins that another file would declare: unloaded, the taut tendons alone.
+  Mechanism mechanism = testing::linear_wrist();
+  const BenchLog log{swept(mechanism, 6)};
+  Imperfections both;
+  both.pins.left = {0.8, 0.5};
+  both.pins.right = {0.3, 0.5};
+  Mechanism moved = mechanism;
+  moved.guides.EB += 0.8;
+  moved.guides.ED += 0.3;
+  moved.guides.OE += 0.5;
+  moved.pulley.EF -= 0.5;
+  Forward forward(moved, log, mechanism);
+  EXPECT_LT(rms(predict(mechanism, both, log)[0], forward({})[0]), 1e-9);
+}
+
+TEST(Creep, OfATendonIsStretchThatGrows) {
+  // Without pretension all that is strained is what the load strains: held for long it is a softer tendon.
+  Mechanism mechanism = testing::linear_wrist();
+  mechanism.tendon.pretension = 0;
+  mechanism.guides.mu = 0;
+  BenchRun held;
+  held.has_load = true;
+  for (int i = 0; i < 600; ++i) held.rows.push_back({1.0 * i, 0.2, 8, 20});
+  Imperfections creeping, softer;
+  creeping.tendon.creep = 0.1;
+  CreepMemory memory;
+  memory.hold(0.1, 599);
+  softer.tendon.stretch = memory.crept();
+  const double stiff = predict(mechanism, {}, {held})[0].back();
+  const double crept = predict(mechanism, creeping, {held})[0].back() - stiff;
+  EXPECT_NEAR(crept, predict(mechanism, softer, {held})[0].back() - stiff, 0.02 * std::abs(crept));
+  EXPECT_LT(crept, -radians(0.01));
+}
+
+TEST(Creep, OfATendonIsRememberedInTheNextRun) {
+  const Mechanism mechanism = testing::linear_wrist();
+  const BenchLog log{swept(mechanism, 20), swept(mechanism, 0)}, alone{swept(mechanism, 0)};
+  Imperfections creeping;
+  creeping.tendon.creep = 0.1;
+  const std::vector<double> after = predict(mechanism, creeping, log)[1],
+                            fresh = predict(mechanism, creeping, alone)[0];
+  EXPECT_GT(std::abs(after[0] - fresh[0]), 5 * std::abs(after.back() - fresh.back()));
+  EXPECT_GT(std::abs(after[0] - fresh[0]), radians(0.002));
+}
+
+}  // namespace
+}  // namespace fusee
