@@ -50,7 +50,8 @@ double minutes_of(const PlannedRun& run) {
 }
 
 std::string words(const PlannedRun& run, double slow, const std::string& load_unit) {
-  const std::string load = run.load == 0 ? "without load" : "at " + rounded(run.load, 3) + " " + load_unit;
+  const std::string amount = rounded(run.load, 3);
+  const std::string load = run.load == 0 ? "without load" : load_unit.empty() ? "at load " + amount : "at " + amount + " " + load_unit;
   const std::string pace = pace_words(run, slow);
   std::string text = std::to_string(run.cycles) + (run.cycles == 1 ? " cycle, " : " cycles, ") + pace + ", " + load;
   if (run.dwell > 0) text += ", held for " + rounded(run.dwell, 3) + " s at both ends";

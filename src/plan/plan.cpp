@@ -34,7 +34,7 @@ class Planner {
  public:
   Planner(const DeclaredMechanism& declared, const PlanOptions& options)
       : options_(options), bench_(bench_of(declared, options)), signatures_(declared, bench_, options.noise) {
-    unit_ = declared.transmission ? "(unit of the log)" : "N tip force";
+    unit_ = declared.transmission ? "" : "N";
     for (const PlannedRun& run : candidate_runs(bench_)) add(run);
     for (const EffectParameter* reading : candidate_readings(declared)) add(*reading);
     start_ = Information::none(signatures_.columns());
