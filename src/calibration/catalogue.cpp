@@ -40,10 +40,13 @@ bool can_be_seen(const Needs& needs, const Mechanism& declared, const Measuremen
 }  // namespace
 
 std::vector<const Effect*> catalogue(const Mechanism& declared, const Measurement& measurement,
-                                     std::span<const Effect* const> more) {
+                                     std::span<const Effect* const> more, std::span<const std::string> without) {
   std::vector<const Effect*> all(more.begin(), more.end());
   for (const Effect& effect : effects(kind_of(declared))) all.push_back(&effect);
-  std::erase_if(all, [&](const Effect* effect) { return !can_be_seen(effect->needs, declared, measurement); });
+  std::erase_if(all, [&](const Effect* effect) {
+    return !can_be_seen(effect->needs, declared, measurement) ||
+           std::find(without.begin(), without.end(), effect->name) != without.end();
+  });
   std::stable_sort(all.begin(), all.end(), [](const Effect* a, const Effect* b) {
     return std::tie(a->place, a->rank) < std::tie(b->place, b->rank);
   });

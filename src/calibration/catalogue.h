@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fusee/measurement/measurement.h"
@@ -10,8 +11,9 @@
 
 namespace fusee {
 
-/// Of effects() and of `more`, in the order of the chain. The effects stay where they are: pointers to them hold.
+/// Of effects() and of `more`, but for those named in `without`, in the order of the chain. The effects stay where they are: pointers to them hold.
 std::vector<const Effect*> catalogue(const Mechanism& declared, const Measurement& measurement,
-                                     std::span<const Effect* const> more = {});
+                                     std::span<const Effect* const> more = {},
+                                     std::span<const std::string> without = {});
 
 }  // namespace fusee

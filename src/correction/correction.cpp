@@ -231,7 +231,7 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   if (correction.has_pulley)
     then =
         errors(measurement, law, predict(expected_joint(corrected), beyond_mechanism(found, kind_of(declared)), log));
-  const BothWays table = both_ways(measurement, then, 2 * found.shaft.backlash);
+  const BothWays table = both_ways(measurement, then, 2 * (found.shaft.backlash + found.ratio_joint.slack));
   correction.error_now = rms(measurement, now);
   correction.error_with_pulley = rms(measurement, then);
   correction.error_with_table = rms(measurement, tabled(measurement, then, table));

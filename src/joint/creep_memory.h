@@ -7,7 +7,7 @@
 namespace fusee {
 
 /// Kelvin elements in a row, one a decade of time, driven by a tension, strain or load. From rest, under a driver that
-/// stays, they give way by driver · log10(1 + t/s) for an hour, within 0.15 of a decade (0.03 after ten seconds), and
+/// stays, they give way by driver · log10(1 + t/s) for an hour, within 0.15 of a decade (0.1 after ten seconds), and
 /// come back in the same way.
 class CreepMemory {
  public:

@@ -15,19 +15,16 @@
 // What is known of a tendon is how much material lies above its reference point on the pin's rim, below it, and on the
 // pulley. Material crosses the reference point only by slipping. The reference stands still, so the tendon's pull on
 // the joint is exactly T_up m(θ) and on the pulley exactly T_low p(α), and energy balances: with U = T²/(2 EA) per
-// material, motor work − load work = stored + (T_up + U_up − T_low − U_low) · crossed + what is shed where tendon
-// leaves the pulley at another strain.
+// material, motor work − load work = stored + (T_up + U_up − T_low − U_low) · crossed + what is lost in the groove.
 //
-// Winding an arc ds takes ds/(1 + T_low/EA) of material: by the trapezoid over a step, with the step's own T_low, so
-// that B − crossed = (L_low + ½Δs)/(1 + T_low/EA) stays a span of its own. Paying out gives back what was wound, last
-// first. The simpler law, to pay out at the tension of the moment, was tried and is wrong with friction: as tension is
+// Winding an arc ds takes ds/(1 + T_low/EA) of material: by the trapezoid over a step, with the step's own T_low.
+// Paying out gives back what lies there, last first. What lies deeper slides (wound_profile.h) and gives material to
+// the span or takes it, the more the further T_low goes from what it was: to the balance of the spans a longer lower
+// span, of a length that depends on T_low, found together with it.
+//
+// The simpler law, to pay out at the tension of the moment, was tried and is wrong with friction: as tension is
 // higher while winding than while paying out, each cycle carries material past the pulley, and θ creeps by 0.005° a
 // cycle (EA 31 kN, 5 N on both, μ 0.15; 0.18° at EA 850 N) for ever, where the profile settles within three cycles.
-// Without friction the two differ by what lay on the pulley before the load came on: 0.0036° and 0.13°.
-//
-// WoundTendon::at_home keeps no profile: every arc holds home's material, whatever the tension it was wound at. ds/(1 +
-// ε) leaves the span under the pull of ε and is stored at home's ε_0, which gives ½ EA (ε − ε_0)² back while winding
-// and takes it while paying out: `shed` may fall.
 
 namespace fusee {
 namespace {
@@ -42,24 +39,18 @@ constexpr double k_least_hold = 1e-4;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
-/// Elastic energy of what lies on a piece of arc; the strain from the density.
-double energy(const WoundPiece& piece, double EA) {
-  const auto per_arc = [EA](double density) { return 0.5 * EA * (1.0 - density) * (1.0 - density) / density; };
-  return 0.5 * (per_arc(piece.density_from) + per_arc(piece.density_to)) * piece.length();
-}
-
 /// One tendon in its right-hand image, with its history.
 struct TendonHistory {
   Side side = Side::left;
   double rim_reference = 0;  ///< normal of the point of the rim between upper and lower part, rad
   double upper_material = 0;
   double lower_material = 0;
-  double density = 1;  ///< material per length of the lower span
   WoundProfile wound;
   double upper = 0;  ///< tensions at the last step
   double lower = 0;
   Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
   double ratio = 1;      ///< lower per upper tension that Give is seen with
+  double strained = 0;  ///< by how much the strain of the lower span grew in the last step
 };
 
 /// A tendon's directions at its pin, away from it, and what it pushes the pin with.
@@ -97,24 +88,29 @@ struct AtAlpha {
   LowerPath path;
   double lower_length = 0;  ///< of the span, from the rim's reference
   double swelling = 1;      ///< 1 + expansion: of material since home
-  Spans spans;              ///< all but the upper length and the capstan factor
+  Spans spans;              ///< all but the upper length and the capstan factor, without what comes from the pulley
+  Turned turned;
+  Slide slide;  ///< of the latest trial: the next one begins there
 };
 
-AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA,
-                 const TendonChange& change) {
-  const double expansion = change.expansion[tendon.side == Side::left ? 0 : 1];
-  AtAlpha at{path, path.reach + rho * (tendon.rim_reference - path.normal), 1.0 + expansion, {}};
-  at.spans.EA = EA / change.compliance;
+GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
+  return {path.normal + mirror_sign(side) * alpha, path.wound};
+}
+
+AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA, const JointStep& step) {
+  const double expansion = step.tendon.expansion[tendon.side == Side::left ? 0 : 1];
+  AtAlpha at;
+  at.path = path;
+  at.lower_length = path.reach + rho * (tendon.rim_reference - path.normal);
+  at.swelling = 1.0 + expansion;
+  at.spans.EA = EA;
   at.spans.upper_material = at.swelling * tendon.upper_material;
   at.spans.lower_length = at.lower_length;
   at.spans.lower_material = at.swelling * tendon.lower_material;
-  const double winding = path.wound - tendon.wound.arc();
-  if (winding > 0 && tendon.wound.keeps_strain()) {
-    at.spans.lower_length += 0.5 * winding;
-    at.spans.lower_material -= 0.5 * winding * tendon.density;
-  } else {
-    at.spans.lower_material += at.swelling * tendon.wound.material_above(path.wound);
-  }
+  at.turned = tendon.wound.turned_to(place_of(tendon.side, path, step.alpha), at.swelling);
+  // Mostly the strain goes on as it went.
+  const double last = tendon.lower / EA;
+  at.slide = tendon.wound.slide(at.turned, std::max(0.5 * last, last + tendon.strained), at.swelling);
   return at;
 }
 
@@ -123,6 +119,30 @@ void give_way(Spans& spans, const Give& give) {
   spans.upper_material += give.upper_unseen;
   spans.lower_length += give.lower_unseen + give.lower_length;
   spans.lower_material += give.lower_unseen;
+}
+
+/// Two strains are one below this part of them: what is left of a tension's miss is its square.
+constexpr double k_same_strain = 1e-8;
+
+/// The balance in which what slides on the pulley slides by the lower span's own tension: Newton's steps, since
+/// Slide::length makes value and slope of the longer span exact, kept within what is known to enclose the strain (what
+/// slides changes where its direction does).
+TendonBalance balance(Spans& spans, AtAlpha& at, const WoundProfile& wound) {
+  const Spans alone = spans;
+  double least = 0;
+  double most = std::numeric_limits<double>::infinity();
+  for (int i = 0;; ++i) {
+    const Slide& slide = at.slide;
+    spans.lower_length = alone.lower_length + slide.length;
+    spans.lower_material = alone.lower_material + at.swelling * slide.freed + slide.length / (1.0 + slide.strain);
+    const TendonBalance found = balance(spans);
+    double next = found.lower / spans.EA;
+    if (std::abs(next - slide.strain) <= k_same_strain * next || i == 60) return found;
+    (next > slide.strain ? least : most) = slide.strain;
+    const bool outside = !(next >= least && next <= most) || next == least || next == most;
+    if (outside && std::isfinite(most) && i > 0) next = 0.5 * (least + most);
+    at.slide = wound.slide(at.turned, next, at.swelling);
+  }
 }
 
 /// A tendon at a trial θ.
@@ -136,7 +156,7 @@ struct Trial {
   double slope = 0;  ///< of pull with respect to the image's θ
 };
 
-Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
+Trial tried(const TendonHistory& tendon, AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
   const double rho = model.pins[tendon.side == Side::left ? 0 : 1].rho;
   const double mu = model.mu;
@@ -148,7 +168,7 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
     give_way(trial.spans, Give({trial.span.normal, at.path.normal}, tendon, model.pin_give, at.spans.EA));
   trial.wrap = trial.span.normal - at.path.normal;
   trial.spans.capstan = std::exp(mu * std::max(0.0, trial.wrap));
-  trial.balance = balance(trial.spans);
+  trial.balance = balance(trial.spans, at, tendon.wound);
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
@@ -196,18 +216,39 @@ std::optional<double> fallen_to_zero(double start, double least, double most, do
   return x;
 }
 
+/// Samples of the groove over the range: its radius changes little from one to the next.
+constexpr int k_groove_places = 64;
+
+/// The groove of one tendon as the pulley's turning lays it open.
+std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
+  const bool right = side == Side::right;
+  const double from = right ? model.alpha_least : model.alpha_most;
+  const double to = right ? model.alpha_most : model.alpha_least;
+  std::vector<GroovePlace> along;
+  double arm = 1.0;
+  for (int i = 0; i <= k_groove_places; ++i) {
+    const double alpha = from + (to - from) * i / k_groove_places;
+    const LowerPath path = model.lower(alpha)[right ? 1 : 0];
+    const GroovePlace place = place_of(side, path, alpha);
+    if (!std::isfinite(place.arc) || (!along.empty() && !(place.turn > along.back().turn))) continue;
+    if (along.empty()) arm = path.p;
+    along.push_back(place);
+  }
+  return std::make_shared<const GrooveArc>(std::move(along), arm, k_knot_beyond);
+}
+
 TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path, double tension) {
   const PinPlace& place = model.pins[side == Side::left ? 0 : 1];
   const UpperSpan span = upper_span(place, 0.0);
   TendonHistory tendon;
   tendon.side = side;
   tendon.rim_reference = 0.5 * (span.normal + path.normal);
-  tendon.density = 1.0 / (1.0 + tension / model.EA);
-  tendon.upper_material =
-      tendon.density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
+  const double density = 1.0 / (1.0 + tension / model.EA);
+  tendon.upper_material = density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
   tendon.lower_material =
-      tendon.density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
-  tendon.wound = WoundProfile(path.wound, tendon.density, model.wound == WoundTendon::keeps_strain);
+      density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
+  tendon.wound =
+      WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
   tendon.upper = tendon.lower = tension;
   tendon.home_push = AtPin(span.normal, path.normal).push(tension, tension);
   return tendon;
@@ -217,59 +258,40 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
 struct Spent {
   double wound = 0;  ///< energy that went onto the pulley (negative: came off)
   double friction = 0;
-  double shed = 0;
+  double groove_friction = 0;
 };
 
-/// Off the pulley at strain ε_s into the span at ε: ½ EA (ε − ε_s)² per material is gone.
-double shed_by(const WoundPiece& piece, double EA, double density_from, double density_to) {
-  const auto per_arc = [EA](double stored, double now) {
-    const double difference = 1.0 / stored - 1.0 / now;
-    return stored * 0.5 * EA * difference * difference;
-  };
-  return 0.5 * piece.length() * (per_arc(piece.density_from, density_from) + per_arc(piece.density_to, density_to));
-}
-
-Spent wind_or_pay_out(TendonHistory& tendon, double arc, double density, double EA) {
+/// What the pulley takes in with the tendon that is wound and what it gives with the material that slides out, at the
+/// take-off's strain of the step's beginning and end, less what it holds more. What slides out by dM at strain ε takes
+/// EA (ε + ε²/2) dM of work.
+Spent wind(WoundProfile& wound, const AtAlpha& at) {
+  const double EA = at.spans.EA;
+  const double before = wound.strain(at.swelling);
+  const double now = at.slide.strain;
+  const double arc = at.turned.take_off.arc - wound.take_off().arc;
+  const auto mean = [&](auto of) { return 0.5 * (of(before) + of(now)); };
+  const double laid = arc * mean([](double strain) { return 1.0 / (1.0 + strain); });
+  const double energy = arc * mean([](double strain) { return 0.5 * strain * strain / (1.0 + strain); });
+  const double work = mean([](double strain) { return strain * (1.0 + 0.5 * strain); });
   Spent spent;
-  const double from = tendon.wound.arc();
-  if (arc >= from && tendon.wound.keeps_strain()) {
-    if (arc > from) tendon.wound.wind(arc, tendon.density, density);
-    spent.wound = energy({from, arc, tendon.density, density}, EA);
-    return spent;
-  }
-  if (arc >= from) {
-    const WoundPiece piece = tendon.wound.wind_as_at_first(arc);
-    spent.wound = energy(piece, EA);
-    spent.shed = -shed_by(piece, EA, tendon.density, density);
-    return spent;
-  }
-  const auto density_at = [&](double place) {
-    return tendon.density + (density - tendon.density) * (from - place) / (from - arc);
-  };
-  for (const WoundPiece& piece : tendon.wound.pay_out(arc)) {
-    spent.wound -= energy(piece, EA);
-    spent.shed += shed_by(piece, EA, density_at(piece.from), density_at(piece.to));
-  }
+  spent.wound = EA * wound.accept(at.turned, at.slide, at.swelling).energy;
+  spent.groove_friction = EA * (work * (at.swelling * at.slide.freed + laid) + energy) - spent.wound;
   return spent;
 }
 
 /// Takes a trial as what happened.
-Spent settle(TendonHistory& tendon, const AtAlpha& at, const Trial& trial) {
+Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
-  const double density = 1.0 / (1.0 + now.lower / EA);
-  const double winding = at.path.wound - tendon.wound.arc();
-  // What is wound beside the span, whether that is taut or slack.
-  const double on_pulley = winding > 0 && tendon.wound.keeps_strain() ? 0.5 * winding * density : 0.0;
   const auto head = [EA](double upper, double lower) {
     return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
   };
-  const double friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
-  Spent spent = wind_or_pay_out(tendon, at.path.wound, density, EA);
-  spent.friction = friction;
+  at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
+  Spent spent = wind(tendon.wound, at);
+  spent.friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
-  tendon.lower_material = (at.spans.lower_material - now.crossed - on_pulley) / at.swelling;
-  tendon.density = density;
+  tendon.lower_material = (at.spans.lower_material - now.crossed) / at.swelling + at.slide.freed;
+  tendon.strained = (now.lower - tendon.lower) / EA;
   tendon.upper = now.upper;
   tendon.lower = now.lower;
   return spent;
@@ -293,10 +315,11 @@ double energy_of_spans(const TendonHistory& tendon, double EA) {
          tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 
+/// Above that of home, where the pin gives way already.
 double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial, double per_newton) {
   if (!(per_newton > 0)) return 0;
   const AtPin pin(trial.span.normal, at.path.normal);
-  return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower) - tendon.home_push).squaredNorm();
+  return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
 }
 
 }  // namespace
@@ -311,15 +334,15 @@ struct JointMotion::State {
   double wound_energy = 0;  ///< since home
   double home_energy = 0;
   double friction = 0;
-  double shed = 0;
+  double groove_friction = 0;
 
   explicit State(JointModel joint);
   /// Pull of the tendons beyond the load, towards +θ.
-  Residual residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
-  std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
-  std::optional<double> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const;
-  bool ratios_found(const std::array<AtAlpha, 2>& at, double found);
-  EquilibriumPoint accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found);
+  Residual residual(std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
+  std::array<Trial, 2> trials(std::array<AtAlpha, 2>& at, double at_theta) const;
+  std::optional<double> balanced(std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const;
+  bool ratios_found(std::array<AtAlpha, 2>& at, double found);
+  EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, double found);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
 
@@ -333,18 +356,18 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model.EA);
 }
 
-std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
+std::array<Trial, 2> JointMotion::State::trials(std::array<AtAlpha, 2>& at, double at_theta) const {
   return {tried(tendons[0], at[0], model.upper->left, model, at_theta),
           tried(tendons[1], at[1], model.upper->right, model, at_theta)};
 }
 
-Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
+Residual JointMotion::State::residual(std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
   const auto [left, right] = trials(at, at_theta);
   return {right.pull - left.pull - step.tip_force * model.pins[1].R - step.torque - model.weight_torque(at_theta),
           right.slope + left.slope - model.weight_slope(at_theta)};
 }
 
-std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step,
+std::optional<double> JointMotion::State::balanced(std::array<AtAlpha, 2>& at, const JointStep& step,
                                                    double expected_now) const {
   // Its bearing holds the joint as long as it is not pulled by more; then it moves on until it is pulled by that much.
   double held = 0;
@@ -366,7 +389,7 @@ std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>&
 }
 
 /// Takes the ratios of both tendons' tensions as they were found; were they so already?
-bool JointMotion::State::ratios_found(const std::array<AtAlpha, 2>& at, double found) {
+bool JointMotion::State::ratios_found(std::array<AtAlpha, 2>& at, double found) {
   constexpr double near = 1e-7;
   bool same = true;
   const std::array<Trial, 2> now = trials(at, found);
@@ -379,7 +402,7 @@ bool JointMotion::State::ratios_found(const std::array<AtAlpha, 2>& at, double f
   return same;
 }
 
-EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, const JointStep& step, double found) {
+EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const JointStep& step, double found) {
   const std::array<Trial, 2> now = trials(at, found);
   EquilibriumPoint point;
   point.alpha = step.alpha;
@@ -391,7 +414,7 @@ EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, co
     const Spent spent = settle(tendons[i], at[i], now[i]);
     wound_energy += spent.wound;
     friction += spent.friction;
-    shed += spent.shed;
+    groove_friction += spent.groove_friction;
     point.stored += energy_of_spans(tendons[i], model.EA) + energy_of_pin(tendons[i], at[i], now[i], model.pin_give);
     (i == 0 ? point.t1 : point.t2) = state_of(tendons[i], at[i], now[i]);
     const double m = now[i].span.m;
@@ -402,7 +425,7 @@ EquilibriumPoint JointMotion::State::accept(const std::array<AtAlpha, 2>& at, co
   point.motor_torque = point.t2.lower * at[1].path.p - point.t1.lower * at[0].path.p;
   point.stored += wound_energy - home_energy;
   point.friction = friction;
-  point.shed = shed;
+  point.groove_friction = groove_friction;
   loose = std::max(point.t1.upper, point.t2.upper) < k_least_hold && point.t1.slack + point.t2.slack > k_least_play;
   if (loose) {
     point.status = EquilibriumStatus::loose;
@@ -419,7 +442,7 @@ EquilibriumPoint JointMotion::State::refuse(const JointStep& step) const {
   point.theta = theta;
   point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(theta);
   point.friction = friction;
-  point.shed = shed;
+  point.groove_friction = groove_friction;
   return point;
 }
 
@@ -439,9 +462,10 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
   const std::array<LowerPath, 2> paths = model.lower(step.alpha);
   std::array<AtAlpha, 2> at;
   for (std::size_t i = 0; i < 2; ++i) {
-    at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA, step.tendon);
+    if (!std::isfinite(paths[i].wound)) return state.refuse(step);
+    at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA, step);
     at[i].spans.lower_material += at[i].swelling * (step.tendon.released[i] - state.released[i]);
-    const bool has_path = std::isfinite(paths[i].wound) && at[i].lower_length > 0 && at[i].spans.lower_material > 0;
+    const bool has_path = at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;
     if (!has_path) return state.refuse(step);
   }
   const double expected = model.expected(step.alpha);

@@ -25,6 +25,7 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   mechanism.guides.D_below_B += at.pins.right.down - at.pins.left.down;
   mechanism.guides.radius = std::max(0.0, mechanism.guides.radius + at.pins.radius);
   mechanism.guides.mu = std::max(0.0, mechanism.guides.mu + at.pins.friction);
+  mechanism.pulley.mu = std::max(0.0, mechanism.pulley.mu + at.tendon.groove_friction);
   mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.tendon.stretch);
   mechanism.tendon.pretension = std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);
   return {std::move(mechanism)};
@@ -90,12 +91,8 @@ Weight with_error(const Weight& declared, const WeightError& error) {
   return {std::hypot(cos_part, sin_part), std::atan2(cos_part, -sin_part)};
 }
 
-// What is wound holds home's strain. With the strain of the moment the same numbers give a joint that yields under load
-// by 15 % more where much is wound; six joints measured on a rig with other numerics (tests/data/rig) decide for this
-// one, with residuals at the sensors' noise for both loads, directions and all places.
 void set_imperfect_statics(JointModel& model, const Mechanism& declared, const Imperfections& at) {
   set_statics(model, mounted(declared, at));
-  model.wound = WoundTendon::at_home;
   model.last_step = k_last_step;
   model.slack = 0.5 * at.tendon.slack;
   model.bearing_friction = std::max(0.0, at.joint.friction);

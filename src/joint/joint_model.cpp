@@ -110,6 +110,8 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
+  model.alpha_least = made.declared().alpha_min();
+  model.alpha_most = made.declared().alpha_max();
   set_statics(model, in);
   model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
   model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
@@ -121,6 +123,7 @@ void set_statics(JointModel& model, const MountedMechanism& in) {
   const Mechanism& mounted = in.mechanism;
   model.EA = section_stiffness(mounted.tendon);
   model.mu = mounted.guides.mu;
+  model.groove_friction = mounted.pulley.mu;
   model.pretension = mounted.tendon.pretension;
   model.weight = weight_moment(mounted.load);
   model.tilt = mounted.load.tilt;

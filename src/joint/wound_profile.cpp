@@ -1,56 +1,274 @@
 #include "joint/wound_profile.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+
+// With T at the take-off, the sliding part ends where the bound T e^{∓μφ} meets what lies there: the stored profile
+// obeys the law itself, so that nothing beyond can slide. Material that slides moves along the arc by its strain's
+// share of a millimetre; the profile is kept by place, not by element. Exact where it slides, since there the bound is
+// all there is to know, and where it does not, since nothing moves.
+//
+// No piece is a grid's: what slid is one piece however long, what was laid one a step. Over a stroke each piece is
+// pushed and popped once.
 
 namespace fusee {
 namespace {
 
-/// The part of `piece` above the arc `from`.
-WoundPiece upper_part(const WoundPiece& piece, double from) {
-  const double share = (from - piece.from) / piece.length();
-  return {from, piece.to, piece.density_from + share * (piece.density_to - piece.density_from), piece.density_to};
+double strain_of(double density, double swelling) { return std::max(0.0, 1.0 / (swelling * density) - 1.0); }
+double density_of(double strain, double swelling) { return 1.0 / (swelling * (1.0 + strain)); }
+
+/// Elastic energy of an arc length, over EA.
+double energy_per_arc(double density, double swelling) {
+  const double strain = strain_of(density, swelling);
+  return 0.5 * strain * strain / (1.0 + strain);
+}
+
+WoundContent linear(double arc, double density_from, double density_to, double swelling) {
+  return {0.5 * (density_from + density_to) * arc,
+          0.5 * (energy_per_arc(density_from, swelling) + energy_per_arc(density_to, swelling)) * arc};
+}
+
+/// Gauss's places and weights on [0, 1].
+constexpr std::array<std::array<double, 2>, 4> k_gauss{{{0.069431844202973712, 0.173927422568726929},
+                                                        {0.330009478207571868, 0.326072577431273071},
+                                                        {0.669990521792428132, 0.326072577431273071},
+                                                        {0.930568155797026288, 0.173927422568726929}}};
+/// Of the wrap, rad, and of what falls over it by e^{μφ}: 1e-7 of its change.
+constexpr double k_panel = 1.0;
+/// Less strain than this is none: to logarithms it is that much.
+constexpr double k_no_strain = 1e-17;
+
+double log_of(double strain) { return std::log(std::max(strain, k_no_strain)); }
+
+struct SlidStretch {
+  WoundContent held;
+  double length = 0;  ///< as Slide::length
+};
+
+/// What lies between `from` and `to` with the strain ε e^{fall (to − turn)}, ε at `to`.
+///
+/// By parts: ∫ f(q) ds over q = e^{fall φ} is f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ, exact where nothing
+/// falls.
+SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const GroovePlace& to, double strain, double fall,
+                double swelling) {
+  const double arc = to.arc - from.arc;
+  const double whole = 1.0 + strain;
+  SlidStretch sum{{arc / whole, 0.5 * strain * strain / whole * arc}, arc};
+  const double turn = to.turn - from.turn;
+  if (fall != 0 && turn > 0) {
+    const int panels = static_cast<int>(std::ceil(turn * std::max(1.0, std::abs(fall)) / k_panel));
+    const double origin = groove.arc(to.turn) - arc;
+    const double width = turn / panels;
+    double material = 0, energy = 0, length = 0;
+    for (int panel = 0; panel < panels; ++panel) {
+      for (const auto& [place, weight] : k_gauss) {
+        const double behind = (panel + place) * width;
+        const double q = std::exp(fall * behind);
+        const double here = strain * q;
+        const double stretched = 1.0 / (1.0 + here);
+        const double moved = weight * q * stretched * stretched * (groove.arc(to.turn - behind) - origin);
+        material -= moved;
+        energy += moved * here * (1.0 + 0.5 * here);
+        length += moved * (1.0 - here) * stretched;
+      }
+    }
+    const double scale = fall * width;
+    sum.held.material += scale * strain * material;
+    sum.held.energy += scale * strain * energy;
+    sum.length += scale * whole * whole * length;
+  }
+  sum.held.material /= swelling;
+  return sum;
+}
+
+/// `piece` below `place`.
+WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& place, double swelling) {
+  if (piece.slid) {
+    const double strain = strain_of(piece.density_to, swelling) * std::exp(piece.fall * (piece.to.turn - place.turn));
+    piece.to = place;
+    piece.density_to = density_of(strain, swelling);
+    piece.held = sliding(groove, piece.from, piece.to, strain, piece.fall, swelling).held;
+    return piece;
+  }
+  const double share = (place.arc - piece.from.arc) / (piece.to.arc - piece.from.arc);
+  piece.density_to = piece.density_from + share * (piece.density_to - piece.density_from);
+  piece.to = place;
+  piece.held = linear(piece.to.arc - piece.from.arc, piece.density_from, piece.density_to, swelling);
+  return piece;
+}
+
+/// The bound of what slides, as its logarithm: a straight line over the turning.
+struct Bound {
+  double turn = 0;  ///< of its upper end
+  double log_strain = 0;
+  double fall = 0;
+  bool pulls = true;  ///< else it lets go
+
+  /// By how much it is beyond what has this strain, which it moves where that is positive.
+  double beyond(double at, double there) const {
+    const double by = log_strain + fall * (turn - at) - log_of(there);
+    return pulls ? by : -by;
+  }
+};
+
+/// Where the bound stops moving `piece`; `piece.to` where it moves nothing of it, `piece.from` where all.
+GroovePlace cut_of(const WoundPiece& piece, const Bound& bound, const GrooveArc& groove, double swelling) {
+  const double at_to = bound.beyond(piece.to.turn, strain_of(piece.density_to, swelling));
+  if (!(at_to > 0)) return piece.to;
+  const double at_from = bound.beyond(piece.from.turn, strain_of(piece.density_from, swelling));
+  if (at_from > 0) return piece.from;
+  // Straight in between: exact where the piece has slid, and what was laid in a step is short.
+  const double share = at_to / (at_to - at_from);
+  const double turn = piece.to.turn - share * (piece.to.turn - piece.from.turn);
+  if (!piece.slid) return {turn, piece.to.arc - share * (piece.to.arc - piece.from.arc)};
+  const double arc = piece.to.arc - (groove.arc(piece.to.turn) - groove.arc(turn));
+  return {turn, std::clamp(arc, piece.from.arc, piece.to.arc)};
 }
 
 }  // namespace
 
-double WoundProfile::material_above(double down_to) const {
-  double material = 0;
-  double end = arc_;
-  for (auto piece = pieces_.rbegin(); piece != pieces_.rend() && end > down_to; ++piece) {
-    material += (piece->from >= down_to ? *piece : upper_part(*piece, down_to)).material();
-    end = std::max(piece->from, down_to);
-  }
-  return material + base_density_ * (end - down_to);
-}
-
-void WoundProfile::wind(double to, double density_now, double density) {
-  pieces_.push_back({arc_, to, density_now, density});
-  arc_ = to;
-}
-
-WoundPiece WoundProfile::wind_as_at_first(double to) {
-  const WoundPiece piece{arc_, to, base_density_, base_density_};
-  arc_ = to;
-  return piece;
-}
-
-std::vector<WoundPiece> WoundProfile::pay_out(double down_to) {
-  std::vector<WoundPiece> paid;
-  while (!pieces_.empty() && arc_ > down_to) {
-    WoundPiece& last = pieces_.back();
-    if (last.from >= down_to) {
-      paid.push_back(last);
-      arc_ = last.from;
-      pieces_.pop_back();
-      continue;
+GrooveArc::GrooveArc(std::vector<GroovePlace> along, double beyond, double knot_beyond) : beyond_(beyond) {
+  const std::size_t last = along.size() - 1;
+  const auto slope = [&](std::size_t i) {
+    return (along[i + 1].arc - along[i].arc) / (along[i + 1].turn - along[i].turn);
+  };
+  for (std::size_t i = 0; i <= last; ++i) {
+    double here = slope(std::min(i, last - 1));
+    if (i > 0 && i < last) {
+      const double left = along[i].turn - along[i - 1].turn, right = along[i + 1].turn - along[i].turn;
+      here = (slope(i - 1) * right + slope(i) * left) / (left + right);
     }
-    paid.push_back(upper_part(last, down_to));
-    last.density_to = paid.back().density_from;
-    last.to = arc_ = down_to;
+    knots_.push_back({along[i].turn, along[i].arc, here});
   }
-  if (arc_ > down_to) paid.push_back({down_to, arc_, base_density_, base_density_});
-  arc_ = down_to;
-  return paid;
+  per_turn_ = static_cast<double>(last) / (knots_.back().turn - knots_.front().turn);
+  knot_ = {knots_.front().turn - knot_beyond / beyond_, knots_.front().arc - knot_beyond};
+}
+
+double GrooveArc::arc(double turn) const {
+  const Knot& first = knots_.front();
+  const Knot& last = knots_.back();
+  if (turn <= first.turn) return first.arc + (turn - first.turn) * beyond_;
+  if (turn >= last.turn) return last.arc + (turn - last.turn) * beyond_;
+  // The knots are nearly as far apart everywhere.
+  std::size_t i = std::min(static_cast<std::size_t>((turn - first.turn) * per_turn_), knots_.size() - 2);
+  while (knots_[i].turn > turn) --i;
+  while (knots_[i + 1].turn < turn) ++i;
+  const Knot& from = knots_[i];
+  const Knot& to = knots_[i + 1];
+  const double h = to.turn - from.turn;
+  const double u = (turn - from.turn) / h;
+  const double v = 1.0 - u;
+  return v * v * ((1.0 + 2.0 * u) * from.arc + u * h * from.slope) + u * u * ((1.0 + 2.0 * v) * to.arc - v * h * to.slope);
+}
+
+WoundProfile::WoundProfile(std::shared_ptr<const GrooveArc> groove, double friction, const GroovePlace& take_off,
+                           double density)
+    : groove_(std::move(groove)), friction_(friction), home_density_(density), take_off_(take_off), density_(density) {
+  if (!(groove_->knot().arc < take_off.arc)) return;
+  WoundPiece all{groove_->knot(), take_off, density, density, true, 0.0, {}};
+  all.held = sliding(*groove_, all.from, all.to, strain_of(density, 1.0), 0.0, 1.0).held;
+  pieces_.push_back(all);
+}
+
+double WoundProfile::strain(double swelling) const { return strain_of(density_, swelling); }
+
+Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) const {
+  Turned turned;
+  turned.take_off = take_off;
+  turned.before = take_off.arc > take_off_.arc ? take_off_ : take_off;
+  turned.lies = strain(swelling);
+  std::size_t left = pieces_.size();
+  while (left > 0 && pieces_[left - 1].from.arc >= turned.before.arc)
+    turned.came_off += pieces_[--left].held.material;
+  if (left == 0) {
+    const double bottom = pieces_.empty() ? take_off_.arc : pieces_.front().from.arc;
+    turned.past_knot = linear(bottom - turned.before.arc, home_density_, home_density_, swelling);
+    turned.came_off += turned.past_knot.material;
+    return turned;
+  }
+  turned.below = left - 1;
+  turned.top = pieces_[left - 1];
+  turned.has_top = true;
+  if (turned.top.to.arc > turned.before.arc) {
+    turned.came_off += turned.top.held.material;
+    turned.top = below(*groove_, turned.top, turned.before, swelling);
+    turned.came_off -= turned.top.held.material;
+  }
+  if (take_off.arc < take_off_.arc) turned.lies = strain_of(turned.top.density_to, swelling);
+  return turned;
+}
+
+Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) const {
+  Slide slide;
+  slide.strain = strain;
+  slide.below = turned.below;
+  slide.rest = turned.top;
+  slide.has_rest = turned.has_top;
+  slide.freed = turned.came_off;
+  const double laid = turned.take_off.arc - turned.before.arc;
+  const double lies = turned.lies;
+  Bound bound{turned.before.turn, 0, strain > lies ? -friction_ : friction_, strain > lies};
+  const double falls = bound.fall * (turned.take_off.turn - turned.before.turn);
+  bound.log_strain = log_of(strain) + falls;
+  slide.slides = turned.has_top && bound.beyond(bound.turn, lies) > 0;
+  const double q = slide.slides ? std::exp(falls) : 1.0;
+  const double top = slide.slides ? strain * q : lies;
+  slide.at_before = laid > 0 ? top : strain;
+  const double ratio = (1.0 + strain) / (1.0 + top);
+  const double shared = slide.slides ? q * ratio * ratio : 0.0;
+  if (laid > 0) {
+    slide.freed -= 0.5 * laid * (density_of(top, swelling) + density_of(strain, swelling));
+    slide.length = 0.5 * laid * (1.0 + shared);
+  }
+  if (!slide.slides) return slide;
+  slide.fall = bound.fall;
+  double came_loose = 0;
+  for (;;) {
+    slide.cut = cut_of(slide.rest, bound, *groove_, swelling);
+    if (slide.cut.arc >= slide.rest.to.arc) break;
+    came_loose += slide.rest.held.material;
+    if (slide.cut.arc > slide.rest.from.arc) {
+      slide.rest = below(*groove_, slide.rest, slide.cut, swelling);
+      came_loose -= slide.rest.held.material;
+      break;
+    }
+    slide.has_rest = slide.below > 0;
+    if (!slide.has_rest) break;
+    slide.rest = pieces_[--slide.below];
+  }
+  const SlidStretch moved = sliding(*groove_, slide.cut, turned.before, top, bound.fall, swelling);
+  slide.sliding = moved.held;
+  slide.freed += came_loose - moved.held.material;
+  slide.length += moved.length * shared;
+  return slide;
+}
+
+WoundContent WoundProfile::accept(const Turned& turned, const Slide& slide, double swelling) {
+  WoundContent more{-turned.past_knot.material, -turned.past_knot.energy};
+  for (std::size_t i = slide.below; i < pieces_.size(); ++i) {
+    more.material -= pieces_[i].held.material;
+    more.energy -= pieces_[i].held.energy;
+  }
+  pieces_.resize(slide.below);
+  const auto put = [&](const WoundPiece& piece) {
+    more.material += piece.held.material;
+    more.energy += piece.held.energy;
+    pieces_.push_back(piece);
+  };
+  if (slide.has_rest) put(slide.rest);
+  const double at_before = density_of(slide.at_before, swelling);
+  if (slide.slides && turned.before.arc > slide.cut.arc) {
+    const double at_cut = slide.at_before * std::exp(slide.fall * (turned.before.turn - slide.cut.turn));
+    put({slide.cut, turned.before, density_of(at_cut, swelling), at_before, true, slide.fall, slide.sliding});
+  }
+  if (const double laid = turned.take_off.arc - turned.before.arc; laid > 0) {
+    const double now = density_of(slide.strain, swelling);
+    put({turned.before, turned.take_off, at_before, now, false, 0.0, linear(laid, at_before, now, swelling)});
+  }
+  take_off_ = turned.take_off;
+  density_ = density_of(slide.strain, swelling);
+  return more;
 }
 
 }  // namespace fusee

@@ -1,48 +1,114 @@
 /// \file
-/// The tendon that lies on a pulley: along the arc, how much material (unstretched length) an arc length holds.
+/// The tendon that lies on a pulley, from its knot to where it takes off: how much material (unstretched length) it
+/// holds, and how it slides in its groove.
+///
+/// Source: the capstan law [7], along the whole wrap and with memory (research/mechanics.md, "What lies on the
+/// pulley"). Strains are tensions over EA.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 namespace fusee {
 
-/// A piece of arc over which the density (material per arc length: 1/(1 + strain)) changes linearly. mm.
-struct WoundPiece {
-  double from = 0;  ///< arc
-  double to = 0;
-  double density_from = 1;
-  double density_to = 1;
-
-  double length() const { return to - from; }
-  /// Arc length × mean density.
-  double material() const { return 0.5 * (density_from + density_to) * length(); }
+/// A place of the groove.
+struct GroovePlace {
+  double turn = 0;  ///< of the curve's normal, growing towards the take-off, rad
+  double arc = 0;   ///< mm
 };
 
-/// Last wound, first paid out. Friction on the pulley is taken to hold what was wound (many turns of e^{μφ}); or, where
-/// it keeps no strain, every arc holds what it held at first.
+/// How the arc grows with the turning, looked up; and where the knot is.
+class GrooveArc {
+ public:
+  /// `along`: from the unwound end of the range to the wound one, strictly growing, at least two. Beyond both ends the
+  /// groove is taken as round, of the radius `beyond`.
+  GrooveArc(std::vector<GroovePlace> along, double beyond, double knot_beyond);
+
+  double arc(double turn) const;
+  const GroovePlace& knot() const { return knot_; }
+
+ private:
+  struct Knot {
+    double turn, arc, slope;
+  };
+  std::vector<Knot> knots_;
+  double per_turn_ = 0;  ///< knots
+  double beyond_ = 0;
+  GroovePlace knot_;
+};
+
+/// What a stretch of the groove holds.
+struct WoundContent {
+  double material = 0;  ///< mm
+  double energy = 0;    ///< over EA, mm
+};
+
+/// A stretch of groove. Either it lies as it was laid, with a density (material per arc length: 1/(1 + strain)) that
+/// changes linearly; or it has slid, and strain falls from `to` as e^{fall (turn_to − turn)}.
+struct WoundPiece {
+  GroovePlace from;
+  GroovePlace to;
+  double density_from = 1;
+  double density_to = 1;
+  bool slid = false;
+  double fall = 0;  ///< of what slid, per rad
+  WoundContent held;
+};
+
+class WoundProfile;
+
+/// A pulley that has turned, before the strain at its take-off is known.
+struct Turned {
+  GroovePlace take_off;
+  GroovePlace before;        ///< where what is wound in this step begins; the take-off itself while paying out
+  std::size_t below = 0;     ///< pieces that stay as they are …
+  WoundPiece top;            ///< … and the one above them, cut at the take-off
+  bool has_top = false;      ///< else nothing is left on the pulley
+  double lies = 0;           ///< strain of what lies at `before`
+  double came_off = 0;       ///< material, with the turning alone, mm
+  WoundContent past_knot;            ///< of that: what the range was left for by
+};
+
+/// What a turned pulley holds at a trial strain of its take-off.
+struct Slide {
+  double strain = 0;
+  double freed = 0;   ///< material that came off since the last step, mm; negative: went on
+  double length = 0;  ///< a span of this length would give as much per strain: d freed / d strain = length/(1 + strain)²
+  double at_before = 0;   ///< strain at Turned::before
+  bool slides = false;
+  double fall = 0;      ///< of the part that slides
+  GroovePlace cut;      ///< where that ends
+  WoundContent sliding;         ///< what it holds between there and Turned::before
+  std::size_t below = 0;  ///< pieces beyond the cut that stay as they are
+  WoundPiece rest;        ///< what stays of the one that was cut
+  bool has_rest = false;
+};
+
+/// Last wound, first paid out; in between it slides as far as friction lets it. With strain ε at the take-off an
+/// element that lies at the wrap φ behind it has ε e^{−μφ} … ε e^{μφ} and keeps what it had within these bounds.
+///
+/// `swelling` is 1 + expansion of the material since home, which all material here is measured at.
 class WoundProfile {
  public:
   WoundProfile() = default;
-  /// Everything below `arc` was wound at `density`.
-  WoundProfile(double arc, double density, bool keeps_strain = true)
-      : arc_(arc), base_density_(density), keeps_strain_(keeps_strain) {}
+  /// From the knot to `take_off` at `density`.
+  WoundProfile(std::shared_ptr<const GrooveArc> groove, double friction, const GroovePlace& take_off, double density);
 
-  double arc() const { return arc_; }
-  bool keeps_strain() const { return keeps_strain_; }
-  /// Material between the arc `down_to` and the present end; negative above the end, where it will be wound as at
-  /// first.
-  double material_above(double down_to) const;
-  /// Winds on to the arc `to`, whose end holds `density`, starting with `density_now`.
-  void wind(double to, double density_now, double density);
-  /// Winds on at the density of the beginning.
-  WoundPiece wind_as_at_first(double to);
-  /// Takes off what lies above `down_to`; the pieces, outermost first.
-  std::vector<WoundPiece> pay_out(double down_to);
+  const GroovePlace& take_off() const { return take_off_; }
+  /// At the take-off.
+  double strain(double swelling) const;
+
+  Turned turned_to(const GroovePlace& take_off, double swelling) const;
+  Slide slide(const Turned& turned, double strain, double swelling) const;
+  /// Takes a slide as what happened. What the pulley then holds more.
+  WoundContent accept(const Turned& turned, const Slide& slide, double swelling);
 
  private:
-  double arc_ = 0;
-  double base_density_ = 1;
-  bool keeps_strain_ = true;
+  std::shared_ptr<const GrooveArc> groove_;
+  double friction_ = 0;
+  double home_density_ = 1;
+  GroovePlace take_off_;
+  double density_ = 1;  ///< there; what lies next to it may have none of it where friction has no end
   std::vector<WoundPiece> pieces_;
 };
 

@@ -27,6 +27,11 @@ inline constexpr std::array k_contract_effects = {"zero_offset",
                                                   "tendon_slip",
                                                   "thermal_expansion",
                                                   "gravity",
-                                                  "profile_error"};
+                                                  "profile_error",
+                                                  "groove_friction",
+                                                  "joint_friction",
+                                                  "frame_compliance",
+                                                  "motor_sensor_harmonic",
+                                                  "joint_sensor_harmonic"};
 
 }  // namespace fusee

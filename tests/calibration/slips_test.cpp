@@ -226,7 +226,7 @@ TEST(UndoneSlips, are_not_said_of_a_right_file) {
 // All 40 rows of the matrix, seeds 1 and 2: none (46 s a seed). Here those that stay unexplained by most.
 TEST(UndoneSlips, are_not_said_where_a_cause_has_no_name) {
   for (const char* fault : {"lump", "motor_cogging"}) {
-    const rig::Case made = rig::make_case({fault, {fault}}, 1, rig::Protocol::full);
+    const rig::Case made = rig::make_case({fault, {fault}}, 1);
     const Measurement data = logged(made.logs);
     const Calibration found = calibrated(made.joint.declared, data);
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << fault;

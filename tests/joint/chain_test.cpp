@@ -4,6 +4,7 @@
 // step differs, and to 2e-3 with it, where the chain slips bit by bit along the pin and the model all at once.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -250,26 +251,165 @@ class Chain {
   double pile_density_ = 1;
 };
 
+/// A tendon without friction on its pin, in its right-hand image: elements of equal material from the knot on, each with
+/// the strain that it has on the pulley; those past the take-off are the span.
+class Elements {
+ public:
+  Elements(const Mechanism& mechanism, Side side, double home_tension, int count)
+      : law_(mechanism), side_(side), mu_(mechanism.pulley.mu), rho_(mechanism.guide_pitch_radius()) {
+    EA_ = mechanism.tendon.modulus * k_pi / 4 * mechanism.tendon.diameter * mechanism.tendon.diameter;
+    pin_ = {side == Side::right ? mechanism.guides.ED : mechanism.guides.EB, -mechanism.guides.OE};
+    R_ = mechanism.joint.R;
+    survey();
+    const double home = home_tension / EA_;
+    turn(0.0);
+    material_ = (arc_now_ + span(0.0)) / (1.0 + home) / count;
+    strain_.assign(static_cast<std::size_t>(arc_now_ / (1.0 + home) / material_) + 1, home);
+    total_ = count * material_;
+  }
+
+  void turn(double image_alpha) {
+    const std::size_t last = alphas_.size() - 1;
+    const double place = (image_alpha - alphas_.front()) / (alphas_.back() - alphas_.front()) * static_cast<double>(last);
+    const std::size_t i = std::min(static_cast<std::size_t>(std::max(0.0, place)), last - 1);
+    const double share = place - static_cast<double>(i);
+    arc_now_ = arcs_[i] + share * (arcs_[i + 1] - arcs_[i]);
+    turn_now_ = turns_[i] + share * (turns_[i + 1] - turns_[i]);
+    lower_ = point(image_alpha);
+  }
+
+  Chain::Pull pull(double image_theta, bool keep = false) {
+    const double length = span(image_theta);
+    double low = 0, high = 2 * strain_.back() + 1e-6;
+    double at_low = excess(low, length, nullptr);
+    double at_high = excess(high, length, nullptr);
+    if (at_low <= 0) high = 0;
+    for (int i = 0; i < 60 && high - low > 1e-14 && at_low > 0; ++i) {
+      // Illinois.
+      const double strain = low - at_low * (high - low) / (at_high - at_low);
+      const double value = excess(strain, length, nullptr);
+      if (std::abs(value) < 1e-13) {
+        low = high = strain;
+      } else if (value > 0) {
+        low = strain;
+        at_low = value;
+        at_high *= 0.5;
+      } else {
+        high = strain;
+        at_high = value;
+        at_low *= 0.5;
+      }
+    }
+    if (keep) {
+      std::vector<double> laid;
+      excess(high, length, &laid);
+      strain_ = std::move(laid);
+    }
+    return {EA_ * high, EA_ * high, EA_ * high * upper_line(R_, image_theta, pin_, rho_).arm};
+  }
+
+ private:
+  struct Lower {
+    double reach = 0;
+    double normal = 0;
+  };
+  Lower point(double image_alpha) const {
+    const TransmissionPoint at = law_.at_alpha(mirror_sign(side_) * image_alpha);
+    const TendonPoint& tendon = side_ == Side::right ? at.t2 : at.t1;
+    return {tendon.lower_reach, side_ == Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal};
+  }
+
+  /// Arc from the knot and turning of the normal, along the range: what comes over the pin (∫p dα) less what the lower line takes.
+  void survey() {
+    const bool right = side_ == Side::right;
+    const double from = right ? law_.alpha_min() : -law_.alpha_max();
+    const double to = right ? law_.alpha_max() : -law_.alpha_min();
+    constexpr int count = 4000;
+    double over = 0;
+    Lower first;
+    const auto p = [&](double a) {
+      const TransmissionPoint at = law_.at_alpha(mirror_sign(side_) * a);
+      return right ? at.t2.p : at.t1.p;
+    };
+    for (int i = 0; i <= count; ++i) {
+      const double alpha = from + (to - from) * i / count;
+      const double step = (to - from) / count;
+      if (i > 0) over += step / 6 * (p(alpha - step) + 4 * p(alpha - 0.5 * step) + p(alpha));
+      const Lower here = point(alpha);
+      if (i == 0) first = here;
+      alphas_.push_back(alpha);
+      arcs_.push_back(5.0 + over - (here.reach - first.reach) + rho_ * (here.normal - first.normal));
+      turns_.push_back(5.0 / p(from) + here.normal - first.normal + alpha - from);
+    }
+  }
+  double turn_at(double arc) const {
+    if (arc <= arcs_.front()) return turns_.front() * arc / arcs_.front();
+    const auto after = std::upper_bound(arcs_.begin(), arcs_.end(), arc);
+    if (after == arcs_.end()) return turns_.back();
+    const auto i = static_cast<std::size_t>(after - arcs_.begin());
+    return turns_[i - 1] + (turns_[i] - turns_[i - 1]) * (arc - arcs_[i - 1]) / (arcs_[i] - arcs_[i - 1]);
+  }
+  double span(double image_theta) const {
+    const UpperLine upper = upper_line(R_, image_theta, pin_, rho_);
+    return upper.free + rho_ * (upper.normal - lower_.normal) + lower_.reach;
+  }
+
+  /// Length of the span that its material does not fill at this strain, mm.
+  double excess(double strain, double length, std::vector<double>* laid) const {
+    double arc = 0;
+    double on_pulley = 0;
+    for (std::size_t k = 0;; ++k) {
+      double here = strain;
+      if (k < strain_.size()) {
+        const double wrap = std::max(0.0, turn_now_ - turn_at(arc + 0.5 * material_));
+        here = std::clamp(strain_[k], strain * std::exp(-mu_ * wrap), strain * std::exp(mu_ * wrap));
+      }
+      const double fits = (arc_now_ - arc) / (material_ * (1.0 + here));
+      if (laid != nullptr) laid->push_back(here);
+      on_pulley += material_ * std::min(1.0, fits);
+      if (fits <= 1.0) break;
+      arc += material_ * (1.0 + here);
+    }
+    return length - (total_ - on_pulley) * (1.0 + strain);
+  }
+
+  Transmission law_;
+  Side side_;
+  double mu_, rho_, EA_ = 0, R_ = 0;
+  Vec2 pin_;
+  std::vector<double> alphas_, arcs_, turns_;
+  std::vector<double> strain_;
+  double material_ = 0, total_ = 0;
+  double arc_now_ = 0, turn_now_ = 0;
+  Lower lower_;
+};
+
 struct Simulated {
   double theta = 0;
   Chain::Pull t1, t2;
 };
 
-/// From home through `alphas` under a load that is there from the first of them on.
-std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<double>& alphas, double load, int points) {
+struct Row {
+  double alpha = 0;
+  double load = 0;  ///< torque
+};
+
+/// From home through `rows`.
+template <typename Tendon>
+std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<Row>& rows, int points) {
   const Vec2 left_pin(mechanism.guides.EB, -mechanism.guides.OE);
   const Vec2 right_pin(mechanism.guides.ED, -mechanism.guides.OE);
   const double rho = mechanism.guide_pitch_radius();
   const double T1 = mechanism.tendon.pretension;
   const double T2 = T1 * upper_line(mechanism.joint.R, 0, left_pin, rho).arm / upper_line(mechanism.joint.R, 0, right_pin, rho).arm;
-  Chain left(mechanism, Side::left, T1, points);
-  Chain right(mechanism, Side::right, T2, points);
+  Tendon left(mechanism, Side::left, T1, points);
+  Tendon right(mechanism, Side::right, T2, points);
   std::vector<Simulated> results;
   double theta = 0;
-  for (const double alpha : alphas) {
+  for (const auto& [alpha, load] : rows) {
     left.turn(-alpha);
     right.turn(alpha);
-    const auto beyond = [&](double t) { return right.pull(t).torque - left.pull(-t).torque - load; };
+    const auto beyond = [&, load = load](double t) { return right.pull(t).torque - left.pull(-t).torque - load; };
     double low = theta - 0.05;
     double high = theta + 0.05;
     double at_low = beyond(low);
@@ -294,18 +434,18 @@ std::vector<Simulated> simulate(const Mechanism& mechanism, const std::vector<do
   return results;
 }
 
-std::vector<double> up_and_down(const Mechanism& mechanism, int steps) {
+std::vector<Row> up_and_down(const Mechanism& mechanism, double load, int steps) {
   const Transmission law(mechanism);
-  std::vector<double> alphas;
+  std::vector<Row> rows;
   const auto run = [&](double from, double to) {
-    for (int i = 1; i <= steps; ++i) alphas.push_back(from + (to - from) * i / steps);
+    for (int i = 1; i <= steps; ++i) rows.push_back({from + (to - from) * i / steps, load});
   };
-  alphas.push_back(0.0);
+  rows.push_back({0.0, load});
   run(0.0, law.alpha_max());
   run(law.alpha_max(), 0.0);
   run(0.0, law.alpha_min());
   run(law.alpha_min(), 0.0);
-  return alphas;
+  return rows;
 }
 
 struct Disagreement {
@@ -313,26 +453,29 @@ struct Disagreement {
   double tension = 0;  ///< of any tension, as a part of the largest
 };
 
-Disagreement disagreement(const Mechanism& mechanism, double load, int steps, int points) {
-  const std::vector<double> alphas = up_and_down(mechanism, steps);
-  const std::vector<Simulated> chain = simulate(mechanism, alphas, load, points);
+Disagreement disagreement(const Mechanism& mechanism, const std::vector<Row>& rows, const std::vector<Simulated>& other) {
   JointMotion motion(joint_model(mechanism));
   const Transmission law(mechanism);
   double theta = 0;
   double deviation = 0;
   double off = 0;
   double most = 0;
-  for (std::size_t i = 0; i < alphas.size(); ++i) {
-    const EquilibriumPoint at = motion.to({alphas[i], 0.0, load});
-    theta = std::max(theta, std::abs(at.theta - chain[i].theta));
-    deviation = std::max(deviation, std::abs(at.theta - law.theta(alphas[i])));
-    for (const auto& [ours, other] : {std::pair{at.t1.upper, chain[i].t1.upper}, {at.t1.lower, chain[i].t1.lower},
-                                      {at.t2.upper, chain[i].t2.upper}, {at.t2.lower, chain[i].t2.lower}}) {
-      off = std::max(off, std::abs(ours - other));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const EquilibriumPoint at = motion.to({rows[i].alpha, 0.0, rows[i].load});
+    theta = std::max(theta, std::abs(at.theta - other[i].theta));
+    deviation = std::max(deviation, std::abs(at.theta - law.theta(rows[i].alpha)));
+    for (const auto& [ours, theirs] : {std::pair{at.t1.upper, other[i].t1.upper}, {at.t1.lower, other[i].t1.lower},
+                                       {at.t2.upper, other[i].t2.upper}, {at.t2.lower, other[i].t2.lower}}) {
+      off = std::max(off, std::abs(ours - theirs));
       most = std::max(most, ours);
     }
   }
   return {theta / deviation, off / most};
+}
+
+Disagreement from_chain(const Mechanism& mechanism, double load, int steps, int points) {
+  const std::vector<Row> rows = up_and_down(mechanism, load, steps);
+  return disagreement(mechanism, rows, simulate<Chain>(mechanism, rows, points));
 }
 
 Mechanism rubbery(double radius, double friction) {
@@ -341,21 +484,41 @@ Mechanism rubbery(double radius, double friction) {
   mechanism.guides.mu = friction;
   mechanism.tendon.modulus = 3000.0;
   mechanism.tendon.pretension = 20.0;
+  mechanism.pulley.mu = 1e12;
   return mechanism;
 }
 
 TEST(Chain, WithoutFrictionIsTheModelToTheStep) {
-  const Disagreement coarse = disagreement(rubbery(2.0, 0.0), 500.0, 15, 1);
-  const Disagreement fine = disagreement(rubbery(2.0, 0.0), 500.0, 60, 1);
+  const Disagreement coarse = from_chain(rubbery(2.0, 0.0), 500.0, 15, 1);
+  const Disagreement fine = from_chain(rubbery(2.0, 0.0), 500.0, 60, 1);
   EXPECT_LT(fine.theta, 2e-4);
   EXPECT_LT(fine.tension, 5e-5);
   EXPECT_NEAR(coarse.theta / fine.theta, 4.0, 1.0);
 }
 
 TEST(Chain, WithFrictionOverManyPointsOfThePin) {
-  const Disagreement rough = disagreement(rubbery(6.0, 0.15), 500.0, 40, 3);
+  const Disagreement rough = from_chain(rubbery(6.0, 0.15), 500.0, 40, 3);
   EXPECT_LT(rough.theta, 5e-3);
   EXPECT_LT(rough.tension, 5e-3);
+}
+
+// What lies on the pulleys as 500 elements of the tendon that move with it, each kept within what the capstan law lets
+// it have: no profile by place, no piece that is cut, no span that stands for others.
+TEST(Elements, OfTheTendonSlideInTheGrooveAsTheModelSays) {
+  for (const double friction : {0.05, 0.2, 0.5}) {
+    Mechanism mechanism = rubbery(2.0, 0.0);
+    mechanism.pulley.mu = friction;
+    std::vector<Row> rows = up_and_down(mechanism, 500.0, 40);
+    for (int i = 1; i <= 20; ++i) rows.push_back({0.0, 500.0 - 50.0 * i});  // to −500 N·mm
+    for (const Row& row : up_and_down(mechanism, -500.0, 20)) rows.push_back(row);
+    const std::vector<Simulated> elements = simulate<Elements>(mechanism, rows, 500);
+    const Disagreement off = disagreement(mechanism, rows, elements);
+    EXPECT_LT(off.theta, 3e-3) << friction;
+    EXPECT_LT(off.tension, 1e-3) << friction;
+    // Seen failing: with another friction.
+    mechanism.pulley.mu = friction + 0.15;
+    EXPECT_GT(disagreement(mechanism, rows, elements).theta, 1e-2) << friction;
+  }
 }
 
 }  // namespace

@@ -44,6 +44,12 @@ Mechanism with(Mechanism mechanism, double pretension, double friction, double m
   return mechanism;
 }
 
+/// What lies on the pulley stays as it was wound.
+Mechanism held(Mechanism mechanism) {
+  mechanism.pulley.mu = 1e12;
+  return mechanism;
+}
+
 /// EA of a tendon 1 mm thick in N → its modulus.
 double modulus_of(double EA) { return EA / (k_pi / 4); }
 
@@ -102,7 +108,7 @@ TEST(Equilibrium, OfStiffTendonsIsThePapersErrorToFirstOrder) {
   // Unloaded and loaded at one α: the difference is [9]-[11], the better the stiffer.
   double previous = 0;
   for (const double modulus : {1e5, 1e6, 1e7}) {
-    Mechanism mechanism = with(reference(), 0.0, 0.0, modulus);
+    Mechanism mechanism = held(with(reference(), 0.0, 0.0, modulus));
     double worst = 0;
     const Transmission transmission(mechanism);
     for (const double alpha : {-1.2, -0.4, 0.3, 1.1}) {
@@ -124,8 +130,8 @@ TEST(Equilibrium, OfStiffTendonsIsThePapersErrorToFirstOrder) {
 
 TEST(Equilibrium, PretensionAloneMovesASoftJoint) {
   // As r2/r1 changes the tensions must: T1 m1 = T2 m2. In proportion to 1/EA.
-  const double soft = degrees(largest_miss(with(reference(), 5.0, 0.0, modulus_of(850.0)), {}));
-  const double stiff = degrees(largest_miss(with(reference(), 5.0, 0.0, modulus_of(31000.0)), {}));
+  const double soft = degrees(largest_miss(held(with(reference(), 5.0, 0.0, modulus_of(850.0))), {}));
+  const double stiff = degrees(largest_miss(held(with(reference(), 5.0, 0.0, modulus_of(31000.0))), {}));
   EXPECT_NEAR(soft, 0.0593, 0.0005);
   EXPECT_NEAR(stiff, 0.00165, 0.00005);
 }
@@ -176,8 +182,8 @@ double work_missing(const Mechanism& mechanism, const Sweep& sweep, double* scal
     load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
   }
   const EquilibriumPoint& end = points.back();
-  *scale = end.friction + end.shed + std::abs(end.stored);
-  return motor - load - end.stored - end.friction - end.shed;
+  *scale = end.friction + end.groove_friction + std::abs(end.stored);
+  return motor - load - end.stored - end.friction - end.groove_friction;
 }
 
 TEST(Equilibrium, LosesNoEnergy) {
@@ -215,11 +221,125 @@ TEST(Equilibrium, BedsInWithinAFewCycles) {
   EXPECT_LT(drift(5), 1e-7);
 }
 
+// ---- what lies on the pulley ----------------------------------------------------------------------------------------
+
+TEST(Equilibrium, InAGrooveThatHoldsAllTendonKeepsTheStrainOfItsWinding) {
+  // By the program that knew no other law (revision e00f5d6): α, θ, both lower tensions.
+  const Mechanism mechanism = held(with(forearm(), 30.0, 0.2, 2000.0));
+  constexpr double known[][4] = {
+      {0.69399114539754003, 0.15204650731260438, 18.202119045820734, 42.990763503088012},
+      {2.0819734361926203, 0.50122043059870924, 16.491880568919935, 42.489051921047654},
+      {0.6961126139620808, 0.16445111052405509, 30.909024895315806, 29.384208531445296},
+      {-2.075609030498998, -0.52870218326681673, 27.854336666323913, 26.962809855053013},
+      {2.0819734361926203, 0.49899941297704703, 15.641679623462856, 41.060248451157818},
+      {0.30000000000000004, 0.065961006693758512, 29.309973297672251, 28.164141969747764}};
+  const Transmission law(mechanism);
+  JointMotion motion(joint_model(mechanism));
+  double from = 0;
+  std::size_t row = 0;
+  for (const double to : {law.alpha_max(), law.alpha_min(), law.alpha_max(), 0.3}) {
+    for (int i = 1; i <= 60; ++i) {
+      const EquilibriumPoint at = motion.to({from + (to - from) * i / 60, 8.0, 0.0});
+      if (row == std::size(known) || std::abs(at.alpha - known[row][0]) > 1e-12) continue;
+      EXPECT_NEAR(at.theta, known[row][1], 1e-11);
+      EXPECT_NEAR(at.t1.lower, known[row][2], 1e-8);
+      EXPECT_NEAR(at.t2.lower, known[row][3], 1e-8);
+      ++row;
+    }
+    from = to;
+  }
+  EXPECT_EQ(row, std::size(known));
+}
+
+TEST(Equilibrium, WithoutFrictionATendonIsOneSpringUpToItsKnot) {
+  // From knot to C at one tension, whatever was before.
+  Mechanism mechanism = with(unsymmetric(), 20.0, 0.0, 3000.0);
+  mechanism.pulley.mu = 0;
+  const JointModel model = joint_model(mechanism);
+  const auto length = [&](std::size_t i, double alpha, double theta) {
+    const double sign = i == 0 ? -1 : 1;
+    const LowerPath low = model.lower(alpha)[i];
+    const UpperSpan up = upper_span(model.pins[i], sign * theta);
+    const double knot = model.lower(i == 0 ? model.alpha_most : model.alpha_least)[i].wound - 5.0;
+    return up.free + model.pins[i].rho * (up.normal - low.normal) + low.reach + low.wound - knot;
+  };
+  const double arm1 = upper_span(model.pins[0], 0.0).m, arm2 = upper_span(model.pins[1], 0.0).m;
+  const double home[] = {20.0, 20.0 * arm1 / arm2};
+  for (const EquilibriumPoint& at : follow(model, cycles(mechanism, {6.0, 60, 2}))) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double material = length(i, 0, 0) / (1 + home[i] / model.EA);
+      const double tension = model.EA * (length(i, at.alpha, at.theta) / material - 1);
+      EXPECT_NEAR((i == 0 ? at.t1 : at.t2).upper, tension, 1e-9);
+      EXPECT_NEAR((i == 0 ? at.t1 : at.t2).lower, tension, 1e-9);
+    }
+  }
+}
+
+TEST(Equilibrium, FrictionInTheGrooveTakesWorkAndGivesNone) {
+  for (const double friction : {0.05, 0.2, 1.0}) {
+    Mechanism mechanism = with(forearm(), 30.0, 0.15, 2000.0);
+    mechanism.pulley.mu = friction;
+    double before = 0;
+    for (const EquilibriumPoint& at : follow(joint_model(mechanism), cycles(mechanism, {8.0, 2000, 1}))) {
+      EXPECT_GE(at.groove_friction, before - 1e-7);
+      before = at.groove_friction;
+    }
+    EXPECT_GT(before, 1.0);
+  }
+  Mechanism smooth = with(forearm(), 30.0, 0.15, 2000.0);
+  smooth.pulley.mu = 0;
+  EXPECT_NEAR(follow(joint_model(smooth), cycles(smooth, {8.0, 2000, 1})).back().groove_friction, 0.0, 1e-4);
+}
+
+TEST(Equilibrium, OfAGrooveDoesNotDependOnTheStep) {
+  // Steps of 1 degree of α and of a quarter of one; under load, three cycles.
+  const Mechanism mechanism = with(forearm(), 5.0, 0.12, 9000.0);
+  const auto at_ends = [&](int steps) {
+    const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {12.0, steps, 3}));
+    std::vector<double> theta;
+    for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(steps) / 10) theta.push_back(points[i].theta);
+    return theta;
+  };
+  const std::vector<double> coarse = at_ends(120), fine = at_ends(480);
+  ASSERT_EQ(coarse.size(), fine.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < coarse.size(); ++i) largest = std::max(largest, std::abs(coarse[i] - fine[i]));
+  EXPECT_LT(degrees(largest), 5e-4);
+}
+
+TEST(Equilibrium, GivesWayAsMuchAsTheReferenceSays) {
+  // Mean deflection over ±100° of α under 12 N, EA 7070 N (research/mechanics.md).
+  const auto mean = [](double friction) {
+    Mechanism mechanism = with(forearm(), 5.0, 0.12, modulus_of(7070.0));
+    mechanism.pulley.mu = friction;
+    JointMotion motion(joint_model(mechanism));
+    const Transmission law(mechanism);
+    double from = 0, sum = 0;
+    int count = 0, stroke = 0;
+    for (const double to : {100.0, -100.0, 100.0, -100.0, 100.0, -100.0}) {
+      for (int i = 1; i <= 200; ++i) {
+        const EquilibriumPoint at = motion.to({from + (radians(to) - from) * i / 200, 12.0, 0.0});
+        if (stroke < 4) continue;
+        sum += law.theta(at.alpha) - at.theta;
+        ++count;
+      }
+      from = radians(to);
+      ++stroke;
+    }
+    return degrees(sum / count);
+  };
+  EXPECT_NEAR(mean(1e12), 0.362, 0.001);
+  EXPECT_NEAR(mean(0.2), 0.389, 0.001);
+  EXPECT_NEAR(mean(0.05), 0.385, 0.001);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
 TEST(Equilibrium, StiffnessIsThatOfDifferences) {
   // A torque a little larger at the same α: what sticks stays stuck; without friction everything passes.
   const double step = 1e-3;
   for (const double friction : {0.0, 0.25}) {
-    Mechanism mechanism = with(unsymmetric(), 20.0, friction, 3000.0);
+    Mechanism mechanism = held(with(unsymmetric(), 20.0, friction, 3000.0));
     mechanism.load = {0.0, 0.0, 2.0, 150.0, radians(20.0)};  // a weight that tips the joint over
     for (const double theta : {-0.3, 0.0, 0.4}) {
       JointMotion motion(joint_model(mechanism));
@@ -244,7 +364,7 @@ TEST(Equilibrium, StiffnessIsThatOfDifferences) {
 
 TEST(Equilibrium, LoopGrowsWithFriction) {
   const auto width = [](double friction) {
-    const Mechanism mechanism = with(forearm(), 5.0, friction, 3000.0);
+    const Mechanism mechanism = held(with(forearm(), 5.0, friction, 3000.0));
     constexpr int steps = 90;
     const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), cycles(mechanism, {10.0, steps, 2}));
     // Home on the way up against home on the way down, second cycle.
@@ -334,7 +454,7 @@ TEST(Equilibrium, IsNeverNaN) {
           const double u = static_cast<double>(seed >> 8) / (1 << 24) - 0.5;
           const EquilibriumPoint at = motion.to({4.0 * u, 200.0 * std::sin(7.0 * i), 0.0});
           for (const double value : {at.theta, at.t1.upper, at.t1.lower, at.t2.upper, at.t2.lower, at.t1.slack, at.t2.slack, at.t1.wrap,
-                                     at.motor_torque, at.stiffness, at.stiffness_stuck, at.stored, at.friction, at.shed}) {
+                                     at.motor_torque, at.stiffness, at.stiffness_stuck, at.stored, at.friction, at.groove_friction}) {
             ASSERT_TRUE(std::isfinite(value)) << "modulus " << modulus << " pretension " << pretension << " step " << i;
           }
         }

@@ -79,7 +79,8 @@ TEST(Creep, OfATendonIsStretchThatGrows) {
   softer.tendon.stretch = memory.crept();
   const double stiff = predict(mechanism, {}, {held})[0].back();
   const double crept = predict(mechanism, creeping, {held})[0].back() - stiff;
-  EXPECT_NEAR(crept, predict(mechanism, softer, {held})[0].back() - stiff, 0.02 * std::abs(crept));
+  EXPECT_NEAR(crept, predict(mechanism, softer, {held})[0].back() - stiff,
+              0.04 * std::abs(crept));  // what lies on the pulley slides
   EXPECT_LT(crept, -radians(0.01));
 }
 

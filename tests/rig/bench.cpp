@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fusee::rig {
 namespace {
@@ -10,6 +11,10 @@ namespace {
 /// Tendon that moves over a pin by this much has the friction of its new direction, but for 1/e. mm
 constexpr double k_bristle = 2e-4;
 constexpr double k_furthest = radians(85.0);
+/// The knot lies this much further along the groove than the tendon leaves it anywhere in the range. mm
+constexpr double k_knot_beyond = 5.0;
+/// Of the quickest part of creep: the middle of the first decade. s
+constexpr double k_first_decade = 3.16;
 
 Vec2 mirrored(const Vec2& point) { return {-point.x(), point.y()}; }
 
@@ -35,6 +40,32 @@ double crossing(double low, double at_low, double high, double at_high, double t
     }
   }
   return high;
+}
+
+/// Where a falling function that is positive at 0, by `at_zero`, comes down to nothing; near `guess`, probably.
+template <typename Function>
+double solved(double guess, double at_zero, Function function) {
+  constexpr double k_tension = 1e-10;  // N
+  double low = 0, at_low = at_zero;
+  double high = guess > 0 ? guess : 1.0;
+  double step = 0.02 * high;
+  double at_high = function(high);
+  if (at_high <= 0) {
+    while (high - step > 0) {
+      const double value = function(high - step);
+      if (value > 0) return crossing(high - step, value, high, at_high, k_tension, function);
+      high -= step, at_high = value;
+      step *= 4.0;
+    }
+    return crossing(low, at_low, high, at_high, k_tension, function);
+  }
+  for (int i = 0; i < 60 && at_high > 0; ++i) {
+    low = high, at_low = at_high;
+    high += step;
+    step *= 4.0;
+    at_high = function(high);
+  }
+  return crossing(low, at_low, high, at_high, k_tension, function);
 }
 
 /// The printed outline with all that is wrong with it, as the right-hand image sees it.
@@ -66,30 +97,15 @@ Vec2 turned(const Vec2& v, double angle) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-/// Unstretched length of what lies on the pulley between two arcs; below what was laid since home all is as at home.
-double unstretched(const std::vector<LaidTendon>& laid, double home_density, double from, double to) {
-  double material = 0;
-  double end = to;
-  for (auto piece = laid.rbegin(); piece != laid.rend() && end > from; ++piece) {
-    const double start = std::max(from, piece->from);
-    if (start >= end) continue;
-    material += (end - start) * piece->density;
-    end = start;
-  }
-  return material + std::max(0.0, end - from) * home_density;
-}
-
-/// Off comes what was laid above `wound`; what is new goes on.
-void lay(std::vector<LaidTendon>& laid, double before, double wound, double density) {
-  while (!laid.empty() && laid.back().from >= wound) laid.pop_back();
-  if (wound > before) laid.push_back({before, density});
-}
-
 }  // namespace
 
 // ---- at home --------------------------------------------------------------------------------------------------------
 
-Bench::Bench(const MadeJoint& joint, const Hidden& hidden) : hidden_(hidden) {
+Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
+    : hidden_(hidden),
+      longer_{Actors(hidden.longer[0]), Actors(hidden.longer[1])},
+      torque_(hidden.torque),
+      dry_(hidden.dry) {
   const DeclaredMechanism& declared = joint.declared;
   R_ = declared.joint.R + hidden.joint_length;
   friction_ = std::max(0.0, declared.guides.mu + hidden.friction);
@@ -101,47 +117,57 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden) : hidden_(hidden) {
     BenchTendon& tendon = tendons_[side];
     tendon.hull = printed(side == 0 ? joint.p1 : joint.p2, side, hidden);
     tendon.sign = side == 0 ? -1.0 : 1.0;
-    const double outward = (side == 0 ? declared.guides.EB : declared.guides.ED) + hidden.guide_outward;
-    tendon.pin = {{outward, -declared.guides.OE - hidden.guide_down},
+    const double outward =
+        (side == 0 ? declared.guides.EB : declared.guides.ED) + hidden.guide_outward + hidden.pin_outward[side];
+    tendon.pin = {{outward, -declared.guides.OE - hidden.guide_down - hidden.pin_down[side]},
                   declared.guides.radius + hidden.guide_radius + 0.5 * declared.tendon.diameter};
     tendon.axis = {0.0, -declared.guides.OE - declared.pulley.EF};
     const double own_arm = upper_string({0.0, R_}, tendon.pin).arm;
     const double pretension = hidden.slack > 0 ? 0.0 : declared.tendon.pretension;
-    hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack);
+    hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
+         side == 0 ? -joint.alpha_max : joint.alpha_min);
     arm = own_arm;
   }
 }
 
-/// Cut to length so that it carries `tension` at home; the friction of its pin is not in use.
-void Bench::hang(BenchTendon& tendon, double tension, double slack) {
+/// Cut to length so that it carries `tension` at home; no friction is in use. The knot is met at the image's angle
+/// `unwound`.
+void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwound) {
   const UpperString up = upper_string({0.0, R_}, tendon.pin);
   const Circle seen{tendon.pin.centre - tendon.axis, tendon.pin.radius};
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
+  const Cord cord{EA_, hidden_.hardening, 1.0};
   tendon.mark = 0.5 * (direction(up.normal) + direction(low.normal));
-  tendon.density = 1.0 / (1.0 + strain_at(tension));
-  tendon.upper = tendon.density * (up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark)) + 0.25 * slack;
-  tendon.lower =
-      tendon.density * (low.length + tendon.pin.radius * (tendon.mark - direction(low.normal))) + 0.25 * slack;
+  const double above = up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark);
+  const double below = low.length + tendon.pin.radius * (tendon.mark - direction(low.normal));
+  tendon.upper = cord.material(above, tension) + 0.25 * slack;
+  tendon.lower = cord.material(below, tension) + 0.25 * slack;
   tendon.wound = low.arc;
   tendon.corner = low.corner;
-  tendon.upper_tension = tendon.lower_tension = tension;
+  const Circle at_end{turned(seen.centre, unwound), seen.radius};
+  const double knot = lower_string(tendon.hull, at_end, low.corner).arc - k_knot_beyond;
+  tendon.laid = GrooveChain(tendon.hull, knot, low.arc, tension, hidden_.groove_friction, cord);
+  tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
   tendon.push = tendon.home_push = tension * (turned(low.normal, -0.5 * k_pi) - turned(up.normal, -0.5 * k_pi));
 }
 
 // ---- the material ---------------------------------------------------------------------------------------------------
 
-double Bench::strain_at(double tension) const {
-  if (hidden_.hardening <= 0) return tension / EA_;
-  return 0.5 * hidden_.hardening * (std::sqrt(1.0 + 4.0 * tension / (EA_ * hidden_.hardening)) - 1.0);
+Cord Bench::cord(std::size_t side, const Conditions& at) const {
+  const double warmth = at.warmth * (side == 0 ? hidden_.expansion_other : 1.0);
+  double crept = 0;
+  for (const double strain : tendons_[side].crept) crept += strain;
+  return {EA_, hidden_.hardening, (1.0 + hidden_.expansion * warmth) * (1.0 + crept)};
 }
 
-double Bench::tension(double length, double material, std::size_t side, const Conditions& at) const {
-  const double warmth = at.warmth * (side == 0 ? hidden_.expansion_other : 1.0);
-  const double strain = length / (material * (1.0 + hidden_.expansion * warmth)) - 1.0;
-  if (!(strain > 0)) return 0.0;
-  const double yielding = 1.0 + hidden_.creep * std::log10(1.0 + std::max(0.0, at.creep_time));
-  const double stiffer = hidden_.hardening > 0 ? 1.0 + strain / hidden_.hardening : 1.0;
-  return EA_ * strain * stiffer / yielding;
+void Bench::creep(BenchTendon& tendon, double seconds) const {
+  if (hidden_.creep == 0) return;
+  const double tension = 0.5 * (tendon.upper_tension + tendon.lower_tension) - tendon.home_tension;
+  double time = k_first_decade;
+  for (double& strain : tendon.crept) {
+    strain += (hidden_.creep * tension / EA_ - strain) * (1.0 - std::exp(-seconds / time));
+    time *= 10.0;
+  }
 }
 
 // ---- a step ---------------------------------------------------------------------------------------------------------
@@ -152,9 +178,9 @@ double Bench::lump(double alpha) const {
   return hidden_.lump * std::exp(-0.5 * x * x);
 }
 
-Bench::Below Bench::below(std::size_t side, double pulley, double alpha, const Conditions& at, const Vec2& push) const {
+Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer, const Vec2& push) const {
   const BenchTendon& tendon = tendons_[side];
-  const double image_angle = tendon.sign * pulley;
+  const double image_angle = tendon.sign * at.pulley;
   Below below;
   below.pin = {tendon.pin.centre + hidden_.frame_give * (push - tendon.home_push), tendon.pin.radius};
   // The pulley stands still and the pin goes round it.
@@ -164,21 +190,19 @@ Bench::Below Bench::below(std::size_t side, double pulley, double alpha, const C
   below.corner = string.corner;
   below.wound = string.arc;
   below.length = string.length + tendon.pin.radius * (tendon.mark - below.normal);
-  below.length += tendon.sign * (lump(alpha) - lump(0.0));
-  below.material = tendon.lower + at.let_go[side] - tendon.let_go;
-  if (string.arc > tendon.wound) {
-    const double density =
-        hidden_.keeps_winding_strain ? 1.0 / (1.0 + strain_at(tendon.lower_tension)) : tendon.density;
-    below.material -= density * (string.arc - tendon.wound);
-  } else {
-    below.material += unstretched(tendon.laid, tendon.density, string.arc, tendon.wound);
-  }
+  below.length += tendon.sign * (lump(at.alpha) - lump(0.0)) + longer;
+  below.material = tendon.lower;
+  below.cord = cord(side, at);
+  below.laid = tendon.laid;
+  below.laid.reach(string.arc, tendon.lower_tension, below.cord);
+  below.laid.let_go(at.let_go[side] - tendon.let_go);
+  below.guess = tendon.lower_tension;
   return below;
 }
 
-// What slips is where the tensions above and below differ by as much as the bristle holds. Both tensions fall to
-// nothing when all their stretch has slipped away, which encloses it.
-Bench::Trial Bench::tried(std::size_t side, const Below& below, double theta, const Conditions& at) const {
+// With the tension below the pin all else is known: what the groove takes, what must have slipped over the pin, how
+// far its bristle has bent, the tension above. Too much tension below is more than the bristle holds.
+Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
   const BenchTendon& tendon = tendons_[side];
   const double image_theta = tendon.sign * theta;
   const Vec2 end(R_ * std::sin(image_theta), R_ * std::cos(image_theta));
@@ -191,38 +215,48 @@ Bench::Trial Bench::tried(std::size_t side, const Below& below, double theta, co
     const double towards = slipped > 0 ? 1.0 : -1.0;
     trial.slipped = slipped;
     trial.bristle = towards + (tendon.bristle - towards) * std::exp(-std::abs(slipped) / k_bristle);
-    trial.upper_tension = tension(length, tendon.upper - slipped, side, at);
-    trial.lower_tension = tension(below.length, below.material + slipped, side, at);
-    return trial.lower_tension - trial.upper_tension * std::exp(grip * trial.bristle);
+    trial.upper_tension = below.cord.tension(length, tendon.upper - slipped);
   };
-  const double now = slip(0.0);
-  if (now != 0) {
-    const double towards = now > 0 ? 1.0 : -1.0;
-    const auto left = [&](double way) { return towards * slip(towards * way); };
-    // All the stretch there is, cooled tendon included.
-    const double all = std::abs(length - tendon.upper) + std::abs(below.length - below.material) +
-                       std::abs(hidden_.expansion * at.warmth) * (length + below.length);
-    slip(towards * crossing(0.0, std::abs(now), all, left(all), 1e-13, left));
+  const auto too_little = [&](double tension) {
+    trial.lower_tension = tension;
+    slip(below.cord.material(below.length, tension) - below.material + below.laid.taken(tension));
+    return trial.upper_tension * std::exp(grip * trial.bristle) - tension;
+  };
+  const double loose = too_little(0.0);
+  if (loose > 0) {
+    below.guess = solved(below.guess, loose, too_little);
+    too_little(below.guess);
+  } else {
+    // Both ends hang: no more slips than has to.
+    slip(std::clamp(0.0, trial.slipped, std::max(trial.slipped, tendon.upper - length / below.cord.natural)));
   }
   trial.torque = trial.upper_tension * up.arm;
+  trial.pull = turned(up.normal, -0.5 * k_pi);
   const Vec2 down = turned(Vec2(std::cos(below.normal), std::sin(below.normal)), -0.5 * k_pi);
-  trial.push = trial.lower_tension * down - trial.upper_tension * turned(up.normal, -0.5 * k_pi);
+  trial.push = trial.lower_tension * down - trial.upper_tension * trial.pull;
   return trial;
 }
 
-double Bench::excess(const std::array<Below, 2>& below, double theta, const Conditions& at) const {
+double Bench::excess(std::array<Below, 2>& below, double theta, const Conditions& at) const {
   const double weight = hidden_.gravity * std::sin(theta - hidden_.gravity_direction);
-  return tried(1, below[1], theta, at).torque - tried(0, below[0], theta, at).torque - at.load * R_ + weight;
+  double all = tried(1, below[1], theta).torque - tried(0, below[0], theta).torque - at.load * R_ + weight;
+  if (!torque_.empty()) {
+    Moment then = at;
+    then.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);
+    then.theta = theta;
+    all += torque_.tried(then);
+  }
+  return all;
 }
 
-double Bench::dry_friction(const Conditions& at) const {
+double Bench::dry_friction(const Conditions& at) {
   const double speed = std::abs(step_) / std::max(1e-9, at.seconds) / hidden_.bearing_speed;
-  return hidden_.bearing + hidden_.bearing_stick * std::exp(-speed * speed);
+  const double stick = hidden_.bearing_stick > 0 ? hidden_.bearing_stick * std::exp(-speed * speed) : 0.0;
+  return std::max(0.0, hidden_.bearing + stick + dry_(at));
 }
 
 // From where it stands the joint goes towards what pulls harder, until the pull is used up.
-double Bench::balanced(const std::array<Below, 2>& below, const Conditions& at) const {
-  const double dry = hidden_.bearing + hidden_.bearing_stick > 0 ? dry_friction(at) : 0.0;
+double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double dry) const {
   const double now = excess(below, theta_, at);
   if (std::isnan(now)) return now;
   if (std::abs(now) <= dry) return theta_;
@@ -242,7 +276,16 @@ double Bench::balanced(const std::array<Below, 2>& below, const Conditions& at) 
   return theta_ + towards * crossing(low, at_low, high, at_high, 1e-12, left);
 }
 
-double Bench::to(double pulley, double alpha, const Conditions& at) {
+double Bench::to(double pulley, double alpha, const Conditions& conditions) {
+  Conditions at = conditions;
+  at.alpha = alpha;
+  at.pulley = pulley;
+  at.theta = theta_;
+  at.theta_speed = now_.theta_speed;
+  at.tension = now_.tension;
+  at.pull = now_.pull;
+  const std::array<double, 2> longer{longer_[0](at), longer_[1](at)};
+  const double dry = dry_friction(at);
   std::array<Vec2, 2> push{tendons_[0].push, tendons_[1].push};
   std::array<Below, 2> lower;
   std::array<Trial, 2> now;
@@ -250,21 +293,20 @@ double Bench::to(double pulley, double alpha, const Conditions& at) {
   // A frame that gives moves the pins, which changes the pull.
   const int looks = hidden_.frame_give > 0 ? 6 : 1;
   for (int look = 0; look < looks; ++look) {
-    for (std::size_t side = 0; side < 2; ++side) lower[side] = below(side, pulley, alpha, at, push[side]);
-    theta = balanced(lower, at);
+    for (std::size_t side = 0; side < 2; ++side) lower[side] = below(side, at, longer[side], push[side]);
+    theta = balanced(lower, at, dry);
     if (!std::isfinite(theta)) return theta;
     for (std::size_t side = 0; side < 2; ++side) {
-      now[side] = tried(side, lower[side], theta, at);
+      now[side] = tried(side, lower[side], theta);
       push[side] = now[side].push;
     }
   }
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];
-    if (hidden_.keeps_winding_strain) {
-      lay(tendon.laid, tendon.wound, lower[side].wound, 1.0 / (1.0 + strain_at(tendon.lower_tension)));
-    }
     tendon.upper -= now[side].slipped;
-    tendon.lower = lower[side].material + now[side].slipped;
+    const double taken = lower[side].laid.settle(now[side].lower_tension);
+    tendon.lower = lower[side].material - taken + now[side].slipped;
+    tendon.laid = std::move(lower[side].laid);
     tendon.wound = lower[side].wound;
     tendon.corner = lower[side].corner;
     tendon.bristle = now[side].bristle;
@@ -272,9 +314,16 @@ double Bench::to(double pulley, double alpha, const Conditions& at) {
     tendon.upper_tension = now[side].upper_tension;
     tendon.lower_tension = now[side].lower_tension;
     tendon.push = now[side].push;
+    creep(tendon, at.seconds);
+    at.tension[side] = now[side].upper_tension;
+    at.pull[side] = side == 0 ? mirrored(now[side].pull) : now[side].pull;
   }
   step_ = theta - theta_;
   theta_ = theta;
+  at.theta = theta;
+  at.theta_speed = step_ / std::max(1e-9, at.seconds);
+  if (!torque_.empty()) torque_(at);
+  now_ = at;
   return theta;
 }
 

@@ -6,24 +6,16 @@
 #include <cstddef>
 #include <vector>
 
+#include "rig/cord.h"
+#include "rig/groove_chain.h"
 #include "rig/rig.h"
 #include "rig/string_geometry.h"
 
 namespace fusee::rig {
 
-/// What acts on the joint at a step.
-struct Conditions {
-  double load = 0;                 ///< tip force across OC, against +θ, N
-  double creep_time = 0;           ///< since the load came on, s
-  double warmth = 0;               ///< K above home's temperature
-  double seconds = 1;              ///< since the last step
-  std::array<double, 2> let_go{};  ///< material let go at each anchor so far, mm
-};
-
-/// Tendon on the pulley from this arc on, up to the next piece.
-struct LaidTendon {
-  double from = 0;
-  double density = 1;  ///< unstretched per wound length
+/// What acts on the joint at a step; Bench fills in what it knows itself (pulley, θ, tensions, pull).
+struct Conditions : Moment {
+  std::array<double, 2> let_go{};  ///< material let go at each knot so far, mm
 };
 
 /// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
@@ -35,16 +27,17 @@ struct BenchTendon {
   double mark = 0;            ///< direction of the point of the pin's rim between the upper and the lower part
   double upper = 0;           ///< unstretched length above the mark, mm
   double lower = 0;           ///< below it, up to the pulley
-  double density = 1;         ///< unstretched per wound length, of home
   double wound = 0;           ///< arc on the pulley
+  GrooveChain laid;           ///< what lies on it, up to the knot
   std::ptrdiff_t corner = 0;  ///< at which it begins
   double bristle = 0;         ///< −1…1: share of the friction in use; > 0 where tendon went down over the pin
   double let_go = 0;
   double upper_tension = 0;  ///< N
   double lower_tension = 0;
+  std::array<double, 5> crept{};  ///< strain of each decade's spring beyond that of home
+  double home_tension = 0;
   Vec2 home_push = Vec2::Zero();  ///< force on the pin at home, N
   Vec2 push = Vec2::Zero();
-  std::vector<LaidTendon> laid;  ///< wound since home
 };
 
 class Bench {
@@ -54,6 +47,8 @@ class Bench {
 
   /// θ with the pulley turned to `pulley`; a lump is met at `alpha`. NaN when nothing holds the joint.
   double to(double pulley, double alpha, const Conditions& conditions);
+  /// As it stands, for what acts outside the bench.
+  const Moment& now() const { return now_; }
 
   /// tendon(0): tendon 1.
   const BenchTendon& tendon(std::size_t side) const { return tendons_[side]; }
@@ -64,10 +59,13 @@ class Bench {
   struct Below {
     Circle pin;
     double length = 0;
-    double material = 0;
+    double material = 0;  ///< before the groove takes or gives
     double wound = 0;
     double normal = 0;
     std::ptrdiff_t corner = 0;
+    Cord cord;
+    GrooveChain laid;
+    double guess = 0;  ///< of the tension above the groove, N
   };
   /// A tendon at a trial θ.
   struct Trial {
@@ -75,17 +73,18 @@ class Bench {
     double slipped = 0;
     double bristle = 0;
     double upper_tension = 0, lower_tension = 0;
+    Vec2 pull = Vec2::Zero();  ///< unit, from the link's end to the pin, in the image
     Vec2 push = Vec2::Zero();
   };
 
-  void hang(BenchTendon& tendon, double tension, double slack);
-  double strain_at(double tension) const;
-  double tension(double length, double material, std::size_t side, const Conditions& conditions) const;
-  Below below(std::size_t side, double pulley, double alpha, const Conditions& conditions, const Vec2& push) const;
-  Trial tried(std::size_t side, const Below& below, double theta, const Conditions& conditions) const;
-  double excess(const std::array<Below, 2>& below, double theta, const Conditions& conditions) const;
-  double dry_friction(const Conditions& conditions) const;
-  double balanced(const std::array<Below, 2>& below, const Conditions& conditions) const;
+  void hang(BenchTendon& tendon, double tension, double slack, double unwound);
+  Cord cord(std::size_t side, const Conditions& conditions) const;
+  void creep(BenchTendon& tendon, double seconds) const;
+  Below below(std::size_t side, const Conditions& conditions, double longer, const Vec2& push) const;
+  Trial tried(std::size_t side, Below& below, double theta) const;
+  double excess(std::array<Below, 2>& below, double theta, const Conditions& conditions) const;
+  double dry_friction(const Conditions& conditions);
+  double balanced(std::array<Below, 2>& below, const Conditions& conditions, double dry) const;
   double lump(double alpha) const;
 
   Hidden hidden_;
@@ -95,6 +94,10 @@ class Bench {
   double step_ = 0;  ///< of θ, the last one
   double theta_ = 0;
   std::array<BenchTendon, 2> tendons_;
+  std::array<Actors, 2> longer_;
+  Actors torque_;
+  Actors dry_;
+  Moment now_;
 };
 
 }  // namespace fusee::rig

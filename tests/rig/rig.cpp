@@ -12,9 +12,9 @@
 namespace fusee::rig {
 namespace {
 
-constexpr int k_approach = 40;  // steps from home to the start of the sweep
-constexpr int k_loading = 8;    // steps in which the load comes on
-constexpr int k_lag_steps = 4;  // between rows, where a late sensor shows what was there between them
+constexpr double k_approach = radians(2.5);  // steps of α between home and the start of the sweep, and between far rows
+constexpr int k_loading = 8;                 // steps in which the load comes on
+constexpr int k_lag_steps = 4;               // between rows, where a late sensor shows what was there between them
 constexpr int k_dwell_rows = 10;
 constexpr double k_warm = 31.0;           // °C, when the session begins
 constexpr double k_cooling = 11.0;        // K, in the end
@@ -22,69 +22,43 @@ constexpr double k_cooling_time = 150.0;  // s
 
 double temperature_at(double time) { return k_warm - k_cooling * (1.0 - std::exp(-time / k_cooling_time)); }
 
-/// Where the motor's sensor is taken to, by increasing time.
-struct Way {
-  std::vector<double> time;
-  std::vector<double> alpha;
-  std::vector<bool> reversal;  ///< a new stroke begins here
-};
-
-Way planned_way(const RunPlan& plan, const MotionPlan& motion, double low, double high) {
-  Way way;
-  const double step_time = (high - low) / motion.rows_per_stroke / plan.speed;
-  double time = 0;
-  const auto add = [&](double alpha, bool reversal) {
-    way.time.push_back(time);
-    way.alpha.push_back(alpha);
-    way.reversal.push_back(reversal);
-  };
-  add(low, false);
-  for (int stroke = 0; stroke < 2 * plan.cycles; ++stroke) {
-    const double from = stroke % 2 == 0 ? low : high;
-    const double to = stroke % 2 == 0 ? high : low;
-    for (int row = 1; row <= motion.rows_per_stroke; ++row) {
-      time += step_time;
-      add(from + (to - from) * row / motion.rows_per_stroke, row == 1 && stroke > 0);
-    }
-    for (int row = 0; plan.dwell > 0 && row < k_dwell_rows; ++row) {
-      time += plan.dwell / k_dwell_rows;
-      add(to, false);
-    }
-  }
-  return way;
+/// A wave that is nothing at 0.
+double wave(double amplitude, int order, double angle, double phase) {
+  return amplitude * (std::sin(order * angle + phase) - std::sin(phase));
 }
 
 /// From the motor's sensor to the pulley, with the play's memory.
 class Drive {
  public:
   Drive(const Hidden& hidden, double stroke)
-      : hidden_(hidden), seat_(0.5 * stroke), shaft_(shaft(0.0)), pulley_(shaft_) {}
+      : hidden_(hidden), added_(hidden.shaft), seat_(0.5 * stroke), shaft_(shaft(0.0)), pulley_(shaft_) {}
 
-  double to(double alpha) {
-    const double now = shaft(alpha);
-    travel_ += std::abs(now - shaft_);
-    shaft_ = now;
+  double to(double alpha, const Moment& now) {
+    const double turned = shaft(alpha);
+    travel_ += std::abs(turned - shaft_);
+    shaft_ = turned;
     pulley_ = std::clamp(pulley_, shaft_ - 0.5 * hidden_.backlash, shaft_ + 0.5 * hidden_.backlash);
-    return pulley_ + (hidden_.bedding != 0 ? hidden_.bedding * std::exp(-travel_ / seat_) : 0.0);
+    return pulley_ + (hidden_.bedding != 0 ? hidden_.bedding * std::exp(-travel_ / seat_) : 0.0) + added_(now);
   }
   /// The pulley goes back off its seat.
   void begin_run() { travel_ = 0; }
 
  private:
   double shaft(double alpha) const {
-    const double eccentric = hidden_.motor_eccentricity * (std::sin(alpha + hidden_.motor_eccentricity_phase) -
-                                                           std::sin(hidden_.motor_eccentricity_phase));
-    return alpha + hidden_.motor_offset + eccentric + hidden_.cogging * std::sin(hidden_.cogging_per_turn * alpha);
+    return alpha + hidden_.motor_offset + wave(hidden_.motor_eccentricity, 1, alpha, hidden_.motor_eccentricity_phase) +
+           wave(hidden_.motor_harmonic, hidden_.motor_harmonic_order, alpha, hidden_.motor_harmonic_phase) +
+           hidden_.cogging * std::sin(hidden_.cogging_per_turn * alpha);
   }
 
   const Hidden& hidden_;
+  Actors added_;
   double seat_;
   double shaft_;
   double pulley_;
   double travel_ = 0;
 };
 
-/// θ at moments a little closer than the rows.
+/// The joint at moments a little closer than the rows.
 struct Track {
   std::vector<double> time;
   std::vector<double> theta;
@@ -100,56 +74,17 @@ struct Track {
   }
 };
 
-/// What went before in this session.
-struct Session {
-  double time = 0;
-  std::array<double, 2> let_go{};
-  double zero_walk = 0;
-};
-
-Track follow(const MadeJoint& joint, const Hidden& hidden, const RunPlan& plan, const Way& way, std::size_t run,
-             Session& session) {
-  Bench bench(joint, hidden);
-  Drive drive(hidden, *std::max_element(way.alpha.begin(), way.alpha.end()) - way.alpha.front());
-  Conditions at;
-  at.let_go = session.let_go;
-  at.warmth = temperature_at(session.time) - k_warm;
-  for (int i = 1; i <= k_approach; ++i) {
-    const double alpha = way.alpha.front() * i / k_approach;
-    bench.to(drive.to(alpha), alpha, at);
+/// What follows θ with a time constant: exact for a θ that goes straight from moment to moment.
+Track filtered(const Track& track, double constant) {
+  Track late = track;
+  for (std::size_t i = 1; i < track.time.size(); ++i) {
+    const double step = track.time[i] - track.time[i - 1];
+    const double slope = (track.theta[i] - track.theta[i - 1]) / step;
+    const double behind = track.theta[i - 1] - late.theta[i - 1];
+    const double settled = slope * constant;
+    late.theta[i] = track.theta[i] - (settled + (behind - settled) * std::exp(-step / constant));
   }
-  drive.begin_run();
-  for (int i = 1; i <= k_loading; ++i) {
-    at.load = plan.load * i / k_loading;
-    bench.to(drive.to(way.alpha.front()), way.alpha.front(), at);
-  }
-  const int steps = hidden.lag > 0 ? k_lag_steps : 1;
-  const bool slips = hidden.slip != 0 && run == hidden.slip_run;
-  const double slip_time = hidden.slip_at * way.time.back();
-  Track track{{0.0}, {bench.to(drive.to(way.alpha.front()), way.alpha.front(), at)}};
-  for (std::size_t row = 1; row < way.time.size(); ++row) {
-    for (int step = 1; step <= steps; ++step) {
-      const double share = static_cast<double>(step) / steps;
-      const double time = way.time[row - 1] + share * (way.time[row] - way.time[row - 1]);
-      const double alpha = way.alpha[row - 1] + share * (way.alpha[row] - way.alpha[row - 1]);
-      at.seconds = time - track.time.back();
-      at.creep_time = time;
-      at.warmth = temperature_at(session.time + time) - k_warm;
-      if (slips && time >= slip_time) at.let_go[hidden.slip_side] = session.let_go[hidden.slip_side] + hidden.slip;
-      track.time.push_back(time);
-      track.theta.push_back(bench.to(drive.to(alpha), alpha, at));
-    }
-  }
-  session.let_go = at.let_go;
-  return track;
-}
-
-/// The joint's sensor, but for noise.
-double shown(double theta, const Hidden& hidden) {
-  const double phase = hidden.joint_eccentricity_phase;
-  return hidden.zero + (1.0 + hidden.gain) * theta +
-         hidden.joint_eccentricity * (std::sin(theta + phase) - std::sin(phase)) +
-         hidden.interpolation * std::sin(hidden.interpolation_per_turn * theta);
+  return late;
 }
 
 /// White noise with a memory.
@@ -170,21 +105,134 @@ class Noise {
   bool first_ = true;
 };
 
-Log sensed(const Track& track, const Way& way, const RunPlan& plan, const Hidden& hidden, const SensorPlan& sensors,
-           std::size_t run, Session& session) {
-  Noise noise(sensors, run);
-  Random walk(sensors.seed * 7919 + 31 * run + 1);
-  Log log;
-  log.reserve(way.time.size());
-  for (std::size_t row = 0; row < way.time.size(); ++row) {
-    if (way.reversal[row] || row == 0) session.zero_walk += hidden.zero_walk * walk.normal();
-    double theta = shown(track.at(way.time[row] - hidden.lag), hidden) + session.zero_walk + noise.next();
-    if (sensors.quantum > 0) theta = sensors.quantum * std::round(theta / sensors.quantum);
-    const double time = session.time + way.time[row];
-    log.push_back({time, way.alpha[row], theta, plan.load, temperature_at(time)});
+/// The joint and all that remembers, through the runs.
+class Session {
+ public:
+  Session(const MadeJoint& joint, const Hidden& hidden, const SensorPlan& sensors, const MotionPlan& motion)
+      : hidden_(hidden),
+        sensors_(sensors),
+        motion_(motion),
+        low_(motion.reach * joint.alpha_min),
+        high_(motion.reach * joint.alpha_max),
+        bench_(joint, hidden),
+        drive_(hidden, high_ - low_),
+        reading_(hidden.reading),
+        load_(hidden.load) {}
+
+  Log run(const RunPlan& plan) {
+    const Way way = planned_way(plan, motion_, low_, high_);
+    begin(first_load(plan));
+    Log log = sensed(way, follow(way));
+    time_ += way.back().time + motion_.pause;
+    ++at_.run;
+    return log;
   }
-  return log;
-}
+
+ private:
+  double move(double alpha, double time, double seconds) {
+    if (alpha != at_.alpha) at_.direction = alpha > at_.alpha ? 1.0 : -1.0;
+    at_.alpha_speed = (alpha - at_.alpha) / std::max(1e-9, seconds);
+    at_.seconds = seconds;
+    at_.alpha = alpha;
+    at_.run_time = time;
+    at_.time = time_ + time;
+    at_.warmth = temperature_at(at_.time) - k_warm;
+    at_.theta = bench_.theta();
+    at_.theta_speed = bench_.now().theta_speed;
+    at_.tension = bench_.now().tension;
+    Conditions pulled = at_;
+    pulled.load += load_(at_);
+    return bench_.to(drive_.to(alpha, at_), alpha, pulled);
+  }
+  /// In even steps of time and α.
+  void go(double alpha, double load, double seconds) {
+    const double from = at_.alpha;
+    const double hung = at_.load;
+    const int steps =
+        std::max(load != hung ? k_loading : 1, static_cast<int>(std::ceil(std::abs(alpha - from) / k_approach - 1e-9)));
+    for (int i = 1; i <= steps; ++i) {
+      at_.load = hung + (load - hung) * i / steps;
+      move(from + (alpha - from) * i / steps, 0.0, seconds / steps);
+    }
+  }
+  /// Within the pause: the load off, home, to the start of the sweep, the load on.
+  void begin(double load) {
+    const double quarter = 0.25 * motion_.pause;
+    go(at_.alpha, 0.0, quarter);
+    go(0.0, 0.0, quarter);
+    drive_.begin_run();
+    if (motion_.loaded_first) go(0.0, load, quarter);
+    go(low_, at_.load, quarter);
+    drive_.begin_run();
+    go(low_, load, quarter);
+  }
+
+  struct Followed {
+    Track track;
+    std::vector<Moment> rows;
+  };
+  Followed follow(const Way& way) {
+    const bool slips = hidden_.slip != 0 && at_.run == hidden_.slip_run;
+    const double slip_time = hidden_.slip_at * way.back().time;
+    const double let_go = at_.let_go[hidden_.slip_side];
+    Followed done{{{0.0}, {move(way.front().alpha, 0.0, 1e-3)}}, {at_}};
+    for (std::size_t row = 1; row < way.size(); ++row) {
+      const WayPoint& from = way[row - 1];
+      const WayPoint& to = way[row];
+      const int far = static_cast<int>(std::ceil(std::abs(to.alpha - from.alpha) / k_approach - 1e-9));
+      const int steps = std::max({1, far, hidden_.lag > 0 || hidden_.lag_filter > 0 ? k_lag_steps : 1});
+      for (int step = 1; step <= steps; ++step) {
+        const double share = static_cast<double>(step) / steps;
+        const double time = from.time + share * (to.time - from.time);
+        if (slips && time >= slip_time) at_.let_go[hidden_.slip_side] = let_go + hidden_.slip;
+        at_.load = from.load + share * (to.load - from.load);
+        const double seconds = time - done.track.time.back();
+        done.track.theta.push_back(move(from.alpha + share * (to.alpha - from.alpha), time, seconds));
+        done.track.time.push_back(time);
+      }
+      done.rows.push_back(bench_.now());
+    }
+    return done;
+  }
+
+  /// The joint's sensor, but for noise.
+  double shown(double theta, const Moment& now) {
+    return hidden_.zero + (1.0 + hidden_.gain) * theta +
+           wave(hidden_.joint_eccentricity, 1, theta, hidden_.joint_eccentricity_phase) +
+           wave(hidden_.joint_harmonic, hidden_.joint_harmonic_order, theta, hidden_.joint_harmonic_phase) +
+           hidden_.interpolation * std::sin(hidden_.interpolation_per_turn * theta) + reading_(now);
+  }
+  Log sensed(const Way& way, const Followed& followed) {
+    const Track late = hidden_.lag_filter > 0 ? filtered(followed.track, hidden_.lag_filter) : followed.track;
+    Noise noise(sensors_, at_.run);
+    Random walk(sensors_.seed * 7919 + 31 * at_.run + 1);
+    Log log;
+    log.reserve(way.size());
+    for (std::size_t row = 0; row < way.size(); ++row) {
+      if (way[row].reversal || row == 0) zero_walk_ += hidden_.zero_walk * walk.normal();
+      const Moment& now = followed.rows[row];
+      double theta = shown(late.at(way[row].time - hidden_.lag), now) + zero_walk_;
+      if (!way[row].logged) continue;
+      theta += noise.next();
+      if (sensors_.quantum > 0) theta = sensors_.quantum * std::round(theta / sensors_.quantum);
+      log.push_back(
+          {time_ + way[row].time, way[row].alpha, theta, way[row].load, temperature_at(time_ + way[row].time)});
+    }
+    return log;
+  }
+
+  const Hidden& hidden_;
+  const SensorPlan& sensors_;
+  const MotionPlan& motion_;
+  double low_, high_;
+  Bench bench_;
+  Drive drive_;
+  Actors reading_;
+  Actors load_;
+  Conditions at_;
+  double time_ = 0;
+  double zero_walk_ = 0;
+};
 
 }  // namespace
 
@@ -199,28 +247,11 @@ MadeJoint make_joint(const DeclaredMechanism& declared) {
 
 std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors, const MotionPlan& motion) {
-  Session session;
+  Session session(joint, hidden, sensors, motion);
   std::vector<Log> logs;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    const Way way = planned_way(runs[run], motion, motion.reach * joint.alpha_min, motion.reach * joint.alpha_max);
-    const Track track = follow(joint, hidden, runs[run], way, run, session);
-    logs.push_back(sensed(track, way, runs[run], hidden, sensors, run, session));
-    session.time += way.time.back() + motion.pause;
-  }
+  for (const RunPlan& plan : runs) logs.push_back(session.run(plan));
   return logs;
 }
-
-std::vector<RunPlan> full_protocol(double load) {
-  constexpr double fast = radians(90.0);
-  constexpr double slow = radians(12.0);
-  return {{0.0, slow, 3, 0.0},
-          {load, slow, 3, 0.0},
-          {0.0, fast, 4, 0.0},
-          {0.5 * load, slow, 2, 0.0},
-          {-load, slow, 2, 0.0}};
-}
-
-std::vector<RunPlan> single_protocol() { return {{0.0, radians(12.0), 2, 0.0}}; }
 
 std::string csv_text(const Log& log, bool temperature) {
   std::string text =

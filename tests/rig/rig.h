@@ -8,6 +8,7 @@
 /// otherwise.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,15 +16,20 @@
 
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/profile/outline.h"
+#include "rig/action.h"
+#include "rig/way.h"
 
 namespace fusee::rig {
 
 /// How a joint differs from what was declared. All zero: in nothing.
 struct Hidden {
-  // Motor sensor: the shaft stands at α + offset + amplitude (sin(α + phase) − sin phase).
+  // Motor sensor: the shaft stands at α + offset + amplitude (sin(n α + phase) − sin phase).
   double motor_offset = 0;
-  double motor_eccentricity = 0;
+  double motor_eccentricity = 0;  ///< n = 1
   double motor_eccentricity_phase = 0;
+  double motor_harmonic = 0;
+  double motor_harmonic_phase = 0;
+  int motor_harmonic_order = 2;
   double backlash = 0;  ///< full width, of α
 
   // Pulleys.
@@ -36,60 +42,68 @@ struct Hidden {
   double profile_phase = 0;
 
   // Tendons.
-  double modulus = 0;                 ///< the true one, MPa; 0: as declared
-  bool keeps_winding_strain = false;  ///< tendon on the pulley keeps the strain it was wound at; else that of home
-  double slack = 0;                   ///< material too much, of both together; they hang loose at home, mm
-  double creep = 0;                   ///< the elastic strain grows by this share with every decade of time in a run
-  double slip = 0;                    ///< material let go at one anchor, mm
-  std::size_t slip_side = 1;          ///< 0: tendon 1, 1: tendon 2
-  std::size_t slip_run = 0;           ///< the run in which it happens
-  double slip_at = 0.5;               ///< share of that run
-  double expansion = 0;               ///< strain per K
-  double expansion_other = 0.3;       ///< tendon 1 stands in the draught: it follows by this share
+  double modulus = 0;            ///< the true one, MPa; 0: as declared
+  double groove_friction = 0.2;  ///< between tendon and groove, whatever the file says
+  double slack = 0;              ///< material too much, of both together; they hang loose at home, mm
+  /// The strain grows by this share of T/EA with every decade of time under T, from one run to the next: a spring and a
+  /// dashpot for each decade (Kelvin), at rest under home's tension.
+  double creep = 0;
+  double slip = 0;               ///< material let go at one knot, mm
+  std::size_t slip_side = 1;     ///< 0: tendon 1, 1: tendon 2
+  std::size_t slip_run = 0;      ///< the run in which it happens
+  double slip_at = 0.5;          ///< share of that run
+  double expansion = 0;          ///< strain per K
+  double expansion_other = 0.3;  ///< tendon 1 stands in the draught: it follows by this share
 
   // Pins.
-  double friction = 0;       ///< added to μ
-  double guide_radius = 0;   ///< added to the pins' radius, mm
-  double guide_outward = 0;  ///< both pins, mm
-  double guide_down = 0;     ///< both pins, mm
+  double friction = 0;                  ///< added to μ
+  double guide_radius = 0;              ///< added to the pins' radius, mm
+  double guide_outward = 0;             ///< both pins, mm
+  double guide_down = 0;                ///< both pins, mm
+  std::array<double, 2> pin_outward{};  ///< each pin beyond that, mm; [0] is tendon 1's
+  std::array<double, 2> pin_down{};
+  double frame_give = 0;  ///< pins move by this along the tendon's force on them, mm/N
 
   // Joint.
   double joint_length = 0;       ///< added to OC, mm
   double gravity = 0;            ///< weight times lever, N·mm
   double gravity_direction = 0;  ///< of the pull; 0: from C to O at home, π/2: towards −θ
+  double bearing = 0;            ///< dry friction of the joint's bearing once it moves, N·mm
 
-  // Joint sensor.
+  // Joint sensor: shows waves as the motor's does.
   double zero = 0;
   double gain = 0;
   double joint_eccentricity = 0;
   double joint_eccentricity_phase = 0;
-  double lag = 0;  ///< s
+  double joint_harmonic = 0;
+  double joint_harmonic_phase = 0;
+  int joint_harmonic_order = 2;
+  double lag = 0;         ///< what is shown is this old, s
+  double lag_filter = 0;  ///< what is shown follows with this time constant, s
 
   // What no catalogue holds.
   double lump = 0;        ///< both pulleys wrong at one place: tendon 2 wound, tendon 1 let out by this much more, mm
   double lump_at = 0;     ///< α
   double lump_width = 0;  ///< standard deviation, of α
   double hardening = 0;   ///< strain h of T = E' ε (1 + ε/h), as stiff as declared at the pretension; 0: none
-  double bearing = 0;     ///< dry friction of the joint's bearing once it moves, N·mm
-  double bearing_stick = 0;     ///< more than that from rest, N·mm
+  double bearing_stick = 0;     ///< dry friction beyond `bearing` from rest, N·mm
   double bearing_speed = 0.05;  ///< joint speed over which this more fades (Stribeck), rad/s
   double cogging = 0;           ///< amplitude, of α
   int cogging_per_turn = 30;
-  double frame_give = 0;     ///< pins move by this along the tendon's force on them, mm/N
   double interpolation = 0;  ///< amplitude, of θ
   int interpolation_per_turn = 8;
   double zero_walk = 0;  ///< step of the joint sensor's zero at every reversal, standard deviation
   double bedding = 0;    ///< pulley still off its seat at the start of every run, of α
 
-  bool operator==(const Hidden&) const = default;
-};
+  // Whatever else acts, by its place in the chain.
+  std::vector<Action> shaft = {};                  ///< added to the pulley's angle, after the play, rad
+  std::array<std::vector<Action>, 2> longer = {};  ///< the tendon's way below its pin is longer by this, mm
+  std::vector<Action> torque = {};                 ///< on the joint, towards +θ, N·mm
+  std::vector<Action> dry = {};                    ///< added to the joint's dry friction, N·mm
+  std::vector<Action> reading = {};                ///< added to what the joint's sensor shows, rad
+  std::vector<Action> load = {};                   ///< pulls beyond the load that is logged, N
 
-/// One run: there and back `cycles` times.
-struct RunPlan {
-  double load = 0;               ///< tip force across OC, against +θ, N
-  double speed = radians(12.0);  ///< of α, rad/s
-  int cycles = 3;
-  double dwell = 0;  ///< s at every reversal
+  bool operator==(const Hidden&) const = default;
 };
 
 struct SensorPlan {
@@ -98,13 +112,6 @@ struct SensorPlan {
   double quantum = 0;            ///< smallest step; 0: none
   bool temperature = false;      ///< a column of it
   std::uint64_t seed = 1;
-};
-
-/// How the motor is moved.
-struct MotionPlan {
-  int rows_per_stroke = 80;
-  double reach = 0.93;  ///< share of the declared range of α that is swept
-  double pause = 5.0;   ///< s between runs
 };
 
 struct Row {
@@ -126,15 +133,10 @@ struct MadeJoint {
 /// InputError when there is no pulley for it.
 MadeJoint make_joint(const DeclaredMechanism& declared);
 
-/// The runs one after another on one clock. Each begins unloaded at home, goes to the start of the sweep, is loaded
-/// there, and is logged.
+/// The runs one after another on one clock and one joint. Before each the motor goes home, unloaded, and to the start
+/// of the sweep, where it is loaded.
 std::vector<Log> log_runs(const MadeJoint& joint, const Hidden& hidden, const std::vector<RunPlan>& runs,
                           const SensorPlan& sensors = {}, const MotionPlan& motion = {});
-
-/// Load 0 slow, `load` slow, 0 fast, half slow, reversed slow.
-std::vector<RunPlan> full_protocol(double load);
-/// One unloaded run of two cycles.
-std::vector<RunPlan> single_protocol();
 
 /// As a bench would have written it: time_s, alpha_deg, theta_deg, load_N and, if asked for, temperature_C.
 std::string csv_text(const Log& log, bool temperature = false);

@@ -1,11 +1,14 @@
 /// \file
-/// Joints with a known fault of a size that is well seen: what the known-truth matrix is made of.
+/// Joints with known faults of a size that is well seen: what the known-truth matrix is made of.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "rig/faults.h"
+#include "rig/protocols.h"
 #include "rig/random.h"
 #include "rig/rig.h"
 
@@ -21,14 +24,30 @@ struct Truth {
 std::vector<std::string> fault_names();
 /// Whether calibration has a name for it.
 bool has_name(const std::string& fault);
-/// Named effects that do nearly the same as a fault without a name: to report one of them is not held to be false
-/// blame.
+/// Fault::kin.
 std::vector<std::string> kin_of(const std::string& fault);
 
-/// Nothing at all (three kinds of noise), every fault alone, and pairs.
+/// Nothing at all (three kinds of noise), every fault alone but those of a split that is kept aside, and pairs.
 std::vector<Truth> all_truths();
 
-enum class Protocol { full, single };
+/// What a joint drawn at random is like.
+enum class Kind {
+  nothing,
+  one,  ///< with a name
+  two,  ///< both with names
+  three,
+  unknown,  ///< one without a name
+  beside,   ///< one with a name and one without
+};
+/// Drawn by the seed. `split`: where faults without a name are taken from.
+Truth random_truth(Kind kind, const std::string& split, std::uint64_t seed);
+
+enum class Protocol { full, single, random };
+
+struct CaseOptions {
+  Protocol protocol = Protocol::full;
+  bool any_groove = false;  ///< the groove's friction is 0.05 … 0.5 while the file says 0.2
+};
 
 /// A joint, its fault and its data.
 struct Case {
@@ -39,13 +58,14 @@ struct Case {
   Hidden hidden;
   SensorPlan sensors;
   std::vector<RunPlan> plans;
+  MotionPlan motion;
   std::vector<double> seen;  ///< by how much each fault alone moves the reading, rms in units of the sensor's noise
   std::vector<Log> logs;
 };
 
-/// Joint, size, character and kind of sensor by the seed; a joint on which the fault cannot be made visible is drawn
-/// again. The truth stays the same joint whatever other truths there are.
-Case make_case(const Truth& truth, std::uint64_t seed, Protocol protocol);
+/// Joint, size, character, programme and kind of sensor by the seed; a joint on which the fault cannot be made visible
+/// is drawn again. The truth stays the same joint whatever other truths there are.
+Case make_case(const Truth& truth, std::uint64_t seed, const CaseOptions& options = {});
 
 /// A joint of which a pulley can be made: 40 … 160 mm.
 MadeJoint random_joint(Random& random);

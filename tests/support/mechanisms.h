@@ -14,6 +14,7 @@ inline DeclaredMechanism reference() {
   mechanism.guides = {50.0, 50.0, -40.0, 0.0, 0.12};
   mechanism.pulley.EF = 60.0;
   mechanism.pulley.r1 = 20.0;
+  mechanism.pulley.mu = 0.2;
   mechanism.tendon = {1.0, 40000.0, 5.0, 8.0};
   return mechanism;
 }

@@ -16,6 +16,7 @@ struct CalibrationOptions {
   std::vector<std::string>
       hold_out;  ///< names of runs kept for validation only; empty: whole runs are left out in turn
   std::vector<const Effect*> more_effects;  ///< beside those of the program; they must outlive the call
+  std::vector<std::string> without;         ///< names of effects that are left out of the catalogue: what if none knew of them?
   std::function<void(const std::string& what, double share)> progress;
 };
 

@@ -2,8 +2,8 @@
 /// The joint in quasi-static equilibrium along any sequence of pulley angles and loads, history carried along.
 ///
 /// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them; what is wound on a
-/// pulley holds what JointModel::wound says; a tendon cannot push. Source of the limits: the paper's [6]-[11]
-/// (tension.h).
+/// pulley slides in its groove as far as friction lets it (JointModel::groove_friction); a tendon cannot push. Source of
+/// the limits: the paper's [6]-[11] (tension.h).
 #pragma once
 
 #include <array>
@@ -17,7 +17,6 @@ namespace fusee {
 /// By how much both tendons are not what they were at home: creep, heat, an anchor that gave way. Energies are counted
 /// for none of it.
 struct TendonChange {
-  double compliance = 1;              ///< strain per tension, as a multiple of that at home
   std::array<double, 2> expansion{};  ///< of tendon 1 and 2: unloaded length added, as a fraction
   std::array<double, 2> released{};   ///< material that the anchors of tendon 1 and 2 have let go since home, mm
 };
@@ -68,13 +67,11 @@ struct EquilibriumPoint {
   /// Torque per joint angle with the pulley held, N·mm/rad: with no material crossing the pins (small disturbances,
   /// upper spans alone) …
   double stiffness_stuck = 0;
-  /// … and with pins that let it pass at the present ratio of tensions (large ones, whole tendons).
+  /// … and with pins and groove that let it pass at the present ratio of tensions (large ones, whole tendons).
   double stiffness = 0;
   double stored = 0;    ///< elastic energy, above that of home unloaded, N·mm
-  double friction = 0;  ///< lost at the pins and in the joint's bearing since home, N·mm
-  /// Lost where tendon leaves a pulley at another strain than it lay there, since home, N·mm; with WoundTendon::at_home
-  /// winding gives it back.
-  double shed = 0;
+  double friction = 0;         ///< lost at the pins and in the joint's bearing since home, N·mm
+  double groove_friction = 0;  ///< lost in the grooves since home, N·mm
 };
 
 /// A joint on its way. Copies are snapshots: each goes on from the same history.

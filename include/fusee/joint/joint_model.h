@@ -48,12 +48,10 @@ class MadePulleys {
   double offset_ = 0;
 };
 
-/// What a pulley holds of the tendon that lies on it.
-enum class WoundTendon {
-  keeps_strain,  ///< the strain it was wound at, until it is paid out: friction on the pulley holds it
-  at_home,       ///< home's strain, whatever the tension while winding: the tendon's marks stay at their places of the
-                 ///< groove
-};
+/// Where a tendon is tied: this much of arc beyond the end of the range that it unwinds to, mm. An assumption: what
+/// `fusee build` makes has 40° to 95° of wrap there, and a joint's file says nothing of it; with μ 0.2 what lies deeper
+/// moves by less than a tenth of what lies at the take-off.
+constexpr double k_knot_beyond = 5.0;
 
 struct UpperSpans;  // both upper spans over the joint's angles, looked up
 
@@ -69,7 +67,11 @@ struct JointModel {
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
   double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm
   double pin_give = 0;                           ///< a pin moves by this along what its tendon pushes it with, mm/N
-  WoundTendon wound = WoundTendon::keeps_strain;
+  /// Between tendon and groove: what lies on a pulley slides as far as this lets it, up to the knot. Infinite: it keeps
+  /// the strain that it was wound at; 0: it is a part of the spring.
+  double groove_friction = 0;
+  double alpha_least = 0;  ///< the range that the pulley was made for, rad: the knots lie beyond its ends
+  double alpha_most = 0;
   double weight = 0;         ///< mass · g · lever, N·mm
   double tilt = 0;           ///< θ at which the link points straight up, rad
   double last_step = 1e-13;  ///< of the search for the equilibrium: how exactly θ is found, rad

@@ -57,6 +57,7 @@ struct TendonError {
   double slip_time = 0;   ///< s, on the bench's clock: runs one after another
   double thermal1 = 0;    ///< unloaded length of tendon 1 added per kelvin, as a fraction
   double thermal2 = 0;    ///< of tendon 2: one may lie nearer to what is warm
+  double groove_friction = 0;  ///< added to the coefficient between tendon and groove
 
   bool operator==(const TendonError&) const = default;
 };

@@ -1,0 +1,36 @@
+#include "fusee/mechanism/effect.h"
+
+namespace fusee {
+namespace {
+
+double total(double added, const Mechanism& declared) {
+  return declared.pulley.mu + added > 0 ? declared.pulley.mu + added : 0.0;
+}
+
+}  // namespace
+
+Effect groove_friction(JointKind) {
+  Effect effect;
+  effect.name = "groove_friction";
+  effect.place = ChainPlace::pulley;
+  effect.rank = 5;
+  effect.signature = "a loop under load that goes with what is wound; the first stroke is unlike all later ones";
+  effect.separating_run =
+      "put the load on and take it off three times where tendon 2 is wound furthest, and again where tendon 1 is: "
+      "friction in the groove gives way most the first time, and most where more is wound";
+  effect.correctable_by = CorrectableBy::table;
+  effect.needs = {.tendons = true};
+  effect.parameters = {{.name = "mu",
+                        .number = [](Imperfections& at) -> double& { return at.tendon.groove_friction; },
+                        .least = -2,
+                        .most = 2,
+                        .step = 0.02,
+                        .prior = 0.15,  // HMPE 0.05 to 0.15, steel to 0.3, more in a V: declared 0.2
+                        .shown = total,
+                        .key = key::plain("groove_friction", "", -2, 2, "added to pulley.friction"),
+                        .again = WhenFoundAgain::added}};
+  effect.starts = {{-0.1}, {0.2}};
+  return effect;
+}
+
+}  // namespace fusee

@@ -1,0 +1,71 @@
+/// \file
+/// What can act at a place of the joint's chain without a name of its own: a function of the moment, with numbers and,
+/// where it needs one, a memory. rad, mm, N, s.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fusee/base/plane.h"
+
+namespace fusee::rig {
+
+/// How the joint stands. What follows from the solution (θ, tensions) is that of the step before, but in a torque,
+/// which sees the θ that is tried.
+struct Moment {
+  double time = 0;      ///< on the session's clock
+  double run_time = 0;  ///< since the first row of the run
+  double seconds = 1;   ///< since the last step
+  std::size_t run = 0;
+  double alpha = 0;        ///< as the motor's sensor shows it
+  double direction = 0;    ///< of its last movement: ±1; 0 before any
+  double alpha_speed = 0;  ///< rad/s
+  double pulley = 0;       ///< where the pulley stands
+  double theta = 0;
+  double theta_speed = 0;
+  double load = 0;                                       ///< tip force across OC, against +θ
+  double warmth = 0;                                     ///< K above the session's begin
+  std::array<double, 2> tension{};                       ///< at the link; [0] is tendon 1
+  std::array<Vec2, 2> pull{Vec2::Zero(), Vec2::Zero()};  ///< unit, from the link's end towards the pins
+};
+
+/// A function of a moment with its numbers; equal where name, numbers and function are.
+struct Action {
+  std::string name;
+  std::vector<double> numbers;
+  double (*act)(const Moment& now, const std::vector<double>& numbers, std::vector<double>& memory) = nullptr;
+
+  bool operator==(const Action&) const = default;
+};
+
+/// Actions at one place, each with what it remembers.
+class Actors {
+ public:
+  Actors() = default;
+  explicit Actors(const std::vector<Action>& actions) : actions_(actions), memories_(actions.size()) {}
+
+  bool empty() const { return actions_.empty(); }
+  /// Their sum; they remember it.
+  double operator()(const Moment& now) { return sum(now, memories_); }
+  /// Their sum if it came to that.
+  double tried(const Moment& now) const {
+    std::vector<std::vector<double>> scratch = memories_;
+    return sum(now, scratch);
+  }
+
+ private:
+  double sum(const Moment& now, std::vector<std::vector<double>>& memories) const {
+    double all = 0;
+    for (std::size_t i = 0; i < actions_.size(); ++i) {
+      all += actions_[i].act(now, actions_[i].numbers, memories[i]);
+    }
+    return all;
+  }
+
+  std::vector<Action> actions_;
+  std::vector<std::vector<double>> memories_;
+};
+
+}  // namespace fusee::rig

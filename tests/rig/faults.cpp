@@ -1,0 +1,36 @@
+#include "rig/faults.h"
+
+#include <algorithm>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+
+namespace fusee::rig {
+
+const std::vector<FaultList>& fault_lists() {
+  static const std::vector<FaultList> lists = {{"named", named_faults()}, {"tuning", tuning_faults()}};
+  return lists;
+}
+
+const Fault& find_fault(const std::string& name) {
+  std::vector<std::string> names;
+  for (const FaultList& list : fault_lists()) {
+    for (const Fault& fault : list.faults) {
+      if (fault.name == name) return fault;
+      names.push_back(fault.name);
+    }
+  }
+  throw InputError("rig", "there is no fault '" + name + "'", nearest_word(name, names));
+}
+
+std::vector<std::string> names_in(const std::string& split) {
+  for (const FaultList& list : fault_lists()) {
+    if (list.split != split) continue;
+    std::vector<std::string> names;
+    for (const Fault& fault : list.faults) names.push_back(fault.name);
+    return names;
+  }
+  throw InputError("rig", "there is no split '" + split + "' of the faults");
+}
+
+}  // namespace fusee::rig

@@ -1,0 +1,125 @@
+// What faults do on the rig and in fusee's forward model, which share no equation: each fault's own part of the
+// reading, with the truth's numbers in both.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <ostream>
+
+#include "fusee/joint/simulate.h"
+#include "rig/rig.h"
+#include "support/mechanisms.h"
+
+namespace fusee::rig {
+namespace {
+
+struct SameFault {
+  const char* name;
+  void (*hide)(Hidden&);
+  void (*say)(Imperfections&);
+  double share;  ///< of the action that may be missed, rms
+};
+
+void PrintTo(const SameFault& fault, std::ostream* out) { *out << fault.name; }
+
+/// A motor's wave as the rig writes it: amplitude (sin(n α + phase) − sin phase).
+constexpr double k_wave = radians(0.4), k_phase = 0.7;
+
+const std::vector<SameFault> k_faults{
+    {"as_declared_but_for_stretch", [](Hidden& h) { h.modulus = 5000; },
+     [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.03},
+    {"motor_sensor_harmonic",
+     [](Hidden& h) { h.motor_harmonic = k_wave, h.motor_harmonic_phase = k_phase, h.motor_harmonic_order = 3; },
+     [](Imperfections& at) {
+       at.motor.wave_sin = k_wave * std::cos(k_phase), at.motor.wave_cos = k_wave * std::sin(k_phase);
+       at.motor.wave_order = 3;
+     },
+     0.03},
+    {"joint_sensor_harmonic",
+     [](Hidden& h) { h.joint_harmonic = k_wave, h.joint_harmonic_phase = k_phase, h.joint_harmonic_order = 2; },
+     [](Imperfections& at) {
+       at.sensor.wave_sin = k_wave * std::cos(k_phase), at.sensor.wave_cos = k_wave * std::sin(k_phase);
+     },
+     0.01},
+    {"delay", [](Hidden& h) { h.lag = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05; }, 0.03},
+    {"filter", [](Hidden& h) { h.lag_filter = 0.05; },
+     [](Imperfections& at) { at.sensor.lag = 0.05, at.sensor.first_order = 1; }, 0.03},
+    {"left_pin", [](Hidden& h) { h.pin_outward[0] = 1.2, h.pin_down[0] = -0.6; },
+     [](Imperfections& at) {
+       at.pins.left = {1.2, -0.6};
+     },
+     0.02},
+    {"right_pin", [](Hidden& h) { h.pin_outward[1] = -0.8, h.pin_down[1] = 1.0; },
+     [](Imperfections& at) {
+       at.pins.right = {-0.8, 1.0};
+     },
+     0.02},
+    {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.give = 5e-3; }, 0.06},
+    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.08},
+    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.15},
+    {"slack", [](Hidden& h) { h.slack = 1.0; },
+     [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.08},
+};
+
+class Same : public ::testing::TestWithParam<SameFault> {};
+
+std::vector<double> flat(const std::vector<Log>& logs) {
+  std::vector<double> theta;
+  for (const Log& log : logs) {
+    for (const Row& row : log) theta.push_back(row.theta);
+  }
+  return theta;
+}
+
+std::vector<double> flat(const Readings& readings) {
+  std::vector<double> theta;
+  for (const std::vector<double>& run : readings) theta.insert(theta.end(), run.begin(), run.end());
+  return theta;
+}
+
+double rms(const std::vector<double>& one, const std::vector<double>& other) {
+  double squares = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) squares += (one[i] - other[i]) * (one[i] - other[i]);
+  return std::sqrt(squares / static_cast<double>(one.size()));
+}
+
+std::vector<double> less(std::vector<double> one, const std::vector<double>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] -= other[i];
+  return one;
+}
+
+TEST_P(Same, FaultDoesTheSameInBoth) {
+  DeclaredMechanism declared = testing::forearm();
+  declared.tendon.modulus = 8000;
+  const MadeJoint joint = make_joint(declared);
+  Hidden hidden;
+  GetParam().hide(hidden);
+  SensorPlan silent;
+  silent.noise = 0;
+  MotionPlan motion;
+  motion.rows_per_stroke = 60;
+  const std::vector<RunPlan> runs = full_protocol(10);
+  const std::vector<Log> faulty = log_runs(joint, hidden, runs, silent, motion);
+  BenchLog log;
+  for (const Log& run : faulty) {
+    BenchRun& bench = log.emplace_back();
+    bench.has_load = true;
+    for (const Row& row : run) bench.rows.push_back({row.time, row.alpha, row.load, row.temperature});
+  }
+  Imperfections at;
+  GetParam().say(at);
+  const std::vector<double> shown = less(flat(faulty), flat(log_runs(joint, {}, runs, silent, motion)));
+  const std::vector<double> said = less(flat(predict(declared, at, log)), flat(predict(declared, {}, log)));
+  const double size = rms(shown, std::vector<double>(shown.size(), 0.0));
+  const double miss = rms(shown, said);
+  std::printf("%s: %.4f deg, missed %.4f\n", GetParam().name, degrees(size), degrees(miss));
+  EXPECT_GT(degrees(size), 0.01);
+  EXPECT_LT(miss, GetParam().share * size) << degrees(size) << " deg, missed " << degrees(miss);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fault, Same, ::testing::ValuesIn(k_faults),
+                         [](const auto& fault) { return std::string(fault.param.name); });
+
+}  // namespace
+}  // namespace fusee::rig

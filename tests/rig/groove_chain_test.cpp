@@ -1,0 +1,174 @@
+// Tendon in a round groove, where everything is known by hand: the capstan, slide by slide.
+#include "rig/groove_chain.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "fusee/base/units.h"
+
+namespace fusee::rig {
+namespace {
+
+constexpr double k_radius = 16.0;
+constexpr double k_EA = 7070.0;
+const Cord k_cord{k_EA, 0.0, 1.0};
+
+const Hull& disc() {
+  static const Hull hull = [] {
+    Polygon corners;
+    for (int i = 0; i < 7200; ++i) corners.push_back(k_radius * unit(k_two_pi * i / 7200));
+    return hull_of(corners);
+  }();
+  return hull;
+}
+
+/// From the knot at arc 0 round by `turn`, under `tension`.
+GrooveChain wound(double turn, double tension, double friction) {
+  return GrooveChain(disc(), 0.0, k_radius * turn, tension, friction, k_cord);
+}
+
+/// The take-off stays where it is and its tension goes from `before` to `tension` at once: material given.
+double given(GrooveChain& chain, double turn, double before, double tension) {
+  chain.reach(k_radius * turn, before, k_cord);
+  return -chain.settle(tension);
+}
+
+TEST(Turning, of_a_circle_is_arc_by_radius) {
+  const Turning turning(disc());
+  for (const double angle : {-7.0, -0.3, 0.0, 1.0, 3.0, 6.2, 9.9})
+    EXPECT_NEAR(turning.at(k_radius * angle) - turning.at(0.0), angle, 2e-6) << angle;
+}
+
+/// A pull slides a full wrap as far as e^(μφ) lets it: ∫ (T e^(−μφ) − T₀) r dφ / EA, up to where both are alike.
+TEST(Groove, a_pull_slides_as_much_out_as_the_capstan_says) {
+  for (const double friction : {0.1, 0.2, 0.5}) {
+    GrooveChain chain = wound(k_two_pi, 10.0, friction);
+    const double front = std::min(k_two_pi, std::log(14.0 / 10.0) / friction);
+    const double by_hand =
+        k_radius / k_EA * (14.0 * (1.0 - std::exp(-friction * front)) / friction - 10.0 * front) / (1 + 14.0 / k_EA);
+    EXPECT_NEAR(given(chain, k_two_pi, 10.0, 14.0), by_hand, 0.004 * by_hand) << friction;
+    EXPECT_NEAR(chain.knot_tension(), std::max(10.0, 14.0 * std::exp(-friction * k_two_pi)), 0.06) << friction;
+  }
+}
+
+/// Let down again only the near part slides back, at twice the friction.
+TEST(Groove, remembers_how_far_it_was_pulled) {
+  const double friction = 0.2;
+  GrooveChain chain = wound(k_two_pi, 10.0, friction);
+  given(chain, k_two_pi, 10.0, 14.0);
+  const double front = std::log(14.0 / 11.0) / (2 * friction);
+  const double by_hand = k_radius / k_EA / friction *
+                         (14.0 * (1.0 - std::exp(-friction * front)) - 11.0 * (std::exp(friction * front) - 1.0)) /
+                         (1 + 11.0 / k_EA);
+  EXPECT_NEAR(-given(chain, k_two_pi, 14.0, 11.0), by_hand, 0.01 * by_hand);
+  EXPECT_NEAR(given(chain, k_two_pi, 11.0, 11.0), 0.0, 1e-6) << "and then nothing moves";
+}
+
+TEST(Groove, without_friction_is_a_longer_free_span) {
+  GrooveChain chain = wound(4.0, 10.0, 0.0);
+  const double material = 4.0 * k_radius / (1.0 + 10.0 / k_EA);
+  EXPECT_NEAR(given(chain, 4.0, 10.0, 25.0), material - 4.0 * k_radius / (1.0 + 25.0 / k_EA), 1e-12);
+  EXPECT_NEAR(chain.knot_tension(), 25.0, 1e-9);
+}
+
+/// Held fast it gives back what was laid, at the strain it was laid at: last on, first off.
+TEST(Groove, with_great_friction_keeps_the_strain_of_winding) {
+  GrooveChain chain = wound(2.0, 10.0, 1e6);
+  chain.reach(k_radius * 2.5, 30.0, k_cord);
+  EXPECT_NEAR(chain.settle(30.0), 0.5 * k_radius / (1.0 + 30.0 / k_EA), 1e-12);
+  chain.reach(k_radius * 2.0, 0.0, k_cord);
+  EXPECT_NEAR(-chain.settle(3.0), 0.5 * k_radius / (1.0 + 30.0 / k_EA), 1e-9);
+  chain.reach(k_radius * 1.5, 3.0, k_cord);
+  EXPECT_NEAR(-chain.settle(3.0), 0.5 * k_radius / (1.0 + 10.0 / k_EA), 1e-9);
+}
+
+/// Wound and unwound under a pull that changes, round and round: the same loop again, and work is lost, never won.
+TEST(Groove, a_cycle_settles_and_no_work_comes_out) {
+  for (const double friction : {0.02, 0.2, 1.0, 20.0}) {
+    GrooveChain chain = wound(2.0, 10.0, friction);
+    double before = 10.0, turn = 2.0;
+    double free_material = 0, first_material = 0;
+    std::array<double, 4> work{};
+    constexpr int steps = 400;
+    for (std::size_t cycle = 0; cycle < 4; ++cycle) {
+      const double stored = chain.stored();
+      for (int i = 1; i <= steps; ++i) {
+        const double phase = k_two_pi * i / steps;
+        const double next = 2.0 + 1.2 * std::sin(phase);
+        const double tension = 10.0 + 6.0 * std::sin(phase + 0.9);
+        chain.reach(k_radius * next, before, k_cord);
+        const double taken = chain.settle(tension);
+        free_material += taken;
+        // The tendon is drawn in by `length` under the tension, and brings the energy of its stretch with it.
+        const double middle = 0.5 * (before + tension);
+        const double length = taken * (1.0 + middle / k_EA);
+        // The groove itself moves towards the free tendon by what is wound: that work is the motor's.
+        const double motor = middle * k_radius * (next - turn);
+        work[cycle] += motor - middle * length + 0.5 * middle * middle / k_EA * taken;
+        before = tension;
+        turn = next;
+      }
+      work[cycle] -= chain.stored() - stored;
+      if (cycle == 2) first_material = free_material;
+    }
+    EXPECT_NEAR(free_material, first_material, 1e-5) << friction << ": it creeps from cycle to cycle";
+    EXPECT_NEAR(work[3], work[2], 1e-3) << friction;
+    EXPECT_GT(work[3], -2e-4) << friction;
+    if (friction == 0.2) {
+      EXPECT_GT(work[3], 0.01) << "sliding rubs";
+    }
+  }
+}
+
+/// The same springs in no order at all: each node that is not held gives way a little, until all are.
+TEST(Groove, relaxing_node_by_node_comes_to_the_same) {
+  constexpr std::size_t count = 60;
+  constexpr double friction = 0.2, turn = 2.0, pull = 14.0;
+  const double hold = std::exp(friction * turn / count);
+  std::array<double, count> tension;
+  tension.fill(10.0);
+  const double stiffness = k_EA / (k_radius * turn / count / (1.0 + 10.0 / k_EA));
+  double out = 0;
+  // Node 0 is the take-off, at half a spring's hold from the first one.
+  for (int sweep = 0; sweep < 40000; ++sweep) {
+    double moved = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double outer = i == 0 ? pull : tension[i - 1];
+      const double held = (i == 0 ? std::sqrt(hold) : hold) * tension[i];
+      if (outer <= held) continue;
+      const double slide = (i == 0 ? outer / std::sqrt(hold) - tension[i] : (outer - held) / (1.0 + hold)) / stiffness;
+      tension[i] += stiffness * slide;
+      if (i > 0) tension[i - 1] -= stiffness * slide;
+      if (i == 0) out += slide;
+      moved += slide;
+    }
+    if (moved < 1e-14) break;
+  }
+  GrooveChain chain = wound(turn, 10.0, friction);
+  EXPECT_NEAR(given(chain, turn, 10.0, pull) * (1.0 + pull / k_EA), out, 1e-4 * out);
+  EXPECT_NEAR(chain.knot_tension(), tension[count - 1], 1e-3);
+}
+
+double given_letting_go(GrooveChain& chain, double material) {
+  chain.reach(k_radius * 2.0, 10.0, k_cord);
+  chain.let_go(material);
+  return -chain.settle(10.0);
+}
+
+/// ∫ T (1 − e^(−μφ)) r dφ / EA stays behind: by so much less pulls the tendon towards its knot now.
+TEST(Groove, what_the_knot_lets_go_comes_out_but_for_what_friction_keeps) {
+  GrooveChain chain = wound(2.0, 10.0, 0.0);
+  EXPECT_NEAR(given_letting_go(chain, 0.2), 0.2, 1e-9);
+  GrooveChain rubbing = wound(2.0, 10.0, 0.2);
+  const double given = given_letting_go(rubbing, 0.2);
+  const double kept = k_radius * 10.0 / k_EA * (2.0 - (1.0 - std::exp(-0.4)) / 0.2);
+  EXPECT_NEAR(0.2 - given, kept, 0.03 * kept);
+  EXPECT_NEAR(rubbing.knot_tension(), 10.0 * std::exp(-0.4), 0.05);
+  GrooveChain little = wound(2.0, 10.0, 0.2);
+  EXPECT_NEAR(given_letting_go(little, 0.2 * kept), 0.0, 1e-6) << "and a little of it stays at the knot";
+}
+
+}  // namespace
+}  // namespace fusee::rig
