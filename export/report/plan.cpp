@@ -30,11 +30,16 @@ Json angle(double value) { return number(degrees(value)); }
 
 std::string_view word(BenchChange change) {
   switch (change) {
-    case BenchChange::motor_sensor_turned: return "motor_sensor_turned";
-    case BenchChange::joint_sensor_turned: return "joint_sensor_turned";
-    case BenchChange::doubled_pretension: return "doubled_pretension";
-    case BenchChange::on_its_side: return "on_its_side";
-    case BenchChange::none: break;
+    case BenchChange::motor_sensor_turned:
+      return "motor_sensor_turned";
+    case BenchChange::joint_sensor_turned:
+      return "joint_sensor_turned";
+    case BenchChange::doubled_pretension:
+      return "doubled_pretension";
+    case BenchChange::on_its_side:
+      return "on_its_side";
+    case BenchChange::none:
+      break;
   }
   return "none";
 }
@@ -79,7 +84,10 @@ Json cause_json(const PlannedCause& cause) {
 }
 
 Json blame_json(const FalseBlame& blame) {
-  return {{"worlds", blame.worlds}, {"falsely_blamed", blame.blamed}, {"named_alone", blame.alone}, {"named_in_group", blame.group}};
+  return {{"worlds", blame.worlds},
+          {"falsely_blamed", blame.blamed},
+          {"named_alone", blame.alone},
+          {"named_in_group", blame.group}};
 }
 
 std::string comments(const PlanProduct& product, std::size_t step) {
@@ -107,9 +115,10 @@ std::string hanging_words(const PlanProduct& product, const PlannedRun& run) {
   const Mechanism& declared = product.file.mechanism;
   if (declared.transmission) return "load " + rounded(run.load, 4) + " in the unit of your log";
   const double mass = std::abs(run.load) / k_gravity;
-  return "tip force " + rounded(run.load, 4) + " N, " + (run.load > 0 ? "against" : "along") +
-         " +theta: hang " + rounded(mass, 3) + " kg on a cord over a disc of radius " + rounded(declared.joint.R, 4) +
-         " mm on the joint's axis (torque " + rounded(std::abs(run.load) * declared.joint.R, 4) + " Nmm at every angle)";
+  return "tip force " + rounded(run.load, 4) + " N, " + (run.load > 0 ? "against" : "along") + " +theta: hang " +
+         rounded(mass, 3) + " kg on a cord over a disc of radius " + rounded(declared.joint.R, 4) +
+         " mm on the joint's axis (torque " + rounded(std::abs(run.load) * declared.joint.R, 4) +
+         " Nmm at every angle)";
 }
 
 std::string run_csv(const PlanProduct& product, std::size_t step) {

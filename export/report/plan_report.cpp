@@ -43,8 +43,8 @@ std::vector<std::string> things_to_do(const PlanProduct& product, std::size_t st
   const std::string hanging = hanging_words(product, run);
   things.push_back(hanging.empty() ? "nothing hangs on the joint" : hanging);
   things.push_back("drive the motor between " + fixed(degrees(run.from), 1) + "° and " + fixed(degrees(run.to), 1) +
-                   "°, " + std::to_string(run.cycles) + " times there and back, at " +
-                   rounded(degrees(run.speed), 3) + "°/s; begin at " + fixed(degrees(run.from), 1) + "°");
+                   "°, " + std::to_string(run.cycles) + " times there and back, at " + rounded(degrees(run.speed), 3) +
+                   "°/s; begin at " + fixed(degrees(run.from), 1) + "°");
   if (run.dwell > 0) things.push_back("hold it for " + rounded(run.dwell, 3) + " s at both ends, and go on logging");
   things.push_back("log time, motor angle and joint angle into " + run_file_name(product.plan, step));
   return things;
@@ -52,12 +52,14 @@ std::vector<std::string> things_to_do(const PlanProduct& product, std::size_t st
 
 std::string step_item(const PlanProduct& product, std::size_t i) {
   const PlanStep& step = product.plan.steps[i];
-  std::string html = "<li><div class=\"box\"></div><div><h3>" + std::to_string(i + 1) + ". " + safe_text(step.words) + "</h3>";
+  std::string html =
+      "<li><div class=\"box\"></div><div><h3>" + std::to_string(i + 1) + ". " + safe_text(step.words) + "</h3>";
   if (step.run) {
     html += html_list(things_to_do(product, i), "ul", "do");
   } else {
-    html += "<p>three times, at different places: <span class=\"value\">&#160;</span> <span "
-            "class=\"value\">&#160;</span> <span class=\"value\">&#160;</span></p>";
+    html +=
+        "<p>three times, at different places: <span class=\"value\">&#160;</span> <span "
+        "class=\"value\">&#160;</span> <span class=\"value\">&#160;</span></p>";
   }
   if (!step.buys.empty()) {
     std::string buys;
@@ -94,12 +96,13 @@ std::string causes_section(const Plan& plan) {
             safe_text(cause.smallest_alone ? size_words(*cause.smallest_alone) : std::string("–")) + "</td><td>" +
             safe_text(names_of(cause.rivals)) + "</td></tr>";
   }
-  return part("causes", "What these runs can show",
-              "<p class=\"lead\">At the joint, rms over the runs: what each cause does at its usual size, the least of "
-              "it that would be seen, the least that could be named alone, and what it could not be told from.</p>"
-              "<div class=\"scroll\"><table><thead><tr><th>cause</th><th class=\"number\">usual</th><th "
-              "class=\"number\">seen from</th><th class=\"number\">alone from</th><th>not told from</th></tr></thead><tbody>" +
-                  rows + "</tbody></table></div>");
+  return part(
+      "causes", "What these runs can show",
+      "<p class=\"lead\">At the joint, rms over the runs: what each cause does at its usual size, the least of "
+      "it that would be seen, the least that could be named alone, and what it could not be told from.</p>"
+      "<div class=\"scroll\"><table><thead><tr><th>cause</th><th class=\"number\">usual</th><th "
+      "class=\"number\">seen from</th><th class=\"number\">alone from</th><th>not told from</th></tr></thead><tbody>" +
+          rows + "</tbody></table></div>");
 }
 
 std::string left_out_section(const Plan& plan) {
@@ -133,8 +136,8 @@ std::string plan_html(const PlanProduct& product) {
       std::string(k_tool) + "\"/>\n<title>" + name + " – measuring plan</title>\n<style>" +
       std::string(embedded::page_css) + std::string(embedded::plan_css) +
       "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">Measuring plan</p>\n<h1>" + name +
-      "</h1>\n<p class=\"source\">for <code>" + safe_text(std::filesystem::path(product.file.path).filename().string()) +
-      "</code></p>\n</header>\n<main>\n";
+      "</h1>\n<p class=\"source\">for <code>" +
+      safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code></p>\n</header>\n<main>\n";
   html += key_numbers(product) + steps_section(product) + after_section(product);
   if (!product.plan.beyond.empty())
     html += part("more", "What more minutes would buy", html_list(minute_words(product.plan.beyond)));

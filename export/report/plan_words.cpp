@@ -18,7 +18,8 @@ std::vector<std::string> blame_words(const Plan& plan) {
   if (plan.one.worlds == 0) return {};
   return {"in " + joints(plan.nothing.worlds) + "as declared, these runs would have blamed something in " +
               std::to_string(plan.nothing.blamed),
-          "in " + joints(plan.one.worlds) + "with one of these causes, of its usual sizes, they would have named it alone in " +
+          "in " + joints(plan.one.worlds) +
+              "with one of these causes, of its usual sizes, they would have named it alone in " +
               std::to_string(plan.one.alone) + ", in a group in " + std::to_string(plan.one.group) +
               ", and blamed something else in " + std::to_string(plan.one.blamed),
           "in " + joints(plan.unknown.worlds) +

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double k_most_minutes = 1e5;  // ten weeks
 constexpr double k_most_load = 1e6;
-constexpr double k_most_speed = 1e5;    // deg/s
-constexpr double k_most_angle = 1e5;    // deg
+constexpr double k_most_speed = 1e5;  // deg/s
+constexpr double k_most_angle = 1e5;  // deg
 constexpr std::size_t k_most_levels = 12;
 
 // ---- what is asked --------------------------------------------------------------------------------------------------
@@ -35,7 +35,8 @@ std::vector<double> list_from(const Arguments& arguments, std::string_view optio
     const std::string_view word = rest.substr(0, rest.find(','));
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || value < least || value > most)
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || value < least ||
+        value > most)
       refuse("'" + std::string(word) + "' is none");
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
     if (word.size() == rest.size()) break;
@@ -52,14 +53,16 @@ PlanFilesOptions options_from(const Arguments& arguments, const std::filesystem:
   plan.minutes = arguments.number("--minutes", plan.minutes, 0, k_most_minutes, "min");
   plan.loads = list_from(arguments, "--loads", -k_most_load, k_most_load);
   for (const double speed : list_from(arguments, "--speeds", 1e-3, k_most_speed)) plan.speeds.push_back(radians(speed));
-  if (const std::vector<double> range = list_from(arguments, "--range-deg", -k_most_angle, k_most_angle); !range.empty()) {
+  if (const std::vector<double> range = list_from(arguments, "--range-deg", -k_most_angle, k_most_angle);
+      !range.empty()) {
     if (range.size() != 2 || range[0] >= range[1])
       throw UsageError("--range-deg takes two motor angles, the smaller first", "for example: --range-deg -90,90");
     plan.range = {radians(range[0]), radians(range[1])};
   }
   plan.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
   plan.progress = [&console](const std::string& what) { console.progress("simulating: " + what); };
-  options.folder = arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_plan")).string());
+  options.folder =
+      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_plan")).string());
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   return options;
@@ -72,7 +75,8 @@ std::string steps_text(const Plan& plan) {
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     const PlanStep& step = plan.steps[i];
     const std::string file = step.run ? run_file_name(plan, i) + ", " : "";
-    text += wrapped(file + step.words + " (" + fixed(step.minutes, 1) + " min)", "  " + std::to_string(i + 1) + ". ", "     ");
+    text += wrapped(file + step.words + " (" + fixed(step.minutes, 1) + " min)", "  " + std::to_string(i + 1) + ". ",
+                    "     ");
   }
   return text;
 }
@@ -83,7 +87,9 @@ std::string causes_text(const Plan& plan) {
     rows.push_back({"  " + cause.name, rounded(degrees(cause.usual), 2), rounded(degrees(cause.smallest), 2),
                     cause.smallest_alone ? rounded(degrees(*cause.smallest_alone), 2) : "–"});
   }
-  return table({{"deg rms at the joint"}, {"usual", Align::right}, {"seen from", Align::right}, {"alone from", Align::right}}, rows);
+  return table(
+      {{"deg rms at the joint"}, {"usual", Align::right}, {"seen from", Align::right}, {"alone from", Align::right}},
+      rows);
 }
 
 std::string listed(const std::string& title, const std::vector<std::string>& lines) {
@@ -120,12 +126,14 @@ void refuse_short_time(const PlanResult& result, const std::string& path, Reply&
   reply.exit = Exit::bad_input;
   const std::string given = rounded(result.product.minutes) + (result.product.minutes == 1 ? " minute" : " minutes");
   if (first.empty()) {
-    reply.diagnostics.push_back(about_file(Severity::error, path, "no run can be made: the joint has no equilibrium in any"));
+    reply.diagnostics.push_back(
+        about_file(Severity::error, path, "no run can be made: the joint has no equilibrium in any"));
     return;
   }
-  Diagnostic error = note(Severity::error, "nothing can be measured in " + given + ": the first run takes " +
-                                               rounded(first.front().minutes, 3) + " minutes",
-                          "--minutes " + rounded(std::ceil(first.front().minutes)) + " or more; or a higher --speeds");
+  Diagnostic error = note(
+      Severity::error,
+      "nothing can be measured in " + given + ": the first run takes " + rounded(first.front().minutes, 3) + " minutes",
+      "--minutes " + rounded(std::ceil(first.front().minutes)) + " or more; or a higher --speeds");
   reply.diagnostics.push_back(error);
   for (const std::string& words : minute_words(first)) reply.diagnostics.push_back(note(Severity::note, words));
 }
@@ -150,9 +158,8 @@ Reply run_plan(const Arguments& arguments, Console& console) {
     refuse_short_time(result, file.path, reply);
     return reply;
   }
-  reply.text = summary(result.product) + "\n" +
-               (result.published ? "In " : "Would be written (--dry-run): ") + options.folder.string() +
-               ": plan.html to follow at the bench, and empty run files\n";
+  reply.text = summary(result.product) + "\n" + (result.published ? "In " : "Would be written (--dry-run): ") +
+               options.folder.string() + ": plan.html to follow at the bench, and empty run files\n";
   return reply;
 }
 

@@ -24,11 +24,16 @@ std::string pace_words(const PlannedRun& run, double slow) {
 
 std::string_view words(BenchChange change) {
   switch (change) {
-    case BenchChange::motor_sensor_turned: return "turn the motor's encoder on its shaft by a quarter turn";
-    case BenchChange::joint_sensor_turned: return "turn the joint's encoder on its axis by a quarter turn";
-    case BenchChange::doubled_pretension: return "double the pretension";
-    case BenchChange::on_its_side: return "lay the joint on its side";
-    case BenchChange::none: break;
+    case BenchChange::motor_sensor_turned:
+      return "turn the motor's encoder on its shaft by a quarter turn";
+    case BenchChange::joint_sensor_turned:
+      return "turn the joint's encoder on its axis by a quarter turn";
+    case BenchChange::doubled_pretension:
+      return "double the pretension";
+    case BenchChange::on_its_side:
+      return "lay the joint on its side";
+    case BenchChange::none:
+      break;
   }
   return "";
 }
@@ -45,13 +50,13 @@ ChangedJoint changed(const Mechanism& declared, const Imperfections& at, BenchCh
   return joint;
 }
 
-double minutes_of(const PlannedRun& run) {
-  return run.cycles * 2 * (seconds_of_stroke(run) + run.dwell) / 60.0;
-}
+double minutes_of(const PlannedRun& run) { return run.cycles * 2 * (seconds_of_stroke(run) + run.dwell) / 60.0; }
 
 std::string words(const PlannedRun& run, double slow, const std::string& load_unit) {
   const std::string amount = rounded(run.load, 3);
-  const std::string load = run.load == 0 ? "without load" : load_unit.empty() ? "at load " + amount : "at " + amount + " " + load_unit;
+  const std::string load = run.load == 0       ? "without load"
+                           : load_unit.empty() ? "at load " + amount
+                                               : "at " + amount + " " + load_unit;
   const std::string pace = pace_words(run, slow);
   std::string text = std::to_string(run.cycles) + (run.cycles == 1 ? " cycle, " : " cycles, ") + pace + ", " + load;
   if (run.dwell > 0) text += ", held for " + rounded(run.dwell, 3) + " s at both ends";
@@ -86,7 +91,9 @@ BenchRun driven(const PlannedRun& run, int rows_a_stroke) {
 std::size_t RankedMeasurement::told() const {
   return static_cast<std::size_t>(std::count_if(margins.begin(), margins.end(), [](double m) { return m > 1; }));
 }
-double RankedMeasurement::most() const { return margins.empty() ? 0.0 : *std::max_element(margins.begin(), margins.end()); }
+double RankedMeasurement::most() const {
+  return margins.empty() ? 0.0 : *std::max_element(margins.begin(), margins.end());
+}
 
 void rank(std::vector<RankedMeasurement>& measurements) {
   std::stable_sort(measurements.begin(), measurements.end(),

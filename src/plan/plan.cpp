@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "fusee/base/text.h"
@@ -117,8 +116,9 @@ class Planner {
       if (margin(signatures_, all, cause, nullptr) >= 1) {
         causes_.push_back(cause);
       } else {
-        left_out_.emplace_back(cause.effect->name, "too small to matter here: at its usual size it moves the joint by " +
-                                                       rounded(degrees(size), 2) + " deg rms");
+        left_out_.emplace_back(cause.effect->name,
+                               "too small to matter here: at its usual size it moves the joint by " +
+                                   rounded(degrees(size), 2) + " deg rms");
       }
     }
   }
@@ -129,20 +129,22 @@ class Planner {
       std::vector<double>& row = margins.emplace_back();
       row.push_back(k_plan.worth_a_name * margin(signatures_, known, cause, nullptr));
       for (const Cause& rival : causes_)
-        row.push_back(&rival == &cause ? 1.0
-                                       : std::min(row.front(), k_plan.worth_a_name *
-                                                                   margin(signatures_, known, cause, &rival)));
+        row.push_back(&rival == &cause
+                          ? 1.0
+                          : std::min(row.front(), k_plan.worth_a_name * margin(signatures_, known, cause, &rival)));
     }
     return margins;
   }
 
-  /// Of all that could be told, the share that is, 0 … 1.
+  /// Of all that could be told, the share that is, 0 … 1: a cause is seen, is told from others, and half of its worth,
+  /// is told from the one that is nearest to it.
   double told(const Information& known) const {
     double sum = 0;
     for (const std::vector<double>& row : margins_of(known)) {
       double rivals = 0;
-      for (std::size_t i = 1; i < row.size(); ++i) rivals += std::min(1.0, row[i]);
-      sum += 0.5 * std::min(1.0, row.front()) + 0.5 * rivals / static_cast<double>(row.size() - 1);
+      for (const double told : row) rivals += std::min(1.0, told);
+      const double nearest = *std::min_element(row.begin(), row.end());
+      sum += 0.5 * rivals / static_cast<double>(row.size()) + 0.5 * std::min(1.0, nearest);
     }
     return causes_.empty() ? 1.0 : sum / static_cast<double>(causes_.size());
   }
@@ -220,6 +222,17 @@ class Planner {
     return words;
   }
 
+  /// Of every cause the places of those that it is not told from.
+  std::vector<std::set<std::size_t>> rivals_in(const Information& known) const {
+    std::vector<std::set<std::size_t>> rivals(causes_.size());
+    for (std::size_t a = 0; a < causes_.size(); ++a) {
+      for (std::size_t b = 0; b < causes_.size(); ++b) {
+        if (a != b && margin(signatures_, known, causes_[a], &causes_[b]) < 1) rivals[a].insert(b);
+      }
+    }
+    return rivals;
+  }
+
   void put_steps(const std::vector<std::size_t>& chosen, Information& known, double minutes,
                  std::vector<PlanStep>& into) const {
     Margins before = margins_of(known);
@@ -246,9 +259,9 @@ class Planner {
       if (&rival == &cause) continue;
       const double told = margin(signatures_, known, cause, &rival);
       least = std::min(least, told);
-      if (told < 1) described.rivals.push_back(rival.effect->name);
+      if (seen >= 1 && told < 1) described.rivals.push_back(rival.effect->name);
     }
-    if (described.rivals.empty() && least >= 1) described.smallest_alone = described.usual / least;
+    if (least >= 1) described.smallest_alone = described.usual / least;
     const EffectParameter& number = *cause.numbers.front();
     const double size = usual_size(number, bench_.largest_load()) / std::max(seen, 1e-9);
     described.key = number.key.name;
@@ -256,25 +269,23 @@ class Planner {
     return described;
   }
 
-  /// Causes that are connected by rivalry stay together.
+  /// Every cause with what it is not told from; what stands whole in another group is left out.
   static std::vector<std::vector<std::string>> groups_of(const std::vector<PlannedCause>& causes) {
-    std::vector<std::vector<std::string>> groups;
-    std::set<std::string> placed;
+    std::vector<std::set<std::string>> all;
     for (const PlannedCause& cause : causes) {
-      if (cause.rivals.empty() || placed.count(cause.name)) continue;
-      std::vector<std::string> group = {cause.name};
-      placed.insert(cause.name);
-      for (std::size_t i = 0; i < group.size(); ++i) {
-        for (const PlannedCause& other : causes) {
-          const bool tied = (other.name == group[i] || std::count(other.rivals.begin(), other.rivals.end(), group[i]));
-          if (tied && placed.insert(other.name).second) group.push_back(other.name);
-          if (other.name != group[i]) continue;
-          for (const std::string& rival : other.rivals) {
-            if (placed.insert(rival).second) group.push_back(rival);
-          }
-        }
-      }
-      groups.push_back(std::move(group));
+      std::set<std::string> group(cause.rivals.begin(), cause.rivals.end());
+      if (!group.insert(cause.name).second || group.size() < 2) continue;
+      all.push_back(std::move(group));
+    }
+    const auto holds = [](const std::set<std::string>& whole, const std::set<std::string>& part) {
+      return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+    };
+    std::vector<std::vector<std::string>> groups;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      bool needed = true;
+      for (std::size_t j = 0; j < all.size() && needed; ++j)
+        needed = i == j || !holds(all[j], all[i]) || (all[j] == all[i] && i < j);
+      if (needed) groups.emplace_back(all[i].begin(), all[i].end());
     }
     return groups;
   }
@@ -284,7 +295,7 @@ class Planner {
     for (const Cause& cause : causes_) plan.causes.push_back(described(known, cause));
     plan.groups = groups_of(plan.causes);
     say("trying blame in simulated joints");
-    const Blame tried = blame(signatures_, known, causes_, options_.seed);
+    const Blame tried = blame(signatures_, known, causes_, rivals_in(known), options_.seed);
     plan.nothing = tried.nothing;
     plan.one = tried.one;
     plan.unknown = tried.unknown;
@@ -302,6 +313,8 @@ class Planner {
 
 }  // namespace
 
-Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options) { return Planner(declared, options).plan(); }
+Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options) {
+  return Planner(declared, options).plan();
+}
 
 }  // namespace fusee

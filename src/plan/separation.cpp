@@ -26,7 +26,9 @@ Information Information::none(Eigen::Index columns) {
   return {Eigen::MatrixXd::Zero(columns, columns), Eigen::MatrixXd::Zero(columns, columns), 0};
 }
 
-Information Information::with(const Signatures::Seen& seen) const { return {runs + seen.squares, readings, rows + seen.rows}; }
+Information Information::with(const Signatures::Seen& seen) const {
+  return {runs + seen.squares, readings, rows + seen.rows};
+}
 Information Information::with(const Eigen::MatrixXd& reading) const { return {runs, readings + reading, rows}; }
 
 double usual_rms(const Information& known, const Cause& cause) {
@@ -40,13 +42,13 @@ double margin(const Signatures& signatures, const Information& known, const Caus
   Eigen::MatrixXd shared(cause.count(), model + beside);
   Eigen::MatrixXd others(model + beside, model + beside);
   shared.leftCols(model) = known.runs.block(cause.first, signatures.model_first(), cause.count(), model);
-  others.topLeftCorner(model, model) = known.runs.block(signatures.model_first(), signatures.model_first(), model, model);
+  others.topLeftCorner(model, model) =
+      known.runs.block(signatures.model_first(), signatures.model_first(), model, model);
   Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(model + beside, model + beside);
   if (rival != nullptr) {
     shared.rightCols(beside) = block(known.runs, cause, *rival);
     others.bottomRightCorner(beside, beside) = block(known.runs, *rival, *rival);
-    others.topRightCorner(model, beside) =
-        known.runs.block(signatures.model_first(), rival->first, model, beside);
+    others.topRightCorner(model, beside) = known.runs.block(signatures.model_first(), rival->first, model, beside);
     others.bottomLeftCorner(beside, model) = others.topRightCorner(model, beside).transpose();
     precision.bottomRightCorner(beside, beside) += block(known.readings, *rival, *rival);
   }

@@ -48,7 +48,6 @@ std::vector<Place> places(const BenchRun& run, const Bench& bench) {
   return all;
 }
 
-
 }  // namespace
 
 double usual_size(const EffectParameter& number, double largest_load) {

@@ -92,18 +92,18 @@ class Court {
     return (known_.runs + known_.readings) * x + noise_ * noise;
   }
 
-  /// The causes that would be named together; none where something without a name does as well. `without`: not in the
-  /// catalogue.
-  std::vector<const Cause*> named(const Eigen::VectorXd& z, const Cause* without) const {
+  /// The places of the causes that would be named together; none where something without a name does as well.
+  /// `without`: not in the catalogue.
+  std::vector<std::size_t> named(const Eigen::VectorXd& z, const Cause* without) const {
     double unnamed = -1e300;
     for (const Explanation& explanation : unnamed_) unnamed = std::max(unnamed, explanation.evidence(z));
     std::vector<double> evidence;
     for (std::size_t i = 0; i < causes_.size(); ++i)
       evidence.push_back(&causes_[i] == without ? -1e300 : named_[i].evidence(z));
     const double best = evidence.empty() ? -1e300 : *std::max_element(evidence.begin(), evidence.end());
-    std::vector<const Cause*> group;
+    std::vector<std::size_t> group;
     for (std::size_t i = 0; best > unnamed + k_plan.odds && i < causes_.size(); ++i) {
-      if (evidence[i] > best - k_plan.odds) group.push_back(&causes_[i]);
+      if (evidence[i] > best - k_plan.odds) group.push_back(i);
     }
     return group;
   }
@@ -116,26 +116,32 @@ class Court {
   Eigen::MatrixXd noise_;
 };
 
-void count(const std::vector<const Cause*>& group, const Cause* truth, FalseBlame& into) {
+constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+
+/// `kin`: what the truth, if it is not in the group itself, may be taken for.
+void count(const std::vector<std::size_t>& group, std::size_t truth, const std::set<std::size_t>& kin,
+           FalseBlame& into) {
   ++into.worlds;
   const bool holds = std::find(group.begin(), group.end(), truth) != group.end();
-  if (!group.empty() && !holds) ++into.blamed;
+  const bool near = std::any_of(group.begin(), group.end(), [&](std::size_t i) { return kin.count(i) > 0; });
+  if (!group.empty() && !holds && !near) ++into.blamed;
   if (holds) ++(group.size() == 1 ? into.alone : into.group);
 }
 
 }  // namespace
 
-Blame blame(const Signatures& signatures, const Information& known, const std::vector<Cause>& causes, std::uint64_t seed) {
+Blame blame(const Signatures& signatures, const Information& known, const std::vector<Cause>& causes,
+            const std::vector<std::set<std::size_t>>& rivals, std::uint64_t seed) {
   Blame blame;
   const Court court(signatures, known, causes);
   NormalNumbers numbers(seed);
   for (int world = 0; world < k_plan.worlds; ++world) {
-    count(court.named(court.measured(nullptr, numbers), nullptr), nullptr, blame.nothing);
+    count(court.named(court.measured(nullptr, numbers), nullptr), k_none, {}, blame.nothing);
     if (causes.empty()) continue;
-    const Cause* truth = &causes[static_cast<std::size_t>(world) % causes.size()];
-    const Eigen::VectorXd z = court.measured(truth, numbers);
-    count(court.named(z, nullptr), truth, blame.one);
-    count(court.named(z, truth), truth, blame.unknown);
+    const std::size_t truth = static_cast<std::size_t>(world) % causes.size();
+    const Eigen::VectorXd z = court.measured(&causes[truth], numbers);
+    count(court.named(z, nullptr), truth, {}, blame.one);
+    count(court.named(z, &causes[truth]), k_none, rivals[truth], blame.unknown);
   }
   return blame;
 }

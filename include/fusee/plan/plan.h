@@ -64,12 +64,13 @@ struct FalseBlame {
 };
 
 struct Plan {
-  std::vector<PlanStep> steps;  ///< in the order of what they buy for their minutes; empty where there is no time for any
-  std::vector<PlanStep> beyond;  ///< what more minutes would buy
-  double minutes = 0;            ///< of all steps
-  std::vector<PlannedCause> causes;                               ///< in the order of the chain
-  std::vector<std::pair<std::string, std::string>> left_out;      ///< effects that were not planned for, and why
-  std::vector<std::vector<std::string>> groups;                   ///< causes that stay together
+  std::vector<PlanStep>
+      steps;  ///< in the order of what they buy for their minutes; empty where there is no time for any
+  std::vector<PlanStep> beyond;                               ///< what more minutes would buy
+  double minutes = 0;                                         ///< of all steps
+  std::vector<PlannedCause> causes;                           ///< in the order of the chain
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< effects that were not planned for, and why
+  std::vector<std::vector<std::string>> groups;               ///< causes that stay together
   FalseBlame nothing, one, unknown;  ///< joints as declared; with one cause; with one that the catalogue is without
   double slow = 0;                   ///< rad/s
   double from = 0, to = 0;           ///< of the motor, rad
