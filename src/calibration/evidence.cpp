@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
+#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
 
 namespace fusee {
@@ -16,69 +18,140 @@ constexpr std::size_t k_most_rows = 1500;
 /// A joint declared by a ratio costs next to nothing to simulate.
 constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
+/// Of a held point, where a run holds so many that there is not enough for all.
+constexpr std::size_t k_rows_a_stand = 3;
 
 /// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are
 /// history.
-std::vector<bool> looked_at(const Run& run, std::size_t most_rows) {
+std::vector<bool> looked_at(const Run& run, std::size_t most_pairs) {
   const std::size_t pairs = (run.strokes.size() + 1) / 2;
-  const std::size_t most_pairs = std::max<std::size_t>(1, most_rows / (4 * k_least_rows_a_block));
   std::vector<bool> chosen(run.strokes.size(), true);
   for (std::size_t i = 0; pairs > most_pairs && i < chosen.size(); ++i)
     chosen[i] = (i / 2) * most_pairs / pairs != (i / 2 + 1) * most_pairs / pairs;
   return chosen;
 }
 
-/// Every n-th row, and both ends of each stroke, which the motion's history needs. `counted`: the every n-th alone,
-/// lest ends weigh too much.
+/// What a fit does with each row of a run.
+struct Taken {
+  std::vector<bool> counted;  ///< judged by
+  std::vector<bool> kept;     ///< judged by, or history
+};
+
+/// Every n-th row of the strokes looked at.
+Taken every_nth(const Run& run, std::size_t most) {
+  const std::vector<bool> chosen = looked_at(run, std::max<std::size_t>(1, most / (4 * k_least_rows_a_block)));
+  // Rows before, between and after strokes are history where all strokes are looked at.
+  std::vector<bool> inside(run.samples.size(), std::find(chosen.begin(), chosen.end(), false) == chosen.end());
+  for (std::size_t s = 0; s < run.strokes.size(); ++s) {
+    for (std::size_t i = run.strokes[s].first; chosen[s] && i <= run.strokes[s].last; ++i) inside[i] = true;
+  }
+  const auto rows = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), true));
+  const std::size_t every = (rows + most - 1) / std::max<std::size_t>(1, most);
+  Taken taken{std::vector<bool>(run.samples.size(), false), {}};
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < run.samples.size(); ++i) taken.counted[i] = inside[i] && seen++ % every == 0;
+  taken.kept = taken.counted;
+  return taken;
+}
+
+/// As many rows of each stand, however long it is; a few of it tell what all of it tells.
+Taken of_each_stand(const Run& run, std::size_t most) {
+  const auto stands = static_cast<std::size_t>(
+      std::count_if(run.stretches.begin(), run.stretches.end(), [](const Stretch& s) { return s.held; }));
+  const std::size_t most_pairs = std::max<std::size_t>(1, most * ((run.strokes.size() + 1) / 2) / stands);
+  const std::vector<bool> chosen = looked_at(run, most_pairs);
+  const std::size_t rows = std::max(most / stands, k_rows_a_stand);
+  Taken taken{std::vector<bool>(run.samples.size(), false), {}};
+  for (const Stretch& stretch : run.stretches) {
+    if (!chosen[stretch.stroke]) continue;
+    const std::size_t count = stretch.last - stretch.first + 1, used = std::min(count, rows);
+    for (std::size_t i = 0; i < used; ++i) taken.counted[stretch.first + (2 * i + 1) * count / (2 * used)] = true;
+  }
+  taken.kept = taken.counted;
+  return taken;
+}
+
+/// Strokes without which play and friction would begin anew: all, or of very many those looked at and two before each.
+std::vector<bool> strokes_kept(const Run& run, const Taken& taken, std::size_t most) {
+  std::vector<bool> kept(run.strokes.size(), 2 * run.stretches.size() <= 10 * most);
+  for (std::size_t s = 0; s < run.strokes.size(); ++s) {
+    const auto first = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].first),
+               end = taken.counted.begin() + static_cast<std::ptrdiff_t>(run.strokes[s].last) + 1;
+    if (std::find(first, end, true) == end) continue;
+    for (std::size_t before = 0; before <= std::min<std::size_t>(2, s); ++before) kept[s - before] = true;
+  }
+  return kept;
+}
+
+/// Fewer rows, and both ends of each stretch, which the motion's history needs. `counted`: those to judge by, lest ends
+/// weigh too much.
 Run thinned(const Run& run, std::size_t most, std::vector<bool>& counted) {
   if (run.samples.size() <= most) {
     counted.insert(counted.end(), run.samples.size(), true);
     return run;
   }
-  const std::vector<bool> chosen = looked_at(run, most);
-  // Rows before, between and after strokes are history where all strokes are looked at.
-  std::vector<bool> inside(run.samples.size(), std::find(chosen.begin(), chosen.end(), false) == chosen.end());
-  std::set<std::size_t> ends;
-  for (std::size_t s = 0; s < run.strokes.size(); ++s) {
-    const Stroke& stroke = run.strokes[s];
-    ends.insert(stroke.first);
-    ends.insert(stroke.last);
-    for (std::size_t i = stroke.first; chosen[s] && i <= stroke.last; ++i) inside[i] = true;
+  Taken taken = is_from_point_to_point(run) ? of_each_stand(run, most) : every_nth(run, most);
+  const std::vector<bool> strokes = strokes_kept(run, taken, most);
+  const std::vector<Stretch> stretches = stretches_of(run);
+  for (const Stretch& stretch : stretches) {
+    if (strokes[stretch.stroke]) taken.kept[stretch.first] = taken.kept[stretch.last] = true;
   }
-  const auto rows = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), true));
-  const std::size_t every = (rows + most - 1) / std::max<std::size_t>(1, most);
   Run thin = run;
   thin.samples.clear();
+  thin.strokes.clear();
+  thin.stretches.clear();
   std::vector<std::size_t> place(run.samples.size());
-  std::size_t seen = 0;
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
     place[i] = thin.samples.size();
-    const bool takes = inside[i] && seen++ % every == 0;
-    if (!takes && !ends.count(i)) continue;
+    if (!taken.kept[i]) continue;
     thin.samples.push_back(run.samples[i]);
-    counted.push_back(takes);
+    counted.push_back(taken.counted[i]);
   }
-  for (Stroke& stroke : thin.strokes) {
+  std::vector<std::size_t> stroke_place(run.strokes.size());
+  for (std::size_t s = 0; s < run.strokes.size(); ++s) {
+    stroke_place[s] = thin.strokes.size();
+    if (!strokes[s]) continue;
+    Stroke stroke = run.strokes[s];
     stroke.first = place[stroke.first];
     stroke.last = place[stroke.last];
+    thin.strokes.push_back(stroke);
+  }
+  for (Stretch stretch : stretches) {
+    if (!strokes[stretch.stroke]) continue;
+    stretch.first = place[stretch.first];
+    stretch.last = place[stretch.last];
+    stretch.stroke = stroke_place[stretch.stroke];
+    thin.stretches.push_back(stretch);
   }
   return thin;
 }
 
-/// A run's level of load: the mean, or where it changes sign within the run, its size.
-double load_of(const Run& run) {
-  double sum = 0;
-  double squares = 0;
-  for (const Sample& sample : run.samples) {
-    sum += sample.load;
-    squares += sample.load * sample.load;
+/// A level of load: the mean, or where it changes sign within the rows, its size.
+class Level {
+ public:
+  void take(double load) {
+    sum_ += load;
+    squares_ += load * load;
+    ++count_;
   }
-  const double count = static_cast<double>(std::max<std::size_t>(1, run.samples.size()));
-  const double size = std::sqrt(squares / count);
-  return std::abs(sum / count) > 0.5 * size ? std::copysign(size, sum) : size;
+  double mean() const { return sum_ / static_cast<double>(std::max<std::size_t>(1, count_)); }
+  double load() const {
+    const double size = std::sqrt(squares_ / static_cast<double>(std::max<std::size_t>(1, count_)));
+    return std::abs(mean()) > 0.5 * size ? std::copysign(size, sum_) : size;
+  }
+
+ private:
+  double sum_ = 0, squares_ = 0;
+  std::size_t count_ = 0;
+};
+
+Level level_of(const Run& run, std::size_t first, std::size_t last) {
+  Level level;
+  for (std::size_t i = first; run.has_load && i <= last; ++i) level.take(run.samples[i].load);
+  return level;
 }
 
-/// Runs of about the same value.
+/// Items of about the same value, by their places in `values`.
 std::vector<std::vector<std::size_t>> levels(const std::vector<double>& values, double tolerance) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0);
@@ -91,16 +164,54 @@ std::vector<std::vector<std::size_t>> levels(const std::vector<double>& values, 
   return found;
 }
 
-std::vector<std::vector<std::size_t>> load_levels(const Measurement& measurement) {
-  std::vector<double> loads;
-  for (const Run& run : measurement.runs) loads.push_back(run.has_load ? load_of(run) : 0.0);
+double load_tolerance(const std::vector<double>& loads) {
+  if (loads.empty()) return 0;
   const auto [least, most] = std::minmax_element(loads.begin(), loads.end());
-  return levels(loads, std::max(1e-9, 0.08 * (*most - *least)));
+  return std::max(1e-9, 0.08 * (*most - *least));
 }
 
-std::vector<std::vector<std::size_t>> speed_levels(const Measurement& measurement) {
+/// Blocks of which the load is a level of its own: where those of one direction differ within a run. A load that turns
+/// with the motion is the run's.
+std::vector<bool> have_their_own_load(const Evidence& evidence) {
+  std::vector<double> loads;
+  for (const Block& block : evidence.blocks) loads.push_back(block.load);
+  const double tolerance = load_tolerance(loads);
+  std::map<std::pair<std::size_t, int>, SeenSpan> spans;
+  const auto key = [&](const Block& block) {
+    return std::pair(block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction);
+  };
+  for (const Block& block : evidence.blocks) spans[key(block)].take(block.load);
+  std::vector<bool> own;
+  for (const Block& block : evidence.blocks) {
+    const SeenSpan& span = spans[key(block)];
+    const double largest = std::max(std::abs(span.least), std::abs(span.most));
+    own.push_back(span.any() && span.size() > std::max(2 * tolerance, 0.1 * largest));
+  }
+  return own;
+}
+
+/// Of blocks.
+std::vector<Fold> load_levels(const Evidence& evidence) {
+  const std::vector<bool> own = have_their_own_load(evidence);
+  std::vector<double> runs, loads;
+  for (const Run& run : evidence.measurement.runs)
+    runs.push_back(run.samples.empty() ? 0 : level_of(run, 0, run.samples.size() - 1).load());
+  for (std::size_t b = 0; b < evidence.blocks.size(); ++b)
+    loads.push_back(own[b] ? evidence.blocks[b].load : runs[evidence.blocks[b].run]);
+  return levels(loads, load_tolerance(loads));
+}
+
+std::vector<Fold> speed_levels(const Evidence& evidence) {
+  // A held motor has none: slower than any sweep.
+  constexpr double held = -20;
   std::vector<double> speeds;
-  for (const Run& run : measurement.runs) speeds.push_back(run.has_time && run.speed > 0 ? std::log(run.speed) : 0.0);
+  for (const Block& block : evidence.blocks) {
+    const Run& run = evidence.measurement.runs[block.run];
+    speeds.push_back(!run.has_time                 ? 0.0
+                     : run.speed > 0               ? std::log(run.speed)
+                     : is_from_point_to_point(run) ? held
+                                                   : 0.0);
+  }
   return levels(speeds, 0.15);
 }
 
@@ -112,7 +223,7 @@ std::vector<std::size_t> blocks_of(const Evidence& evidence, const std::vector<s
   return found;
 }
 
-/// Whole runs in turn; of a lone run its strokes.
+/// Whole runs in turn; of a lone run its blocks.
 std::vector<Fold> run_folds(const Evidence& evidence) {
   std::vector<Fold> folds;
   if (evidence.measurement.runs.size() == 1) {
@@ -126,30 +237,29 @@ std::vector<Fold> run_folds(const Evidence& evidence) {
   return folds;
 }
 
-/// Whole levels of load and speed, where enough is left to learn from; whole runs that no level holds.
+/// Whole levels of load and speed, where enough is left to learn from; what no level holds as in run_folds().
 void choose_factor_folds(Evidence& evidence) {
-  const std::vector<Run>& runs = evidence.measurement.runs;
   std::set<std::size_t> held;
-  const auto hold = [&](const std::string& factor, const std::vector<std::vector<std::size_t>>& all) {
+  const auto hold = [&](const std::string& factor, std::vector<Fold> all) {
     bool any = false;
-    for (const std::vector<std::size_t>& level : all) {
-      const Fold fold = blocks_of(evidence, level);
-      if (all.size() < 2 || fold.empty() || fold.size() > 0.6 * static_cast<double>(evidence.blocks.size())) continue;
+    for (Fold& fold : all) {
+      if (all.size() < 2 || fold.size() > 0.6 * static_cast<double>(evidence.blocks.size())) continue;
+      std::sort(fold.begin(), fold.end());
+      held.insert(fold.begin(), fold.end());
       evidence.factor_folds.push_back(fold);
-      held.insert(level.begin(), level.end());
       any = true;
     }
     if (any) evidence.factors.push_back(factor);
   };
-  hold("load", load_levels(evidence.measurement));
-  hold("speed", speed_levels(evidence.measurement));
+  hold("load", load_levels(evidence));
+  hold("speed", speed_levels(evidence));
   if (evidence.factors.empty()) {
     evidence.factor_folds = evidence.run_folds;
     return;
   }
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Fold fold = blocks_of(evidence, {i});
-    if (!held.count(i) && !fold.empty()) evidence.factor_folds.push_back(fold);
+  for (Fold fold : evidence.run_folds) {
+    std::erase_if(fold, [&](std::size_t block) { return held.count(block) > 0; });
+    if (!fold.empty()) evidence.factor_folds.push_back(std::move(fold));
   }
 }
 
@@ -231,26 +341,113 @@ Eigen::VectorXd measured_theta(const Measurement& measurement) {
   return flat(theta);
 }
 
-/// Strokes with enough rows of those that are `counted`, without outliers of what the declared joint leaves.
-std::vector<Block> blocks_of(const Evidence& evidence, const std::vector<bool>& counted) {
-  Forward forward(*evidence.declared, evidence.log);
-  const Eigen::VectorXd residual = evidence.theta - flat(forward({}));
-  std::vector<Block> blocks;
-  std::size_t offset = 0;
-  for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
-    const Run& run = evidence.measurement.runs[i];
-    for (std::size_t s = 0; s < run.strokes.size(); ++s) {
-      const Stroke& stroke = run.strokes[s];
-      // Where the play stood when the log began is not known: the first stroke finds out.
-      if (stroke.partial || (s == 0 && run.strokes.size() > 2)) continue;
-      Block block{i, s, without_outliers(residual, offset + stroke.first, offset + stroke.last, evidence.floor)};
-      std::erase_if(block.rows, [&](std::size_t row) { return !counted[row]; });
-      if (block.rows.size() >= k_least_rows_a_block) blocks.push_back(std::move(block));
+/// What makes two stretches of a run repeat each other.
+struct Kind {
+  int direction = 0;
+  bool held = false;
+  int pull = 0;
+  double load = 0;
+  double alpha = 0;  ///< held: where; of stands that were joined that of the first
+};
+
+class BlockMaker {
+ public:
+  BlockMaker(const Evidence& evidence, const std::vector<bool>& counted)
+      : evidence_(evidence), counted_(counted), alphas_(seen_span(evidence.measurement, &Sample::alpha)) {
+    SeenSpan loads;
+    for (const Run& run : evidence.measurement.runs) {
+      for (const Sample& sample : run.samples) loads.take(run.has_load ? sample.load : 0.0);
     }
-    offset += run.samples.size();
+    load_tolerance_ = loads.any() ? 0.12 * loads.size() : 0;
+    Forward forward(*evidence.declared, evidence.log);
+    residual_ = evidence.theta - flat(forward({}));
   }
-  return blocks;
-}
+
+  std::vector<Block> made() {
+    for (std::size_t i = 0; i < evidence_.measurement.runs.size(); ++i) add_run(i);
+    return std::move(blocks_);
+  }
+
+ private:
+  /// Stands of too few rows, waiting for more of their kind.
+  struct Waiting {
+    Kind kind;
+    Block block;
+  };
+
+  void add_run(std::size_t i) {
+    const Run& run = evidence_.measurement.runs[i];
+    kinds_.clear();
+    waiting_.clear();
+    for (const Stretch& stretch : stretches_of(run)) {
+      if (is_settling(run, stretch)) continue;
+      const std::size_t first = offset_ + stretch.first, last = offset_ + stretch.last;
+      Block block{i, stretch.stroke, without_outliers(residual_, first, last, evidence_.floor)};
+      std::erase_if(block.rows, [&](std::size_t row) { return !counted_[row]; });
+      if (block.rows.empty()) continue;
+      block.load = level_of(run, stretch.first, stretch.last).mean();
+      const Kind kind{run.strokes[stretch.stroke].direction, stretch.held, stretch.pull, block.load,
+                      run.samples[stretch.first].alpha};
+      if (block.rows.size() >= k_least_rows_a_block) {
+        add(kind, std::move(block));
+      } else if (stretch.held) {
+        wait(kind, std::move(block));
+      }
+    }
+    // Their last ones are few.
+    for (Waiting& left : waiting_) {
+      if (2 * left.block.rows.size() >= k_least_rows_a_block) add(left.kind, std::move(left.block));
+    }
+    offset_ += run.samples.size();
+  }
+
+  /// Where the play stood when the log began is not known: the first stroke finds out, or the way to the second hold.
+  static bool is_settling(const Run& run, const Stretch& stretch) {
+    if (run.strokes[stretch.stroke].partial) return true;
+    if (is_from_point_to_point(run)) return stretch.first == run.stretches.front().first && run.stretches.size() > 2;
+    return stretch.stroke == 0 && run.strokes.size() > 2;
+  }
+
+  bool are_alike(const Kind& a, const Kind& b, bool anywhere) const {
+    const bool same_place =
+        anywhere || !a.held || std::abs(a.alpha - b.alpha) <= 0.02 * (alphas_.any() ? alphas_.size() : 0.0);
+    return a.direction == b.direction && a.held == b.held && a.pull == b.pull && same_place &&
+           std::abs(a.load - b.load) <= load_tolerance_;
+  }
+
+  void add(const Kind& kind, Block block) {
+    auto found = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& k) { return are_alike(k, kind, false); });
+    if (found == kinds_.end()) found = kinds_.insert(kinds_.end(), kind);
+    block.alike = static_cast<std::size_t>(found - kinds_.begin());
+    blocks_.push_back(std::move(block));
+  }
+
+  void wait(const Kind& kind, Block block) {
+    const auto found = std::find_if(waiting_.begin(), waiting_.end(),
+                                    [&](const Waiting& other) { return are_alike(other.kind, kind, true); });
+    if (found == waiting_.end()) {
+      waiting_.push_back({kind, std::move(block)});
+      return;
+    }
+    Block& joined = found->block;
+    const double before = static_cast<double>(joined.rows.size()), more = static_cast<double>(block.rows.size());
+    joined.load = (before * joined.load + more * block.load) / (before + more);
+    joined.rows.insert(joined.rows.end(), block.rows.begin(), block.rows.end());
+    if (joined.rows.size() < k_least_rows_a_block) return;
+    add(found->kind, std::move(joined));
+    waiting_.erase(found);
+  }
+
+  const Evidence& evidence_;
+  const std::vector<bool>& counted_;
+  SeenSpan alphas_;
+  double load_tolerance_ = 0;
+  Eigen::VectorXd residual_;  ///< of the declared joint
+  std::size_t offset_ = 0;
+  std::vector<Kind> kinds_;  ///< of this run
+  std::vector<Waiting> waiting_;
+  std::vector<Block> blocks_;
+};
 
 }  // namespace
 
@@ -268,7 +465,7 @@ Evidence gather(const DeclaredMechanism& declared, const Measurement& measuremen
   evidence.measurement = thinned(declared, measurement, counted);
   evidence.log = bench_log(evidence.measurement);
   evidence.theta = measured_theta(evidence.measurement);
-  evidence.blocks = blocks_of(evidence, counted);
+  evidence.blocks = BlockMaker(evidence, counted).made();
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);
   evidence.readings = hand_readings(declared);

@@ -13,11 +13,14 @@
 
 namespace fusee {
 
-/// A stretch of rows that stands or falls together: a stroke.
+/// Rows that stand or fall together: a stroke, one level of load on it, a held motor angle, or so many short stands
+/// from one side under one load that there are enough rows.
 struct Block {
   std::size_t run = 0;
-  std::size_t stroke = 0;
+  std::size_t stroke = 0;         ///< of short stands the first one's; they are of strokes of one direction
   std::vector<std::size_t> rows;  ///< into the rows of all runs, one after another; without outliers
+  std::size_t alike = 0;          ///< blocks of one run and direction that repeat one another share this number
+  double load = 0;                ///< mean over its rows; 0 without a load
 };
 
 /// Blocks that are held out together.
@@ -36,7 +39,7 @@ struct Evidence {
   BenchLog log;             ///< what drove the joint in it
   Eigen::VectorXd theta;    ///< all runs, one after another
   std::vector<Block> blocks;
-  std::vector<Fold> run_folds;       ///< whole runs; strokes of a lone run
+  std::vector<Fold> run_folds;       ///< whole runs; blocks of a lone run
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed where the data vary them, or as run_folds
   std::vector<std::string> factors;  ///< by which whole levels are held out
   std::vector<HandReading> readings;

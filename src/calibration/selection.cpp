@@ -335,7 +335,7 @@ Selection Selector::run() {
   selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects);
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
-  if (!selection_.none.usable) return std::move(selection_);
+  if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);
   for (int exchanges = 0;;) {
     while (!is_done(selection_.best) && selection_.best.effects.size() < k_thresholds.most_effects && grow()) {
     }

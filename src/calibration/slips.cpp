@@ -116,13 +116,32 @@ std::string beside_text(const std::vector<std::string>& effects) {
   return text.empty() ? text : text + " beside it";
 }
 
+/// A file that was corrected has been held against data before.
+bool can_have_slips(const DeclaredMechanism& declared, const Measurement& as_read) {
+  return as_read.not_testable.empty() && declared.identified == Imperfections{};
+}
+
 }  // namespace
+
+bool is_plainly_a_slip(const DeclaredMechanism& declared, const Measurement& as_read) {
+  if (!can_have_slips(declared, as_read)) return false;
+  const Measurement data = with_fewer_rows(as_read, k_rows_a_run);
+  const double floor = std::max(noise_floor(as_read).rms, 1e-9);
+  const Trial as_it_stands = tried({{}, declared, declared}, data, floor);
+  if (!std::isfinite(as_it_stands.left) || is_within(as_it_stands, k_thresholds.slip_large)) return false;
+  const std::vector<Trial> all = trials(declared, data, floor);
+  if (all.empty()) return false;
+  const Stakes stakes{as_it_stands.left, as_it_stands.left, false};
+  // Beside the slip there may be a fault as large as any; and none that is known brings a right file as far off.
+  const bool is_far = !is_within(as_it_stands, k_thresholds.slip_far);
+  return is_simpler(all.front(), stakes) ||
+         (is_far && is_within(all.front(), k_thresholds.slip_large) && is_clear(all.front(), stakes));
+}
 
 std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, const Measurement& as_read,
                                            const Calibration& found) {
-  const bool can_be_tested = as_read.not_testable.empty() && found.verdict != CalibrationVerdict::not_repeatable;
-  // A file that was corrected has been held against data before.
-  if (!can_be_tested || found.verdict == CalibrationVerdict::no_effect || declared.identified != Imperfections{})
+  if (!can_have_slips(declared, as_read) || found.verdict == CalibrationVerdict::not_repeatable ||
+      found.verdict == CalibrationVerdict::no_effect)
     return {};
   const Stakes stakes = stakes_of(found);
   const double floor = std::max(noise_floor(as_read).rms, 1e-9);

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "calibration/thresholds.h"
 
@@ -89,7 +90,7 @@ namespace {
 
 /// Sums of squares of a residual about the means of its strokes.
 struct Within {
-  std::map<std::pair<std::size_t, int>, std::vector<double>> means;  ///< of alike strokes: run and direction
+  std::map<std::tuple<std::size_t, int, std::size_t>, std::vector<double>> means;  ///< run, direction, Block::alike
   double squares = 0;
   double products = 0;  ///< of neighbours
   double rows = 0;
@@ -101,7 +102,8 @@ Within within_strokes(const Evidence& evidence, const Fit& fit) {
     double mean = 0;
     for (const std::size_t row : block.rows)
       mean += fit.residual[static_cast<Eigen::Index>(row)] / static_cast<double>(block.rows.size());
-    sums.means[{block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction}].push_back(mean);
+    const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
+    sums.means[{block.run, direction, block.alike}].push_back(mean);
     double last = 0;
     for (const std::size_t row : block.rows) {
       const double deviation = fit.residual[static_cast<Eigen::Index>(row)] - mean;
@@ -114,8 +116,13 @@ Within within_strokes(const Evidence& evidence, const Fit& fit) {
   return sums;
 }
 
+struct VarianceOfMeans {
+  double variance = 0;
+  double freedom = 0;
+};
+
 /// Mean square of means about those that are alike; zero where no stroke has a like.
-double variance_of_means(const Within& sums) {
+VarianceOfMeans variance_of_means(const Within& sums) {
   double between = 0;
   double freedom = 0;
   for (const auto& [key, means] : sums.means) {
@@ -123,7 +130,7 @@ double variance_of_means(const Within& sums) {
     for (const double mean : means) between += (mean - centre) * (mean - centre);
     freedom += static_cast<double>(means.size()) - 1.0;
   }
-  return freedom > 0 ? between / freedom : 0.0;
+  return {freedom > 0 ? between / freedom : 0.0, freedom};
 }
 
 }  // namespace
@@ -136,7 +143,10 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   const double rows_a_stroke = sums.rows / static_cast<double>(std::max<std::size_t>(1, evidence.blocks.size()));
   const double of_noise =
       scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) / std::max(1.0, rows_a_stroke);
-  scatter.between = std::sqrt(std::max(0.0, variance_of_means(sums) - of_noise));
+  const VarianceOfMeans means = variance_of_means(sums);
+  // Few means of few rows differ by more than that now and then: three standard errors of a variance.
+  const double by_chance = of_noise * (1.0 + 3.0 * std::sqrt(2.0 / std::max(1.0, means.freedom)));
+  if (means.variance > by_chance) scatter.between = std::sqrt(means.variance - of_noise);
   return scatter;
 }
 

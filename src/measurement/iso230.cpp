@@ -49,6 +49,28 @@ double residual_at(const Run& run, const Stroke& stroke, const std::vector<doubl
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+constexpr int k_positions = 21;
+
+/// Where a position lies in what was seen of α.
+double share_of(int position) { return 0.05 + 0.9 * position / (k_positions - 1); }
+
+using Deviations = std::vector<std::array<std::vector<double>, 2>>;
+
+/// Of a motor that was held the mean of each stand, at the position nearest to it.
+void add_stands(const Run& run, const std::vector<double>& residuals, const Extent& seen, Deviations& deviations) {
+  for (const Stretch& stretch : run.stretches) {
+    const Stroke& stroke = run.strokes[stretch.stroke];
+    if (!stretch.held || stroke.partial) continue;
+    const std::vector<double> rows(residuals.begin() + static_cast<std::ptrdiff_t>(stretch.first),
+                                   residuals.begin() + static_cast<std::ptrdiff_t>(stretch.last) + 1);
+    const double mean = spread_of(rows).mean;
+    const double share = (run.samples[stretch.first].alpha - seen.least) / seen.range();
+    const auto nearest = static_cast<std::size_t>(
+        std::clamp(std::lround((share - share_of(0)) / (share_of(1) - share_of(0))), 0L, k_positions - 1L));
+    if (std::isfinite(mean)) deviations[nearest][stroke.direction > 0 ? 0 : 1].push_back(mean);
+  }
+}
+
 }  // namespace
 
 Iso230 iso230(const std::vector<std::array<std::vector<double>, 2>>& deviations) {
@@ -86,15 +108,15 @@ Iso230 iso230(const Measurement& measurement, const std::vector<std::vector<doub
     }
   }
   if (!(seen.range() > 0)) return {};
-  constexpr int positions = 21;
-  std::vector<std::array<std::vector<double>, 2>> deviations(positions);
+  Deviations deviations(k_positions);
   for (std::size_t r = 0; r < measurement.runs.size() && r < residuals.size(); ++r) {
     const Run& run = measurement.runs[r];
     if (residuals[r].size() != run.samples.size()) continue;
+    if (is_from_point_to_point(run)) add_stands(run, residuals[r], seen, deviations);
     for (const Stroke& stroke : run.strokes) {
-      if (stroke.partial) continue;
-      for (int i = 0; i < positions; ++i) {
-        const double alpha = seen.least + seen.range() * (0.05 + 0.9 * i / (positions - 1));
+      if (stroke.partial || is_from_point_to_point(run)) continue;
+      for (int i = 0; i < k_positions; ++i) {
+        const double alpha = seen.least + seen.range() * share_of(i);
         const double value = residual_at(run, stroke, residuals[r], alpha);
         if (std::isfinite(value))
           deviations[static_cast<std::size_t>(i)][stroke.direction > 0 ? 0 : 1].push_back(value);

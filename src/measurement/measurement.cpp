@@ -6,6 +6,7 @@
 #include "measurement/repair.h"
 #include "measurement/row_reader.h"
 #include "measurement/run_checks.h"
+#include "measurement/stretches.h"
 #include "measurement/strokes.h"
 #include "fusee/base/text.h"
 
@@ -46,14 +47,14 @@ std::string unit_of(const std::string& column) {
   return mark == std::string::npos ? "" : column.substr(mark + 1);
 }
 
-void repair(Run& run, Measurement& into, const Say& say) {
+void repair(Run& run, const Say& say) {
   if (run.has_time) order_time(run, say);
-  unwrap(run.samples, &Sample::alpha, "alpha", say);
+  // θ first: a turn of α at which θ goes far is a motion.
   unwrap(run.samples, &Sample::theta, "theta", say);
+  unwrap(run.samples, &Sample::alpha, "alpha", say);
   drop_outliers(run, say);
   run.has_load = run.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
   run.has_temperature = run.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
-  into.theta_quantum = std::max(into.theta_quantum, quantum_of(run.samples, &Sample::theta));
 }
 
 void describe(Run& run) {
@@ -63,10 +64,25 @@ void describe(Run& run) {
       const double step = run.samples[i].time - run.samples[i - 1].time;
       if (step > 0) speeds.push_back(std::abs(run.samples[i].alpha - run.samples[i - 1].alpha) / step);
     }
-    run.speed = median_of(std::move(speeds));
+    run.speed = is_from_point_to_point(run) ? 0.0 : median_of(std::move(speeds));
   }
   if (!run.has_load) return;
   for (const Sample& sample : run.samples) run.mean_load += sample.load / static_cast<double>(run.samples.size());
+}
+
+/// Strokes, and what stands or falls together in them.
+void cut(Run& run, Measurement& into, double alpha_quantum) {
+  std::vector<Hold> holds = holds_in(run.samples, alpha_quantum);
+  const double theta_quantum = quantum_of(run.samples, &Sample::theta);
+  const double alpha_step = quantum_beside(holds, run.samples, &Sample::alpha, alpha_quantum);
+  into.alpha_quantum = std::max(into.alpha_quantum, alpha_step);
+  into.theta_quantum = std::max(into.theta_quantum, quantum_beside(holds, run.samples, &Sample::theta, theta_quantum));
+  run.strokes = split_strokes(run.samples, holds, alpha_step, run.has_time);
+  if (run.strokes.empty() && has_levels_of_load(run)) {
+    holds = {{0, run.samples.size() - 1}};
+    run.strokes = {{0, run.samples.size() - 1, 0, 0, false}};
+  }
+  run.stretches = cut_stretches(run, holds);
 }
 
 Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
@@ -81,9 +97,8 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   run.mounting = rows.mounting;
   if (!run.samples.empty()) {
     const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);
-    into.alpha_quantum = std::max(into.alpha_quantum, alpha_quantum);
-    repair(run, into, say);
-    run.strokes = split_strokes(run.samples, alpha_quantum, run.has_time);
+    repair(run, say);
+    cut(run, into, alpha_quantum);
     describe(run);
   }
   if (!is_unfilled(rows)) look_at_run(run, into, say);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "measurement/seen_span.h"
 #include "measurement/strokes.h"
 #include "fusee/measurement/measurement.h"
 
@@ -13,6 +14,12 @@
 // - Single wild rows: the mean square is taken without what lies far outside the bulk, unless that is a part of it.
 //
 // - Colour: neighbouring rows say the same thing. Degrees of freedom count what is left, n (1 − r²)/(1 + r²).
+//
+// - Held points repeat one another where α, the side it came from, the load and the side that came from are alike. Rows
+// are compared at the same share of the stand; what α misses the place by is taken out by the run's slope.
+//
+// - Runs: between two something may have been changed. Where that shows, in differences that are smooth from row to row
+// and larger than what scatters within the runs, the runs are no repeats.
 //
 // - A coarse sensor: repeats that fall on the same step hide the step's own error, quantum/√12 of either sensor: a
 // lower bound.
@@ -37,6 +44,8 @@ class Scatter {
   struct Result {
     double variance = 0;
     double degrees_of_freedom = 0;
+    double colour = 0;  ///< correlation of neighbours, 0 … 0.99
+    double pairs = 0;   ///< that it was seen in
   };
 
   /// `least_limit`: what is never an outlier, rad.
@@ -54,7 +63,7 @@ class Scatter {
     if (count == 0) return {};
     const double variance = squares / count;
     const double r = squares > 0 && pairs > 0 ? std::clamp(products / pairs / variance, 0.0, 0.99) : 0.0;
-    return {variance, worth_ * count / static_cast<double>(values_.size()) * (1 - r * r) / (1 + r * r)};
+    return {variance, worth_ * count / static_cast<double>(values_.size()) * (1 - r * r) / (1 + r * r), r, pairs};
   }
 
  private:
@@ -99,7 +108,7 @@ Looked on_cubic(const Run& run, std::size_t first, double alpha, double least_ga
 
 /// The straight line through a small part of a stroke: for logs so dense that α stands still or jitters from row to
 /// row.
-Looked on_line(const Run& run, const Stroke& stroke, std::size_t place, double alpha) {
+Looked on_line(const Run& run, const Stretch& stroke, std::size_t place, double alpha) {
   const double longest = std::abs(run.samples[stroke.last].alpha - run.samples[stroke.first].alpha) / 25;
   for (std::size_t half = 4; half <= (stroke.last - stroke.first) / 8; half *= 2) {
     const std::size_t first = place > stroke.first + half ? place - half : stroke.first,
@@ -123,9 +132,8 @@ Looked on_line(const Run& run, const Stroke& stroke, std::size_t place, double a
   return {};
 }
 
-Looked look_up(const Run& run, const Stroke& stroke, double alpha) {
+Looked look_up(const Run& run, const Stretch& stroke, double sign, double alpha) {
   const auto at = [&](std::size_t i) -> const Sample& { return run.samples[i]; };
-  const double sign = stroke.direction;
   std::size_t low = stroke.first, high = stroke.last;
   if (high - low < 4 || sign * alpha < sign * at(low).alpha || sign * alpha > sign * at(high).alpha) return {};
   while (high - low > 1) {
@@ -140,17 +148,28 @@ Looked look_up(const Run& run, const Stroke& stroke, double alpha) {
 }
 
 /// Away from reversals, where play and friction are still on their way.
-bool is_inner(const Run& run, const Stroke& stroke, double alpha) {
+bool is_inner(const Run& run, const Stretch& stroke, double alpha) {
   const double from = run.samples[stroke.first].alpha, to = run.samples[stroke.last].alpha;
   const double share = (alpha - from) / (to - from);
   return share > 0.03 && share < 0.97;
 }
 
+/// A stretch, and what makes another one its repeat.
 struct Pass {
   const Run* run = nullptr;
-  const Stroke* stroke = nullptr;
-  double load = 0;  ///< in its middle
+  Stretch rows;
+  int direction = 0;
+  double load = 0;   ///< in its middle
+  double alpha = 0;  ///< held: where
+  double slope = 0;  ///< dθ/dα of the run on the whole
 };
+
+/// The run's rows at the same share of a stand; its α is a little elsewhere.
+Looked look_up_held(const Pass& pass, double share, double alpha) {
+  const auto rows = static_cast<double>(pass.rows.last - pass.rows.first);
+  const Sample& sample = pass.run->samples[pass.rows.first + static_cast<std::size_t>(std::lround(share * rows))];
+  return {true, sample.theta + pass.slope * (alpha - sample.alpha), sample.load, 1};
+}
 
 /// How far two loads may be apart that count as one: a part of all there are, or the load cell's own noise.
 double load_tolerance(const Measurement& measurement) {
@@ -168,26 +187,64 @@ double load_tolerance(const Measurement& measurement) {
 
 bool same_speed(const Run& a, const Run& b) { return std::abs(a.speed - b.speed) <= 0.15 * std::max(a.speed, b.speed); }
 
-double middle_load(const Run& run, const Stroke& stroke) {
-  return run.has_load ? run.samples[stroke.first + (stroke.last - stroke.first) / 2].load : 0;
+Pass pass_of(const Run& run, const Stretch& stretch, double slope) {
+  const Sample& middle = run.samples[stretch.first + (stretch.last - stretch.first) / 2];
+  return {&run, stretch, run.strokes[stretch.stroke].direction, run.has_load ? middle.load : 0, middle.alpha, slope};
 }
 
-/// Whole strokes that repeat one another, in the order in which they were made.
-std::vector<std::vector<Pass>> repeats(const Measurement& measurement, double tolerance, bool across_runs) {
+/// Of several strokes the first is not judged by (evidence.cpp): play, and what must bed in, are still on their way. Of
+/// held points the first.
+bool is_still_settling(const Run& run, const Stretch& stretch) {
+  if (is_from_point_to_point(run)) return stretch.first == run.stretches.front().first && run.stretches.size() > 2;
+  return stretch.stroke == 0 && run.strokes.size() > 2;
+}
+
+/// dθ/dα of a run on the whole, by its ends.
+double slope_of(const Run& run) {
+  const auto [least, most] = std::minmax_element(run.samples.begin(), run.samples.end(),
+                                                 [](const Sample& a, const Sample& b) { return a.alpha < b.alpha; });
+  return most->alpha > least->alpha ? (most->theta - least->theta) / (most->alpha - least->alpha) : 0;
+}
+
+/// How close two passes must be to repeat one another.
+struct Alike {
+  double load = 0;
+  double alpha = 0;  ///< of held points: a share of all there are, or three steps of the sensor
+  bool across_runs = false;
+
+  bool operator()(const Pass& a, const Pass& b) const {
+    const bool same_run =
+        a.run == b.run || (across_runs && a.run->has_load == b.run->has_load && same_speed(*a.run, *b.run));
+    const bool same_kind = a.rows.held == b.rows.held && a.rows.pull == b.rows.pull && a.direction == b.direction;
+    return same_run && same_kind && std::abs(a.load - b.load) <= load &&
+           (!a.rows.held || std::abs(a.alpha - b.alpha) <= alpha);
+  }
+};
+
+Alike alike_in(const Measurement& measurement, bool across_runs) {
+  const SeenSpan alphas = seen_span(measurement, &Sample::alpha);
+  return {load_tolerance(measurement),
+          std::max(2e-3 * (alphas.any() ? alphas.size() : 0.0), 3 * measurement.alpha_quantum), across_runs};
+}
+
+/// Of more stands than that every n-th pair is looked at: each is compared with every group.
+constexpr std::size_t k_most_stands = 4000;
+
+/// Stretches that repeat one another, in the order in which they were made.
+std::vector<std::vector<Pass>> repeats(const Measurement& measurement, const Alike& alike) {
   std::vector<std::vector<Pass>> groups;
   for (const Run& run : measurement.runs) {
-    for (const Stroke& stroke : run.strokes) {
-      // Of several strokes the first is not judged by (evidence.cpp): play, and what must bed in, are still on their
-      // way.
-      const bool still_settling = run.strokes.size() > 2 && &stroke == &run.strokes.front();
-      if (stroke.partial || still_settling) continue;
-      const Pass pass{&run, &stroke, middle_load(run, stroke)};
-      const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Pass>& g) {
-        const Pass& other = g.front();
-        const bool same_run =
-            other.run == &run || (across_runs && other.run->has_load == run.has_load && same_speed(*other.run, run));
-        return same_run && other.stroke->direction == stroke.direction && std::abs(other.load - pass.load) <= tolerance;
-      });
+    const std::vector<Stretch> stretches = stretches_of(run);
+    const std::size_t every = stretches.size() / k_most_stands + 1;
+    const double slope = run.samples.empty() ? 0 : slope_of(run);
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      const Stretch& stretch = stretches[i];
+      if (run.strokes[stretch.stroke].partial || is_still_settling(run, stretch) ||
+          (stretch.held && i / 2 % every != 0))
+        continue;
+      const Pass pass = pass_of(run, stretch, slope);
+      const auto group = std::find_if(groups.begin(), groups.end(),
+                                      [&](const std::vector<Pass>& g) { return alike(g.front(), pass); });
       if (group != groups.end()) {
         group->push_back(pass);
       } else {
@@ -213,20 +270,25 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
   for (std::size_t k = 1; k <= count; ++k) {
     std::vector<double> differences;
     const Run& run = *group[k].run;
-    const auto look = [&](const Pass& pass, const Sample& sample) {
-      const Looked looked = look_up(*pass.run, *pass.stroke, sample.alpha);
+    const Stretch& rows = group[k].rows;
+    const auto look = [&](const Pass& pass, std::size_t row) {
+      const Sample& sample = run.samples[row];
+      const double share =
+          static_cast<double>(row - rows.first) / static_cast<double>(std::max<std::size_t>(1, rows.last - rows.first));
+      const Looked looked = rows.held ? look_up_held(pass, share, sample.alpha)
+                                      : look_up(*pass.run, pass.rows, pass.direction, sample.alpha);
       return !run.has_load || std::abs(looked.load - sample.load) <= tolerance ? looked : Looked{};
     };
-    for (std::size_t i = group[k].stroke->first; i <= group[k].stroke->last; ++i) {
+    for (std::size_t i = rows.first; i <= rows.last; ++i) {
       const Sample& sample = run.samples[i];
-      if (!is_inner(run, *group[k].stroke, sample.alpha)) continue;
-      const Looked before = look(group[k - 1], sample);
+      if (!rows.held && !is_inner(run, rows, sample.alpha)) continue;
+      const Looked before = look(group[k - 1], i);
       if (!before.inside) continue;
       if (!triples) {
         differences.push_back((sample.theta - before.theta) / std::sqrt(1 + before.weight));
         continue;
       }
-      const Looked after = look(group[k + 1], sample);
+      const Looked after = look(group[k + 1], i);
       if (!after.inside) continue;
       differences.push_back((2 * sample.theta - before.theta - after.theta) /
                             std::sqrt(4 + before.weight + after.weight));
@@ -239,9 +301,9 @@ void add_repeats(const std::vector<Pass>& group, double tolerance, Scatter& scat
 /// One of white noise is correlated with the next three by −3/4, 3/10, −1/20.
 void add_neighbours(const Run& run, Scatter& scatter) {
   const double worth = 1 / (1 + 2 * (0.75 * 0.75 + 0.3 * 0.3 + 0.05 * 0.05));
-  for (const Stroke& stroke : run.strokes) {
+  for (const Stretch& stretch : stretches_of(run)) {
     std::vector<double> differences;
-    for (std::size_t i = stroke.first + 3; i <= stroke.last; ++i) {
+    for (std::size_t i = stretch.first + 3; i <= stretch.last; ++i) {
       const auto& s = run.samples;
       differences.push_back((s[i].theta - 3 * s[i - 1].theta + 3 * s[i - 2].theta - s[i - 3].theta) / std::sqrt(20.0));
     }
@@ -249,12 +311,57 @@ void add_neighbours(const Run& run, Scatter& scatter) {
   }
 }
 
-Scatter scatter_of_repeats(const Measurement& measurement, bool across_runs) {
-  const double tolerance = load_tolerance(measurement);
+Scatter scatter_of_neighbours(const Measurement& measurement) {
   Scatter scatter;
-  for (const std::vector<Pass>& group : repeats(measurement, tolerance, across_runs))
-    add_repeats(group, tolerance, scatter);
+  for (const Run& run : measurement.runs) add_neighbours(run, scatter);
   return scatter;
+}
+
+Scatter scatter_within_runs(const Measurement& measurement) {
+  const Alike alike = alike_in(measurement, false);
+  Scatter scatter;
+  for (const std::vector<Pass>& group : repeats(measurement, alike)) add_repeats(group, alike.load, scatter);
+  return scatter;
+}
+
+/// Variance of noise that third differences show, of which neighbours are correlated by r: rᵏ against their weights
+/// 20, −15, 6, −1.
+double seen_by_neighbours(double r) { return 1 + (-15 * r + 6 * r * r - r * r * r) / 10; }
+
+/// Whether differences go on from row to row, and are twice as large as noise that neighbours scatter by could make
+/// them. Noise may have a colour of its own; what goes on by more than 0.7 is taken for none. Tests: a joint wired anew
+/// between two runs; noise alone, white and coloured.
+bool is_smooth(const Scatter::Result& differences, double variance_of_neighbours) {
+  const double noise = variance_of_neighbours / seen_by_neighbours(std::min(differences.colour, 0.7));
+  return differences.colour > 0.3 && differences.colour * std::sqrt(differences.pairs) > 3.0 &&
+         differences.variance > 2.0 * noise;
+}
+
+/// What runs that repeat one another differ by.
+struct BetweenRuns {
+  Scatter noise;
+  double smooth_squares = 0;  ///< of what is no noise, rad²
+  double smooth_count = 0;
+};
+
+BetweenRuns scatter_between_runs(const Measurement& measurement, double least_limit) {
+  const Alike alike = alike_in(measurement, true);
+  const double neighbours = scatter_of_neighbours(measurement).result(least_limit).variance;
+  BetweenRuns found;
+  for (const std::vector<Pass>& group : repeats(measurement, alike)) {
+    // Run by run: what was changed once is not to be lost among those that agree.
+    for (std::size_t k = 1; k < group.size(); ++k) {
+      Scatter pair;
+      add_repeats({group[k - 1], group[k]}, alike.load, pair);
+      const Scatter::Result result = pair.result(least_limit);
+      if (is_smooth(result, neighbours)) {
+        found.smooth_squares += result.variance * static_cast<double>(pair.count());
+        found.smooth_count += static_cast<double>(pair.count());
+      }
+    }
+    if (found.smooth_count == 0) add_repeats(group, alike.load, found.noise);
+  }
+  return found;
 }
 
 /// Error of both sensors' own steps, as θ shows it.
@@ -278,19 +385,29 @@ double step_error(const Measurement& measurement) {
 
 NoiseFloor noise_floor(const Measurement& measurement) {
   constexpr std::size_t enough = 20;
-  // Within a run nothing was touched in between; runs that repeat one another do where each is a single cycle.
-  Scatter scatter = scatter_of_repeats(measurement, false);
-  if (scatter.count() < enough) scatter = scatter_of_repeats(measurement, true);
+  const double least_limit = 3 * measurement.theta_quantum;
   NoiseFloor floor;
-  floor.from_repeats = scatter.count() >= enough;
-  if (!floor.from_repeats) {
-    scatter = {};
-    for (const Run& run : measurement.runs) add_neighbours(run, scatter);
+  // Within a run nothing was touched in between; runs that repeat one another do where each is a single cycle.
+  Scatter scatter = scatter_within_runs(measurement);
+  if (scatter.count() < enough) {
+    BetweenRuns between = scatter_between_runs(measurement, least_limit);
+    if (between.smooth_count > 0)
+      floor.between_runs = std::sqrt(2 * between.smooth_squares / between.smooth_count);
+    else
+      scatter = std::move(between.noise);
   }
-  const Scatter::Result result = scatter.result(3 * measurement.theta_quantum);
+  floor.from_repeats = scatter.count() >= enough;
+  if (!floor.from_repeats) scatter = scatter_of_neighbours(measurement);
+  const Scatter::Result result = scatter.result(least_limit);
   floor.rms = std::max(std::sqrt(result.variance), step_error(measurement));
   floor.degrees_of_freedom = result.degrees_of_freedom;
+  floor.colour = floor.from_repeats ? result.colour : 0;
   return floor;
+}
+
+double NoiseFloor::effective_rows(double rows, double every) const {
+  const double r = std::pow(colour, every);
+  return rows * (1 - r) / (1 + r);
 }
 
 }  // namespace fusee

@@ -188,15 +188,33 @@ void order_time(Run& run, const Say& say) {
   part_ticks(run, say);
 }
 
+namespace {
+
+/// Without the hundredth that may be wild.
+double span_of_theta(const std::vector<Sample>& samples) {
+  std::vector<double> thetas;
+  for (const Sample& sample : samples) thetas.push_back(sample.theta);
+  const auto at = [&](std::size_t place) {
+    std::nth_element(thetas.begin(), thetas.begin() + static_cast<std::ptrdiff_t>(place), thetas.end());
+    return thetas[place];
+  };
+  return at(thetas.size() - 1 - thetas.size() / 200) - at(thetas.size() / 200);
+}
+
+}  // namespace
+
 void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const Say& say) {
   double shift = 0;
   std::size_t wraps = 0;
   double before = samples.front().*angle;
+  const bool of_motor = angle == &Sample::alpha;
+  const double far = of_motor ? 0.25 * span_of_theta(samples) : 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double here = samples[i].*angle;
     const double jump = here - before;
     before = here;
-    if (std::abs(std::abs(jump) - k_two_pi) < radians(80.0)) {
+    const bool joint_moves = of_motor && std::abs(samples[i].theta - samples[i - 1].theta) > far;
+    if (!joint_moves && std::abs(std::abs(jump) - k_two_pi) < radians(80.0)) {
       shift -= jump > 0 ? k_two_pi : -k_two_pi;
       ++wraps;
     }

@@ -16,7 +16,8 @@ using Say = std::function<void(const std::string&)>;
 /// coarser than the log.
 void order_time(Run& run, const Say& say);
 
-/// An encoder that jumps by about a turn was wrapped around.
+/// An encoder that jumps by about a turn was wrapped around. Not the motor's where θ goes by a quarter of its span at
+/// the same time: from point to point a motor may turn as far between two rows.
 void unwrap(std::vector<Sample>& samples, double Sample::*angle, const std::string& name, const Say& say);
 
 /// Single rows far off their neighbours are dropped: spikes of a sensor, not motion. A step that stays is no outlier.

@@ -108,6 +108,13 @@ void say_gaps(const Run& run, const Say& say) {
   }
 }
 
+std::string stops_text(const Run& run) {
+  const auto stops =
+      std::count_if(run.stretches.begin(), run.stretches.end(), [](const Stretch& stretch) { return stretch.held; });
+  return "from point to point: alpha is held " + std::to_string(stops) +
+         " times (a change of the load counts), and between two of them it is taken to go straight";
+}
+
 }  // namespace
 
 void look_at_run(const Run& run, Measurement& into, const Say& say) {
@@ -117,7 +124,8 @@ void look_at_run(const Run& run, Measurement& into, const Say& say) {
                   " are needed");
   }
   const double alpha_span = span_of(run.samples, &Sample::alpha), theta_span = span_of(run.samples, &Sample::theta);
-  if (alpha_span < k_no_motion) return refuse("alpha does not change: the motor did not move, or its sensor is dead");
+  if (alpha_span < k_no_motion && run.strokes.empty())
+    return refuse("alpha does not change: the motor did not move, or its sensor is dead");
   if (theta_span < k_no_motion) {
     return refuse("theta does not change while alpha moves over " + rounded(degrees(alpha_span)) +
                   " deg: the joint's sensor is dead, or the joint is stuck");
@@ -126,12 +134,16 @@ void look_at_run(const Run& run, Measurement& into, const Say& say) {
     return refuse("alpha only jitters (by " + rounded(degrees(alpha_span), 2) + " deg): no motion in it");
   look_for_frozen_theta(run, into);
   look_for_frozen_alpha(run, into);
-  say_gaps(run, say);
+  if (is_from_point_to_point(run)) {
+    say(stops_text(run));
+  } else {
+    say_gaps(run, say);
+  }
   const auto goes = [&](int direction) {
     return std::any_of(run.strokes.begin(), run.strokes.end(),
                        [&](const Stroke& s) { return s.direction == direction; });
   };
-  if (!goes(1) || !goes(-1)) say("alpha moves in one direction only");
+  if (!goes(0) && (!goes(1) || !goes(-1))) say("alpha moves in one direction only");
   const Stroke& first = run.strokes.front();
   if (first.partial) {
     say("the first stroke (" + rows_text(first.last - first.first + 1) +
@@ -143,10 +155,24 @@ void look_at_all(Measurement& measurement) {
   if (measurement.runs.empty()) measurement.not_testable.push_back("no run was given");
   if (!measurement.not_testable.empty()) return;
   int up = 0, down = 0;
+  bool loaded = false, unloaded = false;
   for (const Run& run : measurement.runs) {
-    for (const Stroke& stroke : run.strokes) ++(stroke.direction > 0 ? up : down);
+    for (const Stroke& stroke : run.strokes) {
+      up += stroke.direction > 0;
+      down += stroke.direction < 0;
+    }
+    for (const Stretch& stretch : run.stretches) {
+      loaded = loaded || stretch.pull > 0;
+      unloaded = unloaded || stretch.pull < 0;
+    }
   }
-  if (up > 0 && down > 0) return;
+  // At a held motor angle the load moves the joint both ways.
+  if ((up > 0 && down > 0) || (loaded && unloaded)) return;
+  if (up == 0 && down == 0) {
+    measurement.not_testable.push_back(std::string("alpha stands and the load only ") + (loaded ? "grows" : "falls") +
+                                       ": without the way back friction cannot be told from stretch; log both");
+    return;
+  }
   measurement.not_testable.push_back(
       std::string("alpha only ") + (up > 0 ? "grows" : "falls") +
       ": without the way back backlash, friction and delay cannot be told from a wrong shape; log both directions");

@@ -35,8 +35,9 @@ struct Bins {
   SeenSpan span;
   int count = 1;
 
-  /// 0 at the span's beginning, `count` at its end; values beyond lie at the ends.
+  /// 0 at the span's beginning, `count` at its end; values beyond lie at the ends. Of no span all lie at its beginning.
   double place(double value) const {
+    if (!span.any()) return 0;
     return std::clamp((value - span.least) / span.size() * count, 0.0, static_cast<double>(count));
   }
   int bin(double value) const { return std::min(static_cast<int>(place(value)), count - 1); }

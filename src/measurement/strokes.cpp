@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/base/units.h"
+
 namespace fusee {
 namespace {
 
@@ -19,15 +21,21 @@ double reversal_threshold(const std::vector<Sample>& samples, double quantum) {
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
-/// Scatter about one place: values that know nothing of the ones before (von Neumann's ratio, 2 for pure noise).
+/// Scatter about one place: values that know nothing of the ones before (von Neumann's ratio, 2 for pure noise), and
+/// steps of less than a degree or that θ knows nothing of. A row at each end in turn is a motion.
 bool only_jitters(const std::vector<Sample>& samples) {
   const double n = static_cast<double>(samples.size());
-  double mean = 0, spread = 0, steps = 0;
+  double mean = 0, spread = 0, steps = 0, steps_of_theta = 0, together = 0;
   for (const Sample& sample : samples) mean += sample.alpha / n;
   for (const Sample& sample : samples) spread += (sample.alpha - mean) * (sample.alpha - mean) / n;
-  for (std::size_t i = 1; i < samples.size(); ++i)
-    steps += std::pow(samples[i].alpha - samples[i - 1].alpha, 2) / (n - 1);
-  return steps >= spread;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double alpha = samples[i].alpha - samples[i - 1].alpha, theta = samples[i].theta - samples[i - 1].theta;
+    steps += alpha * alpha / (n - 1);
+    steps_of_theta += theta * theta / (n - 1);
+    together += alpha * theta / (n - 1);
+  }
+  const bool joint_follows = steps > radians(1.0) * radians(1.0) && together * together > 0.8 * steps * steps_of_theta;
+  return steps >= spread && !joint_follows;
 }
 
 std::vector<bool> marked(const std::vector<std::size_t>& places, std::size_t count) {
@@ -151,14 +159,18 @@ std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_ti
   return gaps;
 }
 
-std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, double alpha_quantum, bool has_time) {
+std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<Hold>& holds,
+                                  double alpha_quantum, bool has_time) {
   if (samples.size() < 3 || only_jitters(samples)) return {};
   const double threshold = reversal_threshold(samples, alpha_quantum);
   if (!(threshold > 0)) return {};
-  std::vector<Stroke> strokes =
-      Splitter(samples, threshold, marked(gaps_in(samples, has_time), samples.size())).split();
+  const std::vector<std::size_t> gaps = holds.empty() ? gaps_in(samples, has_time) : std::vector<std::size_t>{};
+  const std::vector<Sample> standing = settled(samples, holds);
+  std::vector<Stroke> strokes = Splitter(standing, threshold, marked(gaps, samples.size())).split();
   if (strokes.empty()) return strokes;
-  strokes.front().partial = strokes.front().partial || !begins_at_reversal(samples, strokes, threshold);
+  // From point to point play is known from the second hold on, wherever the first one was.
+  strokes.front().partial =
+      holds.empty() && (strokes.front().partial || !begins_at_reversal(samples, strokes, threshold));
   // A cycle begins with each stroke of the direction of the first whole one.
   const std::size_t first = strokes.front().partial && strokes.size() > 1 ? 1 : 0;
   int cycle = -1;

@@ -4,14 +4,17 @@
 
 #include <vector>
 
+#include "measurement/stretches.h"
 #include "fusee/measurement/measurement.h"
 
 namespace fusee {
 
 /// By direction of α, robust to noise and to a quantum: a reversal counts once α has come back from its extreme by more
 /// than both and by a hundredth of the run's span. A gap in time over which α moved begins a new stroke, whose play
-/// state is unknown: `partial`. None where α only jitters.
-std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, double alpha_quantum, bool has_time);
+/// state is unknown: `partial`. Between holds there are no gaps: α went from one to the next. None where α only
+/// jitters.
+std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<Hold>& holds,
+                                  double alpha_quantum, bool has_time);
 
 /// Rows before which α moved without being logged: after a pause in time, or faster than it ever does.
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time);

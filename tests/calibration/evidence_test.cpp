@@ -100,5 +100,82 @@ TEST(Folds, SpeedIsAFactorToo) {
   EXPECT_THAT(gather(joint(), measurement, k_floor).factors, ElementsAre("speed"));
 }
 
+// ---- held angles and levels of load ---------------------------------------------------------------------------------
+
+/// Held at both ends in turn, `rows` rows each; the loads of the visits in turn.
+Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
+  Measurement measurement;
+  fusee::Run& run = measurement.runs.emplace_back();
+  run.name = "run_1";
+  run.has_time = run.has_load = true;
+  for (std::size_t visit = 0; visit < loads.size(); ++visit) {
+    const int direction = visit % 2 == 0 ? -1 : 1;
+    const std::size_t first = run.samples.size();
+    for (std::size_t i = 0; i < rows; ++i) {
+      Sample sample;
+      sample.time = static_cast<double>(run.samples.size());
+      sample.alpha = direction;
+      sample.theta = sample.alpha / k_ratio;
+      sample.load = loads[visit];
+      run.samples.push_back(sample);
+    }
+    run.strokes.push_back({first, first + rows - 1, direction, static_cast<int>(visit / 2), false});
+    run.stretches.push_back({first, first + rows - 1, visit, true, 0});
+  }
+  return measurement;
+}
+
+TEST(Gather, HeldAnglesAreBlocks) {
+  const Evidence evidence = gather(joint(), held_at_ends({0, 0, 0, 0, 5, 5, 5, 5}, 10), k_floor);
+  // The first one's side is not known.
+  EXPECT_THAT(strokes_of(evidence, 0), ElementsAre(1, 2, 3, 4, 5, 6, 7));
+  std::vector<std::size_t> alike;
+  for (const Block& block : evidence.blocks) alike.push_back(block.alike);
+  EXPECT_THAT(alike, ElementsAre(0, 1, 0, 2, 3, 2, 3));
+  EXPECT_THAT(evidence.factors, ElementsAre("load"));
+  EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4, 5, 6)));
+}
+
+TEST(Gather, ShortStandsOfOneKindMakeABlockTogether) {
+  const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(49, 0.0), 1), k_floor);
+  EXPECT_EQ(evidence.rows_used(), 48u);
+  ASSERT_EQ(evidence.blocks.size(), 8u);
+  for (const Block& block : evidence.blocks) {
+    const int direction = evidence.measurement.runs[0].strokes[block.stroke].direction;
+    for (const std::size_t row : block.rows) EXPECT_EQ(evidence.measurement.runs[0].samples[row].alpha, direction);
+  }
+}
+
+TEST(Gather, LongStandsGiveAFewRowsEach) {
+  const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(40, 0.0), 2000), k_floor);
+  EXPECT_EQ(evidence.blocks.size(), 39u);
+  EXPECT_LE(evidence.rows_used(), 850u);
+  EXPECT_GE(evidence.rows_used(), 39 * 6u);
+}
+
+TEST(Gather, OfVeryManyStandsHistoryIsWhatComesBeforeThoseLookedAt) {
+  const Evidence evidence = gather(joint(), held_at_ends(std::vector<double>(100'000, 0.0), 3), k_floor);
+  EXPECT_GE(evidence.rows_used(), 500u);
+  EXPECT_LE(evidence.theta.size(), 12'000);
+  for (const Stroke& stroke : evidence.measurement.runs[0].strokes)
+    EXPECT_EQ(evidence.measurement.runs[0].samples[stroke.first].alpha, stroke.direction);
+}
+
+TEST(Folds, HoldLevelsOfLoadWithinARunOut) {
+  Measurement measurement;
+  measurement.runs.push_back(run_of("run_1", 0, 6));
+  for (std::size_t i = 0; i < 6 * k_rows; ++i) measurement.runs[0].samples[i].load = i < 4 * k_rows ? 0 : 5;
+  const Evidence evidence = gather(joint(), measurement, k_floor);
+  EXPECT_THAT(evidence.factors, ElementsAre("load"));
+  EXPECT_THAT(evidence.factor_folds, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 4)));
+}
+
+TEST(Folds, ALoadThatTurnsWithTheMotionIsOneLevel) {
+  Measurement measurement;
+  measurement.runs.push_back(run_of("run_1", 0, 6));
+  for (std::size_t i = 0; i < 6 * k_rows; ++i) measurement.runs[0].samples[i].load = i / k_rows % 2 == 0 ? 5 : -5;
+  EXPECT_THAT(gather(joint(), measurement, k_floor).factors, IsEmpty());
+}
+
 }  // namespace
 }  // namespace fusee::linear

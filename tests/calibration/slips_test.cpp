@@ -181,6 +181,25 @@ TEST(UndoneSlips, are_said_where_no_effect_explains) {
             "guides.OE_mm = -14 in place of 14 would explain the data to 0.02°: is the sign right?");
 }
 
+TEST(UndoneSlips, are_seen_before_any_search_where_they_are_plain) {
+  // Alone, with a fault beside it, with one that has no name.
+  for (const char* name : {"a_declared_right", "b_stretch", "f_not_in_any_catalogue"}) {
+    Bench bench = rig_data(name);
+    EXPECT_FALSE(is_plainly_a_slip(bench.right, bench.data)) << name;
+    bench.right.guides.OE *= -1;
+    EXPECT_TRUE(is_plainly_a_slip(bench.right, bench.data)) << name;
+    CalibrationOptions options;
+    options.look_for_effects = false;
+    compare_with_declared(bench.right, bench.data);
+    const Calibration found = calibrate(bench.right, bench.data, options);
+    EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
+    EXPECT_THAT(found.effects, IsEmpty());
+    EXPECT_THAT(words(slips_that_explain(bench.right, rig_data(name).data, found)),
+                ElementsAre(HasSubstr("guides.OE_mm = -14 in place of 14")))
+        << name;
+  }
+}
+
 TEST(UndoneSlips, are_said_where_the_data_are_refused) {
   Bench bench = rig_data("a_declared_right");
   bench.right.guides.EB /= 10;

@@ -176,6 +176,80 @@ TEST(NoiseFloor, SingleCyclesRepeatFromRunToRun) {
   EXPECT_FALSE(noise_floor(measurement).from_repeats);
 }
 
+// Run anew after something was changed: the same load, speed and places, another joint.
+TEST(NoiseFloor, RunsThatDifferSmoothlyAreNoRepeats) {
+  for (const double colour : {0.0, 0.5}) {
+    Measurement measurement;
+    for (unsigned i = 0; i < 2; ++i)
+      measurement.runs.push_back(logged({.noise = 1e-3, .cycles = 1, .colour = colour, .seed = i}));
+    const NoiseFloor alike = noise_floor(measurement);
+    EXPECT_TRUE(alike.from_repeats) << colour;
+    EXPECT_EQ(alike.between_runs, 0) << colour;
+    for (Sample& sample : measurement.runs[1].samples) sample.theta += 0.02 * std::cos(3 * sample.alpha);
+    const NoiseFloor apart = noise_floor(measurement);
+    EXPECT_FALSE(apart.from_repeats) << colour;
+    EXPECT_LT(apart.rms, 1.1e-3) << colour;
+    // rms of cos 3α over 0 … 1 is .69, but for the strokes' ends.
+    EXPECT_NEAR(apart.between_runs, 0.69 * 0.02, 0.001) << colour;
+  }
+}
+
+TEST(NoiseFloor, RepeatsWithinARunAreHeardBeforeRunsThatDiffer) {
+  Measurement measurement;
+  for (unsigned i = 0; i < 2; ++i) measurement.runs.push_back(logged({.noise = 1e-3, .seed = i}));
+  for (Sample& sample : measurement.runs[1].samples) sample.theta += 0.02 * std::cos(3 * sample.alpha);
+  const NoiseFloor floor = noise_floor(measurement);
+  EXPECT_TRUE(floor.from_repeats);
+  EXPECT_NEAR(floor.rms, 1e-3, 5e-5);
+}
+
+TEST(NoiseFloor, SaysItsColour) {
+  for (const double colour : {0.0, 0.5, 0.9}) {
+    const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 20, .colour = colour});
+    EXPECT_NEAR(floor.colour, colour, 0.08);  // looking up between rows adds a little
+    // The variance of a mean of n rows with correlation r^k is (1 + r)/(1 − r)/n, of every second one (1 + r²)/(1 −
+    // r²).
+    const double r = floor.colour;
+    EXPECT_DOUBLE_EQ(floor.effective_rows(100), 100 * (1 - r) / (1 + r));
+    EXPECT_DOUBLE_EQ(floor.effective_rows(100, 2), 100 * (1 - r * r) / (1 + r * r));
+  }
+}
+
+/// Ends in turn, `rows` rows at each; each visit lands `apart` elsewhere.
+Measurement held(double noise, double apart, int rows) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Measurement measurement;
+  Run& run = measurement.runs.emplace_back();
+  for (int visit = 0; visit < 400; ++visit) {
+    const double landed = apart * normal(random), alpha = visit % 2 == 0 ? 0.0 : 1.0;
+    const std::size_t first = run.samples.size();
+    for (int i = 0; i < rows; ++i) {
+      Sample sample;
+      // The motor misses the angle a little.
+      sample.alpha = alpha + 3e-4 * normal(random);
+      sample.theta = 0.3 * sample.alpha + landed + noise * normal(random);
+      run.samples.push_back(sample);
+    }
+    run.strokes.push_back({first, run.samples.size() - 1, visit % 2 == 0 ? -1 : 1, visit / 2, false});
+    run.stretches.push_back({first, run.samples.size() - 1, run.strokes.size() - 1, true, 0});
+  }
+  return measurement;
+}
+
+TEST(NoiseFloor, HeldAnglesRepeatThemselves) {
+  for (const int rows : {1, 12}) {
+    const NoiseFloor floor = noise_floor(held(1e-3, 0, rows));
+    EXPECT_TRUE(floor.from_repeats);
+    EXPECT_NEAR(floor.rms, 1e-3, rows == 1 ? 1e-4 : 3e-5) << rows;
+  }
+  // What each visit misses by counts, and counts once a visit.
+  const NoiseFloor apart = noise_floor(held(1e-3, 2e-3, 12));
+  EXPECT_NEAR(apart.rms, std::sqrt(5.0) * 1e-3, 2e-4);
+  EXPECT_GT(apart.colour, 0.6);
+  EXPECT_LT(apart.degrees_of_freedom, 0.5 * noise_floor(held(1e-3, 0, 12)).degrees_of_freedom);
+}
+
 TEST(NoiseFloor, WithoutRepeatsItIsOnlyABound) {
   const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 1});
   EXPECT_FALSE(floor.from_repeats);

@@ -14,7 +14,8 @@ namespace fusee {
 
 struct CalibrationOptions {
   std::vector<std::string>
-      hold_out;  ///< names of runs kept for validation only; empty: whole runs are left out in turn
+      hold_out;                  ///< names of runs kept for validation only; empty: whole runs are left out in turn
+  bool look_for_effects = true;  ///< false: the file is known not to be of this joint (is_plainly_a_slip())
   std::vector<const Effect*> more_effects;  ///< beside those of the program; they must outlive the call
   std::vector<std::string> without;         ///< names of effects that are left out of the catalogue: what if none knew of them?
   std::function<void(const std::string& what, double share)> progress;
@@ -34,7 +35,7 @@ struct FoundEffect {
   std::vector<std::string> group;  ///< `name` and every effect whose held-out error is within one standard error
   ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
-  double rms_drop = 0;         ///< of the held-out residual, rad; never below 0
+  double rms_drop = 0;  ///< of the held-out residual, rad; never below 0
   CorrectableBy correctable_by = CorrectableBy::nothing;
 };
 

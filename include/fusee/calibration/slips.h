@@ -27,6 +27,10 @@ struct UndoneSlip {
 std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, const Measurement& as_read,
                                            const Calibration& found);
 
+/// Whether a slip undone, with nothing fitted, leaves noise alone or at most a fault beside it, of data that the file
+/// as it stands is far from: what effects could be made to fit there describes nothing, and is not worth the search.
+bool is_plainly_a_slip(const DeclaredMechanism& declared, const Measurement& as_read);
+
 /// "guides.OE_mm = -40 in place of 40 would explain the data to 0.03°: is the sign right?"
 std::string slip_words(const UndoneSlip& slip);
 

@@ -35,21 +35,31 @@ struct Sample {
   double tension2 = 0;
 };
 
-/// A stretch of samples in one direction of α, from one reversal (or the run's beginning) to the next.
+/// Samples in one direction of α, from one reversal (or the run's beginning) to the next.
 struct Stroke {
   std::size_t first = 0;  ///< index into the run's samples
   std::size_t last = 0;   ///< included
-  int direction = 0;      ///< +1: α grows, −1: α falls
+  int direction = 0;  ///< +1: α grows, −1: α falls, 0: α stands throughout the run and the load moves the joint
   int cycle = 0;
   bool partial = false;  ///< the first stroke of a run that did not begin at a reversal: its play state is unknown
+};
+
+/// Rows of a stroke that stand or fall together: all of it, one level of load on it, a motor angle that was held.
+struct Stretch {
+  std::size_t first = 0;   ///< index into the run's samples
+  std::size_t last = 0;    ///< included
+  std::size_t stroke = 0;  ///< index into the run's strokes: from which side α came
+  bool held = false;       ///< α stands
+  int pull = 0;            ///< held, what came last: 0: α moved here, +1: the load grew to what it is, −1: it fell
 };
 
 struct Run {
   std::string name;             ///< file name without its folder
   std::vector<Sample> samples;  ///< by time
   std::vector<Stroke> strokes;
-  double speed = 0;      ///< median |dα/dt|, rad/s; 0 without time
-  double mean_load = 0;  ///< mean of the load column; 0 without
+  std::vector<Stretch> stretches;  ///< of the strokes, in their order; see stretches_of()
+  double speed = 0;                ///< median |dα/dt|, rad/s; 0 without time, and from point to point
+  double mean_load = 0;            ///< mean of the load column; 0 without
   bool has_time = false, has_load = false, has_temperature = false;
   Mounting mounting = {};  ///< of its encoders
 };
@@ -88,6 +98,12 @@ const std::vector<std::pair<std::string, std::string>>& column_roles();
 inline constexpr std::string_view k_motor_sensor_turned = "motor_sensor_turned";  ///< role; column …_deg
 inline constexpr std::string_view k_joint_sensor_turned = "joint_sensor_turned";
 
+/// The run's stretches; of a run that was not read but made, its whole strokes.
+std::vector<Stretch> stretches_of(const Run& run);
+
+/// Whether the motor stood in most rows: steps between held angles, loads put on and taken off at one angle.
+bool is_from_point_to_point(const Run& run);
+
 /// What drove the joint in these runs.
 BenchLog bench_log(const Measurement& measurement);
 
@@ -100,11 +116,17 @@ void compare_with_declared(const Mechanism& declared, Measurement& measurement);
 void take_torques_as_forces(const Mechanism& declared, Measurement& measurement);
 
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or
-/// where there are none, of runs that repeat one another. Single wild rows do not count.
+/// where there are none, of runs that repeat one another: as far as they agree. What differs between two runs smoothly
+/// is no noise, something was changed between them. Single wild rows do not count.
 struct NoiseFloor {
   double rms = 0;                 ///< rad; never below the error of the sensors' own steps, quantum/√12
   double degrees_of_freedom = 0;  ///< of rms², colour and shared strokes allowed for
   bool from_repeats = false;      ///< false: no repeats; taken from differences of neighbours, a lower bound
+  double colour = 0;        ///< correlation of the noise of neighbouring rows of the log, 0 … 0.99; 0 without repeats
+  double between_runs = 0;  ///< rms by which runs that should repeat differ smoothly, rad; 0 where they agree
+
+  /// As many independent rows' worth in the mean of `rows` rows, of which each is the `every`-th of the log.
+  double effective_rows(double rows, double every = 1) const;
 };
 NoiseFloor noise_floor(const Measurement& measurement);
 

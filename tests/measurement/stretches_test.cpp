@@ -1,0 +1,199 @@
+// Logs of held angles and of loads that change within a run: what of a run stands or falls together.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "fusee/base/text.h"
+#include "fusee/measurement/measurement.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+struct Row {
+  double alpha = 0;  ///< deg
+  double load = 0;   ///< N
+};
+
+/// `rows` rows at each angle, and `between` on the way to the next.
+std::vector<Row> held_at(const std::vector<double>& angles, int rows, int between = 0, double load = 0) {
+  std::vector<Row> log;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    log.insert(log.end(), static_cast<std::size_t>(rows), {angles[i], load});
+    for (int k = 1; k <= between && i + 1 < angles.size(); ++k)
+      log.push_back({angles[i] + (angles[i + 1] - angles[i]) * k / (between + 1), load});
+  }
+  return log;
+}
+
+/// θ is a quarter of α, less .05° a newton; both sensors scatter.
+Measurement read(const std::vector<Row>& log, double noise = 0.01, double alpha_quantum = 0, bool has_load = true) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  std::string text = has_load ? "time_s,alpha_deg,theta_deg,load_N\n" : "time_s,alpha_deg,theta_deg\n";
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    double alpha = log[i].alpha + noise * normal(random);
+    if (alpha_quantum > 0) alpha = alpha_quantum * std::round(alpha / alpha_quantum);
+    text += shortest(0.1 * static_cast<double>(i)) + "," + shortest(alpha) + "," +
+            shortest(0.25 * log[i].alpha - 0.05 * log[i].load + noise * normal(random)) +
+            (has_load ? "," + shortest(log[i].load) : "") + "\n";
+  }
+  Measurement measurement;
+  measurement.runs.push_back(parse_run(text, "run.csv", {}, measurement));
+  return measurement;
+}
+
+std::string reasons_of(const Measurement& measurement) {
+  std::string all;
+  for (const std::string& reason : measurement.not_testable) all += reason + "\n";
+  return all;
+}
+
+/// "+40 -40 …": from which side each held angle was come to; "·" between them.
+std::string stands_of(const fusee::Run& run) {
+  std::string words;
+  for (const Stretch& stretch : run.stretches) {
+    const int direction = run.strokes[stretch.stroke].direction;
+    words += (words.empty() ? "" : " ") +
+             (stretch.held ? (direction > 0   ? "+"
+                              : direction < 0 ? "-"
+                                              : "") +
+                                 rounded(std::round(degrees(run.samples[(stretch.first + stretch.last) / 2].alpha)))
+                           : std::string("·"));
+  }
+  return words;
+}
+
+std::vector<double> triangle(double size, int per_stroke, int strokes) {
+  std::vector<double> alphas;
+  for (int i = 0; i <= per_stroke * strokes; ++i) {
+    const double way = -size + 2 * size * (i % per_stroke) / per_stroke;
+    alphas.push_back(i / per_stroke % 2 == 0 ? way : -way);
+  }
+  return alphas;
+}
+
+// ---- held angles ----------------------------------------------------------------------------------------------------
+
+TEST(Stretches, HeldAnglesKnowFromWhichSideTheyWereComeTo) {
+  for (const double noise : {0.0, 0.01, 0.05}) {
+    for (const int between : {0, 2}) {
+      const Measurement m = read(held_at({-40, 0, 40, 10, -40, 0, 40, 10, -40}, 12, between), noise);
+      EXPECT_EQ(reasons_of(m), "") << noise << " " << between;
+      const std::string stands = stands_of(m.runs[0]);
+      EXPECT_EQ(stands, between == 0 ? "+-40 +0 +40 -10 --40 +0 +40 -10 --40"
+                                     : "+-40 · +0 · +40 · -10 · --40 · +0 · +40 · -10 · --40")
+          << noise;
+    }
+  }
+}
+
+TEST(Stretches, EndsInTurnAreStrokesOfOneStandEach) {
+  const Measurement m = read(held_at({-40, 40, -40, 40, -40, 40}, 20));
+  EXPECT_EQ(reasons_of(m), "");
+  EXPECT_EQ(stands_of(m.runs[0]), "+-40 +40 --40 +40 --40 +40");
+  EXPECT_EQ(m.runs[0].speed, 0);
+  EXPECT_EQ(m.alpha_quantum, 0) << "held angles are no steps of a sensor";
+  EXPECT_THAT(m.notes, ElementsAre(HasSubstr("alpha is held 6 times")));
+}
+
+TEST(Stretches, OneRowAtEachEndIsAMotionToo) {
+  std::vector<double> ends;
+  for (int i = 0; i < 30; ++i) ends.push_back(i % 2 == 0 ? -40.0 : 40.0);
+  const Measurement m = read(held_at(ends, 1));
+  EXPECT_EQ(reasons_of(m), "");
+  EXPECT_THAT(m.runs[0].stretches, SizeIs(30));
+}
+
+TEST(Stretches, AFarStepIsNoTurnOfTheSensor) {
+  const Measurement m = read(held_at({-150, 150, -150, 150}, 10));
+  EXPECT_EQ(stands_of(m.runs[0]), "+-150 +150 --150 +150");
+}
+
+TEST(Stretches, ASensorThatFlickersBetweenTwoStepsIsHeld) {
+  const Measurement m = read(held_at({-40, 0, 40, 0, -40, 0, 40}, 30), 0.05, 0.1);
+  EXPECT_EQ(stands_of(m.runs[0]), "+-40 +0 +40 -0 --40 +0 +40");
+  EXPECT_NEAR(degrees(m.alpha_quantum), 0.1, 1e-6);
+}
+
+// Sweeps, slow or coarse, with dwells or round ends, hold no angle: their strokes are whole.
+TEST(Stretches, OfASweepAreItsStrokes) {
+  std::vector<double> sine, dwells;
+  for (int i = 0; i < 1200; ++i) sine.push_back(40 * std::sin(k_two_pi * i / 300.0));
+  for (const double alpha : triangle(40, 100, 6)) dwells.insert(dwells.end(), std::abs(alpha) == 40 ? 30 : 1, alpha);
+  for (const auto& alphas : {triangle(40, 30, 6), triangle(40, 2000, 4), sine, dwells}) {
+    for (const double quantum : {0.0, 0.1, 1.0}) {
+      std::vector<Row> log;
+      for (const double alpha : alphas) log.push_back({alpha, 0});
+      const Measurement m = read(log, 0.01, quantum, false);
+      EXPECT_FALSE(is_from_point_to_point(m.runs[0])) << alphas.size() << " " << quantum;
+      EXPECT_EQ(m.runs[0].stretches.size(), m.runs[0].strokes.size());
+    }
+  }
+}
+
+// ---- loads ----------------------------------------------------------------------------------------------------------
+
+TEST(Stretches, LoadsPutOnAndTakenOffAtAnAngleAreApart) {
+  std::vector<Row> log;
+  for (const double alpha : {-40.0, 0.0, 40.0, 0.0, -40.0}) {
+    for (const double load : {0.0, 5.0, 10.0, 5.0, 0.0}) log.insert(log.end(), 8, {alpha, load});
+  }
+  const Measurement m = read(log);
+  EXPECT_EQ(reasons_of(m), "");
+  ASSERT_THAT(m.runs[0].stretches, SizeIs(25));
+  std::vector<int> pulls;
+  for (std::size_t i = 5; i < 10; ++i) pulls.push_back(m.runs[0].stretches[i].pull);
+  EXPECT_THAT(pulls, ElementsAre(0, 1, 1, -1, -1));
+}
+
+TEST(Stretches, AMotorHeldForTheWholeRunIsMovedByItsLoad) {
+  std::vector<Row> log;
+  for (const double load : {0.0, 5.0, 10.0, 5.0, 0.0}) log.insert(log.end(), 10, {20.0, load});
+  for (const double noise : {0.0, 0.01}) {
+    const Measurement m = read(log, noise);
+    EXPECT_EQ(reasons_of(m), "") << noise;
+    EXPECT_THAT(m.runs[0].stretches, SizeIs(5));
+    ASSERT_THAT(m.runs[0].strokes, SizeIs(1));
+    EXPECT_EQ(m.runs[0].strokes[0].direction, 0);
+  }
+}
+
+TEST(Stretches, LevelsOfLoadCutAStroke) {
+  // A load that is put on in the middle of strokes: at other places each time.
+  std::vector<Row> stepped, ramped, bound;
+  const std::vector<double> alphas = triangle(40, 60, 6);
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    stepped.push_back({alphas[i], static_cast<double>(i / 47 % 3) * 5});
+    ramped.push_back({alphas[i], 15.0 * static_cast<double>(i) / static_cast<double>(alphas.size())});
+    bound.push_back({alphas[i], 5 + 0.1 * alphas[i]});
+  }
+  const fusee::Run run = read(stepped).runs[0];
+  EXPECT_EQ(run.strokes.size(), 6u);
+  EXPECT_GT(run.stretches.size(), 9u);
+  for (const Stretch& stretch : run.stretches) {
+    double least = 1e9, most = -1e9;
+    for (std::size_t i = stretch.first; i <= stretch.last; ++i) {
+      least = std::min(least, run.samples[i].load);
+      most = std::max(most, run.samples[i].load);
+    }
+    EXPECT_LT(stretch.last - stretch.first < 12 ? 0 : most - least, 1) << stretch.first;
+  }
+  EXPECT_EQ(read(bound).runs[0].stretches.size(), 6u) << "a spring's load belongs to the place";
+  EXPECT_EQ(read(ramped).runs[0].stretches.size(), 6u) << "within a stroke it hardly changes";
+  std::vector<Row> waves;
+  for (std::size_t i = 0; i < alphas.size(); ++i)
+    waves.push_back({alphas[i], 5 + 5 * std::sin(0.05 * static_cast<double>(i))});
+  EXPECT_GT(read(waves).runs[0].stretches.size(), 12u);
+}
+
+}  // namespace
+}  // namespace fusee
