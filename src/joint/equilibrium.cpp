@@ -31,9 +31,10 @@ namespace {
 
 /// Both tendons slack by more than this together: the joint has play. mm
 constexpr double k_least_play = 1e-6;
-/// Searches for the ratio of a tendon's tensions over a pin that gives way. Where it slips, two do; where it sticks,
-/// each leaves less than the give's share of the compliance.
-constexpr int k_give_rounds = 12;
+/// Searches for what slides on the pulleys, and for the ratio of a tendon's tensions over a pin that gives way. Two or
+/// three do; where a tendon sticks on such a pin each leaves the give's share of the compliance, and where what slides
+/// turns round it may take some halving.
+constexpr int k_rounds = 40;
 /// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
 constexpr double k_least_hold = 1e-4;
 
@@ -90,7 +91,9 @@ struct AtAlpha {
   double swelling = 1;      ///< 1 + expansion: of material since home
   Spans spans;              ///< all but the upper length and the capstan factor, without what comes from the pulley
   Turned turned;
-  Slide slide;  ///< of the latest trial: the next one begins there
+  Slide slide;        ///< what slides on the pulley, at a strain near the one that will be found
+  double least = 0;   ///< what is known of that
+  double most = std::numeric_limits<double>::infinity();
 };
 
 GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
@@ -121,28 +124,34 @@ void give_way(Spans& spans, const Give& give) {
   spans.lower_material += give.lower_unseen;
 }
 
-/// Two strains are one below this part of them: what is left of a tension's miss is its square.
-constexpr double k_same_strain = 1e-8;
+/// With what slides on the pulley as a part of the lower span: exact in value and slope at the slide's own strain.
+Spans with_slide(Spans spans, const AtAlpha& at) {
+  spans.lower_length += at.slide.length;
+  spans.lower_material += at.swelling * at.slide.freed + at.slide.length / (1.0 + at.slide.strain);
+  return spans;
+}
 
-/// The balance in which what slides on the pulley slides by the lower span's own tension: Newton's steps, since
-/// Slide::length makes value and slope of the longer span exact, kept within what is known to enclose the strain (what
-/// slides changes where its direction does).
-TendonBalance balance(Spans& spans, AtAlpha& at, const WoundProfile& wound) {
-  const Spans alone = spans;
-  double least = 0;
-  double most = std::numeric_limits<double>::infinity();
-  for (int i = 0;; ++i) {
-    const Slide& slide = at.slide;
-    spans.lower_length = alone.lower_length + slide.length;
-    spans.lower_material = alone.lower_material + at.swelling * slide.freed + slide.length / (1.0 + slide.strain);
-    const TendonBalance found = balance(spans);
-    double next = found.lower / spans.EA;
-    if (std::abs(next - slide.strain) <= k_same_strain * next || i == 60) return found;
-    (next > slide.strain ? least : most) = slide.strain;
-    const bool outside = !(next >= least && next <= most) || next == least || next == most;
-    if (outside && std::isfinite(most) && i > 0) next = 0.5 * (least + most);
-    at.slide = wound.slide(at.turned, next, at.swelling);
+/// Two strains are one below this part of them, or where this little is left.
+constexpr double k_same_strain = 1e-9;
+constexpr double k_least_strain = 1e-15;
+
+/// Slides by the strain that was found with the present slide. Was it that already?
+///
+/// Newton's steps, kept within what is known to enclose the strain: what slides changes where its direction does.
+bool slide_found(AtAlpha& at, const WoundProfile& wound, double found) {
+  const double now = at.slide.strain;
+  if (std::abs(found - now) <= k_same_strain * found + k_least_strain) return true;
+  (found > now ? at.least : at.most) = now;
+  double next = found;
+  if (!(next > at.least && next < at.most) && next > 0) next = 0.5 * (at.least + at.most);
+  // The other tendon moves it too: what was known may be wrong.
+  if (!(std::abs(next - now) > k_same_strain * now) || !std::isfinite(next)) {
+    at.least = 0;
+    at.most = std::numeric_limits<double>::infinity();
+    next = found;
   }
+  at.slide = wound.slide(at.turned, next, at.swelling);
+  return false;
 }
 
 /// A tendon at a trial θ.
@@ -156,19 +165,19 @@ struct Trial {
   double slope = 0;  ///< of pull with respect to the image's θ
 };
 
-Trial tried(const TendonHistory& tendon, AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
+Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
   const double rho = model.pins[tendon.side == Side::left ? 0 : 1].rho;
   const double mu = model.mu;
   Trial trial;
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
-  trial.spans = at.spans;
+  trial.spans = with_slide(at.spans, at);
   trial.upper_length = trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
   if (model.pin_give > 0)
     give_way(trial.spans, Give({trial.span.normal, at.path.normal}, tendon, model.pin_give, at.spans.EA));
   trial.wrap = trial.span.normal - at.path.normal;
   trial.spans.capstan = std::exp(mu * std::max(0.0, trial.wrap));
-  trial.balance = balance(trial.spans, at, tendon.wound);
+  trial.balance = balance(trial.spans);
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
@@ -338,10 +347,10 @@ struct JointMotion::State {
 
   explicit State(JointModel joint);
   /// Pull of the tendons beyond the load, towards +θ.
-  Residual residual(std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
-  std::array<Trial, 2> trials(std::array<AtAlpha, 2>& at, double at_theta) const;
-  std::optional<double> balanced(std::array<AtAlpha, 2>& at, const JointStep& step, double expected_now) const;
-  bool ratios_found(std::array<AtAlpha, 2>& at, double found);
+  Residual residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
+  std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
+  std::optional<double> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start) const;
+  bool consistent(std::array<AtAlpha, 2>& at, double found);
   EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, double found);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
@@ -356,19 +365,19 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model.EA);
 }
 
-std::array<Trial, 2> JointMotion::State::trials(std::array<AtAlpha, 2>& at, double at_theta) const {
+std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
   return {tried(tendons[0], at[0], model.upper->left, model, at_theta),
           tried(tendons[1], at[1], model.upper->right, model, at_theta)};
 }
 
-Residual JointMotion::State::residual(std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
+Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
   const auto [left, right] = trials(at, at_theta);
   return {right.pull - left.pull - step.tip_force * model.pins[1].R - step.torque - model.weight_torque(at_theta),
           right.slope + left.slope - model.weight_slope(at_theta)};
 }
 
-std::optional<double> JointMotion::State::balanced(std::array<AtAlpha, 2>& at, const JointStep& step,
-                                                   double expected_now) const {
+std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step,
+                                                   double start) const {
   // Its bearing holds the joint as long as it is not pulled by more; then it moves on until it is pulled by that much.
   double held = 0;
   const auto pull = [&](double at_theta) {
@@ -378,7 +387,6 @@ std::optional<double> JointMotion::State::balanced(std::array<AtAlpha, 2>& at, c
   };
   // A joint that nothing pulls stays where it is, and one that is loose is only pushed; any other keeps its deviation
   // from where it is expected.
-  double start = theta + expected_now - expected;
   if (theta > model.theta_least && theta < model.theta_most) {
     const double here = pull(theta).value;
     if (std::abs(here) <= model.bearing_friction) return theta;
@@ -388,15 +396,18 @@ std::optional<double> JointMotion::State::balanced(std::array<AtAlpha, 2>& at, c
   return fallen_to_zero(start, model.theta_least, model.theta_most, model.last_step, pull);
 }
 
-/// Takes the ratios of both tendons' tensions as they were found; were they so already?
-bool JointMotion::State::ratios_found(std::array<AtAlpha, 2>& at, double found) {
+/// What slides on both pulleys, and where pins give way the ratios of both tendons' tensions, taken as they were found;
+/// were they so already?
+bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, double found) {
   constexpr double near = 1e-7;
   bool same = true;
   const std::array<Trial, 2> now = trials(at, found);
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!(now[i].balance.upper > 0 && now[i].balance.lower > 0)) continue;
-    const double ratio = now[i].balance.lower / now[i].balance.upper;
-    same = same && std::abs(ratio - tendons[i].ratio) <= near;
+    const TendonBalance& balance = now[i].balance;
+    same = slide_found(at[i], tendons[i].wound, balance.lower / at[i].spans.EA) && same;
+    if (!(model.pin_give > 0 && balance.upper > 0 && balance.lower > 0)) continue;
+    const double ratio = balance.lower / balance.upper;
+    same = std::abs(ratio - tendons[i].ratio) <= near && same;
     tendons[i].ratio = ratio;
   }
   return same;
@@ -469,9 +480,10 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
     if (!has_path) return state.refuse(step);
   }
   const double expected = model.expected(step.alpha);
-  auto found = state.balanced(at, step, expected);
-  for (int i = 0; i < k_give_rounds && model.pin_give > 0 && found && !state.ratios_found(at, *found); ++i)
-    found = state.balanced(at, step, expected);
+  // A joint keeps its deviation from where it is expected.
+  auto found = state.balanced(at, step, state.theta + expected - state.expected);
+  for (int i = 0; i < k_rounds && found && !state.consistent(at, *found); ++i)
+    found = state.balanced(at, step, *found);
   if (!found) return state.refuse(step);
   state.expected = expected;
   state.released = step.tendon.released;

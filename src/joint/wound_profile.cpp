@@ -30,10 +30,8 @@ WoundContent linear(double arc, double density_from, double density_to, double s
 }
 
 /// Gauss's places and weights on [0, 1].
-constexpr std::array<std::array<double, 2>, 4> k_gauss{{{0.069431844202973712, 0.173927422568726929},
-                                                        {0.330009478207571868, 0.326072577431273071},
-                                                        {0.669990521792428132, 0.326072577431273071},
-                                                        {0.930568155797026288, 0.173927422568726929}}};
+constexpr std::array<std::array<double, 2>, 3> k_gauss{
+    {{0.112701665379258311, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.887298334620741689, 5.0 / 18.0}}};
 /// Of the wrap, rad, and of what falls over it by e^{μφ}: 1e-7 of its change.
 constexpr double k_panel = 1.0;
 /// Less strain than this is none: to logarithms it is that much.

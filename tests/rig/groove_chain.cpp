@@ -211,6 +211,12 @@ double GrooveChain::settle(double tension) {
 
 double GrooveChain::knot_tension() const { return springs_.empty() ? 0.0 : springs_.front().tension; }
 
+double GrooveChain::material() const {
+  double all = 0;
+  for (const Spring& spring : springs_) all += spring.material;
+  return all;
+}
+
 double GrooveChain::stored() const {
   double energy = 0;
   for (const Spring& spring : springs_)

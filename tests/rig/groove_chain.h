@@ -43,6 +43,8 @@ class GrooveChain {
 
   /// From the knot to the take-off, mm.
   double length() const { return take_off_ - knot_; }
+  /// Of all springs, mm.
+  double material() const;
   /// Of the spring nearest to the knot; 0 when there is none.
   double knot_tension() const;
   /// Stretched energy of all springs, N·mm; of T = EA ε alone.

@@ -123,7 +123,10 @@ std::vector<Fault> pin_faults() {
        .numbers = [](const H& h, const J& j) -> Numbers { return {{"radius_mm", j.declared.guides.radius + h.guide_radius}}; }},
       {.name = "guide_position", .first = 0.5, .most = 4.0,
        .set = [](H& h, double s, const C& c, const J&) { move_pins(h, s, c); },
-       .kin = {"guide_radius", "joint_length"}},
+       .kin = {"guide_radius", "joint_length"},
+       .numbers = [](const H& h, const J&) -> Numbers {
+         return {{"outward1_mm", h.pin_outward[0]}, {"down1_mm", h.pin_down[0]}, {"outward2_mm", h.pin_outward[1]}, {"down2_mm", h.pin_down[1]}};
+       }},
       {.name = "frame_compliance", .first = 1e-3, .most = 0.2,
        .set = [](H& h, double s, const C&, const J&) { h.frame_give = s; },
        .kin = {"tendon_stretch"},

@@ -27,12 +27,12 @@ double gear_wave(const Moment& now, const N& n, N&) {
   return n[0] * (std::sin(3.7 * now.alpha + n[1]) - std::sin(n[1]));
 }
 
-/// A set screw that holds until the shaft has wound up by n[0], then jumps.
+/// A set screw that holds until the shaft has wound up by n[0], then jumps back by it.
 double jumping_hub(const Moment& now, const N& n, N& memory) {
   if (memory.empty()) memory = {now.alpha, 0.0};
   memory[1] += now.alpha - memory[0];
   memory[0] = now.alpha;
-  if (std::abs(memory[1]) > n[0]) memory[1] = 0;
+  memory[1] = std::fmod(memory[1], n[0]);
   return -memory[1];
 }
 
