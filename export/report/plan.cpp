@@ -11,6 +11,7 @@
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/measurement/measurement.h"
 #include "fusee/transmission/load.h"
 
 namespace fusee {
@@ -63,7 +64,8 @@ Json step_json(const Plan& plan, const PlanStep& step, const std::string& file) 
   json["minutes"] = number(step.minutes);
   json["setup_minutes"] = number(step.setup);
   json["by_minute"] = number(step.by);
-  json["tells"] = step.buys;
+  json["sees"] = step.sees;
+  json["tells"] = step.tells;
   return json;
 }
 
@@ -125,8 +127,8 @@ std::string run_csv(const PlanProduct& product, std::size_t step) {
   const BenchRun driven = fusee::driven(*product.plan.steps[step].run, k_rows_a_stroke);
   const Mounting& mounting = driven.mounting;
   std::string table = comments(product, step) + "time_s,alpha_deg,load_N,theta_deg";
-  if (mounting.motor_sensor_turned != 0) table += ",motor_sensor_turned_deg";
-  if (mounting.joint_sensor_turned != 0) table += ",joint_sensor_turned_deg";
+  if (mounting.motor_sensor_turned != 0) table += "," + std::string(k_motor_sensor_turned) + "_deg";
+  if (mounting.joint_sensor_turned != 0) table += "," + std::string(k_joint_sensor_turned) + "_deg";
   table += "\n";
   for (const BenchRow& row : driven.rows) {
     table += trimmed_fixed(row.time, 3) + "," + trimmed_fixed(degrees(row.alpha), 4) + "," + shortest(row.load) + ",";

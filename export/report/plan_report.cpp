@@ -61,11 +61,7 @@ std::string step_item(const PlanProduct& product, std::size_t i) {
         "<p>three times, at different places: <span class=\"value\">&#160;</span> <span "
         "class=\"value\">&#160;</span> <span class=\"value\">&#160;</span></p>";
   }
-  if (!step.buys.empty()) {
-    std::string buys;
-    for (const std::string& pair : step.buys) buys += (buys.empty() ? "" : "; ") + open_name(pair);
-    html += "<p class=\"tells\">tells " + safe_text(buys) + "</p>";
-  }
+  html += "<p class=\"tells\">" + safe_text(open_name(gain_words(step))) + "</p>";
   return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + "<br/>by " +
          safe_text(minutes_words(step.by)) + "</div></li>";
 }

@@ -6,10 +6,11 @@ namespace {
 
 std::string joints(int count) { return std::to_string(count) + " simulated joints "; }
 
-std::string list_of(const std::vector<std::string>& words, std::size_t most) {
+std::string list_of(const std::vector<std::string>& words, const std::string& between) {
+  constexpr std::size_t k_most = 3;
   std::string text;
-  for (std::size_t i = 0; i < words.size() && i < most; ++i) text += (i > 0 ? "; " : "") + words[i];
-  return words.size() > most ? text + "; and " + std::to_string(words.size() - most) + " more" : text;
+  for (std::size_t i = 0; i < words.size() && i < k_most; ++i) text += (i > 0 ? between : "") + words[i];
+  return words.size() > k_most ? text + between + "and " + std::to_string(words.size() - k_most) + " more" : text;
 }
 
 }  // namespace
@@ -27,14 +28,17 @@ std::vector<std::string> blame_words(const Plan& plan) {
               std::to_string(plan.unknown.blamed)};
 }
 
+std::string gain_words(const PlanStep& step) {
+  std::string text;
+  if (!step.sees.empty()) text = "sees " + list_of(step.sees, ", ");
+  if (!step.tells.empty()) text += std::string(text.empty() ? "" : "; ") + "tells " + list_of(step.tells, "; ");
+  return text.empty() ? "makes surer what is told already" : text;
+}
+
 std::vector<std::string> minute_words(const std::vector<PlanStep>& steps) {
-  constexpr std::size_t k_most_pairs = 3;
   std::vector<std::string> words;
-  for (const PlanStep& step : steps) {
-    std::string text = "by minute " + rounded(step.by, 3) + ": " + step.words;
-    if (!step.buys.empty()) text += "; it tells " + list_of(step.buys, k_most_pairs);
-    words.push_back(std::move(text));
-  }
+  for (const PlanStep& step : steps)
+    words.push_back("by minute " + rounded(step.by, 3) + ": " + step.words + "; " + gain_words(step));
   return words;
 }
 

@@ -59,6 +59,13 @@ std::vector<SimulationColumn> simulation_columns(const Simulation& simulation) {
     add("loose_deg", [](const Sample&, const JointState& state) { return degrees(state.loose); });
   }
   add("joint_deg", [](const Sample&, const JointState& state) { return degrees(state.theta); });
+  // As they were logged: the next reader has to know.
+  const auto add_mounting = [&](std::string_view role, double turned) {
+    if (turned != 0)
+      add(std::string(role) + "_deg", [turned](const Sample&, const JointState&) { return degrees(turned); });
+  };
+  add_mounting(k_motor_sensor_turned, run.mounting.motor_sensor_turned);
+  add_mounting(k_joint_sensor_turned, run.mounting.joint_sensor_turned);
   if (run.has_temperature) add("temperature_C", [](const Sample& row, const JointState&) { return row.temperature; });
   return columns;
 }

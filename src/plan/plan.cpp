@@ -202,24 +202,22 @@ class Planner {
   }
 
   /// What `after` tells and `before` does not, cause by cause.
-  std::vector<std::string> bought(const Margins& before, const Margins& after) const {
-    std::vector<std::string> words;
+  void put_gain(const Margins& before, const Margins& after, PlanStep& step) const {
+    constexpr std::size_t k_most_names = 4;
     for (std::size_t a = 0; a < causes_.size(); ++a) {
       const std::string& name = causes_[a].effect->name;
       const auto newly = [&](std::size_t i) { return before[a][i] < 1 && after[a][i] >= 1; };
-      if (newly(0)) words.push_back(name);
-      std::string from;
-      std::size_t count = 0;
+      if (newly(0)) step.sees.push_back(name);
+      std::vector<std::string> rivals;
       for (std::size_t b = 0; b < causes_.size(); ++b) {
-        if (b == a || !newly(b + 1)) continue;
-        ++count;
-        from += (from.empty() ? "" : ", ") + causes_[b].effect->name;
+        if (b != a && newly(b + 1)) rivals.push_back(causes_[b].effect->name);
       }
-      if (count == 0) continue;
-      const bool all = count + 1 == causes_.size();
-      words.push_back(name + " from " + (all ? std::string("everything else") : from));
+      if (rivals.empty()) continue;
+      std::string from;
+      for (std::size_t i = 0; i < rivals.size() && rivals.size() <= k_most_names; ++i)
+        from += (i > 0 ? ", " : "") + rivals[i];
+      step.tells.push_back(name + " from " + (from.empty() ? std::to_string(rivals.size()) + " others" : from));
     }
-    return words;
   }
 
   /// Of every cause the places of those that it is not told from.
@@ -242,7 +240,7 @@ class Planner {
       PlanStep step = options_of_bench_[i].step;
       minutes += step.minutes;
       step.by = minutes;
-      step.buys = bought(before, after);
+      put_gain(before, after, step);
       into.push_back(std::move(step));
       before = after;
     }

@@ -18,7 +18,7 @@ namespace {
 constexpr int k_rows_a_stroke = 24;
 /// Legendre polynomials over the range that stand for smooth shapes: of the model's error, of what has no name.
 constexpr int k_model_shapes = 3;
-constexpr int k_unknown_shapes = 6;
+constexpr int k_unknown_shapes = 9;
 /// What has no name may come with: nothing, the direction, the load, both, the speed.
 constexpr int k_unknown_factors = 5;
 

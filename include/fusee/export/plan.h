@@ -34,7 +34,9 @@ std::string plan_manifest_json(const PlanProduct& product, const std::vector<Out
 std::string hanging_words(const PlanProduct& product, const PlannedRun& run);
 /// "in 250 simulated joints as declared these runs would have named something in 1".
 std::vector<std::string> blame_words(const Plan& plan);
-/// "3 minutes: …, tells …", what the first minutes, or more of them, would buy.
+/// "sees creep; tells backlash from sensor_lag": what a step shows that those before it do not.
+std::string gain_words(const PlanStep& step);
+/// "by minute 3: 3 cycles, slow …; tells …", what the first minutes, or more of them, would buy.
 std::vector<std::string> minute_words(const std::vector<PlanStep>& steps);
 
 }  // namespace fusee

@@ -35,11 +35,11 @@ struct PlanStep {
   std::optional<PlannedRun> run;
   const EffectParameter* reading = nullptr;
   std::string words;
-  double minutes = 0;  ///< with what has to be changed on the bench for it
-  double setup = 0;    ///< of these
-  double by = 0;       ///< minutes since the beginning, when it is done
-  /// What it tells that the steps before it do not: "backlash from capstan_friction", "creep" (from nothing).
-  std::vector<std::string> buys;
+  double minutes = 0;              ///< with what has to be changed on the bench for it
+  double setup = 0;                ///< of these
+  double by = 0;                   ///< minutes since the beginning, when it is done
+  std::vector<std::string> sees;   ///< causes that the steps before it would not have shown
+  std::vector<std::string> tells;  ///< what they did not tell apart: "backlash from capstan_friction, creep"
 };
 
 /// A cause, and what the planned runs can say of it.
