@@ -145,9 +145,9 @@ Command simulate_command() {
            {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0)"},
            {"--seed", "N", "of that noise (default 1)"},
            column_option()},
-          {{"fusee simulate arm.toml run_1.csv > shown.csv", "every row"},
-           {"fusee simulate arm.toml run_1.csv --set identified.backlash_deg=1", "what would play do?"},
-           {"fusee simulate arm.toml run_1.csv -o rehearsed.csv --noise-deg 0.02", "as a bench would log it"}},
+          {{"fusee simulate arm.toml out/arm_plan/run_1.csv > shown.csv", "every row"},
+           {"fusee simulate arm.toml shown.csv --set identified.backlash_deg=1", "what would play do?"},
+           {"fusee simulate arm.toml shown.csv -o rehearsed.csv --noise-deg 0.02", "as a bench would log it"}},
           run_simulate};
 }
 

@@ -90,6 +90,20 @@ std::string Signatures::why_not(const Effect& effect) const {
   return "";
 }
 
+/// What a number at its usual size moves the joint by, beside `from`; nothing where there is no equilibrium.
+Eigen::VectorXd Signatures::moved_by(Forward& forward, const Imperfections& from, const EffectParameter& number) const {
+  const std::vector<double> before = forward(from).front();
+  Imperfections at = from;
+  set_value(at, number, usual_size(number, bench_.largest_load()));
+  const std::vector<double> after = forward(at).front();
+  Eigen::VectorXd moved(static_cast<Eigen::Index>(before.size()));
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const double difference = after[k] - before[k];
+    moved[static_cast<Eigen::Index>(k)] = std::isfinite(difference) ? difference : 0.0;
+  }
+  return moved;
+}
+
 std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
   const BenchLog log = {driven(run, k_rows_a_stroke)};
   Forward forward(expected_, log);
@@ -99,13 +113,13 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, columns_);
   for (const Cause& cause : causes_) {
     for (Eigen::Index i = 0; i < cause.count(); ++i) {
-      const EffectParameter& number = *cause.numbers[static_cast<std::size_t>(i)];
-      Imperfections at;
-      set_value(at, number, usual_size(number, bench_.largest_load()));
-      const std::vector<double> moved = forward(at).front();
-      for (Eigen::Index k = 0; k < rows; ++k) {
-        const double difference = moved[static_cast<std::size_t>(k)] - plain[static_cast<std::size_t>(k)];
-        A(k, cause.first + i) = std::isfinite(difference) ? difference : 0.0;
+      const Eigen::Index column = cause.first + i;
+      A.col(column) = moved_by(forward, {}, *cause.numbers[static_cast<std::size_t>(i)]);
+      // What does nothing by itself changes what the first number does.
+      if (i > 0 && A.col(column).isZero(0)) {
+        Imperfections first;
+        set_value(first, *cause.numbers.front(), usual_size(*cause.numbers.front(), bench_.largest_load()));
+        A.col(column) = moved_by(forward, first, *cause.numbers[static_cast<std::size_t>(i)]);
       }
     }
   }

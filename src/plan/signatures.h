@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fusee/plan/plan.h"
+#include "joint/forward.h"
 #include "plan/candidates.h"
 
 namespace fusee {
@@ -46,6 +47,7 @@ class Signatures {
   double largest_load() const { return bench_.largest_load(); }
 
  private:
+  Eigen::VectorXd moved_by(Forward& forward, const Imperfections& from, const EffectParameter& number) const;
   void add(const Effect& effect);
   std::string why_not(const Effect& effect) const;
 
