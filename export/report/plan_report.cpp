@@ -1,5 +1,6 @@
 // plan.html: what a person does at the bench, step by step, and what it will show.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -42,9 +43,9 @@ std::vector<std::string> things_to_do(const PlanProduct& product, std::size_t st
                      ", drive to home and set both zeros again; turn it back after the run");
   const std::string hanging = hanging_words(product, run);
   things.push_back(hanging.empty() ? "nothing hangs on the joint" : hanging);
-  things.push_back("drive the motor between " + fixed(degrees(run.from), 1) + "° and " + fixed(degrees(run.to), 1) +
-                   "°, " + std::to_string(run.cycles) + " times there and back, at " + rounded(degrees(run.speed), 3) +
-                   "°/s; begin at " + fixed(degrees(run.from), 1) + "°");
+  things.push_back("drive the motor between " + readable(degrees(run.from), 1) + "° and " +
+                   readable(degrees(run.to), 1) + "°, " + std::to_string(run.cycles) + " times there and back, at " +
+                   rounded(degrees(run.speed), 3) + "°/s; begin at " + readable(degrees(run.from), 1) + "°");
   if (run.dwell > 0) things.push_back("hold it for " + rounded(run.dwell, 3) + " s at both ends, and go on logging");
   things.push_back("log time, motor angle and joint angle into " + run_file_name(product.plan, step));
   return things;
@@ -78,9 +79,12 @@ std::string steps_section(const PlanProduct& product) {
 
 std::string after_section(const PlanProduct& product) {
   const std::string spec = std::filesystem::path(product.file.path).filename().string();
-  return part("after", "Then",
-              "<p>Write what was read by hand into <code>[prior]</code> of the file, and</p><p><code>fusee calibrate " +
-                  safe_text(spec) + " run_*.csv</code></p>");
+  const bool reads = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
+                                 [](const PlanStep& step) { return step.reading != nullptr; });
+  return part(
+      "after", "Then",
+      (reads ? std::string("<p>Write what was read by hand into <code>[prior]</code> of the file, and</p>") : "") +
+          "<p><code>fusee calibrate " + safe_text(spec) + " run_*.csv</code></p>");
 }
 
 std::string causes_section(const Plan& plan) {
@@ -116,7 +120,7 @@ std::string key_numbers(const PlanProduct& product) {
   numbers.add("Minutes", fixed(plan.minutes, 1), "of " + rounded(product.minutes, 4));
   numbers.add("Causes that can be named alone", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
   numbers.add("Noise of the joint's sensor", size_words(product.noise), "assumed");
-  numbers.add("Motor", fixed(degrees(plan.from), 1) + "° … " + fixed(degrees(plan.to), 1) + "°");
+  numbers.add("Motor", readable(degrees(plan.from), 1) + "° … " + readable(degrees(plan.to), 1) + "°");
   return part("numbers", "In short", numbers.html());
 }
 

@@ -185,7 +185,7 @@ Command plan_command() {
            {"--seed", "N", "of the joints in which blame is tried (default 1)"}},
           {{"fusee plan arm.toml", "files in out/arm_plan; open its plan.html"},
            {"fusee plan arm.toml --minutes 5 --loads 0,5", "five minutes, and one weight"},
-           {"fusee plan arm.toml --set identified.backlash_deg=1 --dry-run", "what is known already is no question"}},
+           {"fusee plan arm.toml --set prior.pulley_scale=[1,0.001] --dry-run", "a caliper said that already"}},
           run_plan};
 }
 
