@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "fusee/base/text.h"
+#include "export/report/csv_cells.h"
 #include "fusee/base/units.h"
 #include "fusee/export/report.h"
 #include "fusee/transmission/tension.h"
@@ -17,12 +17,10 @@ namespace {
 
 constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
-std::string cell(double value) { return std::isfinite(value) ? fixed(value, 6) : std::string(); }
-
 void put_row(std::string& table, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i > 0) table += ',';
-    table += cell(values[i]);
+    table += csv_cell(values[i]);
   }
   table += '\n';
 }
@@ -32,8 +30,8 @@ void put_outline(std::string& table, const Outline& outline) {
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const OutlinePoint& point = outline.points[i];
     const double angle = std::atan2(point.position.y(), point.position.x());
-    table += pulley + cell(degrees(angle)) + ',' + cell(point.position.x()) + ',' + cell(point.position.y()) + ',' +
-             cell(point.curvature_radius) + (outline.is_active(i) ? ",1," : ",0,") + cell(degrees(point.psi)) + '\n';
+    table += pulley + csv_cell(degrees(angle)) + ',' + csv_cell(point.position.x()) + ',' + csv_cell(point.position.y()) + ',' +
+             csv_cell(point.curvature_radius) + (outline.is_active(i) ? ",1," : ",0,") + csv_cell(degrees(point.psi)) + '\n';
   }
 }
 

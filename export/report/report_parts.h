@@ -9,6 +9,7 @@ namespace fusee::embedded {
 extern const std::string_view page_html;  ///< the page, with {{parts}} to be filled in
 extern const std::string_view page_css;
 extern const std::string_view calibration_css;  ///< beside page_css
+extern const std::string_view plan_css;         ///< the same, of a measuring plan
 extern const std::string_view figure_css;       ///< of every Figure
 extern const std::string_view viewer_js;        ///< the part in 3-D
 extern const std::string_view readout_js;       ///< values under the pointer in plots

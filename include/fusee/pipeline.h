@@ -5,6 +5,8 @@
 ///     AnalysisResult  analyze(file, options)          the transmission and the forces over the range
 ///     OptimizeResult  optimize(file, options)         better numbers for the mechanism
 ///     CalibrateResult calibrate(file, runs, options)  measured runs: what is off, and a better file
+///     PlanResult      plan(file, options)             which runs to measure, what they can show
+///     SimulateResult  simulate(file, log, options)    logged motor angles and loads: joint angle, tensions, torque
 ///
 /// and in the steps that build() takes:
 ///
@@ -32,6 +34,8 @@
 #include "fusee/mechanism/file.h"
 #include "fusee/pipeline/calibrate.h"
 #include "fusee/pipeline/optimize.h"
+#include "fusee/pipeline/plan.h"
+#include "fusee/pipeline/simulate.h"
 #include "fusee/solid/mesh.h"
 #include "fusee/solid/placement.h"
 

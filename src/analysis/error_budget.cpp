@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <random>
 
 #include "analysis/rigid_joint.h"
 #include "analysis/stroke.h"
+#include "base/normal_numbers.h"
 #include "fusee/analysis/analysis.h"
 #include "transmission/alpha_range.h"
 
@@ -84,23 +84,6 @@ ErrorSource friction(const Mechanism& mechanism) {
 }
 
 // ---- tolerances -----------------------------------------------------------------------------------------------------
-
-/// Normal numbers, the same on every machine: the standard's own distribution is not.
-class NormalNumbers {
- public:
-  explicit NormalNumbers(std::uint64_t seed) : bits_(seed) {}
-
-  double next() {
-    const double radius = std::sqrt(-2.0 * std::log(uniform()));
-    return radius * std::cos(k_two_pi * uniform());
-  }
-
- private:
-  /// In (0, 1).
-  double uniform() { return (static_cast<double>(bits_() >> 11) + 0.5) * 0x1p-53; }
-
-  std::mt19937_64 bits_;
-};
 
 /// Half widths at each place.
 struct Spread {

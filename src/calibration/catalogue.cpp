@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "fusee/plan/bench_run.h"
 #include "measurement/seen_span.h"
 
 namespace fusee {
@@ -11,8 +12,6 @@ namespace {
 
 /// A sensor that drifts by less has seen one temperature.
 constexpr double k_least_warming = 1.0;  // K
-/// Less than this of a turn, and what comes back once a turn looks like a slope.
-constexpr double k_full_turn = radians(150.0);
 
 bool all(const Measurement& measurement, bool Run::*has) {
   return std::all_of(measurement.runs.begin(), measurement.runs.end(), [&](const Run& run) { return run.*has; });

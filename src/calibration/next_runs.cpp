@@ -5,58 +5,22 @@
 
 #include "calibration/thresholds.h"
 #include "fusee/base/text.h"
+#include "fusee/plan/bench_run.h"
+#include "measurement/seen_span.h"
 
 namespace fusee {
 namespace {
 
 constexpr std::size_t k_most_proposals = 4;
-constexpr double k_lever_load = 0.3;     // of the pretension, as a tip force
-
-/// A run that could be made: what it would log, and what is changed on the bench for it.
-struct Proposal {
-  std::string words;
-  Measurement measurement;
-  Mechanism mechanism;
-  /// The imperfections as they act with the bench changed.
-  Imperfections (*turned)(const Imperfections&) = [](const Imperfections& at) { return at; };
-};
-
-/// A quarter turn against what it measures or drives: once-a-turn errors change their phase.
-Imperfections pulley_turned(const Imperfections& at) {
-  Imperfections turned = at;
-  turned.pulley.outline.runout_x = -at.pulley.outline.runout_y;
-  turned.pulley.outline.runout_y = at.pulley.outline.runout_x;
-  return turned;
-}
-Imperfections motor_sensor_turned(const Imperfections& at) {
-  Imperfections turned = at;
-  turned.motor.eccentricity_sin = -at.motor.eccentricity_cos;
-  turned.motor.eccentricity_cos = at.motor.eccentricity_sin;
-  return turned;
-}
-Imperfections joint_sensor_turned(const Imperfections& at) {
-  Imperfections turned = at;
-  turned.sensor.eccentricity_sin = -at.sensor.eccentricity_cos;
-  turned.sensor.eccentricity_cos = at.sensor.eccentricity_sin;
-  return turned;
-}
+constexpr double k_lever_load = 0.3;    // of the pretension, as a tip force
+constexpr double k_slow_stroke = 15.0;  // s, where no time was logged
+constexpr int k_rows_a_stroke = 60;
+/// Of a pace that is clearly another one.
+constexpr double k_faster = 5.0, k_slower = 0.1;
 
 const Run& longest(const Measurement& measurement) {
   return *std::max_element(measurement.runs.begin(), measurement.runs.end(),
                            [](const Run& a, const Run& b) { return a.samples.size() < b.samples.size(); });
-}
-
-/// The same strokes at another load and another pace.
-Measurement repeated(const Measurement& measurement, double load, double pace) {
-  Measurement planned = measurement;
-  planned.runs = {longest(measurement)};
-  Run& run = planned.runs.front();
-  run.has_load = true;
-  for (Sample& sample : run.samples) {
-    sample.load = load;
-    sample.time *= pace;
-  }
-  return planned;
 }
 
 double largest_load(const Evidence& evidence) {
@@ -68,95 +32,89 @@ double largest_load(const Evidence& evidence) {
   return std::max(1.0, std::round(k_lever_load * evidence.declared->tendon.pretension));
 }
 
-std::string load_words(const Evidence& evidence, double load) {
-  const std::string unit = evidence.declared->transmission ? evidence.measurement.load_unit : "N tip force";
-  return rounded(load, 3) + " " + unit;
+/// The strokes that were measured, without load.
+PlannedRun as_before(const Measurement& measurement) {
+  const Run& run = longest(measurement);
+  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
+  PlannedRun before{.from = seen.least, .to = seen.most};
+  before.speed = run.has_time && run.speed > 0 ? run.speed : seen.size() / k_slow_stroke;
+  return before;
 }
 
-std::vector<Proposal> proposals(const Evidence& evidence) {
-  const Measurement& seen = evidence.measurement;
-  const DeclaredMechanism& declared = *evidence.declared;
+/// What could be driven next, beginning from what was.
+std::vector<PlannedRun> proposals(const Evidence& evidence) {
+  const PlannedRun before = as_before(evidence.measurement);
   const double load = largest_load(evidence);
-  const auto as_before = repeated(seen, 0, 1);
-  std::vector<Proposal> all;
-  if (load > 0) {
-    all.push_back({"repeat the strokes slowly at " + load_words(evidence, load), repeated(seen, load, 1), declared});
-    all.push_back({"repeat the strokes slowly at " + load_words(evidence, -load), repeated(seen, -load, 1), declared});
-    all.push_back(
-        {"repeat the strokes slowly at " + load_words(evidence, 2 * load), repeated(seen, 2 * load, 1), declared});
+  std::vector<PlannedRun> all;
+  const auto add = [&](auto... changes) {
+    PlannedRun run = before;
+    (changes(run), ...);
+    all.push_back(run);
+  };
+  const auto loaded = [](double by) { return [by](PlannedRun& run) { run.load = by; }; };
+  const auto paced = [](double by) { return [by](PlannedRun& run) { run.speed *= by; }; };
+  const auto with = [](BenchChange change) { return [change](PlannedRun& run) { run.change = change; }; };
+  for (const double times : {1.0, -1.0, 2.0}) {
+    if (load > 0) add(loaded(times * load));
   }
-  all.push_back({"repeat the strokes slowly without load", as_before, declared});
-  if (longest(seen).has_time) {
-    all.push_back({"repeat the strokes five times as fast", repeated(seen, 0, 0.2), declared});
-    all.push_back({"repeat the strokes at a tenth of the speed", repeated(seen, 0, 10), declared});
+  add();
+  if (longest(evidence.measurement).has_time) {
+    add(paced(k_faster));
+    add(paced(k_slower));
   }
-  if (declared.transmission) return all;
-  Mechanism tighter = declared;
-  tighter.tendon.pretension *= 2;
-  all.push_back({"double the pretension and repeat the slow strokes", as_before, tighter});
-  all.push_back({"turn the pulley's print on its shaft by a quarter turn and repeat the slow strokes", as_before,
-                 declared, pulley_turned});
-  all.push_back({"turn the motor's encoder on its shaft by a quarter turn and repeat the slow strokes", as_before,
-                 declared, motor_sensor_turned});
-  all.push_back({"turn the joint's encoder on its axis by a quarter turn and repeat the slow strokes", as_before,
-                 declared, joint_sensor_turned});
-  all.push_back(
-      {"lay the joint on its side and repeat the slow strokes", as_before, declared, [](const Imperfections& at) {
-         Imperfections level = at;
-         level.joint.weight = {};
-         return level;
-       }});
+  if (evidence.declared->transmission) return all;
+  for (const BenchChange change : {BenchChange::doubled_pretension, BenchChange::motor_sensor_turned,
+                                   BenchChange::joint_sensor_turned, BenchChange::on_its_side})
+    add(with(change));
   return all;
 }
 
+/// Explanations that the data do not tell apart.
+std::vector<const Rival*> as_good_pairs(const Evidence& evidence, const Selection& selection) {
+  std::vector<const Rival*> pairs;
+  for (const Rival& rival : selection.rivals) {
+    if (as_good(evidence, rival.fit, selection.best)) pairs.push_back(&rival);
+  }
+  return pairs;
+}
+
+/// In the joint that was found and in each of its rivals.
+RankedMeasurement tried(const PlannedRun& run, const Evidence& evidence, const Selection& selection,
+                        const std::vector<const Rival*>& pairs) {
+  const BenchLog log = {driven(run, k_rows_a_stroke)};
+  const auto shown = [&](const Imperfections& at) {
+    const ChangedJoint joint = changed(*evidence.declared, at, run.change);
+    return predict(joint.declared, joint.at, log);
+  };
+  const Readings found = shown(selection.best.at);
+  const std::string unit = evidence.declared->transmission ? evidence.measurement.load_unit : "N";
+  RankedMeasurement measurement{words(run, as_before(evidence.measurement).speed, unit), minutes_of(run), {}};
+  for (const Rival* pair : pairs)
+    measurement.margins.push_back(rms_apart(found, shown(pair->fit.at)) / evidence.floor / k_thresholds.told_apart);
+  return measurement;
+}
+
 /// A reading by hand tells those apart that give a number different values.
-std::vector<const EffectParameter*> calipers(const Evidence& evidence) {
-  std::vector<const EffectParameter*> readable;
-  if (evidence.declared->transmission) return readable;
-  for (const Effect& effect : effects(kind_of(*evidence.declared))) {
-    for (const EffectParameter& parameter : effect.parameters) {
-      if (!parameter.by_hand.words.empty()) readable.push_back(&parameter);
-    }
-  }
-  return readable;
+RankedMeasurement tried(const EffectParameter& number, const Selection& selection,
+                        const std::vector<const Rival*>& pairs) {
+  RankedMeasurement measurement{std::string(number.by_hand.words), 0, {}};
+  for (const Rival* pair : pairs)
+    measurement.margins.push_back(std::abs(value_of(selection.best.at, number) - value_of(pair->fit.at, number)) /
+                                  number.by_hand.uncertainty / k_thresholds.told_apart);
+  return measurement;
 }
 
-double rms_apart(const Readings& one, const Readings& other) {
-  double squares = 0;
-  double rows = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    for (std::size_t k = 0; k < one[i].size(); ++k) {
-      const double difference = one[i][k] - other[i][k];
-      if (!std::isfinite(difference)) continue;
-      squares += difference * difference;
-      rows += 1;
-    }
-  }
-  return rows > 0 ? std::sqrt(squares / rows) : 0.0;
-}
-
-/// How far apart a measurement puts each pair that the data cannot tell apart, in units of the noise.
-struct Ranked {
-  std::string words;
-  std::vector<double> apart;
-
-  std::size_t told() const {
-    return static_cast<std::size_t>(
-        std::count_if(apart.begin(), apart.end(), [](double a) { return a > k_thresholds.told_apart; }));
-  }
-  double most() const { return *std::max_element(apart.begin(), apart.end()); }
-};
-
-std::string sentence(const Ranked& ranked, const std::vector<const Rival*>& pairs) {
+std::string sentence(const RankedMeasurement& ranked, const std::vector<const Rival*>& pairs) {
   std::string told;
   const Effect* named = nullptr;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (ranked.apart[i] <= k_thresholds.told_apart) continue;
+    if (ranked.margins[i] <= 1) continue;
+    const double apart = ranked.margins[i] * k_thresholds.told_apart;
     const std::string unit = told.empty() ? " × what it is uncertain by)" : " ×)";
     told += told.empty() ? "" : ", ";
     if (pairs[i]->accepted != named) told += pairs[i]->accepted->name + " from ";
     named = pairs[i]->accepted;
-    told += pairs[i]->rival->name + " (" + rounded(std::min(ranked.apart[i], 999.0), 2) + unit;
+    told += pairs[i]->rival->name + " (" + rounded(std::min(apart, 999.0), 2) + unit;
   }
   return ranked.words + ": it tells " + told;
 }
@@ -164,33 +122,15 @@ std::string sentence(const Ranked& ranked, const std::vector<const Rival*>& pair
 }  // namespace
 
 std::vector<std::string> next_runs(const Evidence& evidence, const Selection& selection) {
-  std::vector<const Rival*> pairs;
-  for (const Rival& rival : selection.rivals) {
-    if (as_good(evidence, rival.fit, selection.best)) pairs.push_back(&rival);
-  }
+  const std::vector<const Rival*> pairs = as_good_pairs(evidence, selection);
   if (pairs.empty()) return {};
-  std::vector<Ranked> ranked;
-  for (const Proposal& proposal : proposals(evidence)) {
-    const BenchLog log = bench_log(proposal.measurement);
-    Forward forward(proposal.mechanism, log);
-    const Readings found = forward(proposal.turned(selection.best.at));
-    Ranked entry{proposal.words, {}};
-    for (const Rival* pair : pairs)
-      entry.apart.push_back(rms_apart(found, forward(proposal.turned(pair->fit.at))) / evidence.floor);
-    ranked.push_back(std::move(entry));
-  }
-  for (const EffectParameter* number : calipers(evidence)) {
-    Ranked entry{std::string(number->by_hand.words), {}};
-    for (const Rival* pair : pairs)
-      entry.apart.push_back(std::abs(value_of(selection.best.at, *number) - value_of(pair->fit.at, *number)) /
-                            number->by_hand.uncertainty);
-    ranked.push_back(std::move(entry));
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return a.told() != b.told() ? a.told() > b.told() : a.most() > b.most();
-  });
+  std::vector<RankedMeasurement> ranked;
+  for (const PlannedRun& run : proposals(evidence)) ranked.push_back(tried(run, evidence, selection, pairs));
+  for (const EffectParameter* number : hand_readable(*evidence.declared))
+    ranked.push_back(tried(*number, selection, pairs));
+  rank(ranked);
   std::vector<std::string> words;
-  for (const Ranked& entry : ranked) {
+  for (const RankedMeasurement& entry : ranked) {
     if (words.size() < k_most_proposals && entry.told() > 0) words.push_back(sentence(entry, pairs));
   }
   // Nothing that can be simulated tells them apart: what each effect itself asks for.

@@ -7,6 +7,7 @@
 #include "cli/calibration_summary.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/measured_columns.h"
 #include "cli/table.h"
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
@@ -15,28 +16,6 @@ namespace fusee::cli {
 namespace {
 
 // ---- what is asked --------------------------------------------------------------------------------------------------
-
-MeasurementOptions columns_from(const Arguments& arguments) {
-  MeasurementOptions options;
-  std::vector<std::string> roles;
-  for (const auto& [role, column] : column_roles()) roles.push_back(role);
-  for (const std::string& text : arguments.texts("--column")) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-      throw UsageError("--column takes role=name; '" + text + "' is not of that form",
-                       "for example: --column load=tau_out_Nm");
-    }
-    const std::string role = text.substr(0, equals);
-    if (std::find(roles.begin(), roles.end(), role) == roles.end()) {
-      const std::string nearest = nearest_word(role, roles);
-      throw UsageError("--column: there is no role '" + role + "'",
-                       nearest.empty() ? "roles: alpha, theta, time, load, temperature, tension1, tension2, cycle"
-                                       : "did you mean '" + nearest + "'?");
-    }
-    options.columns[role] = text.substr(equals + 1);
-  }
-  return options;
-}
 
 std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
 
@@ -124,9 +103,9 @@ Command calibrate_command() {
           "could not.",
           {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
            {"--hold-out", "FILE", "a run to validate with only; may be given several\ntimes", true},
-           {"--no-audit", "", "do not count how often these runs would have named what\nis not there"},
-           {"--column", "ROLE=NAME",
-            "the column of a role: alpha, theta, time, load,\ntemperature …; may be given several times", true}},
+           {"--no-audit", "", "do not count how often these runs would have named what
+is not there"},
+            column_option()},
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},
            {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "judge by run_2.csv alone"},
            {"fusee calibrate jaw.toml jaw.csv --column load=tau_out_Nm", "the load has another name"}},

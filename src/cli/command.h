@@ -39,6 +39,8 @@ Command rewind_command();
 Command optimize_command();
 Command reproduce_command();
 Command calibrate_command();
+Command plan_command();
+Command simulate_command();
 
 /// All of them, in the order in which a person meets them.
 const std::vector<Command>& commands();

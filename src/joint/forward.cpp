@@ -41,6 +41,26 @@ double slack_of(const RatioJointError& joint, double load) {
   return joint.slack / (1.0 + joint.slack_taken_up * std::abs(load));
 }
 
+std::vector<double> shown_by_sensor(const BenchRun& run, std::vector<double> theta, const Imperfections& at) {
+  return sensed(run, std::move(theta), turned(at.sensor, run.mounting.joint_sensor_turned));
+}
+
+/// Where the joint stands; within its play where it was last pushed.
+double standing(const EquilibriumPoint& point) {
+  return point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
+}
+double play_of(const EquilibriumPoint& point) { return std::max(point.loose_above, point.loose_below); }
+
+JointState state_of(const EquilibriumPoint& point) {
+  JointState state{point.status, standing(point)};
+  state.loose = play_of(point);
+  if (point.status == EquilibriumStatus::no_equilibrium) return state;
+  state.t1 = point.t1;
+  state.t2 = point.t2;
+  state.motor_torque = point.motor_torque;
+  return state;
+}
+
 void look_paths_up(JointModel& model, double least, double most) {
   const auto table = std::make_shared<const LowerPathTable>(model, least, most);
   model.lower = [table](double alpha) { return table->paths(alpha); };
@@ -130,15 +150,14 @@ double Forward::time_before(std::size_t index) const {
 }
 
 void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections& at, TendonCreep& creep,
-                      Motion& into) const {
+                      const std::function<void(const EquilibriumPoint&)>& found) const {
   const BenchRun& run = log_[index];
-  std::vector<double>& theta = into.theta.emplace_back();
-  std::vector<double>& loose = into.loose.emplace_back();
   if (run.rows.empty()) return;
   creep.rest(time_before(index));
   Play play(0.0);
+  const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
   const auto step = [&](double alpha, const BenchRow& row, double time) {
-    const double pulley = play.to(shaft_angle(alpha, at.motor), at.shaft.backlash);
+    const double pulley = play.to(shaft_angle(alpha, motor), at.shaft.backlash);
     TendonChange changed = change(index, row, at);
     const std::array<double, 2> crept = creep.after(time);
     for (std::size_t i = 0; i < 2; ++i) changed.expansion[i] += crept[i];
@@ -149,12 +168,7 @@ void Forward::elastic(std::size_t index, JointMotion motion, const Imperfections
   const BenchRow& first = run.rows.front();
   for (int i = 1; i < k_approach; ++i) step(first.alpha * i / k_approach, first, 0.0);
   double time = first.time;
-  for (const BenchRow& row : run.rows) {
-    const EquilibriumPoint point = step(row.alpha, row, row.time - std::exchange(time, row.time));
-    const bool held = point.status != EquilibriumStatus::no_equilibrium;
-    theta.push_back(held ? point.theta : std::numeric_limits<double>::quiet_NaN());
-    loose.push_back(std::max(point.loose_above, point.loose_below));
-  }
+  for (const BenchRow& row : run.rows) found(step(row.alpha, row, row.time - std::exchange(time, row.time)));
 }
 
 std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, CreepMemory& drift) const {
@@ -164,9 +178,10 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, 
   if (run.rows.empty()) return theta;
   const double ratio = declared_.transmission->ratio;
   const auto load_of = [&run](const BenchRow& row) { return run.has_load ? row.load : 0.0; };
-  Play play(shaft_angle(0.0, at.motor));
+  const MotorSensorError motor = turned(at.motor, run.mounting.motor_sensor_turned);
+  Play play(shaft_angle(0.0, motor));
   const auto pulley_at = [&](double alpha, const BenchRow& row) {
-    return play.to(shaft_angle(alpha, at.motor), at.shaft.backlash + slack_of(at.ratio_joint, load_of(row)));
+    return play.to(shaft_angle(alpha, motor), at.shaft.backlash + slack_of(at.ratio_joint, load_of(row)));
   };
   const BenchRow& first = run.rows.front();
   for (int i = 1; i < k_approach; ++i) pulley_at(first.alpha * i / k_approach, first);
@@ -193,33 +208,63 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, 
   return theta;
 }
 
+void Forward::move(const Imperfections& at, const std::function<void(std::size_t, const EquilibriumPoint&)>& found) {
+  if (made_) {
+    const JointMotion home = at_home(at);
+    const double EA = section_stiffness(mounted(declared_, at).mechanism.tendon);
+    TendonCreep creep(at.tendon.creep, EA, home, {.torque = declared_.load.torque});
+    for (std::size_t i = 0; i < log_.size(); ++i)
+      elastic(i, home, at, creep, [&](const EquilibriumPoint& point) { found(i, point); });
+    return;
+  }
+  CreepMemory drift;
+  for (std::size_t i = 0; i < log_.size(); ++i) {
+    for (const double theta : geared(i, at, drift)) {
+      EquilibriumPoint point;
+      point.theta = theta;
+      found(i, point);
+    }
+  }
+}
+
 const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
   const Imperfections key = without_sensor(imperfections);
   for (const Motion& motion : latest_) {
     if (motion.key == key && !motion.theta.empty()) return motion;
   }
   Motion& place = latest_[next_++ % latest_.size()];
-  place = {key, {}, {}};
-  if (made_) {
-    const JointMotion home = at_home(key);
-    const double EA = section_stiffness(mounted(declared_, key).mechanism.tendon);
-    TendonCreep creep(key.tendon.creep, EA, home, {.torque = declared_.load.torque});
-    for (std::size_t i = 0; i < log_.size(); ++i) elastic(i, home, key, creep, place);
-    return place;
-  }
-  CreepMemory drift;
-  for (std::size_t i = 0; i < log_.size(); ++i) {
-    place.theta.push_back(geared(i, key, drift));
-    place.loose.emplace_back(place.theta.back().size(), 0.0);
-  }
+  place = {key, Readings(log_.size()), Readings(log_.size())};
+  move(key, [&](std::size_t run, const EquilibriumPoint& point) {
+    place.theta[run].push_back(standing(point));
+    place.loose[run].push_back(play_of(point));
+  });
   return place;
 }
 
 Readings Forward::operator()(const Imperfections& imperfections) {
   Readings readings = mechanism(imperfections).theta;
   for (std::size_t i = 0; i < readings.size(); ++i)
-    readings[i] = sensed(log_[i], std::move(readings[i]), imperfections.sensor);
+    readings[i] = shown_by_sensor(log_[i], std::move(readings[i]), imperfections);
   return readings;
+}
+
+std::vector<std::vector<JointState>> Forward::states(const Imperfections& at) {
+  std::vector<std::vector<JointState>> all(log_.size());
+  move(without_sensor(at), [&](std::size_t run, const EquilibriumPoint& point) {
+    all[run].push_back(made_ ? state_of(point) : JointState{point.status, point.theta});
+  });
+  for (std::size_t i = 0; i < log_.size(); ++i) {
+    std::vector<double> theta;
+    for (const JointState& state : all[i]) theta.push_back(state.theta);
+    theta = shown_by_sensor(log_[i], std::move(theta), at);
+    for (std::size_t k = 0; k < theta.size(); ++k) all[i][k].shown = theta[k];
+  }
+  return all;
+}
+
+std::vector<std::vector<JointState>> simulate(const Mechanism& declared, const Imperfections& imperfections,
+                                              const BenchLog& log) {
+  return Forward(declared, log).states(imperfections);
 }
 
 Readings predict(const Mechanism& declared, const Imperfections& imperfections, const BenchLog& log) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -49,6 +50,8 @@ class Forward {
   Readings operator()(const Imperfections& imperfections);
   /// How far from there the joint could be, since nothing holds it, rad; zero where a tendon is taut.
   const Readings& looseness(const Imperfections& imperfections) { return mechanism(imperfections).loose; }
+  /// All that is known of the joint, row by row.
+  std::vector<std::vector<JointState>> states(const Imperfections& imperfections);
 
  private:
   struct Motion {
@@ -64,8 +67,11 @@ class Forward {
 
   const Motion& mechanism(const Imperfections& imperfections);
   JointMotion at_home(const Imperfections& imperfections);
+  /// Calls `found` with what every row of every run finds; of a joint declared by a ratio only θ is known.
+  void move(const Imperfections& imperfections,
+            const std::function<void(std::size_t run, const EquilibriumPoint&)>& found);
   void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections, TendonCreep& creep,
-               Motion& into) const;
+               const std::function<void(const EquilibriumPoint&)>& found) const;
   std::vector<double> geared(std::size_t run, const Imperfections& imperfections, CreepMemory& drift) const;
   TendonChange change(std::size_t run, const BenchRow& row, const Imperfections& imperfections) const;
   double time_before(std::size_t run) const;

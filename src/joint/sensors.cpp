@@ -43,7 +43,28 @@ double wave(double angle, double order, double sin_part, double cos_part) {
   return sin_part * std::sin(order * angle) + cos_part * (std::cos(order * angle) - 1.0);
 }
 
+/// sin n(x + a) and cos n(x + a) in terms of nx.
+void turn_wave(double angle, double& sin_part, double& cos_part) {
+  if (angle == 0) return;
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double turned_sin = sin_part * c - cos_part * s;
+  cos_part = sin_part * s + cos_part * c;
+  sin_part = turned_sin;
+}
+
 }  // namespace
+
+MotorSensorError turned(MotorSensorError error, double angle) {
+  turn_wave(angle, error.eccentricity_sin, error.eccentricity_cos);
+  turn_wave(error.wave_order * angle, error.wave_sin, error.wave_cos);
+  return error;
+}
+
+JointSensorError turned(JointSensorError error, double angle) {
+  turn_wave(angle, error.eccentricity_sin, error.eccentricity_cos);
+  turn_wave(error.wave_order * angle, error.wave_sin, error.wave_cos);
+  return error;
+}
 
 double shaft_angle(double alpha, const MotorSensorError& error) {
   return alpha + error.offset + wave(alpha, 1, error.eccentricity_sin, error.eccentricity_cos) +

@@ -10,6 +10,10 @@
 
 namespace fusee {
 
+/// What a sensor errs by, seen after it was turned by `angle` and its zero set again.
+MotorSensorError turned(MotorSensorError error, double angle);
+JointSensorError turned(JointSensorError error, double angle);
+
 /// Where the shaft stands when the sensor shows `alpha`, rad.
 double shaft_angle(double alpha, const MotorSensorError& error);
 

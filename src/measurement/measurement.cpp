@@ -18,6 +18,11 @@
 namespace fusee {
 namespace {
 
+/// A run of `fusee plan` before anything was measured.
+bool is_unfilled(const LoggedRows& rows) { return rows.rows > 0 && rows.without_theta == rows.rows; }
+
+std::string all_of(std::size_t rows) { return rows == 1 ? "its only row" : "all " + rows_text(rows); }
+
 void say_what_was_read(const LoggedRows& rows, const std::string& name, const Say& say, Measurement& into) {
   for (const std::string& words : rows.notes) say(words);
   if (rows.stride > 1) {
@@ -25,6 +30,11 @@ void say_what_was_read(const LoggedRows& rows, const std::string& name, const Sa
         std::to_string(k_most_samples) + " rows of all files are kept");
   }
   if (rows.without_angle == 0) return;
+  if (is_unfilled(rows)) {
+    into.not_testable.push_back(name + ": no measured rows: theta is empty in " + all_of(rows.rows) +
+                                "; a run of 'fusee plan' waits for what the joint's sensor shows");
+    return;
+  }
   say(rows_text(rows.without_angle) + " without alpha or theta, the first in line " +
       std::to_string(rows.first_without_angle) + ": left out");
   if (2 * rows.without_angle > rows.rows)
@@ -84,13 +94,14 @@ Run make_run(const std::string& name, LoggedRows rows, Measurement& into) {
   run.has_time = rows.has_time;
   run.has_load = rows.has_load;
   run.has_temperature = rows.has_temperature;
+  run.mounting = rows.mounting;
   if (!run.samples.empty()) {
     const double alpha_quantum = quantum_of(run.samples, &Sample::alpha);
     repair(run, say);
     cut(run, into, alpha_quantum);
     describe(run);
   }
-  look_at_run(run, into, say);
+  if (!is_unfilled(rows)) look_at_run(run, into, say);
   if (run.has_load) into.load_unit = unit_of(rows.load_column);
   return run;
 }
@@ -134,7 +145,9 @@ void refuse_copies(const std::vector<std::filesystem::path>& files, const std::v
 const std::vector<std::pair<std::string, std::string>>& column_roles() {
   static const std::vector<std::pair<std::string, std::string>> roles = {
       {"alpha", "alpha_deg"},           {"theta", "theta_deg"},     {"time", "time_s"},         {"load", "load_N"},
-      {"temperature", "temperature_C"}, {"tension1", "tension1_N"}, {"tension2", "tension2_N"}, {"cycle", "cycle"}};
+      {"temperature", "temperature_C"}, {"tension1", "tension1_N"}, {"tension2", "tension2_N"}, {"cycle", "cycle"},
+      {std::string(k_motor_sensor_turned), "motor_sensor_turned_deg"},
+      {std::string(k_joint_sensor_turned), "joint_sensor_turned_deg"}};
   return roles;
 }
 
@@ -170,12 +183,36 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
   return measurement;
 }
 
+Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared, MeasurementOptions options) {
+  options.needs_theta = false;
+  check_roles(options);
+  Measurement measurement;
+  Run& run = measurement.runs.emplace_back();
+  run.name = file.filename().string();
+  const Say say = [&](const std::string& words) { measurement.notes.push_back(run.name + ": " + words); };
+  LoggedRows rows = read_rows(file, file.string(), options);
+  if (rows.samples.empty())
+    throw InputError(file.string(), "no row holds alpha", "one row a line: alpha_deg and, if known, time_s,load_N");
+  say_what_was_read(rows, run.name, say, measurement);
+  run.samples = std::move(rows.samples);
+  run.mounting = rows.mounting;
+  run.has_time = rows.has_time;
+  if (run.has_time) order_time(run, say);
+  unwrap(run.samples, &Sample::alpha, "alpha", say);
+  run.has_load = rows.has_load && fill_gaps(run.samples, &Sample::load, "load", say);
+  run.has_temperature = rows.has_temperature && fill_gaps(run.samples, &Sample::temperature, "temperature", say);
+  if (run.has_load) measurement.load_unit = unit_of(rows.load_column);
+  take_torques_as_forces(declared, measurement);
+  return measurement;
+}
+
 BenchLog bench_log(const Measurement& measurement) {
   BenchLog log;
   for (const Run& run : measurement.runs) {
     BenchRun& into = log.emplace_back();
     into.has_load = run.has_load;
     into.has_temperature = run.has_temperature;
+    into.mounting = run.mounting;
     into.rows.reserve(run.samples.size());
     for (const Sample& sample : run.samples)
       into.rows.push_back({sample.time, sample.alpha, sample.load, sample.temperature});

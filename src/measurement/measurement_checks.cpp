@@ -214,7 +214,8 @@ double force_of_unit(const std::string& unit, double length) {
   return unit == "Nm" ? 1000.0 / length : unit == "Nmm" ? 1.0 / length : 0.0;
 }
 
-/// A torque is not a tip force: the elastic model of tendons takes N across OC.
+}  // namespace
+
 void take_torques_as_forces(const Mechanism& declared, Measurement& measurement) {
   const double per_unit = declared.transmission ? 0.0 : force_of_unit(measurement.load_unit, declared.joint.R);
   if (per_unit == 0) return;
@@ -226,8 +227,6 @@ void take_torques_as_forces(const Mechanism& declared, Measurement& measurement)
                               ": taken as a tip force across OC, positive against +theta");
   measurement.load_unit = "N";
 }
-
-}  // namespace
 
 void compare_with_declared(const Mechanism& declared, Measurement& measurement) {
   hold_against_law(declared, measurement);

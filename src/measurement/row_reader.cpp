@@ -104,6 +104,12 @@ bool has_decimal_comma(std::string_view text) {
   return read_cell(point, value) == Cell::number;
 }
 
+double* member(Mounting& mounting, const std::string& role) {
+  if (role == k_motor_sensor_turned) return &mounting.motor_sensor_turned;
+  if (role == k_joint_sensor_turned) return &mounting.joint_sensor_turned;
+  return nullptr;
+}
+
 double* member(Sample& sample, const std::string& role) {
   if (role == "time") return &sample.time;
   if (role == "alpha") return &sample.alpha;
@@ -115,7 +121,8 @@ double* member(Sample& sample, const std::string& role) {
   return nullptr;  // cycle: found from α itself
 }
 
-bool is_angle(const std::string& role) { return role == "alpha" || role == "theta"; }
+bool is_mounting(const std::string& role) { return role == k_motor_sensor_turned || role == k_joint_sensor_turned; }
+bool is_angle(const std::string& role) { return role == "alpha" || role == "theta" || is_mounting(role); }
 
 /// The unit stands in the column's name: degrees and seconds unless it says otherwise.
 double factor_of(const std::string& role, const std::string& column) {
@@ -220,7 +227,7 @@ class RowReader {
         if (std::find(found + 1, names.end(), wanted) != names.end()) {
           fail(1, "two columns are called " + shown(wanted), "each column needs a name of its own");
         }
-      } else if (is_angle(role) || given != options_.columns.end()) {
+      } else if (is_needed(role) || given != options_.columns.end()) {
         missing(role, wanted, names);
       }
     }
@@ -232,6 +239,10 @@ class RowReader {
     for (const Column& column : columns_) {
       if (column.role == "load") found_.load_column = column.name;
     }
+  }
+
+  bool is_needed(const std::string& role) const {
+    return role == "alpha" || (role == "theta" && options_.needs_theta);
   }
 
   bool has(const std::string& role) const {
@@ -310,6 +321,14 @@ class RowReader {
                     "leave the cell empty where nothing was logged");
       }
       if (double* to = member(sample, column.role)) *to = value * column.factor;
+      if (double* to = member(found_.mounting, column.role); to != nullptr && !std::isnan(value)) {
+        if (mounted_.insert(column.role).second) {
+          *to = value * column.factor;
+        } else if (*to != value * column.factor) {
+          return fail(column_of(values[column.index]), column.name + " changes within the run",
+                      "one file for each way in which the encoders were mounted");
+        }
+      }
     }
     keep(sample);
   }
@@ -347,7 +366,8 @@ class RowReader {
   }
 
   void keep(const Sample& sample) {
-    if (std::isnan(sample.alpha) || std::isnan(sample.theta)) {
+    if (std::isnan(sample.alpha) || (options_.needs_theta && std::isnan(sample.theta))) {
+      found_.without_theta += !std::isnan(sample.alpha);
       if (found_.without_angle++ == 0) found_.first_without_angle = line_;
       return;
     }
@@ -366,6 +386,7 @@ class RowReader {
   std::size_t most_samples_;
   LoggedRows found_;
   std::vector<Column> columns_;
+  std::set<std::string> mounted_;  ///< roles of the mounting that have their value
   std::vector<Diagnostic> problems_;
   Diagnostic cut_off_;
   std::string_view line_text_;

@@ -21,8 +21,10 @@ struct LoggedRows {
   std::vector<std::string> notes;
   std::string load_column;
   bool has_time = false, has_load = false, has_temperature = false;
+  Mounting mounting;
   std::size_t rows = 0;  ///< in the file
   std::size_t without_angle = 0;
+  std::size_t without_theta = 0;      ///< of these: with α alone
   long long first_without_angle = 0;  ///< line
   std::size_t stride = 1;
 };

@@ -13,10 +13,20 @@ struct BenchRow {
   double temperature = 0;  ///< °C
 };
 
+/// How far an encoder was turned on what it measures since home was set, and its zero set again, rad: what it errs by
+/// once a turn changes its phase.
+struct Mounting {
+  double motor_sensor_turned = 0;
+  double joint_sensor_turned = 0;
+
+  bool operator==(const Mounting&) const = default;
+};
+
 struct BenchRun {
   std::vector<BenchRow> rows;  ///< by time
   bool has_load = false;       ///< else the declared load acts
   bool has_temperature = false;
+  Mounting mounting = {};
 };
 
 /// Runs in the order in which they were made.

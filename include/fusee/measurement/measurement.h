@@ -21,6 +21,7 @@ namespace fusee {
 /// degrees and time in s, unless the column's name ends in _rad, _ms or _us.
 struct MeasurementOptions {
   std::map<std::string, std::string> columns;  ///< role → column name: {"load", "tau_out_Nm"}
+  bool needs_theta = true;                     ///< false: what drove the joint is enough, as in read_driving()
 };
 
 /// One logged row. NaN where a column is absent.
@@ -60,6 +61,7 @@ struct Run {
   double speed = 0;                ///< median |dα/dt|, rad/s; 0 without time, and from point to point
   double mean_load = 0;            ///< mean of the load column; 0 without
   bool has_time = false, has_load = false, has_temperature = false;
+  Mounting mounting = {};  ///< of its encoders
 };
 
 struct Measurement {
@@ -80,12 +82,21 @@ Measurement read_measurement(const std::vector<std::filesystem::path>& files, co
 Measurement read_measurement(const std::vector<std::filesystem::path>& files, const Mechanism& declared,
                              const MeasurementOptions& options = {});
 
+/// What drives a joint, logged or planned, for those who ask what the joint will do: one run, rows in order of time, α
+/// unwrapped, load and temperature without gaps. θ is NaN where there is none; strokes are not looked for. A torque is
+/// taken as a tip force, as in compare_with_declared(). InputError, also where no row holds α.
+Measurement read_driving(const std::filesystem::path& file, const Mechanism& declared,
+                         MeasurementOptions options = {});
+
 /// One run from text; `name` stands in the messages. InputError. Notes and reasons go to `into`.
 Run parse_run(std::string_view text, const std::string& name, const MeasurementOptions& options, Measurement& into);
 
 /// The roles that a column can have, and the column that has each unless the options say otherwise: {"alpha",
 /// "alpha_deg"} …
 const std::vector<std::pair<std::string, std::string>>& column_roles();
+/// Columns that hold one value a run: how the encoders were mounted in it.
+inline constexpr std::string_view k_motor_sensor_turned = "motor_sensor_turned";  ///< role; column …_deg
+inline constexpr std::string_view k_joint_sensor_turned = "joint_sensor_turned";
 
 /// The run's stretches; of a run that was not read but made, its whole strokes.
 std::vector<Stretch> stretches_of(const Run& run);
@@ -101,6 +112,8 @@ BenchLog bench_log(const Measurement& measurement);
 /// in noise. Adds the reasons to `not_testable`. A torque is taken as a tip force where the joint has tendons (with a
 /// note).
 void compare_with_declared(const Mechanism& declared, Measurement& measurement);
+/// Its last step: the tendons' elastic model takes N across OC.
+void take_torques_as_forces(const Mechanism& declared, Measurement& measurement);
 
 /// Scatter of θ between repeats at the same α, direction, load and speed, before any fit. Repeats within a run, or
 /// where there are none, of runs that repeat one another: as far as they agree. What differs between two runs smoothly

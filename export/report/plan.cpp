@@ -1,0 +1,170 @@
+// plan.json, the empty run files and manifest.json of a plan.
+
+#include "fusee/export/plan.h"
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/output_list.h"
+#include "export/report/csv_cells.h"
+#include "export/tool.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/measurement/measurement.h"
+#include "fusee/transmission/load.h"
+
+namespace fusee {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Enough for every stroke's shape, and for a person who sets them one by one.
+constexpr int k_rows_a_stroke = 120;
+
+/// Nine digits: the last ones of a simulation are noise.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::stod(rounded(value, 9));
+}
+Json angle(double value) { return number(degrees(value)); }
+
+std::string_view word(BenchChange change) {
+  switch (change) {
+    case BenchChange::motor_sensor_turned:
+      return "motor_sensor_turned";
+    case BenchChange::joint_sensor_turned:
+      return "joint_sensor_turned";
+    case BenchChange::doubled_pretension:
+      return "doubled_pretension";
+    case BenchChange::on_its_side:
+      return "on_its_side";
+    case BenchChange::none:
+      break;
+  }
+  return "none";
+}
+
+Json step_json(const Plan& plan, const PlanStep& step, const std::string& file) {
+  Json json = {{"kind", step.run ? "run" : "reading"}};
+  if (step.run) {
+    json["file"] = file.empty() ? Json() : Json(file);
+    json["load" + std::string(plan.load_unit == "N" ? "_N" : "")] = number(step.run->load);
+    json["speed_deg_per_s"] = angle(step.run->speed);
+    json["cycles"] = step.run->cycles;
+    json["dwell_s"] = number(step.run->dwell);
+    json["from_deg"] = angle(step.run->from);
+    json["to_deg"] = angle(step.run->to);
+    json["bench"] = word(step.run->change);
+  } else {
+    json["key"] = step.reading->key.name;
+    json["uncertainty"] = number(step.reading->by_hand.uncertainty);
+  }
+  json["words"] = step.words;
+  json["minutes"] = number(step.minutes);
+  json["setup_minutes"] = number(step.setup);
+  json["by_minute"] = number(step.by);
+  json["sees"] = step.sees;
+  json["tells"] = step.tells;
+  return json;
+}
+
+Json steps_json(const Plan& plan, const std::vector<PlanStep>& steps, bool with_files) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    list.push_back(step_json(plan, steps[i], with_files ? run_file_name(plan, i) : ""));
+  return list;
+}
+
+Json cause_json(const PlannedCause& cause) {
+  return {{"name", cause.name},
+          {"usual_deg", angle(cause.usual)},
+          {"smallest_deg", angle(cause.smallest)},
+          {"smallest_alone_deg", cause.smallest_alone ? angle(*cause.smallest_alone) : Json()},
+          {"smallest", {{"key", "identified." + cause.key}, {"value", number(cause.smallest_key)}}},
+          {"confounded_with", cause.rivals}};
+}
+
+Json blame_json(const FalseBlame& blame) {
+  return {{"worlds", blame.worlds},
+          {"falsely_blamed", blame.blamed},
+          {"named_alone", blame.alone},
+          {"named_in_group", blame.group}};
+}
+
+std::string comments(const PlanProduct& product, std::size_t step) {
+  const PlannedRun& run = *product.plan.steps[step].run;
+  std::string text = "# " + product.file.mechanism.name + ", " + run_file_name(product.plan, step) + ": " +
+                     product.plan.steps[step].words + "\n";
+  if (const std::string hanging = hanging_words(product, run); !hanging.empty()) text += "# " + hanging + "\n";
+  text += "# motor from " + fixed(degrees(run.from), 2) + " to " + fixed(degrees(run.to), 2) + " deg and back, " +
+          std::to_string(run.cycles) + " times, at " + rounded(degrees(run.speed), 4) + " deg/s" +
+          (run.dwell > 0 ? ", held for " + rounded(run.dwell, 4) + " s at both ends" : std::string()) + "\n";
+  return text + "# write what the joint's sensor shows into theta_deg, or put your own log in this file's place\n";
+}
+
+}  // namespace
+
+std::string run_file_name(const Plan& plan, std::size_t step) {
+  if (!plan.steps[step].run) return "";
+  int run = 0;
+  for (std::size_t i = 0; i <= step; ++i) run += plan.steps[i].run ? 1 : 0;
+  return "run_" + std::to_string(run) + ".csv";
+}
+
+std::string hanging_words(const PlanProduct& product, const PlannedRun& run) {
+  if (run.load == 0) return "";
+  const Mechanism& declared = product.file.mechanism;
+  if (declared.transmission) return "load " + rounded(run.load, 4) + " in the unit of your log";
+  const double mass = std::abs(run.load) / k_gravity;
+  return "tip force " + rounded(run.load, 4) + " N, " + (run.load > 0 ? "against" : "along") + " +theta: hang " +
+         rounded(mass, 3) + " kg on a cord over a disc of radius " + rounded(declared.joint.R, 4) +
+         " mm on the joint's axis (torque " + rounded(std::abs(run.load) * declared.joint.R, 4) +
+         " Nmm at every angle)";
+}
+
+std::string run_csv(const PlanProduct& product, std::size_t step) {
+  const BenchRun driven = fusee::driven(*product.plan.steps[step].run, k_rows_a_stroke);
+  const Mounting& mounting = driven.mounting;
+  std::string table = comments(product, step) + "time_s,alpha_deg,load_N,theta_deg";
+  if (mounting.motor_sensor_turned != 0) table += "," + std::string(k_motor_sensor_turned) + "_deg";
+  if (mounting.joint_sensor_turned != 0) table += "," + std::string(k_joint_sensor_turned) + "_deg";
+  table += "\n";
+  for (const BenchRow& row : driven.rows) {
+    table += trimmed_fixed(row.time, 3) + "," + trimmed_fixed(degrees(row.alpha), 4) + "," + shortest(row.load) + ",";
+    if (mounting.motor_sensor_turned != 0) table += "," + trimmed_fixed(degrees(mounting.motor_sensor_turned), 3);
+    if (mounting.joint_sensor_turned != 0) table += "," + trimmed_fixed(degrees(mounting.joint_sensor_turned), 3);
+    table += "\n";
+  }
+  return table;
+}
+
+std::string plan_json(const PlanProduct& product) {
+  const Plan& plan = product.plan;
+  Json json = {{"schema", 1}, {"name", product.file.mechanism.name}};
+  json["noise_deg"] = angle(product.noise);
+  json["minutes"] = number(product.minutes);
+  json["minutes_used"] = number(plan.minutes);
+  json["motor_range_deg"] = {angle(plan.from), angle(plan.to)};
+  json["steps"] = steps_json(plan, plan.steps, true);
+  json["more_minutes"] = steps_json(plan, plan.beyond, false);
+  json["causes"] = Json::array();
+  for (const PlannedCause& cause : plan.causes) json["causes"].push_back(cause_json(cause));
+  json["groups"] = plan.groups;
+  json["left_out"] = Json::array();
+  for (const auto& [name, why] : plan.left_out) json["left_out"].push_back({{"name", name}, {"why", why}});
+  json["false_blame"] = {{"nothing_wrong", blame_json(plan.nothing)},
+                         {"one_cause", blame_json(plan.one)},
+                         {"cause_not_in_catalogue", blame_json(plan.unknown)}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string plan_manifest_json(const PlanProduct& product, const std::vector<OutputFile>& outputs) {
+  Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
+  json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
+                   {"sha256", product.file.sha256}};
+  json["outputs"] = output_list(outputs);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fusee

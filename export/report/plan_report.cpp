@@ -1,0 +1,151 @@
+// plan.html: what a person does at the bench, step by step, and what it will show.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "export/report/html.h"
+#include "export/report/report_parts.h"
+#include "export/report/svg.h"
+#include "export/report/tables.h"
+#include "export/tool.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/export/plan.h"
+
+namespace fusee {
+namespace {
+
+std::string size_words(double angle) { return with_unit(degrees(angle), "deg", 2); }
+std::string minutes_words(double minutes) { return fixed(minutes, 1) + " min"; }
+
+std::string part(const std::string& id, const std::string& title, const std::string& body) {
+  return "<section id=\"" + id + "\"><h2>" + safe_text(title) + "</h2>" + body + "</section>\n";
+}
+
+std::string open_name(std::string name) {
+  for (char& c : name) c = c == '_' ? ' ' : c;
+  return name;
+}
+
+std::string names_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + open_name(name);
+  return text;
+}
+
+/// What has to be done for a run, in the order in which it is done.
+std::vector<std::string> things_to_do(const PlanProduct& product, std::size_t step) {
+  const PlannedRun& run = *product.plan.steps[step].run;
+  std::vector<std::string> things;
+  if (run.change != BenchChange::none)
+    things.push_back("first " + std::string(words(run.change)) +
+                     ", drive to home and set both zeros again; turn it back after the run");
+  const std::string hanging = hanging_words(product, run);
+  things.push_back(hanging.empty() ? "nothing hangs on the joint" : hanging);
+  things.push_back("drive the motor between " + readable(degrees(run.from), 1) + "° and " +
+                   readable(degrees(run.to), 1) + "°, " + std::to_string(run.cycles) + " times there and back, at " +
+                   rounded(degrees(run.speed), 3) + "°/s; begin at " + readable(degrees(run.from), 1) + "°");
+  if (run.dwell > 0) things.push_back("hold it for " + rounded(run.dwell, 3) + " s at both ends, and go on logging");
+  things.push_back("log time, motor angle and joint angle into " + run_file_name(product.plan, step));
+  return things;
+}
+
+std::string step_item(const PlanProduct& product, std::size_t i) {
+  const PlanStep& step = product.plan.steps[i];
+  std::string html =
+      "<li><div class=\"box\"></div><div><h3>" + std::to_string(i + 1) + ". " + safe_text(step.words) + "</h3>";
+  if (step.run) {
+    html += html_list(things_to_do(product, i), "ul", "do");
+  } else {
+    html +=
+        "<p>three times, at different places: <span class=\"value\">&#160;</span> <span "
+        "class=\"value\">&#160;</span> <span class=\"value\">&#160;</span></p>";
+  }
+  html += "<p class=\"tells\">" + safe_text(open_name(gain_words(step))) + "</p>";
+  return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + "<br/>by " +
+         safe_text(minutes_words(step.by)) + "</div></li>";
+}
+
+std::string steps_section(const PlanProduct& product) {
+  std::string items;
+  for (std::size_t i = 0; i < product.plan.steps.size(); ++i) items += step_item(product, i);
+  return part("steps", "At the bench",
+              "<p class=\"lead\">In this order: each step is the one that tells most for its minutes, so whoever has "
+              "to stop early has measured the best of it. Begin every run at the end of the range, coming from home; "
+              "do not touch zeros between runs unless it says so.</p><ol class=\"steps\">" +
+                  items + "</ol>");
+}
+
+std::string after_section(const PlanProduct& product) {
+  const std::string spec = std::filesystem::path(product.file.path).filename().string();
+  const bool reads = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
+                                 [](const PlanStep& step) { return step.reading != nullptr; });
+  return part(
+      "after", "Then",
+      (reads ? std::string("<p>Write what was read by hand into <code>[prior]</code> of the file, and</p>") : "") +
+          "<p><code>fusee calibrate " + safe_text(spec) + " run_*.csv</code></p>");
+}
+
+std::string causes_section(const Plan& plan) {
+  std::string rows;
+  for (const PlannedCause& cause : plan.causes) {
+    rows += "<tr><td>" + safe_text(open_name(cause.name)) + "</td><td class=\"number\">" +
+            safe_text(size_words(cause.usual)) + "</td><td class=\"number\">" + safe_text(size_words(cause.smallest)) +
+            "</td><td class=\"number\">" +
+            safe_text(cause.smallest_alone ? size_words(*cause.smallest_alone) : std::string("–")) + "</td><td>" +
+            safe_text(names_of(cause.rivals)) + "</td></tr>";
+  }
+  return part(
+      "causes", "What these runs can show",
+      "<p class=\"lead\">At the joint, rms over the runs: what each cause does at its usual size, the least of "
+      "it that would be seen, the least that could be named alone, and what it could not be told from.</p>"
+      "<div class=\"scroll\"><table><thead><tr><th>cause</th><th class=\"number\">usual</th><th "
+      "class=\"number\">seen from</th><th class=\"number\">alone from</th><th>not told from</th></tr></thead><tbody>" +
+          rows + "</tbody></table></div>");
+}
+
+std::string left_out_section(const Plan& plan) {
+  if (plan.left_out.empty()) return "";
+  std::vector<std::string> lines;
+  for (const auto& [name, why] : plan.left_out) lines.push_back(open_name(name) + ": " + why);
+  return part("left_out", "Not planned for", html_list(lines));
+}
+
+std::string key_numbers(const PlanProduct& product) {
+  const Plan& plan = product.plan;
+  std::size_t alone = 0;
+  for (const PlannedCause& cause : plan.causes) alone += cause.smallest_alone.has_value();
+  KeyNumbers numbers;
+  numbers.add("Minutes", fixed(plan.minutes, 1), "of " + rounded(product.minutes, 4));
+  numbers.add("Causes that can be named alone", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
+  numbers.add("Noise of the joint's sensor", size_words(product.noise), "assumed");
+  numbers.add("Motor", readable(degrees(plan.from), 1) + "° … " + readable(degrees(plan.to), 1) + "°");
+  return part("numbers", "In short", numbers.html());
+}
+
+}  // namespace
+
+std::string plan_html(const PlanProduct& product) {
+  const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\"/>\n<meta name=\"color-scheme\" content=\"light dark\"/>\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>\n"
+      "<meta name=\"generator\" content=\"" +
+      std::string(k_tool) + "\"/>\n<title>" + name + " – measuring plan</title>\n<style>" +
+      std::string(embedded::page_css) + std::string(embedded::plan_css) +
+      "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">Measuring plan</p>\n<h1>" + name +
+      "</h1>\n<p class=\"source\">for <code>" +
+      safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code></p>\n</header>\n<main>\n";
+  html += key_numbers(product) + steps_section(product) + after_section(product);
+  if (!product.plan.beyond.empty())
+    html += part("more", "What more minutes would buy", html_list(minute_words(product.plan.beyond)));
+  html += causes_section(product.plan) +
+          part("blame", "How often a name would be false", html_list(blame_words(product.plan))) +
+          left_out_section(product.plan);
+  return html + "</main>\n<footer><p>Made by " + std::string(k_tool) +
+         ". Angles of the motor are those its sensor shows, zero at home.</p></footer>\n</body>\n</html>\n";
+}
+
+}  // namespace fusee

@@ -1,0 +1,45 @@
+#include "fusee/base/text.h"
+#include "fusee/export/plan.h"
+
+namespace fusee {
+namespace {
+
+std::string joints(int count) { return std::to_string(count) + " simulated joints "; }
+
+std::string list_of(const std::vector<std::string>& words, const std::string& between) {
+  constexpr std::size_t k_most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < words.size() && i < k_most; ++i) text += (i > 0 ? between : "") + words[i];
+  return words.size() > k_most ? text + between + "and " + std::to_string(words.size() - k_most) + " more" : text;
+}
+
+}  // namespace
+
+std::vector<std::string> blame_words(const Plan& plan) {
+  if (plan.one.worlds == 0) return {};
+  return {"in " + joints(plan.nothing.worlds) + "as declared, these runs would have blamed something in " +
+              std::to_string(plan.nothing.blamed),
+          "in " + joints(plan.one.worlds) +
+              "with one of these causes, of its usual sizes, they would have named it alone in " +
+              std::to_string(plan.one.alone) + ", in a group in " + std::to_string(plan.one.group) +
+              ", and blamed something else in " + std::to_string(plan.one.blamed),
+          "in " + joints(plan.unknown.worlds) +
+              "with a cause that the catalogue is without, they would have blamed something else in " +
+              std::to_string(plan.unknown.blamed)};
+}
+
+std::string gain_words(const PlanStep& step) {
+  std::string text;
+  if (!step.sees.empty()) text = "sees " + list_of(step.sees, ", ");
+  if (!step.tells.empty()) text += std::string(text.empty() ? "" : "; ") + "tells " + list_of(step.tells, "; ");
+  return text.empty() ? "makes surer what is told already" : text;
+}
+
+std::vector<std::string> minute_words(const std::vector<PlanStep>& steps) {
+  std::vector<std::string> words;
+  for (const PlanStep& step : steps)
+    words.push_back("by minute " + rounded(step.by, 3) + ": " + step.words + "; " + gain_words(step));
+  return words;
+}
+
+}  // namespace fusee

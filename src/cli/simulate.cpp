@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/measured_columns.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/pipeline.h"
+
+namespace fusee::cli {
+namespace {
+
+constexpr double k_most_noise = 45.0;  // deg: beyond that no sensor shows an angle
+
+SimulateOptions options_from(const Arguments& arguments) {
+  SimulateOptions options;
+  options.columns = columns_from(arguments);
+  options.corrected = arguments.has("--corrected");
+  options.noise = radians(arguments.number("--noise-deg", 0, 0, k_most_noise, "deg"));
+  options.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1, 0, 4294967295.0, "(a whole number)"));
+  return options;
+}
+
+std::string rows_words(std::size_t count) { return std::to_string(count) + (count == 1 ? " row" : " rows"); }
+
+/// The first row of that kind, by what a person looks it up by.
+std::string first_place(const Simulation& simulation, EquilibriumStatus status) {
+  const auto row = std::find_if(simulation.states.begin(), simulation.states.end(),
+                                [&](const JointState& state) { return state.status == status; });
+  const Sample& sample = simulation.log.runs.front().samples[static_cast<std::size_t>(row - simulation.states.begin())];
+  const std::string time = simulation.log.runs.front().has_time ? " (" + rounded(sample.time) + " s)" : "";
+  return "alpha = " + fixed(degrees(sample.alpha), 2) + " deg" + time;
+}
+
+std::size_t count_of(const Simulation& simulation, EquilibriumStatus status) {
+  return static_cast<std::size_t>(std::count_if(simulation.states.begin(), simulation.states.end(),
+                                                [&](const JointState& state) { return state.status == status; }));
+}
+
+void add_findings(const Simulation& simulation, Reply& reply) {
+  for (const std::string& words : simulation.log.notes) reply.diagnostics.push_back(note(Severity::note, words));
+  if (const std::size_t rows = count_of(simulation, EquilibriumStatus::loose); rows > 0) {
+    reply.diagnostics.push_back(note(Severity::warning,
+                                     "nothing holds the joint in " + rows_words(rows) + ", first at " +
+                                         first_place(simulation, EquilibriumStatus::loose) + ": both tendons are slack",
+                                     "status says loose there, and loose_deg by how much it may stand elsewhere"));
+  }
+  if (const std::size_t rows = count_of(simulation, EquilibriumStatus::no_equilibrium); rows > 0) {
+    reply.exit = Exit::check_failed;
+    reply.diagnostics.push_back(note(Severity::error,
+                                     "no joint angle balances " + rows_words(rows) + ", first at " +
+                                         first_place(simulation, EquilibriumStatus::no_equilibrium),
+                                     "the motor goes beyond the pulley's range there, or the load is too large"));
+  }
+}
+
+struct Range {
+  std::string least = "–", most = "–";
+};
+Range range_of(const Simulation& simulation, std::string_view name) {
+  for (const SimulationColumn& column : simulation_columns(simulation)) {
+    if (column.name != name) continue;
+    std::vector<double> known;
+    std::copy_if(column.values.begin(), column.values.end(), std::back_inserter(known),
+                 [](double value) { return std::isfinite(value); });
+    if (known.empty()) return {};
+    const auto [least, most] = std::minmax_element(known.begin(), known.end());
+    return {fixed(*least, 2), fixed(*most, 2)};
+  }
+  return {};
+}
+
+std::string summary(const Simulation& simulation, const std::string& file) {
+  const Range theta = range_of(simulation, "theta_deg");
+  const Range torque = range_of(simulation, "motor_torque_Nmm");
+  const Range first = range_of(simulation, "tension1_N");
+  const Range second = range_of(simulation, "tension2_N");
+  std::string text = simulation.file.mechanism.name + "\n  rows      " + std::to_string(simulation.states.size()) +
+                     "\n  theta     from " + theta.least + " to " + theta.most + " deg\n";
+  if (!simulation.file.mechanism.transmission) {
+    text += "  tensions  1 from " + first.least + " to " + first.most + " N, 2 from " + second.least + " to " +
+            second.most + " N\n  motor     from " + torque.least + " to " + torque.most + " Nmm\n";
+  }
+  return text + "  in        " + file + "\n";
+}
+
+/// JSON has no NaN: null.
+Json columns_json(const Simulation& simulation) {
+  Json columns = Json::object();
+  for (const SimulationColumn& column : simulation_columns(simulation)) {
+    Json values = Json::array();
+    for (const double value : column.values) values.push_back(std::isfinite(value) ? Json(value) : Json());
+    columns[column.name] = std::move(values);
+  }
+  columns["status"] = Json::array();
+  for (const JointState& state : simulation.states) columns["status"].push_back(word(state.status));
+  return columns;
+}
+
+Reply run_simulate(const Arguments& arguments, Console& console) {
+  const SimulateOptions options = options_from(arguments);
+  const std::vector<std::string>& names = arguments.positionals();
+  const MechanismFile file = read_mechanism(names[0], arguments.settings());
+  console.progress("moving the joint through " + names[1]);
+  const SimulateResult result = simulate(file, names[1], options);
+  Reply reply;
+  reply.diagnostics = result.simulation.file.warnings;
+  if (result.without_law) {
+    reply.exit = Exit::infeasible;
+    add_obstacles(file.path, result.without_law->conditions, reply);
+    add_advice(result.without_law->advice, reply);
+    return reply;
+  }
+  add_findings(result.simulation, reply);
+  const std::string table = simulation_csv(result.simulation);
+  const std::optional<std::string> target = arguments.text("--out");
+  if (target && !arguments.has("--dry-run")) write_file(*target, table, arguments.has("--force"));
+  reply.text = target ? summary(result.simulation, *target) : table;
+  reply.fields["name"] = file.mechanism.name;
+  reply.fields["rows"] = result.simulation.states.size();
+  reply.fields["loose"] = count_of(result.simulation, EquilibriumStatus::loose);
+  reply.fields["no_equilibrium"] = count_of(result.simulation, EquilibriumStatus::no_equilibrium);
+  if (target) reply.fields["output"] = *target;
+  reply.fields["columns"] = columns_json(result.simulation);
+  return reply;
+}
+
+}  // namespace
+
+Command simulate_command() {
+  return {"simulate",
+          "SPEC LOG.csv",
+          "the joint's angle, tensions and torque for a log",
+          "Moves the joint of the mechanism file SPEC, with what is [identified] in it,\n"
+          "through the motor angles of LOG.csv (alpha_deg and, if known, time_s, load_N,\n"
+          "temperature_C; theta_deg may be missing), row by row and with its history: play,\n"
+          "friction, slack, sensors. Prints a table that 'fusee calibrate' reads: theta_deg\n"
+          "is what the joint's sensor would show, joint_deg where the joint stands, tension1_N\n"
+          "and tension2_N lie between pulley and pin, motor_torque_Nmm is what turns the\n"
+          "pulley. status says where nothing holds the joint. The pulley is the one made as\n"
+          "declared, on which [identified] was found, unless --corrected is given.",
+          {{"-o,--out", "FILE", "write the table to FILE, and show a summary"},
+           {"--corrected", "", "with the pulley that 'fusee build SPEC' makes, which\nundoes what a pulley can"},
+           {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0)"},
+           {"--seed", "N", "of that noise (default 1)"},
+           column_option()},
+          {{"fusee simulate arm.toml out/arm_plan/run_1.csv > shown.csv", "every row"},
+           {"fusee simulate arm.toml shown.csv --set identified.backlash_deg=1", "what would play do?"},
+           {"fusee simulate arm.toml shown.csv -o rehearsed.csv --noise-deg 0.02", "as a bench would log it"}},
+          run_simulate};
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,48 @@
+#include "fusee/pipeline/plan.h"
+
+#include "fusee/analysis/plausibility.h"
+#include "pipeline/without_law.h"
+
+namespace fusee {
+namespace {
+
+std::vector<OutputFile> outputs_of(const PlanProduct& product) {
+  std::vector<OutputFile> outputs = {{"plan.json", plan_json(product)}, {"plan.html", plan_html(product)}};
+  for (std::size_t i = 0; i < product.plan.steps.size(); ++i) {
+    if (product.plan.steps[i].run) outputs.push_back({run_file_name(product.plan, i), run_csv(product, i)});
+  }
+  outputs.push_back({"manifest.json", plan_manifest_json(product, outputs)});
+  return outputs;
+}
+
+/// Every run of an earlier plan.
+std::vector<std::string> run_names() {
+  constexpr int k_most_runs = 99;
+  std::vector<std::string> names;
+  for (int i = 1; i <= k_most_runs; ++i) names.push_back("run_" + std::to_string(i) + ".csv");
+  return names;
+}
+
+}  // namespace
+
+PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options) {
+  PlanResult result;
+  result.product.file = with_doubts(file);
+  result.product.noise = options.plan.noise;
+  result.product.minutes = options.plan.minutes;
+  result.without_law = without_law(file.mechanism);
+  if (result.without_law) return result;
+  OutputFolder target(options.folder, options.force);
+  target.claim({"plan.json", "plan.html", "manifest.json"});  // before the work: a refusal should not cost a wait
+  result.product.plan = plan_runs(file.mechanism, options.plan);
+  if (result.product.plan.steps.empty()) return result;
+  result.outputs = outputs_of(result.product);
+  if (options.dry_run) return result;
+  for (const OutputFile& output : result.outputs) target.stage(output);
+  target.publish();
+  target.withdraw(run_names());
+  result.published = true;
+  return result;
+}
+
+}  // namespace fusee

@@ -1,0 +1,53 @@
+#include "fusee/pipeline/simulate.h"
+
+#include "base/normal_numbers.h"
+#include "fusee/analysis/plausibility.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/mechanism/effect.h"
+#include "pipeline/without_law.h"
+#include "transmission/declared_law.h"
+
+namespace fusee {
+namespace {
+
+/// A mechanism and by how much the joint differs from it.
+struct Simulated {
+  DeclaredMechanism mechanism;
+  Imperfections at;
+};
+
+Simulated with_pulley(const DeclaredMechanism& declared, bool corrected) {
+  if (!corrected) return {declared, declared.identified};
+  return {expected_joint(declared), beyond_mechanism(declared.identified, kind_of(declared))};
+}
+
+/// Where the motor goes further than the pulley does, the law's formulas go on, and mean nothing.
+void leave_out_beyond(const DeclaredMechanism& mechanism, const Run& run, std::vector<JointState>& states) {
+  const DeclaredLaw law(mechanism);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!law.reaches(run.samples[i].alpha)) states[i] = {EquilibriumStatus::no_equilibrium};
+  }
+}
+
+void add_noise(std::vector<JointState>& states, double noise, std::uint64_t seed) {
+  NormalNumbers numbers(seed);
+  for (JointState& state : states) state.shown += noise * numbers.next();
+}
+
+}  // namespace
+
+SimulateResult simulate(const MechanismFile& file, const std::filesystem::path& log, const SimulateOptions& options) {
+  SimulateResult result;
+  Simulation& simulation = result.simulation;
+  simulation.file = with_doubts(file);
+  simulation.log = read_driving(log, file.mechanism, options.columns);
+  result.without_law = without_law(file.mechanism);
+  if (result.without_law) return result;
+  const Simulated joint = with_pulley(file.mechanism, options.corrected);
+  simulation.states = simulate(joint.mechanism, joint.at, bench_log(simulation.log)).front();
+  leave_out_beyond(joint.mechanism, simulation.log.runs.front(), simulation.states);
+  if (options.noise > 0) add_noise(simulation.states, options.noise, options.seed);
+  return result;
+}
+
+}  // namespace fusee

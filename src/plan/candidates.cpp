@@ -1,0 +1,138 @@
+#include "plan/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/analysis/analysis.h"
+#include "fusee/joint/simulate.h"
+#include "fusee/transmission/transmission.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_slow_cycle = 30.0;  // s: friction and play, and hardly anything that a delay does
+constexpr double k_fast_cycle = 6.0;   // s: what a hobby servo can just do
+constexpr int k_slow_cycles = 3;       // the first stroke finds out where the play stands; two of each way repeat
+constexpr int k_fast_cycles = 5;
+constexpr double k_long_dwell = 60.0;  // s: nearly two decades of creep, thirty delays
+constexpr int k_held_cycles = 2;
+constexpr int k_looked_at = 24;  // rows of a stroke that chooses the load
+
+/// What a person can hang on, N.
+constexpr double k_weights[] = {1, 2, 5, 10, 20, 50, 100};
+/// The joint should give way by so many times the noise: then a tenth of it is still seen in a few dozen rows.
+constexpr double k_clear = 5.0;
+/// Without a strength, the tensions that are taken for bearable, in pretensions.
+constexpr double k_most_pretensions = 10.0;
+
+std::pair<double, double> range_of(const DeclaredMechanism& declared) {
+  if (declared.transmission) return {-k_pi, k_pi};
+  const Transmission law(declared);
+  return {law.alpha_min(), law.alpha_max()};
+}
+
+double bearable(const Mechanism& declared) {
+  if (const auto strength = likely_strength(declared.tendon)) return 0.5 * strength->at_knot;
+  return k_most_pretensions * std::max(1.0, declared.tendon.pretension);
+}
+
+std::vector<std::vector<JointState>> under_load(const DeclaredMechanism& declared, PlannedRun run, double load) {
+  run.load = load;
+  run.cycles = 1;
+  return simulate(declared, {}, {driven(run, k_looked_at)});
+}
+
+std::vector<std::vector<double>> angles(const std::vector<std::vector<JointState>>& states) {
+  std::vector<std::vector<double>> theta;
+  for (const auto& run : states) {
+    theta.emplace_back();
+    for (const JointState& state : run) theta.back().push_back(state.theta);
+  }
+  return theta;
+}
+
+bool is_borne(const std::vector<JointState>& states, double most) {
+  return std::all_of(states.begin(), states.end(), [&](const JointState& state) {
+    return state.status != EquilibriumStatus::no_equilibrium &&
+           std::max({state.t1.lower, state.t1.upper, state.t2.lower, state.t2.upper}) <= most;
+  });
+}
+
+/// The smallest weight under which the joint clearly gives way; where none does, the largest that the tendons bear.
+double load_that_shows(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
+  const auto without = angles(under_load(declared, slow, 0));
+  const double most = bearable(declared);
+  double chosen = k_weights[0];
+  for (const double weight : k_weights) {
+    const auto states = under_load(declared, slow, weight);
+    if (!is_borne(states.front(), most)) break;
+    chosen = weight;
+    if (rms_apart(angles(states), without) >= k_clear * noise) break;
+  }
+  return chosen;
+}
+
+std::vector<double> usual_loads(const DeclaredMechanism& declared, const PlannedRun& slow, double noise) {
+  const double load = declared.transmission ? 1.0 : load_that_shows(declared, slow, noise);
+  return {0.0, load, 0.5 * load, -load};
+}
+
+}  // namespace
+
+double Bench::largest_load() const {
+  double most = 0;
+  for (const double load : loads) most = std::max(most, std::abs(load));
+  return most;
+}
+
+Bench bench_of(const DeclaredMechanism& declared, const PlanOptions& options) {
+  Bench bench;
+  std::tie(bench.from, bench.to) = options.range ? *options.range : range_of(declared);
+  const double way = 2 * std::abs(bench.to - bench.from);
+  bench.speeds = options.speeds.empty() ? std::vector<double>{way / k_slow_cycle, way / k_fast_cycle} : options.speeds;
+  std::sort(bench.speeds.begin(), bench.speeds.end());
+  const PlannedRun slow{.from = bench.from, .to = bench.to, .speed = bench.speeds.front()};
+  bench.loads = options.loads.empty() ? usual_loads(declared, slow, options.noise) : options.loads;
+  std::stable_partition(bench.loads.begin(), bench.loads.end(), [](double load) { return load == 0; });
+  return bench;
+}
+
+std::vector<PlannedRun> candidate_runs(const Bench& bench) {
+  std::vector<PlannedRun> runs;
+  const auto run = [&](double speed, double load) {
+    const bool is_slow = speed == bench.speeds.front();
+    return PlannedRun{.from = bench.from,
+                      .to = bench.to,
+                      .cycles = is_slow ? k_slow_cycles : k_fast_cycles,
+                      .speed = speed,
+                      .load = load};
+  };
+  // A weight that is swung fast pulls with its mass too: only slow runs are loaded.
+  const double slow = bench.speeds.front();
+  for (const double load : bench.loads) runs.push_back(run(slow, load));
+  for (const double speed : bench.speeds) {
+    if (speed != slow) runs.push_back(run(speed, bench.loads.front()));
+  }
+  const auto largest = std::max_element(bench.loads.begin(), bench.loads.end(),
+                                        [](double a, double b) { return std::abs(a) < std::abs(b); });
+  PlannedRun held = run(slow, *largest);
+  held.cycles = k_held_cycles;
+  held.dwell = k_long_dwell;
+  runs.push_back(held);
+  for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned}) {
+    PlannedRun turned = run(slow, bench.loads.front());
+    turned.change = change;
+    runs.push_back(turned);
+  }
+  return runs;
+}
+
+std::vector<const EffectParameter*> candidate_readings(const DeclaredMechanism& declared) {
+  std::vector<const EffectParameter*> readings = hand_readable(declared);
+  std::erase_if(readings, [&](const EffectParameter* parameter) {
+    return parameter->by_hand.readings != nullptr && !parameter->by_hand.readings(declared).empty();
+  });
+  return readings;
+}
+
+}  // namespace fusee

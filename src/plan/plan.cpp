@@ -1,0 +1,318 @@
+#include "fusee/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "fusee/base/text.h"
+#include "plan/separation.h"
+#include "plan/thresholds.h"
+#include "plan/worlds.h"
+
+// Greedy: the pairs that a set of measurements tells apart grow with each one, and by less the more there are; for such
+// functions the best step for its minutes, again and again, is near the best of all sets (Nemhauser, Wolsey and Fisher
+// 1978; with costs, Sviridenko 2004). What later steps made needless is taken out again.
+
+namespace fusee {
+namespace {
+
+/// Something that could be measured, and what it would say.
+struct Option {
+  PlanStep step;
+  std::optional<Signatures::Seen> seen;
+  Eigen::MatrixXd read;
+
+  Information added_to(const Information& known) const { return seen ? known.with(*seen) : known.with(read); }
+};
+
+/// Of every cause from nothing (first), then from every other: each margin at the size that is worth a name.
+using Margins = std::vector<std::vector<double>>;
+
+/// A cause that matters for this joint is one that a plan of everything would see.
+class Planner {
+ public:
+  Planner(const DeclaredMechanism& declared, const PlanOptions& options)
+      : options_(options), bench_(bench_of(declared, options)), signatures_(declared, bench_, options.noise) {
+    unit_ = declared.transmission ? "" : "N";
+    for (const PlannedRun& run : candidate_runs(bench_)) add(run);
+    for (const EffectParameter* reading : candidate_readings(declared)) add(*reading);
+    start_ = Information::none(signatures_.columns());
+    add_known_readings(declared);
+    keep_what_matters();
+  }
+
+  Plan plan() const {
+    Plan plan;
+    plan.slow = bench_.speeds.front();
+    plan.from = bench_.from;
+    plan.to = bench_.to;
+    plan.load_unit = unit_;
+    plan.left_out = left_out_;
+    std::vector<std::size_t> chosen = choose(options_.minutes, {});
+    chosen = without_needless(chosen);
+    const std::vector<std::size_t> all = choose(1e9, chosen);
+    Information known = start_;
+    put_steps(chosen, known, 0, plan.steps);
+    plan.minutes = plan.steps.empty() ? 0.0 : plan.steps.back().by;
+    describe(known, plan);
+    std::vector<std::size_t> rest(all.begin() + static_cast<std::ptrdiff_t>(chosen.size()), all.end());
+    put_steps(rest, known, plan.minutes, plan.beyond);
+    return plan;
+  }
+
+ private:
+  void say(const std::string& what) const {
+    if (options_.progress) options_.progress(what);
+  }
+
+  void add(const PlannedRun& run) {
+    say(words(run, bench_.speeds.front(), unit_));
+    const auto seen = signatures_.of(run);
+    if (!seen) return;
+    Option option;
+    option.step.run = run;
+    option.step.words = words(run, bench_.speeds.front(), unit_);
+    option.step.setup = (run.load != 0 ? k_bench_minutes.load : 0.0) +
+                        (run.change != BenchChange::none ? k_bench_minutes.mounting : 0.0);
+    option.step.minutes = minutes_of(run) + option.step.setup;
+    option.seen = seen;
+    options_of_bench_.push_back(std::move(option));
+  }
+
+  void add(const EffectParameter& reading) {
+    Option option;
+    option.step.reading = &reading;
+    option.step.words = reading.by_hand.words;
+    option.step.minutes = option.step.setup = k_bench_minutes.reading;
+    option.read = signatures_.of(reading);
+    options_of_bench_.push_back(std::move(option));
+  }
+
+  /// What [prior] of the file says.
+  void add_known_readings(const DeclaredMechanism& declared) {
+    for (const Cause& cause : signatures_.causes()) {
+      for (const EffectParameter* number : cause.numbers) {
+        if (number->by_hand.readings == nullptr) continue;
+        for (const CaliperReading& reading : number->by_hand.readings(declared)) {
+          EffectParameter read = *number;
+          read.by_hand.uncertainty = reading.uncertainty;
+          start_ = start_.with(signatures_.of(read));
+        }
+      }
+    }
+  }
+
+  Information everything() const {
+    Information known = start_;
+    for (const Option& option : options_of_bench_) known = option.added_to(known);
+    return known;
+  }
+
+  void keep_what_matters() {
+    left_out_ = signatures_.left_out();
+    const Information all = everything();
+    for (const Cause& cause : signatures_.causes()) {
+      const double size = usual_rms(all, cause) * options_.noise;
+      if (margin(signatures_, all, cause, nullptr) >= 1) {
+        causes_.push_back(cause);
+      } else {
+        left_out_.emplace_back(cause.effect->name,
+                               "too small to matter here: at its usual size it moves the joint by " +
+                                   rounded(degrees(size), 2) + " deg rms");
+      }
+    }
+  }
+
+  Margins margins_of(const Information& known) const {
+    Margins margins;
+    for (const Cause& cause : causes_) {
+      std::vector<double>& row = margins.emplace_back();
+      row.push_back(k_plan.worth_a_name * margin(signatures_, known, cause, nullptr));
+      for (const Cause& rival : causes_)
+        row.push_back(&rival == &cause
+                          ? 1.0
+                          : std::min(row.front(), k_plan.worth_a_name * margin(signatures_, known, cause, &rival)));
+    }
+    return margins;
+  }
+
+  /// Of all that could be told, the share that is, 0 … 1: a cause is seen, is told from others, and half of its worth,
+  /// is told from the one that is nearest to it.
+  double told(const Information& known) const {
+    double sum = 0;
+    for (const std::vector<double>& row : margins_of(known)) {
+      double rivals = 0;
+      for (const double told : row) rivals += std::min(1.0, told);
+      const double nearest = *std::min_element(row.begin(), row.end());
+      sum += 0.5 * rivals / static_cast<double>(row.size()) + 0.5 * std::min(1.0, nearest);
+    }
+    return causes_.empty() ? 1.0 : sum / static_cast<double>(causes_.size());
+  }
+
+  /// From what is chosen already, the best step for its minutes, as long as one is worth them.
+  std::vector<std::size_t> choose(double minutes, std::vector<std::size_t> chosen) const {
+    Information known = start_;
+    double used = 0;
+    for (const std::size_t i : chosen) {
+      known = options_of_bench_[i].added_to(known);
+      used += options_of_bench_[i].step.minutes;
+    }
+    // Every plan begins with the slow run: its repeats are the noise floor.
+    if (chosen.empty() && !options_of_bench_.empty() && options_of_bench_.front().step.run) {
+      if (options_of_bench_.front().step.minutes > minutes) return {};
+      chosen = {0};
+      known = options_of_bench_.front().added_to(known);
+      used = options_of_bench_.front().step.minutes;
+    }
+    double before = told(known);
+    while (true) {
+      double best = 0;
+      std::size_t next = options_of_bench_.size();
+      double after = before;
+      for (std::size_t i = 0; i < options_of_bench_.size(); ++i) {
+        const Option& option = options_of_bench_[i];
+        if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) continue;
+        if (used + option.step.minutes > minutes) continue;
+        const double gained = told(option.added_to(known)) - before;
+        if (gained < k_plan.least_gain || gained / option.step.minutes <= best) continue;
+        best = gained / option.step.minutes;
+        next = i;
+        after = before + gained;
+      }
+      if (next == options_of_bench_.size()) return chosen;
+      chosen.push_back(next);
+      known = options_of_bench_[next].added_to(known);
+      used += options_of_bench_[next].step.minutes;
+      before = after;
+    }
+  }
+
+  std::vector<std::size_t> without_needless(std::vector<std::size_t> chosen) const {
+    const auto told_by = [&](const std::vector<std::size_t>& set) {
+      Information known = start_;
+      for (const std::size_t i : set) known = options_of_bench_[i].added_to(known);
+      return told(known);
+    };
+    for (std::size_t k = chosen.size(); k-- > 1;) {
+      std::vector<std::size_t> fewer = chosen;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+      if (told_by(fewer) > told_by(chosen) - k_plan.least_gain) chosen = fewer;
+    }
+    return chosen;
+  }
+
+  /// What `after` tells and `before` does not, cause by cause.
+  void put_gain(const Margins& before, const Margins& after, PlanStep& step) const {
+    constexpr std::size_t k_most_names = 4;
+    for (std::size_t a = 0; a < causes_.size(); ++a) {
+      const std::string& name = causes_[a].effect->name;
+      const auto newly = [&](std::size_t i) { return before[a][i] < 1 && after[a][i] >= 1; };
+      if (newly(0)) step.sees.push_back(name);
+      std::vector<std::string> rivals;
+      for (std::size_t b = 0; b < causes_.size(); ++b) {
+        if (b != a && newly(b + 1)) rivals.push_back(causes_[b].effect->name);
+      }
+      if (rivals.empty()) continue;
+      std::string from;
+      for (std::size_t i = 0; i < rivals.size() && rivals.size() <= k_most_names; ++i)
+        from += (i > 0 ? ", " : "") + rivals[i];
+      step.tells.push_back(name + " from " + (from.empty() ? std::to_string(rivals.size()) + " others" : from));
+    }
+  }
+
+  /// Of every cause the places of those that it is not told from.
+  std::vector<std::set<std::size_t>> rivals_in(const Information& known) const {
+    std::vector<std::set<std::size_t>> rivals(causes_.size());
+    for (std::size_t a = 0; a < causes_.size(); ++a) {
+      for (std::size_t b = 0; b < causes_.size(); ++b) {
+        if (a != b && margin(signatures_, known, causes_[a], &causes_[b]) < 1) rivals[a].insert(b);
+      }
+    }
+    return rivals;
+  }
+
+  void put_steps(const std::vector<std::size_t>& chosen, Information& known, double minutes,
+                 std::vector<PlanStep>& into) const {
+    Margins before = margins_of(known);
+    for (const std::size_t i : chosen) {
+      known = options_of_bench_[i].added_to(known);
+      const Margins after = margins_of(known);
+      PlanStep step = options_of_bench_[i].step;
+      minutes += step.minutes;
+      step.by = minutes;
+      put_gain(before, after, step);
+      into.push_back(std::move(step));
+      before = after;
+    }
+  }
+
+  PlannedCause described(const Information& known, const Cause& cause) const {
+    PlannedCause described;
+    described.name = cause.effect->name;
+    described.usual = usual_rms(known, cause) * options_.noise;
+    const double seen = margin(signatures_, known, cause, nullptr);
+    described.smallest = described.usual / std::max(seen, 1e-9);
+    double least = seen;
+    for (const Cause& rival : causes_) {
+      if (&rival == &cause) continue;
+      const double told = margin(signatures_, known, cause, &rival);
+      least = std::min(least, told);
+      if (seen >= 1 && told < 1) described.rivals.push_back(rival.effect->name);
+    }
+    if (least >= 1) described.smallest_alone = described.usual / least;
+    const EffectParameter& number = *cause.numbers.front();
+    const double size = usual_size(number, bench_.largest_load()) / std::max(seen, 1e-9);
+    described.key = number.key.name;
+    described.smallest_key = number.key.to_file != nullptr ? number.key.to_file(size) : size;
+    return described;
+  }
+
+  /// Every cause with what it is not told from; what stands whole in another group is left out.
+  static std::vector<std::vector<std::string>> groups_of(const std::vector<PlannedCause>& causes) {
+    std::vector<std::set<std::string>> all;
+    for (const PlannedCause& cause : causes) {
+      std::set<std::string> group(cause.rivals.begin(), cause.rivals.end());
+      if (!group.insert(cause.name).second || group.size() < 2) continue;
+      all.push_back(std::move(group));
+    }
+    const auto holds = [](const std::set<std::string>& whole, const std::set<std::string>& part) {
+      return std::includes(whole.begin(), whole.end(), part.begin(), part.end());
+    };
+    std::vector<std::vector<std::string>> groups;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      bool needed = true;
+      for (std::size_t j = 0; j < all.size() && needed; ++j)
+        needed = i == j || !holds(all[j], all[i]) || (all[j] == all[i] && i < j);
+      if (needed) groups.emplace_back(all[i].begin(), all[i].end());
+    }
+    return groups;
+  }
+
+  void describe(const Information& known, Plan& plan) const {
+    if (plan.steps.empty()) return;
+    for (const Cause& cause : causes_) plan.causes.push_back(described(known, cause));
+    plan.groups = groups_of(plan.causes);
+    say("trying blame in simulated joints");
+    const Blame tried = blame(signatures_, known, causes_, rivals_in(known), options_.seed);
+    plan.nothing = tried.nothing;
+    plan.one = tried.one;
+    plan.unknown = tried.unknown;
+  }
+
+  const PlanOptions& options_;
+  Bench bench_;
+  Signatures signatures_;
+  std::string unit_;
+  std::vector<Option> options_of_bench_;
+  Information start_;
+  std::vector<Cause> causes_;
+  std::vector<std::pair<std::string, std::string>> left_out_;
+};
+
+}  // namespace
+
+Plan plan_runs(const DeclaredMechanism& declared, const PlanOptions& options) {
+  return Planner(declared, options).plan();
+}
+
+}  // namespace fusee

@@ -1,0 +1,161 @@
+#include "plan/signatures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/joint/as_it_is.h"
+#include "fusee/joint/simulate.h"
+#include "joint/forward.h"
+#include "plan/thresholds.h"
+#include "transmission/declared_law.h"
+
+// One row of a simulated stroke stands for some 15° of the motor, or five rows of a log: neighbours repeat each other,
+// and a row that is not independent is none.
+
+namespace fusee {
+namespace {
+
+constexpr int k_rows_a_stroke = 24;
+/// Legendre polynomials over the range that stand for smooth shapes: of the model's error, of what has no name.
+constexpr int k_model_shapes = 3;
+constexpr int k_unknown_shapes = 9;
+/// What has no name may come with: nothing, the direction, the load, both, the speed.
+constexpr int k_unknown_factors = 5;
+
+double legendre(int degree, double x) {
+  double before = 1, value = degree == 0 ? 1 : x;
+  for (int n = 2; n <= degree; ++n) {
+    const double next = ((2 * n - 1) * x * value - (n - 1) * before) / n;
+    before = value;
+    value = next;
+  }
+  return value;
+}
+
+/// Of each row: where in the range −1 … 1, and which way the motor came.
+struct Place {
+  double at = 0;
+  double direction = 0;
+};
+std::vector<Place> places(const BenchRun& run, const Bench& bench) {
+  std::vector<Place> all;
+  double direction = 0;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const double step = i > 0 ? run.rows[i].alpha - run.rows[i - 1].alpha : 0.0;
+    if (step != 0) direction = step > 0 ? 1.0 : -1.0;
+    all.push_back({2 * (run.rows[i].alpha - bench.from) / (bench.to - bench.from) - 1, direction});
+  }
+  return all;
+}
+
+}  // namespace
+
+double usual_size(const EffectParameter& number, double largest_load) {
+  const double size = number.prior_at_load && largest_load > 0 ? number.prior / largest_load : number.prior;
+  return std::clamp(size, number.least, number.most);
+}
+
+Signatures::Signatures(const DeclaredMechanism& declared, const Bench& bench, double noise)
+    : declared_(declared), expected_(expected_joint(declared)), bench_(bench), noise_(noise) {
+  for (const Effect& effect : effects(kind_of(declared))) {
+    const std::string reason = why_not(effect);
+    if (reason.empty()) {
+      add(effect);
+    } else {
+      left_out_.emplace_back(effect.name, reason);
+    }
+  }
+  model_first_ = columns_;
+  unknown_first_ = model_first_ + 2 * k_model_shapes;
+  columns_ = unknown_first_ + k_unknown_shapes * k_unknown_factors;
+}
+
+void Signatures::add(const Effect& effect) {
+  Cause cause;
+  cause.effect = &effect;
+  cause.first = columns_;
+  for (const EffectParameter& number : effect.parameters) {
+    if (!number.searched) cause.numbers.push_back(&number);
+  }
+  columns_ += cause.count();
+  causes_.push_back(std::move(cause));
+}
+
+std::string Signatures::why_not(const Effect& effect) const {
+  if (effect.starts_in_time) return "it happens once, at any time: " + effect.separating_run;
+  if (effect.needs.temperature) return "it follows the temperature: " + effect.separating_run;
+  if (effect.needs.full_turn && std::abs(bench_.to - bench_.from) <= k_full_turn)
+    return "the motor does not turn far enough to show what comes back once a turn";
+  if (effect.needs.load && bench_.largest_load() == 0) return "no load is planned";
+  return "";
+}
+
+/// What a number at its usual size moves the joint by, beside `from`; nothing where there is no equilibrium.
+Eigen::VectorXd Signatures::moved_by(Forward& forward, const Imperfections& from, const EffectParameter& number) const {
+  const std::vector<double> before = forward(from).front();
+  Imperfections at = from;
+  set_value(at, number, usual_size(number, bench_.largest_load()));
+  const std::vector<double> after = forward(at).front();
+  Eigen::VectorXd moved(static_cast<Eigen::Index>(before.size()));
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const double difference = after[k] - before[k];
+    moved[static_cast<Eigen::Index>(k)] = std::isfinite(difference) ? difference : 0.0;
+  }
+  return moved;
+}
+
+std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
+  const BenchLog log = {driven(run, k_rows_a_stroke)};
+  Forward forward(expected_, log);
+  const std::vector<double> plain = forward({}).front();
+  if (!std::all_of(plain.begin(), plain.end(), [](double angle) { return std::isfinite(angle); })) return std::nullopt;
+  const auto rows = static_cast<Eigen::Index>(plain.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, columns_);
+  for (const Cause& cause : causes_) {
+    for (Eigen::Index i = 0; i < cause.count(); ++i) {
+      const Eigen::Index column = cause.first + i;
+      A.col(column) = moved_by(forward, {}, *cause.numbers[static_cast<std::size_t>(i)]);
+      // What does nothing by itself changes what the first number does.
+      if (i > 0 && A.col(column).isZero(0)) {
+        Imperfections first;
+        set_value(first, *cause.numbers.front(), usual_size(*cause.numbers.front(), bench_.largest_load()));
+        A.col(column) = moved_by(forward, first, *cause.numbers[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+  const DeclaredLaw law(expected_);
+  const std::vector<Place> where = places(log.front(), bench_);
+  const double load = bench_.largest_load() > 0 ? run.load / bench_.largest_load() : 0.0;
+  const double speed = run.speed / bench_.speeds.back();
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    const double deflection = expected_.transmission ? 0.0 : plain[row] - law.theta(log.front().rows[row].alpha);
+    for (int n = 0; n < k_model_shapes; ++n) {
+      const double error = k_plan.deflection_share * deflection * legendre(n, where[row].at);
+      A(k, model_first_ + 2 * n) = error;
+      A(k, model_first_ + 2 * n + 1) = error * where[row].direction;
+    }
+    const double factors[k_unknown_factors] = {1, where[row].direction, load, load * where[row].direction,
+                                               speed * where[row].direction};
+    for (int n = 0; n < k_unknown_shapes; ++n) {
+      for (int f = 0; f < k_unknown_factors; ++f)
+        A(k, unknown_first_ + n * k_unknown_factors + f) = radians(1.0) * legendre(n, where[row].at) * factors[f];
+    }
+  }
+  A /= noise_;
+  return Seen{A.transpose() * A, static_cast<double>(rows)};
+}
+
+Eigen::MatrixXd Signatures::of(const EffectParameter& reading) const {
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(columns_, columns_);
+  for (const Cause& cause : causes_) {
+    for (Eigen::Index i = 0; i < cause.count(); ++i) {
+      if (cause.numbers[static_cast<std::size_t>(i)]->number != reading.number) continue;
+      const double usual = usual_size(reading, bench_.largest_load()) / reading.by_hand.uncertainty;
+      squares(cause.first + i, cause.first + i) = usual * usual;
+    }
+  }
+  return squares;
+}
+
+}  // namespace fusee

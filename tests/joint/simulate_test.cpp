@@ -1,0 +1,108 @@
+// A joint moved through a log: what predict() shows, and all that is known beside it.
+#include "fusee/joint/simulate.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "fusee/transmission/transmission.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+/// There and back over most of the range.
+BenchLog swept(double load) {
+  BenchRun run;
+  run.has_load = true;
+  for (int i = 0; i <= 160; ++i) {
+    const double share = i <= 80 ? i / 80.0 : 2.0 - i / 80.0;
+    run.rows.push_back({0.25 * i, std::lerp(-1.6, 1.6, share), load, 0});
+  }
+  return {run};
+}
+
+Imperfections several() {
+  Imperfections at;
+  at.shaft.backlash = 0.02;
+  at.tendon.stretch = 0.5;
+  at.sensor.gain = 0.01;
+  at.sensor.zero = -0.003;
+  return at;
+}
+
+TEST(Simulate, ShowsWhatIsPredicted) {
+  const DeclaredMechanism joint = testing::forearm();
+  for (const Imperfections& at : {Imperfections{}, several()}) {
+    for (const double load : {0.0, 12.0}) {
+      const Readings predicted = predict(joint, at, swept(load));
+      const auto states = simulate(joint, at, swept(load));
+      ASSERT_EQ(states.front().size(), predicted.front().size());
+      for (std::size_t i = 0; i < states.front().size(); ++i) EXPECT_EQ(states[0][i].shown, predicted[0][i]);
+    }
+  }
+}
+
+TEST(Simulate, TellsWhereTheJointStandsFromWhatItsSensorShows) {
+  const Imperfections at = several();
+  const auto states = simulate(testing::forearm(), at, swept(5));
+  for (const JointState& state : states.front())
+    EXPECT_NEAR(state.shown, at.sensor.zero + (1 + at.sensor.gain) * state.theta, 1e-14);
+}
+
+// Virtual work: what the motor turns the pulley with, times dα, is what the load takes, times dθ, but for friction.
+TEST(Simulate, MotorCarriesTheLoad) {
+  DeclaredMechanism joint = testing::forearm();
+  joint.guides.mu = 0;
+  joint.pulley.mu = 0;
+  joint.tendon.modulus = 4e6;
+  const Transmission law(joint);
+  const double force = 15;
+  const BenchLog log = swept(force);
+  const std::vector<JointState> states = simulate(joint, {}, log).front();
+  for (std::size_t i = 20; i < states.size(); i += 20) {
+    const TransmissionPoint point = law.at_alpha(log[0].rows[i].alpha);
+    EXPECT_NEAR(states[i].motor_torque, force * joint.joint.R * point.g, 0.01 * force * joint.joint.R * point.g);
+    EXPECT_NEAR(states[i].motor_torque, states[i].t2.lower * point.t2.p - states[i].t1.lower * point.t1.p, 0.2);
+  }
+}
+
+TEST(Simulate, SaysWhereNothingHoldsTheJoint) {
+  Imperfections at;
+  at.tendon.slack = 3;
+  DeclaredMechanism joint = testing::forearm();
+  bool loose = false;
+  const auto states = simulate(joint, at, swept(0));
+  for (const JointState& state : states.front()) {
+    if (state.status != EquilibriumStatus::loose) continue;
+    loose = true;
+    EXPECT_GT(state.loose, 0);
+    EXPECT_NEAR(state.t1.lower, 0, 1e-9);
+  }
+  EXPECT_TRUE(loose);
+}
+
+TEST(Simulate, OfAGearedJointKnowsAnglesAlone) {
+  DeclaredMechanism joint;
+  joint.transmission = RatioTransmission{4.0};
+  const auto states = simulate(joint, {}, swept(0));
+  for (const JointState& state : states.front()) {
+    EXPECT_TRUE(std::isfinite(state.theta));
+    EXPECT_TRUE(std::isnan(state.motor_torque));
+  }
+}
+
+// An encoder that was turned shows its error later: the simulated joint is the same one.
+TEST(Simulate, KnowsHowTheEncodersAreMounted) {
+  Imperfections at;
+  at.sensor.eccentricity_sin = 0.02;
+  BenchLog log = swept(0);
+  log[0].mounting.joint_sensor_turned = 0.5;
+  const double phase = 0.5;
+  const auto states = simulate(testing::forearm(), at, log);
+  for (const JointState& state : states.front())
+    EXPECT_NEAR(state.shown - state.theta, 0.02 * (std::sin(state.theta + phase) - std::sin(phase)), 1e-14);
+}
+
+}  // namespace
+}  // namespace fusee

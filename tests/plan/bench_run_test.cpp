@@ -1,0 +1,105 @@
+// What a person drives at the bench, as rows.
+#include "fusee/plan/bench_run.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "joint/sensors.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr PlannedRun k_run{.from = -1.5, .to = 2.0, .cycles = 3, .speed = 0.25, .load = 5};
+
+TEST(PlannedRun, TakesTheTimeOfItsWay) {
+  EXPECT_DOUBLE_EQ(minutes_of(k_run), 3 * 2 * (3.5 / 0.25) / 60);
+  PlannedRun held = k_run;
+  held.dwell = 30;
+  EXPECT_DOUBLE_EQ(minutes_of(held), minutes_of(k_run) + 3 * 2 * 30 / 60.0);
+}
+
+TEST(PlannedRun, IsDrivenThereAndBackInThatTime) {
+  for (const double dwell : {0.0, 30.0}) {
+    PlannedRun run = k_run;
+    run.dwell = dwell;
+    const BenchRun rows = driven(run, 20);
+    EXPECT_DOUBLE_EQ(rows.rows.front().alpha, run.from);
+    EXPECT_DOUBLE_EQ(rows.rows.back().alpha, run.from);
+    EXPECT_NEAR(rows.rows.back().time, 60 * minutes_of(run), 1e-9);
+    double way = 0;
+    for (std::size_t i = 1; i < rows.rows.size(); ++i) {
+      const double step = std::abs(rows.rows[i].alpha - rows.rows[i - 1].alpha);
+      const double time = rows.rows[i].time - rows.rows[i - 1].time;
+      EXPECT_GT(time, 0);
+      if (step > 0) {
+        EXPECT_NEAR(step / time, run.speed, 1e-9);
+      }
+      EXPECT_EQ(rows.rows[i].load, run.load);
+      way += step;
+    }
+    EXPECT_NEAR(way, run.cycles * 2 * 3.5, 1e-9);
+  }
+}
+
+TEST(PlannedRun, SaysWhatIsDone) {
+  EXPECT_EQ(words(k_run, k_run.speed, "N"), "3 cycles, slow, at 5 N");
+  PlannedRun other = k_run;
+  other.load = 0;
+  other.speed = radians(90.0);
+  other.change = BenchChange::joint_sensor_turned;
+  EXPECT_THAT(words(other, k_run.speed, "N"), HasSubstr("quarter turn"));
+  EXPECT_THAT(words(other, k_run.speed, "N"), HasSubstr("90 deg/s, without load"));
+}
+
+// e(α + φ) − e(φ): what an encoder errs by after it was turned by φ and its zero was set again.
+TEST(TurnedEncoder, ShowsTheSameErrorLater) {
+  MotorSensorError motor;
+  motor.eccentricity_sin = 0.02;
+  motor.eccentricity_cos = -0.01;
+  motor.wave_sin = 0.004;
+  motor.wave_cos = 0.007;
+  motor.wave_order = 3;
+  const double turn = mounting_of(BenchChange::motor_sensor_turned).motor_sensor_turned;
+  ASSERT_NE(turn, 0);
+  const auto error = [&](double alpha) { return shaft_angle(alpha, motor) - alpha; };
+  for (const double alpha : {-2.0, -0.3, 0.0, 1.1, 4.0}) {
+    const double shown = shaft_angle(alpha, turned(motor, turn)) - alpha;
+    EXPECT_NEAR(shown, error(alpha + turn) - error(turn), 1e-15);
+  }
+  EXPECT_EQ(turned(motor, 0.0), motor);
+}
+
+TEST(TurnedEncoder, OfTheJointToo) {
+  JointSensorError sensor;
+  sensor.eccentricity_sin = 0.02;
+  sensor.eccentricity_cos = 0.03;
+  const double turn = 0.7;
+  const BenchRun run{.rows = {{0, 0, 0, 0}, {1, 0, 0, 0}}};
+  const auto error = [&](double theta, const JointSensorError& of) { return sensed(run, {theta, theta}, of)[1] - theta; };
+  for (const double theta : {-0.5, 0.2})
+    EXPECT_NEAR(error(theta, turned(sensor, turn)), error(theta + turn, sensor) - error(turn, sensor), 1e-15);
+}
+
+TEST(Ranking, PutsTheMostTellingFirst) {
+  std::vector<RankedMeasurement> all = {{"none", 1, {0.5, 0.9}}, {"wide", 1, {9, 0.1}}, {"both", 1, {1.1, 1.2}}, {"wider", 1, {10, 0}}};
+  rank(all);
+  EXPECT_EQ(all[0].words, "both");
+  EXPECT_EQ(all[1].words, "wider");
+  EXPECT_EQ(all[2].words, "wide");
+  EXPECT_EQ(all[3].told(), 0u);
+}
+
+TEST(BenchChanges, HaveWords) {
+  EXPECT_THAT(words(BenchChange::none), IsEmpty());
+  for (const BenchChange change : {BenchChange::motor_sensor_turned, BenchChange::joint_sensor_turned,
+                                   BenchChange::doubled_pretension, BenchChange::on_its_side})
+    EXPECT_THAT(words(change), Not(IsEmpty()));
+}
+
+}  // namespace
+}  // namespace fusee
