@@ -154,7 +154,7 @@ double rolling_pin(const Moment& now, const N& n, N& memory) {
 
 /// A hexagonal stand-off where the file has a round pin: its rim is out by n[0] cos 6(φ − n[1]) in the direction φ, and
 /// the tendon's way over it by the integral of that over the wrap; the lower end of the wrap hardly moves. In practice
-/// 0.1 … 0.8 mm. A radius gives φ itself, a place gives its sine and cosine: this is a wave of the sixth order.
+/// 0.1 … 0.5 mm. A radius gives φ itself, a place gives its sine and cosine: this is a wave of the sixth order.
 template <std::size_t side>
 double hexagon(const Moment& now, const N& n, N& memory) {
   if (now.pull[side].isZero()) return 0.0;
@@ -300,7 +300,7 @@ std::vector<Fault> frame_faults() {
          const Guides& guides = j.declared.guides;
          h.longer[1].push_back({"rolling_pin", {s, c.angle, 1.0 + 2.0 * c.share, guides.ED / guides.radius}, rolling_pin});
        }},
-      {.name = "hexagonal_pin", .first = 0.3, .most = 2.0,
+      {.name = "hexagonal_pin", .first = 0.3, .most = 1.0,
        .set = [](H& h, double s, const C& c, const J&) {
          const bool right = c.sign > 0;
          h.longer[right ? 1 : 0].push_back({"hexagon", {s, c.angle}, right ? hexagon<1> : hexagon<0>});
