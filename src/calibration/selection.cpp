@@ -332,7 +332,8 @@ void Selector::retreat() {
 }
 
 Selection Selector::run() {
-  selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects);
+  selection_.catalogue =
+      catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects, options_.without);
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
   if (!selection_.none.usable) return std::move(selection_);

@@ -7,8 +7,8 @@
 namespace fusee {
 
 /// Kelvin elements in a row, one a decade of time, driven by a tension, strain or load. From rest, under a driver that
-/// stays, they give way by driver · log10(1 + t/s) for an hour, within 0.15 of a decade (0.1 after ten seconds), and
-/// come back in the same way.
+/// stays, they give way by driver · log10(1 + 1.78 t/s) for some hours, within 0.15 of a decade (0.05 after ten
+/// seconds), and come back in the same way.
 class CreepMemory {
  public:
   /// `driver` acts for `time` s.
@@ -17,9 +17,9 @@ class CreepMemory {
   double crept() const;
 
  private:
-  /// An element of τ stands for its decade from τ/√10 on; elements without gaps from τ0 on give way by log10(1.78
-  /// t/τ0): 10^(k + 3/4) s is log10(1 + t/s) in the long run.
-  static constexpr std::array<double, 4> k_times{5.62, 56.2, 562, 5620};
+  /// In the middle of their decades, the first from 1 s: elements without gaps from there on would give way by
+  /// log10(1.78 t/s). What is quicker is part of the stiffness.
+  static constexpr std::array<double, 5> k_times{3.16, 31.6, 316, 3160, 31600};
   std::array<double, k_times.size()> elements_{};
 };
 

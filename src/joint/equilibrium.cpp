@@ -35,6 +35,11 @@ constexpr double k_least_play = 1e-6;
 /// three do; where a tendon sticks on such a pin each leaves the give's share of the compliance, and where what slides
 /// turns round it may take some halving.
 constexpr int k_rounds = 40;
+constexpr double k_least_strain = 1e-14;
+/// The first search, and the last ones by single steps, which square the miss.
+constexpr double k_rough_step = 1e-5;   // rad
+constexpr double k_newton_step = 1e-3;  // rad
+constexpr int k_newton_rounds = 6;
 /// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
 constexpr double k_least_hold = 1e-4;
 
@@ -51,7 +56,7 @@ struct TendonHistory {
   double lower = 0;
   Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
   double ratio = 1;      ///< lower per upper tension that Give is seen with
-  double strained = 0;  ///< by how much the strain of the lower span grew in the last step
+  double strained = 0;   ///< by how much the strain of the lower span grew in the last step
 };
 
 /// A tendon's directions at its pin, away from it, and what it pushes the pin with.
@@ -91,9 +96,8 @@ struct AtAlpha {
   double swelling = 1;      ///< 1 + expansion: of material since home
   Spans spans;              ///< all but the upper length and the capstan factor, without what comes from the pulley
   Turned turned;
-  Slide slide;        ///< what slides on the pulley, at a strain near the one that will be found
-  double least = 0;   ///< what is known of that
-  double most = std::numeric_limits<double>::infinity();
+  Slide slide;       ///< what slides on the pulley, at a strain near the one that will be found
+  double moved = 0;  ///< by how much the search last moved that strain
 };
 
 GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
@@ -112,7 +116,7 @@ AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho,
   at.spans.lower_material = at.swelling * tendon.lower_material;
   at.turned = tendon.wound.turned_to(place_of(tendon.side, path, step.alpha), at.swelling);
   // Mostly the strain goes on as it went.
-  const double last = tendon.lower / EA;
+  const double last = tendon.wound.strain(at.swelling);
   at.slide = tendon.wound.slide(at.turned, std::max(0.5 * last, last + tendon.strained), at.swelling);
   return at;
 }
@@ -131,26 +135,16 @@ Spans with_slide(Spans spans, const AtAlpha& at) {
   return spans;
 }
 
-/// Two strains are one below this part of them, or where this little is left.
-constexpr double k_same_strain = 1e-9;
-constexpr double k_least_strain = 1e-15;
-
-/// Slides by the strain that was found with the present slide. Was it that already?
+/// Slides by the strain that was found with the present slide. Was it that already, but for `near`?
 ///
-/// Newton's steps, kept within what is known to enclose the strain: what slides changes where its direction does.
-bool slide_found(AtAlpha& at, const WoundProfile& wound, double found) {
-  const double now = at.slide.strain;
-  if (std::abs(found - now) <= k_same_strain * found + k_least_strain) return true;
-  (found > now ? at.least : at.most) = now;
-  double next = found;
-  if (!(next > at.least && next < at.most) && next > 0) next = 0.5 * (at.least + at.most);
-  // The other tendon moves it too: what was known may be wrong.
-  if (!(std::abs(next - now) > k_same_strain * now) || !std::isfinite(next)) {
-    at.least = 0;
-    at.most = std::numeric_limits<double>::infinity();
-    next = found;
-  }
-  at.slide = wound.slide(at.turned, next, at.swelling);
+/// Newton's steps; where they swing back they run in circles round a kink (what slides turns round), and half of one
+/// breaks the circle.
+bool slide_found(AtAlpha& at, const WoundProfile& wound, double found, double near) {
+  double by = found - at.slide.strain;
+  if (std::abs(by) <= near) return true;
+  if (by * at.moved < 0 && std::abs(by) > 0.5 * std::abs(at.moved)) by *= 0.5;
+  at.moved = by;
+  at.slide = wound.slide(at.turned, at.slide.strain + by, at.swelling);
   return false;
 }
 
@@ -254,10 +248,8 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   tendon.rim_reference = 0.5 * (span.normal + path.normal);
   const double density = 1.0 / (1.0 + tension / model.EA);
   tendon.upper_material = density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
-  tendon.lower_material =
-      density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
-  tendon.wound =
-      WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
+  tendon.lower_material = density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
+  tendon.wound = WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
   tendon.upper = tendon.lower = tension;
   tendon.home_push = AtPin(span.normal, path.normal).push(tension, tension);
   return tendon;
@@ -295,7 +287,8 @@ Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial) {
   const auto head = [EA](double upper, double lower) {
     return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
   };
-  at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
+  if (std::abs(at.slide.strain - now.lower / EA) > k_least_strain)
+    at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
   Spent spent = wind(tendon.wound, at);
   spent.friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
@@ -331,6 +324,14 @@ double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial
   return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
 }
 
+/// Where a joint comes to rest.
+struct Rest {
+  double theta = 0;
+  double held = 0;     ///< by its bearing against what pulls it, N·mm
+  bool stays = false;  ///< where it was
+  std::array<Trial, 2> trials = {};
+};
+
 }  // namespace
 
 struct JointMotion::State {
@@ -347,11 +348,13 @@ struct JointMotion::State {
 
   explicit State(JointModel joint);
   /// Pull of the tendons beyond the load, towards +θ.
-  Residual residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const;
+  Residual residual(const std::array<Trial, 2>& trials, const JointStep& step, double at_theta) const;
   std::array<Trial, 2> trials(const std::array<AtAlpha, 2>& at, double at_theta) const;
-  std::optional<double> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start) const;
-  bool consistent(std::array<AtAlpha, 2>& at, double found);
-  EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, double found);
+  std::optional<Rest> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start,
+                               double last_step) const;
+  std::optional<Rest> settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
+  bool consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now);
+  EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
 
@@ -370,18 +373,20 @@ std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at
           tried(tendons[1], at[1], model.upper->right, model, at_theta)};
 }
 
-Residual JointMotion::State::residual(const std::array<AtAlpha, 2>& at, const JointStep& step, double at_theta) const {
-  const auto [left, right] = trials(at, at_theta);
+Residual JointMotion::State::residual(const std::array<Trial, 2>& trials, const JointStep& step,
+                                      double at_theta) const {
+  const auto& [left, right] = trials;
   return {right.pull - left.pull - step.tip_force * model.pins[1].R - step.torque - model.weight_torque(at_theta),
           right.slope + left.slope - model.weight_slope(at_theta)};
 }
 
-std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step,
-                                                   double start) const {
+/// With what slides on the pulleys as `at` has it.
+std::optional<Rest> JointMotion::State::balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start,
+                                                 double last_step) const {
   // Its bearing holds the joint as long as it is not pulled by more; then it moves on until it is pulled by that much.
   double held = 0;
   const auto pull = [&](double at_theta) {
-    Residual beyond = residual(at, step, at_theta);
+    Residual beyond = residual(trials(at, at_theta), step, at_theta);
     beyond.value -= held;
     return beyond;
   };
@@ -389,32 +394,56 @@ std::optional<double> JointMotion::State::balanced(const std::array<AtAlpha, 2>&
   // from where it is expected.
   if (theta > model.theta_least && theta < model.theta_most) {
     const double here = pull(theta).value;
-    if (std::abs(here) <= model.bearing_friction) return theta;
+    if (std::abs(here) <= model.bearing_friction) return Rest{theta, 0, true};
     held = std::copysign(model.bearing_friction, here);
     if (loose || model.bearing_friction > 0) start = theta;
   }
-  return fallen_to_zero(start, model.theta_least, model.theta_most, model.last_step, pull);
+  const auto found = fallen_to_zero(start, model.theta_least, model.theta_most, last_step, pull);
+  if (!found) return std::nullopt;
+  return Rest{*found, held, false};
 }
 
 /// What slides on both pulleys, and where pins give way the ratios of both tendons' tensions, taken as they were found;
 /// were they so already?
-bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, double found) {
+bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now) {
   constexpr double near = 1e-7;
+  // What is left of a tension's miss is its square, unless what slides turns round just there.
+  const double near_strain = std::max(model.last_step, k_least_strain);
   bool same = true;
-  const std::array<Trial, 2> now = trials(at, found);
   for (std::size_t i = 0; i < 2; ++i) {
     const TendonBalance& balance = now[i].balance;
-    same = slide_found(at[i], tendons[i].wound, balance.lower / at[i].spans.EA) && same;
+    same = slide_found(at[i], tendons[i].wound, balance.lower / at[i].spans.EA, near_strain) && same;
     if (!(model.pin_give > 0 && balance.upper > 0 && balance.lower > 0)) continue;
     const double ratio = balance.lower / balance.upper;
-    same = std::abs(ratio - tendons[i].ratio) <= near && same;
+    if (std::abs(ratio - tendons[i].ratio) <= near) continue;
     tendons[i].ratio = ratio;
+    same = false;
   }
   return same;
 }
 
-EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const JointStep& step, double found) {
-  const std::array<Trial, 2> now = trials(at, found);
+/// The joint's place and what slides, found together: roughly the one with a first guess of the other, then both by a
+/// step of Newton's each; where that does not do (a kink, a bearing that holds) one after the other.
+std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start) {
+  auto rest = balanced(at, step, start, std::max(model.last_step, k_rough_step));
+  for (int i = 0; i < k_rounds && rest; ++i) {
+    rest->trials = trials(at, rest->theta);
+    const Residual beyond = residual(rest->trials, step, rest->theta);
+    const bool same = consistent(at, rest->trials);
+    const double move = beyond.slope < 0 && !rest->stays ? -(beyond.value - rest->held) / beyond.slope : 0.0;
+    if (same && std::abs(move) <= model.last_step) return rest;
+    if (rest->stays || std::abs(move) > k_newton_step || i >= k_newton_rounds)
+      rest = balanced(at, step, rest->theta, model.last_step);
+    else
+      rest->theta += move;
+  }
+  if (rest) rest->trials = trials(at, rest->theta);
+  return rest;
+}
+
+EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest) {
+  const std::array<Trial, 2>& now = rest.trials;
+  const double found = rest.theta;
   EquilibriumPoint point;
   point.alpha = step.alpha;
   point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(found);
@@ -476,18 +505,16 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
     if (!std::isfinite(paths[i].wound)) return state.refuse(step);
     at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA, step);
     at[i].spans.lower_material += at[i].swelling * (step.tendon.released[i] - state.released[i]);
-    const bool has_path = at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;
+    const bool has_path =
+        at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;
     if (!has_path) return state.refuse(step);
   }
   const double expected = model.expected(step.alpha);
-  // A joint keeps its deviation from where it is expected.
-  auto found = state.balanced(at, step, state.theta + expected - state.expected);
-  for (int i = 0; i < k_rounds && found && !state.consistent(at, *found); ++i)
-    found = state.balanced(at, step, *found);
-  if (!found) return state.refuse(step);
+  const auto rest = state.settled(at, step, state.theta + expected - state.expected);
+  if (!rest) return state.refuse(step);
   state.expected = expected;
   state.released = step.tendon.released;
-  return state.accept(at, step, *found);
+  return state.accept(at, step, *rest);
 }
 
 std::vector<EquilibriumPoint> follow(const JointModel& model, const std::vector<JointStep>& steps) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <ostream>
 
 #include "fusee/joint/simulate.h"
@@ -28,7 +27,7 @@ constexpr double k_wave = radians(0.4), k_phase = 0.7;
 
 const std::vector<SameFault> k_faults{
     {"as_declared_but_for_stretch", [](Hidden& h) { h.modulus = 5000; },
-     [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.03},
+     [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.05},
     {"motor_sensor_harmonic",
      [](Hidden& h) { h.motor_harmonic = k_wave, h.motor_harmonic_phase = k_phase, h.motor_harmonic_order = 3; },
      [](Imperfections& at) {
@@ -56,8 +55,8 @@ const std::vector<SameFault> k_faults{
      },
      0.02},
     {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.give = 5e-3; }, 0.06},
-    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.08},
-    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.15},
+    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.15},
+    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.1},
     {"slack", [](Hidden& h) { h.slack = 1.0; },
      [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.08},
 };
@@ -113,7 +112,6 @@ TEST_P(Same, FaultDoesTheSameInBoth) {
   const std::vector<double> said = less(flat(predict(declared, at, log)), flat(predict(declared, {}, log)));
   const double size = rms(shown, std::vector<double>(shown.size(), 0.0));
   const double miss = rms(shown, said);
-  std::printf("%s: %.4f deg, missed %.4f\n", GetParam().name, degrees(size), degrees(miss));
   EXPECT_GT(degrees(size), 0.01);
   EXPECT_LT(miss, GetParam().share * size) << degrees(size) << " deg, missed " << degrees(miss);
 }
