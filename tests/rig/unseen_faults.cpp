@@ -263,13 +263,13 @@ std::vector<Fault> tendon_faults() {
       {.name = "unscrewing_turnbuckle", .first = 2e-3, .most = 0.05,
        .set = [](H& h, double s, const C&, const J&) { h.longer[0].push_back({"unscrewing", {s}, unscrewing}); },
        .kin = {"tendon_slip"}},
-      {.name = "burr_under_load", .first = 0.2, .most = 3.0,
+      {.name = "burr_under_load", .first = 0.2, .most = 1.5,
        .set = [](H& h, double s, const C& c, const J& j) {
          h.longer[c.sign > 0 ? 1 : 0].push_back({"burr", {s, alpha_within(c, j), c.sign * 0.4 * pretension(j)}, burr});
        }},
       {.name = "spliced_tendon", .first = 0.1, .most = 2.0,
        .set = [](H& h, double s, const C& c, const J& j) { h.longer[0].push_back({"splice", {s, alpha_within(c, j)}, splice}); }},
-      {.name = "opening_braid", .first = 0.1, .most = 1.5,
+      {.name = "opening_braid", .first = 0.1, .most = 1.0,
        .set = [](H& h, double s, const C& c, const J& j) {
          const N numbers = {s, 0.6 * pretension(j), 1.0 + 3.0 * c.share};
          h.longer[0].push_back({"open_braid", numbers, open_braid<0>});
