@@ -8,7 +8,8 @@
 namespace fusee::rig {
 
 const std::vector<FaultList>& fault_lists() {
-  static const std::vector<FaultList> lists = {{"named", named_faults()}, {"tuning", tuning_faults()}};
+  static const std::vector<FaultList> lists = {
+      {"named", named_faults()}, {"tuning", tuning_faults()}, {"unseen", unseen_faults()}};
   return lists;
 }
 

@@ -44,6 +44,8 @@ struct FaultList {
 std::vector<Fault> named_faults();
 /// Without a name: those that thresholds may be tuned on.
 std::vector<Fault> tuning_faults();
+/// Without a name, and by another hand: kept aside, nothing is tuned on them and they are run once.
+std::vector<Fault> unseen_faults();
 
 /// All lists, the named one first.
 const std::vector<FaultList>& fault_lists();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <utility>
 
 #include "fusee/base/diagnostics.h"
@@ -124,7 +125,7 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
   for (std::size_t i = 0; i < made.faults.size(); ++i) {
     const std::string& fault = made.faults[i];
     if (is_outside(fault, without)) {
-      one.outside = true;
+      one.outside.push_back(fault);
       continue;
     }
     for (const FoundEffect& effect : found.effects) add_covered(fault, effect, made, one.numbers);
@@ -192,10 +193,10 @@ Rates rates(const std::vector<Judgement>& judgements) {
   };
   for (const Judgement& one : judgements) {
     const bool blamed = one.false_groups > 0;
-    count(one.outside ? all.false_blame_outside : all.false_blame, blamed);
+    count(!one.outside.empty() ? all.false_blame_outside : all.false_blame, blamed);
     count(all.wrong_alone, one.wrong_alone > 0);
     count(all.untestable, one.verdict == CalibrationVerdict::not_testable);
-    if (one.outside) {
+    if (!one.outside.empty()) {
       all.kept.part += one.held;
       all.kept.all += one.named;
       count(all.unexplained_outside,
@@ -253,15 +254,15 @@ std::string matrix(const std::vector<Judgement>& judgements) {
   }
   for (const Sums& row : rows) text += row_text(row);
   text += "\n" + rate_table(judgements) + coverage_table(judgements);
-  text +=
-      "\nheld: in a reported group; alone: the group has no other member.\nKin, of faults without a name or whose name "
-      "is left out:";
-  for (const std::string& fault : fault_names()) {
-    if (const std::vector<std::string> kin = kin_of(fault); !kin.empty())
-      text += " " + fault + " is like " + joined(kin) + ";";
+  text += "\nheld: in a reported group; alone: the group has no other member.\n";
+  std::set<std::string> outside;
+  for (const Judgement& one : judgements) outside.insert(one.outside.begin(), one.outside.end());
+  std::string kin;
+  for (const std::string& fault : outside) {
+    if (!kin_of(fault).empty()) kin += (kin.empty() ? "" : "; ") + fault + " is like " + joined(kin_of(fault));
   }
-  text.back() = '.';
-  return text + "\n";
+  if (!kin.empty()) text += "Kin, of faults without a name or whose name is left out: " + kin + ".\n";
+  return text;
 }
 
 }  // namespace fusee::rig

@@ -22,13 +22,13 @@ struct Covered {
 struct Judgement {
   std::string truth;
   CalibrationVerdict verdict = CalibrationVerdict::not_testable;
-  std::size_t named = 0;         ///< faults that have a name and are well seen
-  std::size_t held = 0;          ///< of these, in a reported group
-  std::size_t alone = 0;         ///< of these, named alone
-  std::size_t false_groups = 0;  ///< reported groups that hold neither a fault nor the kin of one without a name
-  std::size_t wrong_alone = 0;   ///< of these, with a single member
-  bool outside = false;          ///< a fault without a name is there
-  bool nothing = false;          ///< a joint as declared, but perhaps for its groove's friction
+  std::size_t named = 0;             ///< faults that have a name and are well seen
+  std::size_t held = 0;              ///< of these, in a reported group
+  std::size_t alone = 0;             ///< of these, named alone
+  std::size_t false_groups = 0;      ///< reported groups that hold neither a fault nor the kin of one without a name
+  std::size_t wrong_alone = 0;       ///< of these, with a single member
+  std::vector<std::string> outside;  ///< faults without a name that are there
+  bool nothing = false;              ///< a joint as declared, but perhaps for its groove's friction
   std::vector<Covered> numbers;
   std::string words;  ///< one line for a person
 };

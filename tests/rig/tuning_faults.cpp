@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rig/fault_shapes.h"
 #include "rig/faults.h"
 
 namespace fusee::rig {
@@ -10,15 +11,6 @@ using H = Hidden;
 using C = Character;
 using J = MadeJoint;
 using N = std::vector<double>;
-
-double bump(double x) { return std::exp(-0.5 * x * x); }
-double alpha_within(const C& c, const J& j) {
-  return j.alpha_min + (0.2 + 0.6 * c.share) * (j.alpha_max - j.alpha_min);
-}
-double theta_within(const C& c, const J& j) {
-  const Joint& joint = j.declared.joint;
-  return joint.theta_min + (0.2 + 0.6 * c.share) * (joint.theta_max - joint.theta_min);
-}
 
 // ---- what acts ------------------------------------------------------------------------------------------------------
 
