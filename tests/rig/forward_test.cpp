@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <ostream>
 
+#include "fusee/joint/joint_model.h"
 #include "fusee/joint/simulate.h"
 #include "rig/rig.h"
+#include "rig/string_geometry.h"
 #include "support/mechanisms.h"
 
 namespace fusee::rig {
@@ -114,6 +117,52 @@ TEST_P(Same, FaultDoesTheSameInBoth) {
   const double miss = rms(shown, said);
   EXPECT_GT(degrees(size), 0.01);
   EXPECT_LT(miss, GetParam().share * size) << degrees(size) << " deg, missed " << degrees(miss);
+  std::printf("PROBE %s size %.4f missed %.5f share %.4f\n", GetParam().name, degrees(size), degrees(miss), miss / size);
+  std::printf("PROBE whole rms %.5f\n", degrees(rms(flat(faulty), flat(predict(declared, at, log)))));
+}
+
+/// A string wound on the polygon that was made, against the model's paths: what is free and what lies on the pulley.
+struct Wound {
+  double free = 0;
+  double on_pulley = 0;
+};
+
+Wound wound_string(const MadeJoint& joint, Side side, double alpha) {
+  const DeclaredMechanism& declared = joint.declared;
+  const double sign = mirror_sign(side);
+  Polygon corners;
+  for (const OutlinePoint& point : (side == Side::left ? joint.p1 : joint.p2).points)
+    corners.push_back(Vec2(side == Side::left ? -point.position.x() : point.position.x(), point.position.y()));
+  const Hull hull = hull_of(corners);
+  const Vec2 pin(side == Side::left ? declared.guides.EB : declared.guides.ED, declared.pulley.EF);
+  const double radius = declared.guides.radius + 0.5 * declared.tendon.diameter;
+  std::ptrdiff_t corner = first_look(hull, {pin, radius});
+  LowerString string;
+  for (int i = 0; i <= 40; ++i) {
+    const double c = std::cos(sign * alpha * i / 40), s = std::sin(sign * alpha * i / 40);
+    string = lower_string(hull, {{c * pin.x() - s * pin.y(), s * pin.x() + c * pin.y()}, radius}, corner);
+    corner = string.corner;
+  }
+  return {string.length, string.arc};
+}
+
+TEST(Paths, EndWhereAWoundStringDoes) {
+  const MadeJoint joint = make_joint(testing::forearm());
+  const JointModel model = joint_model(joint.declared);
+  // Of a curve of this radius a corner is that far from the next: a string meets the one before or after.
+  constexpr double corners = 0.1;
+  for (const double share : {-1.0, -0.5, 0.5, 1.0}) {
+    const double alpha = share > 0 ? share * joint.alpha_max : -share * joint.alpha_min;
+    for (const Side side : {Side::left, Side::right}) {
+      const std::size_t i = side == Side::left ? 0 : 1;
+      const Wound home = wound_string(joint, side, 0.0), there = wound_string(joint, side, alpha);
+      const LowerPath from = model.lower(0.0)[i], to = model.lower(alpha)[i];
+      EXPECT_NEAR(to.wound - from.wound, there.on_pulley - home.on_pulley, corners) << i << " " << alpha;
+      EXPECT_NEAR(to.reach, there.free, corners) << i << " " << alpha;
+      EXPECT_NEAR(to.wound - from.wound + to.reach - from.reach,
+                  there.on_pulley - home.on_pulley + there.free - home.free, 1e-4);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Fault, Same, ::testing::ValuesIn(k_faults),
