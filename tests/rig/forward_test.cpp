@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <ostream>
 
@@ -20,7 +19,7 @@ struct SameFault {
   const char* name;
   void (*hide)(Hidden&);
   void (*say)(Imperfections&);
-  double share;  ///< of the action that may be missed, rms
+  double share;  ///< of the action that may be missed, rms: what was measured, and a little room
 };
 
 void PrintTo(const SameFault& fault, std::ostream* out) { *out << fault.name; }
@@ -30,38 +29,38 @@ constexpr double k_wave = radians(0.4), k_phase = 0.7;
 
 const std::vector<SameFault> k_faults{
     {"as_declared_but_for_stretch", [](Hidden& h) { h.modulus = 5000; },
-     [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.05},
+     [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.004},
     {"motor_sensor_harmonic",
      [](Hidden& h) { h.motor_harmonic = k_wave, h.motor_harmonic_phase = k_phase, h.motor_harmonic_order = 3; },
      [](Imperfections& at) {
        at.motor.wave_sin = k_wave * std::cos(k_phase), at.motor.wave_cos = k_wave * std::sin(k_phase);
        at.motor.wave_order = 3;
      },
-     0.03},
+     0.001},
     {"joint_sensor_harmonic",
      [](Hidden& h) { h.joint_harmonic = k_wave, h.joint_harmonic_phase = k_phase, h.joint_harmonic_order = 2; },
      [](Imperfections& at) {
        at.sensor.wave_sin = k_wave * std::cos(k_phase), at.sensor.wave_cos = k_wave * std::sin(k_phase);
      },
-     0.01},
-    {"delay", [](Hidden& h) { h.lag = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05; }, 0.03},
+     0.001},
+    {"delay", [](Hidden& h) { h.lag = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05; }, 0.004},
     {"filter", [](Hidden& h) { h.lag_filter = 0.05; },
-     [](Imperfections& at) { at.sensor.lag = 0.05, at.sensor.first_order = 1; }, 0.03},
+     [](Imperfections& at) { at.sensor.lag = 0.05, at.sensor.first_order = 1; }, 0.004},
     {"left_pin", [](Hidden& h) { h.pin_outward[0] = 1.2, h.pin_down[0] = -0.6; },
      [](Imperfections& at) {
        at.pins.left = {1.2, -0.6};
      },
-     0.02},
+     0.012},
     {"right_pin", [](Hidden& h) { h.pin_outward[1] = -0.8, h.pin_down[1] = 1.0; },
      [](Imperfections& at) {
        at.pins.right = {-0.8, 1.0};
      },
-     0.02},
-    {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.give = 5e-3; }, 0.06},
-    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.15},
-    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.1},
+     0.004},
+    {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.give = 5e-3; }, 0.01},
+    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.015},
+    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.08},
     {"slack", [](Hidden& h) { h.slack = 1.0; },
-     [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.08},
+     [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.002},
 };
 
 class Same : public ::testing::TestWithParam<SameFault> {};
@@ -101,6 +100,7 @@ TEST_P(Same, FaultDoesTheSameInBoth) {
   silent.noise = 0;
   MotionPlan motion;
   motion.rows_per_stroke = 60;
+  motion.loaded_first = true;  // as the model, which does not know what happened before a run, comes to its first row
   const std::vector<RunPlan> runs = full_protocol(10);
   const std::vector<Log> faulty = log_runs(joint, hidden, runs, silent, motion);
   BenchLog log;
@@ -117,8 +117,7 @@ TEST_P(Same, FaultDoesTheSameInBoth) {
   const double miss = rms(shown, said);
   EXPECT_GT(degrees(size), 0.01);
   EXPECT_LT(miss, GetParam().share * size) << degrees(size) << " deg, missed " << degrees(miss);
-  std::printf("PROBE %s size %.4f missed %.5f share %.4f\n", GetParam().name, degrees(size), degrees(miss), miss / size);
-  std::printf("PROBE whole rms %.5f\n", degrees(rms(flat(faulty), flat(predict(declared, at, log)))));
+  EXPECT_LT(degrees(rms(flat(faulty), flat(predict(declared, at, log)))), 0.005);
 }
 
 /// A string wound on the polygon that was made, against the model's paths: what is free and what lies on the pulley.
