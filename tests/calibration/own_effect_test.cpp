@@ -14,7 +14,7 @@ namespace {
 constexpr double k_noise = radians(0.01);
 
 /// A print of seven lobes: the teeth of the wheel that turned its table. No effect of the program is it, nor do several
-/// together do the same, as they do of five lobes: with the waves of both sensors that data is confounded.
+/// together do the same; of five lobes some do: since there are waves of both sensors that reads as confounded.
 Effect seven_lobes() {
   Effect effect;
   effect.name = "seven_lobes";
