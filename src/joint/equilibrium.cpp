@@ -228,16 +228,15 @@ std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
   const double from = right ? model.alpha_least : model.alpha_most;
   const double to = right ? model.alpha_most : model.alpha_least;
   std::vector<GroovePlace> along;
-  double arm = 1.0;
   for (int i = 0; i <= k_groove_places; ++i) {
     const double alpha = from + (to - from) * i / k_groove_places;
     const LowerPath path = model.lower(alpha)[right ? 1 : 0];
     const GroovePlace place = place_of(side, path, alpha);
-    if (!std::isfinite(place.arc) || (!along.empty() && !(place.turn > along.back().turn))) continue;
-    if (along.empty()) arm = path.p;
+    if (!std::isfinite(place.arc)) continue;
+    if (!along.empty() && !(place.turn > along.back().turn && place.arc > along.back().arc)) continue;
     along.push_back(place);
   }
-  return std::make_shared<const GrooveArc>(std::move(along), arm, k_knot_beyond);
+  return std::make_shared<const GrooveArc>(std::move(along), k_knot_beyond);
 }
 
 TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path, double tension) {

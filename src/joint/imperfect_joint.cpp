@@ -67,8 +67,8 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       return paths;
     };
   }
-  // A wave moves the line that touches it and turns it too little to matter; on the left the image's arc runs the other
-  // way.
+  // A wave moves the line that touches it and turns it too little to matter, and where on the line it is touched by its
+  // slope, too little to tell what is wound from what is free; on the left the image's arc runs the other way.
   if (outline.wave_sin != 0 || outline.wave_cos != 0) {
     model.lower = [without = model.lower, outline](double alpha) {
       std::array<LowerPath, 2> paths = without(alpha);

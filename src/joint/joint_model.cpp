@@ -40,12 +40,14 @@ struct CurveElement {
   double normal = 0;  ///< in the pulley's frame
   double support = 0;
   double arc = 0;    ///< but for a constant
-  double reach = 0;  ///< of the declared line
-  double slope = 0;  ///< d support / d declared α
+  double reach = 0;  ///< of the declared line, from the foot of the axis' perpendicular: w
+  double slope = 0;  ///< d support / d declared α: p'
+  double ahead = 0;  ///< dh/dψ: from that foot to the element, towards the pin
 };
 
 // Inextensible tendon: what is above the pin, what lies between it and the pulley, and what is wound add up to a
-// constant along the declared law, which gives the arc in closed form: s = −L_up(θ) − w + ρψ.
+// constant along the declared law, which gives the arc in closed form: s = −L_up(θ) − (w − h') + ρψ. The element is
+// touched at h n + h' t, not at the foot of the axis' perpendicular; ψ' = 1 + p'/w, so h' = p'/(1 + p'/w).
 CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& at, double offset) {
   const double sign = mirror_sign(side);
   const TendonPoint& tendon = side == Side::right ? at.t2 : at.t1;
@@ -55,7 +57,8 @@ CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& 
   curve.support = tendon.p + offset;
   curve.reach = tendon.lower_reach;
   curve.slope = sign * tendon.dp;
-  curve.arc = -tendon.free_upper - place.rho * tendon.wrap - tendon.lower_reach + offset * curve.normal;
+  curve.ahead = curve.slope / (1.0 + curve.slope / curve.reach);
+  curve.arc = -tendon.free_upper - place.rho * tendon.wrap - curve.reach + curve.ahead + offset * curve.normal;
   return curve;
 }
 
@@ -83,7 +86,7 @@ LowerPath MadePulleys::path(Side side, const PinPlace& mounted, double alpha, co
     const double normal = curve.normal - sign * alpha;
     const double reach = c * std::sin(phi - normal);
     const double miss = c * std::cos(phi - normal) + mounted.rho - curve.support;
-    if (std::abs(miss) <= 1e-12 * c) return {curve.support, normal, reach, curve.arc};
+    if (std::abs(miss) <= 1e-12 * c) return {curve.support, normal, reach - curve.ahead, curve.arc};
     const double step = sign * miss / (reach * (1.0 + curve.slope / curve.reach) - curve.slope);
     // By the declared joint angle, in which the usual laws are closed formulas.
     const double theta = at.theta - step * at.g;

@@ -126,7 +126,7 @@ GroovePlace cut_of(const WoundPiece& piece, const Bound& bound, const GrooveArc&
 
 }  // namespace
 
-GrooveArc::GrooveArc(std::vector<GroovePlace> along, double beyond, double knot_beyond) : beyond_(beyond) {
+GrooveArc::GrooveArc(std::vector<GroovePlace> along, double knot_beyond) {
   const std::size_t last = along.size() - 1;
   const auto slope = [&](std::size_t i) {
     return (along[i + 1].arc - along[i].arc) / (along[i + 1].turn - along[i].turn);
@@ -140,14 +140,14 @@ GrooveArc::GrooveArc(std::vector<GroovePlace> along, double beyond, double knot_
     knots_.push_back({along[i].turn, along[i].arc, here});
   }
   per_turn_ = static_cast<double>(last) / (knots_.back().turn - knots_.front().turn);
-  knot_ = {knots_.front().turn - knot_beyond / beyond_, knots_.front().arc - knot_beyond};
+  knot_ = {knots_.front().turn - knot_beyond / knots_.front().slope, knots_.front().arc - knot_beyond};
 }
 
 double GrooveArc::arc(double turn) const {
   const Knot& first = knots_.front();
   const Knot& last = knots_.back();
-  if (turn <= first.turn) return first.arc + (turn - first.turn) * beyond_;
-  if (turn >= last.turn) return last.arc + (turn - last.turn) * beyond_;
+  if (turn <= first.turn) return first.arc + (turn - first.turn) * first.slope;
+  if (turn >= last.turn) return last.arc + (turn - last.turn) * last.slope;
   // The knots are nearly as far apart everywhere.
   std::size_t i = std::min(static_cast<std::size_t>((turn - first.turn) * per_turn_), knots_.size() - 2);
   while (knots_[i].turn > turn) --i;

@@ -21,8 +21,8 @@ struct GroovePlace {
 class GrooveArc {
  public:
   /// `along`: from the unwound end of the range to the wound one, strictly growing, at least two. Beyond both ends the
-  /// groove is taken as round, of the radius `beyond`.
-  GrooveArc(std::vector<GroovePlace> along, double beyond, double knot_beyond);
+  /// groove is taken as round, of the radius that it has there.
+  GrooveArc(std::vector<GroovePlace> along, double knot_beyond);
 
   double arc(double turn) const;
   const GroovePlace& knot() const { return knot_; }
@@ -33,7 +33,6 @@ class GrooveArc {
   };
   std::vector<Knot> knots_;
   double per_turn_ = 0;  ///< knots
-  double beyond_ = 0;
   GroovePlace knot_;
 };
 

@@ -39,6 +39,31 @@ UpperLine upper_line(double R, double theta, const Vec2& pin, double rho) {
   return upper;
 }
 
+/// A tendon below its pin, in its right-hand image: from the pin's tangent point to where it touches the pulley.
+struct Lower {
+  double reach = 0;
+  double normal = 0;
+};
+
+/// The pulley is touched where neighbouring lines of its own frame cross.
+Lower free_below(const Transmission& law, Side side, double image_alpha) {
+  struct Line {
+    double p, reach, normal;
+  };
+  const auto line = [&](double alpha) {
+    const TransmissionPoint at = law.at_alpha(mirror_sign(side) * alpha);
+    const TendonPoint& tendon = side == Side::right ? at.t2 : at.t1;
+    return Line{tendon.p, tendon.lower_reach, side == Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal};
+  };
+  constexpr double step = 1e-4;
+  const Line here = line(image_alpha), before = line(image_alpha - step), after = line(image_alpha + step);
+  const double turned_before = before.normal - step - here.normal, turned_after = after.normal + step - here.normal;
+  // Both lines with the normals (cos, sin) of their turning: how far along the line in between they cross.
+  const double crossing = (std::cos(turned_before) * after.p - std::cos(turned_after) * before.p) /
+                          std::sin(turned_after - turned_before);
+  return {here.reach - crossing, here.normal};
+}
+
 /// A span or a piece of the wrap.
 struct Piece {
   double length = 0;
@@ -105,18 +130,9 @@ class Chain {
   }
 
  private:
-  struct Lower {
-    double reach = 0;
-    double normal = 0;
-  };
-
   const TendonPoint& tendon(const TransmissionPoint& at) const { return side_ == Side::right ? at.t2 : at.t1; }
 
-  Lower lower_at(double image_alpha) const {
-    const TransmissionPoint at = law_.at_alpha(mirror_sign(side_) * image_alpha);
-    const double normal = tendon(at).lower_normal;
-    return {tendon(at).lower_reach, side_ == Side::right ? normal : k_pi - normal};
-  }
+  Lower lower_at(double image_alpha) const { return free_below(law_, side_, image_alpha); }
 
   /// Arc that comes onto the pulley: what comes over the pin (∫p dα, Simpson) less what the lower line takes.
   double wound_by(double image_alpha) const {
@@ -310,15 +326,7 @@ class Elements {
   }
 
  private:
-  struct Lower {
-    double reach = 0;
-    double normal = 0;
-  };
-  Lower point(double image_alpha) const {
-    const TransmissionPoint at = law_.at_alpha(mirror_sign(side_) * image_alpha);
-    const TendonPoint& tendon = side_ == Side::right ? at.t2 : at.t1;
-    return {tendon.lower_reach, side_ == Side::right ? tendon.lower_normal : k_pi - tendon.lower_normal};
-  }
+  Lower point(double image_alpha) const { return free_below(law_, side_, image_alpha); }
 
   /// Arc from the knot and turning of the normal, along the range: what comes over the pin (∫p dα) less what the lower line takes.
   void survey() {

@@ -17,7 +17,7 @@ GroovePlace at(double turn) { return {turn, k_radius * turn}; }
 WoundProfile wound(double turn, double friction) {
   std::vector<GroovePlace> along;
   for (int i = 0; i <= 30; ++i) along.push_back(at(0.1 * i));
-  const auto groove = std::make_shared<const GrooveArc>(along, k_radius, 5.0);
+  const auto groove = std::make_shared<const GrooveArc>(along, 5.0);
   return {groove, friction, at(turn), 1.0 / (1.0 + k_home)};
 }
 

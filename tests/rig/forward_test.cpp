@@ -6,8 +6,10 @@
 #include <functional>
 #include <ostream>
 
+#include "fusee/joint/joint_model.h"
 #include "fusee/joint/simulate.h"
 #include "rig/rig.h"
+#include "rig/string_geometry.h"
 #include "support/mechanisms.h"
 
 namespace fusee::rig {
@@ -17,7 +19,7 @@ struct SameFault {
   const char* name;
   void (*hide)(Hidden&);
   void (*say)(Imperfections&);
-  double share;  ///< of the action that may be missed, rms
+  double share;  ///< of the action that may be missed, rms: what was measured, and a little room
 };
 
 void PrintTo(const SameFault& fault, std::ostream* out) { *out << fault.name; }
@@ -27,38 +29,38 @@ constexpr double k_wave = radians(0.4), k_phase = 0.7;
 
 const std::vector<SameFault> k_faults{
     {"as_declared_but_for_stretch", [](Hidden& h) { h.modulus = 5000; },
-     [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.05},
+     [](Imperfections& at) { at.tendon.stretch = 8000.0 / 5000.0 - 1; }, 0.004},
     {"motor_sensor_harmonic",
      [](Hidden& h) { h.motor_harmonic = k_wave, h.motor_harmonic_phase = k_phase, h.motor_harmonic_order = 3; },
      [](Imperfections& at) {
        at.motor.wave_sin = k_wave * std::cos(k_phase), at.motor.wave_cos = k_wave * std::sin(k_phase);
        at.motor.wave_order = 3;
      },
-     0.03},
+     0.001},
     {"joint_sensor_harmonic",
      [](Hidden& h) { h.joint_harmonic = k_wave, h.joint_harmonic_phase = k_phase, h.joint_harmonic_order = 2; },
      [](Imperfections& at) {
        at.sensor.wave_sin = k_wave * std::cos(k_phase), at.sensor.wave_cos = k_wave * std::sin(k_phase);
      },
-     0.01},
-    {"delay", [](Hidden& h) { h.lag = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05; }, 0.03},
+     0.001},
+    {"delay", [](Hidden& h) { h.lag = 0.05; }, [](Imperfections& at) { at.sensor.lag = 0.05; }, 0.004},
     {"filter", [](Hidden& h) { h.lag_filter = 0.05; },
-     [](Imperfections& at) { at.sensor.lag = 0.05, at.sensor.first_order = 1; }, 0.03},
+     [](Imperfections& at) { at.sensor.lag = 0.05, at.sensor.first_order = 1; }, 0.004},
     {"left_pin", [](Hidden& h) { h.pin_outward[0] = 1.2, h.pin_down[0] = -0.6; },
      [](Imperfections& at) {
        at.pins.left = {1.2, -0.6};
      },
-     0.02},
+     0.012},
     {"right_pin", [](Hidden& h) { h.pin_outward[1] = -0.8, h.pin_down[1] = 1.0; },
      [](Imperfections& at) {
        at.pins.right = {-0.8, 1.0};
      },
-     0.02},
-    {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.give = 5e-3; }, 0.06},
-    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.15},
-    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.1},
+     0.004},
+    {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.give = 5e-3; }, 0.01},
+    {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.015},
+    {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.08},
     {"slack", [](Hidden& h) { h.slack = 1.0; },
-     [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.08},
+     [](Imperfections& at) { at.tendon.slack = 1.0, at.tendon.pretension = -5; }, 0.002},
 };
 
 class Same : public ::testing::TestWithParam<SameFault> {};
@@ -98,6 +100,7 @@ TEST_P(Same, FaultDoesTheSameInBoth) {
   silent.noise = 0;
   MotionPlan motion;
   motion.rows_per_stroke = 60;
+  motion.loaded_first = true;  // as the model, which does not know what happened before a run, comes to its first row
   const std::vector<RunPlan> runs = full_protocol(10);
   const std::vector<Log> faulty = log_runs(joint, hidden, runs, silent, motion);
   BenchLog log;
@@ -114,6 +117,51 @@ TEST_P(Same, FaultDoesTheSameInBoth) {
   const double miss = rms(shown, said);
   EXPECT_GT(degrees(size), 0.01);
   EXPECT_LT(miss, GetParam().share * size) << degrees(size) << " deg, missed " << degrees(miss);
+  EXPECT_LT(degrees(rms(flat(faulty), flat(predict(declared, at, log)))), 0.005);
+}
+
+/// A string wound on the polygon that was made, against the model's paths: what is free and what lies on the pulley.
+struct Wound {
+  double free = 0;
+  double on_pulley = 0;
+};
+
+Wound wound_string(const MadeJoint& joint, Side side, double alpha) {
+  const DeclaredMechanism& declared = joint.declared;
+  const double sign = mirror_sign(side);
+  Polygon corners;
+  for (const OutlinePoint& point : (side == Side::left ? joint.p1 : joint.p2).points)
+    corners.push_back(Vec2(side == Side::left ? -point.position.x() : point.position.x(), point.position.y()));
+  const Hull hull = hull_of(corners);
+  const Vec2 pin(side == Side::left ? declared.guides.EB : declared.guides.ED, declared.pulley.EF);
+  const double radius = declared.guides.radius + 0.5 * declared.tendon.diameter;
+  std::ptrdiff_t corner = first_look(hull, {pin, radius});
+  LowerString string;
+  for (int i = 0; i <= 40; ++i) {
+    const double c = std::cos(sign * alpha * i / 40), s = std::sin(sign * alpha * i / 40);
+    string = lower_string(hull, {{c * pin.x() - s * pin.y(), s * pin.x() + c * pin.y()}, radius}, corner);
+    corner = string.corner;
+  }
+  return {string.length, string.arc};
+}
+
+TEST(Paths, EndWhereAWoundStringDoes) {
+  const MadeJoint joint = make_joint(testing::forearm());
+  const JointModel model = joint_model(joint.declared);
+  // Of a curve of this radius a corner is that far from the next: a string meets the one before or after.
+  constexpr double corners = 0.1;
+  for (const double share : {-1.0, -0.5, 0.5, 1.0}) {
+    const double alpha = share > 0 ? share * joint.alpha_max : -share * joint.alpha_min;
+    for (const Side side : {Side::left, Side::right}) {
+      const std::size_t i = side == Side::left ? 0 : 1;
+      const Wound home = wound_string(joint, side, 0.0), there = wound_string(joint, side, alpha);
+      const LowerPath from = model.lower(0.0)[i], to = model.lower(alpha)[i];
+      EXPECT_NEAR(to.wound - from.wound, there.on_pulley - home.on_pulley, corners) << i << " " << alpha;
+      EXPECT_NEAR(to.reach, there.free, corners) << i << " " << alpha;
+      EXPECT_NEAR(to.wound - from.wound + to.reach - from.reach,
+                  there.on_pulley - home.on_pulley + there.free - home.free, 1e-4);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Fault, Same, ::testing::ValuesIn(k_faults),

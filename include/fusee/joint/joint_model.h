@@ -24,8 +24,8 @@ struct MountedMechanism {
 struct LowerPath {
   double p = 0;       ///< moment arm about the pulley's axis
   double normal = 0;  ///< direction of the line's outward normal
-  double reach = 0;   ///< from the pin's tangent point to where the pulley is touched
-  double wound = 0;   ///< arc length that lies on the pulley, but for a constant
+  double reach = 0;   ///< from the pin's tangent point to where the pulley is touched: the free span
+  double wound = 0;   ///< arc length that lies on the pulley, up to there, but for a constant
 };
 
 /// Both pulleys as made for a mechanism, looked at from pins that may stand elsewhere. Cheap to copy; immutable.
