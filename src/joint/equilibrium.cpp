@@ -508,7 +508,9 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
         at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;
     if (!has_path) return state.refuse(step);
   }
-  const double expected = model.expected(step.alpha);
+  // Where the law ends nothing is expected: the search starts from where the joint stands.
+  const double known = model.expected(step.alpha);
+  const double expected = std::isfinite(known) ? known : state.expected;
   const auto rest = state.settled(at, step, state.theta + expected - state.expected);
   if (!rest) return state.refuse(step);
   state.expected = expected;
