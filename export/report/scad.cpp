@@ -376,8 +376,7 @@ std::string tie_off_arrays(const Product& product) {
                     holes) +
          array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
                     slots) +
-         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) +
-         "\n";
+         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) + "\n";
 }
 
 std::string floor_arrays(const Product& product, const FlangeRims& rims) {

@@ -58,13 +58,13 @@ struct AnchorSite {
   const Polygon* rim = nullptr;   ///< of the outer flange
 };
 
-/// Where a channel and its pocket have no room: a slot through the outer flange, round at the groove's floor and open to
-/// the rim. The knot lies in a countersink of the face. A hole that is closed towards the rim would have the groove's roof
-/// grow over it in print, from nothing.
+/// Where a channel and its pocket have no room: a slot through the outer flange, round at the groove's floor and open
+/// to the rim. The knot lies in a countersink of the face. A hole that is closed towards the rim would have the
+/// groove's roof grow over it in print, from nothing.
 struct FaceHole {
   Vec2 start;  ///< on the pitch curve beside the slot
   Vec2 normal;
-  Vec2 hole;  ///< middle of the slot's round end
+  Vec2 hole;               ///< middle of the slot's round end
   double hole_radius = 0;  ///< half the slot's width
   double room = 0;         ///< radius of the countersink at the face
   double lap = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace fusee {
 namespace {
 
@@ -34,8 +33,14 @@ class FaceHoleSearch {
   std::optional<FaceHole> at(double lap) const {
     const Station station = closing_station(site_.outline, wound_end_, lap);
     const double above_pitch = k_off_floor + radius_ - 0.5 * site_.tendon_diameter;
-    FaceHole hole{station.position, station.normal, station.position + above_pitch * station.normal, radius_, radius_,
-                  station.lap,      station.wrap,   0};
+    FaceHole hole{station.position,
+                  station.normal,
+                  station.position + above_pitch * station.normal,
+                  radius_,
+                  radius_,
+                  station.lap,
+                  station.wrap,
+                  0};
     hole.length = reach_of(*site_.rim, hole.normal) + k_beyond_rim - hole.hole.dot(hole.normal);
     if (!is_free(hole.bars(layout_.channel_width).front())) return std::nullopt;
     for (const double share : {1.0, 0.75, 0.5, 0.25}) {

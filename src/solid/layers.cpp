@@ -20,7 +20,9 @@ constexpr double k_threshold = radians(1.3);
 constexpr double k_stride = 0.02;
 
 bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
-  return std::count_if(loops.begin(), loops.end(), [&point](const Polygon& loop) { return is_inside(loop, point); }) % 2 == 1;
+  return std::count_if(loops.begin(), loops.end(), [&point](const Polygon& loop) { return is_inside(loop, point); }) %
+             2 ==
+         1;
 }
 
 // A layer, widened by `reach` with squared corners: what the next one may lie on.

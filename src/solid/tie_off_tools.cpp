@@ -144,7 +144,8 @@ TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole&
   const double to_groove = left ? layout.z_p1 : layout.z_top - layout.z_p2;
   TriangleMesh tool = prism({hole_outline(hole, variant)}, -outside, to_groove + k_past_plane);
   if (const double depth = countersink_depth(layout, hole); depth > 0) {
-    const auto both = unite(rounded_to_float(std::move(tool)), rounded_to_float(countersink(hole, depth, outside, variant)));
+    const auto both =
+        unite(rounded_to_float(std::move(tool)), rounded_to_float(countersink(hole, depth, outside, variant)));
     demand(both.has_value(), "slot and countersink do not join");
     tool = both->mesh;
   }

@@ -36,8 +36,8 @@ struct TailSlot {
   double head_or_width() const { return head_diameter > width ? head_diameter : width; }
 };
 
-/// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket, or
-/// through a slot of the outer flange to its face.
+/// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket,
+/// or through a slot of the outer flange to its face.
 struct Anchor {
   Side side = Side::left;
   bool wound_end = true;       ///< the end that carries load; false: the spare one at the other end of the arc
