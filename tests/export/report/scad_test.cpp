@@ -188,7 +188,7 @@ TEST(Scad, EveryTieOffIsThere) {
                               "   [[0, 1], [1, 1], [2, 2], [4, 2]],\n   [2, 0]]];\n"));
   EXPECT_THAT(text, HasSubstr("\nface_holes = [\n  [1, [0, 15], 90, 1.5, 0.75, 1.9]];\n"));
   EXPECT_THAT(text, HasSubstr("\ntail_slots = [\n  [1, [0, 14], [5, 14], 1, 0.25]];\n"));
-  EXPECT_THAT(text, HasSubstr("\nclamp_pilots = [\n  [1, [5, 14], 1.6, 0.5, 4.5]];\n"));
+  EXPECT_THAT(text, HasSubstr("\nclamp_pilots = [\n  [1, [5, 14], 1.6, 4.5]];\n"));
 }
 
 TEST(Scad, SameInputSameBytes) { EXPECT_EQ(scad_text(product_of()), scad_text(product_of())); }
