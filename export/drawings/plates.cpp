@@ -54,15 +54,11 @@ struct Stock {
   }
 
   Contour pocket(const Anchor& anchor) const { return circle_contour({anchor.pocket, 2 * layout.pocket_radius}); }
-  /// What is cut into the plate of the groove: channel and pocket, or the notch that a hole to the face leaves.
-  std::vector<Polygon> in_core(const Anchor& anchor) const {
+  /// What is cut into a plate's edge: channel and pocket in the groove's, or a slot to the face in its flange's.
+  std::vector<Polygon> in_edge(const Anchor& anchor) const {
     std::vector<Polygon> parts{anchor.channel};
     if (!anchor.seat) parts.push_back(pocket(anchor).points);
     return parts;
-  }
-  /// And through its flange.
-  Contour in_flange(const Anchor& anchor) const {
-    return anchor.seat ? Contour{anchor.channel, {}, 0} : pocket(anchor);
   }
 };
 
@@ -78,7 +74,7 @@ Material2d common_material(const Stock& stock) {
   for (const Contour& hole : stock.screw_holes) material.add_hole(hole.points);
   for (const Anchor& anchor : stock.product.pulley.anchors) {
     if (anchor.channel.size() > 2) material.add_hole(anchor.channel);
-    if (stock.layout.pocket_radius > 0) material.add_hole(stock.in_flange(anchor).points);
+    if (stock.layout.pocket_radius > 0 && !anchor.seat) material.add_hole(stock.pocket(anchor).points);
   }
   return material;
 }
@@ -124,8 +120,7 @@ class LayerMaker {
  public:
   LayerMaker(Plates& plates, const Stock& stock) : plates_(plates), stock_(stock), kerf_(stock.mechanism.cut.kerf) {}
 
-  /// `channels`: anchors whose channel and pocket are cut into this plate's edge; `pockets`: those whose pocket is a
-  /// hole in it.
+  /// `channels`: anchors that are cut into this plate's edge; `pockets`: those whose pocket is a hole in it.
   void add(const std::string& name, int count, const Polygon& outline, const std::vector<const Anchor*>& channels,
            const std::vector<const Anchor*>& pockets) {
     PlateLayer layer;
@@ -138,7 +133,7 @@ class LayerMaker {
     for (const Contour& hole : stock_.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
       add_hole(layer, circle_contour({dowel, plates_.dowel_diameter}), "dowel hole");
-    for (const Anchor* anchor : pockets) add_fine_hole(layer, stock_.in_flange(*anchor));
+    for (const Anchor* anchor : pockets) add_fine_hole(layer, stock_.pocket(*anchor));
     plates_.layers.push_back(std::move(layer));
   }
 
@@ -166,7 +161,7 @@ class LayerMaker {
   void cut_channel(PlateLayer& layer, const Anchor& anchor) {
     std::vector<Polygon> finished;
     std::vector<Polygon> path;
-    for (const Polygon& part : stock_.in_core(anchor)) {
+    for (const Polygon& part : stock_.in_edge(anchor)) {
       const auto inner = part.size() > 2 && is_simple(part) ? cut_hole({part, {}, 0}, kerf_) : std::nullopt;
       if (!inner) {
         note_once(plates_, fmt::format("a tendon channel is left out: a kerf of {} mm is wider", rounded(kerf_)));
@@ -209,17 +204,21 @@ void add_layers(Plates& plates, const Stock& stock) {
   const double t = stock.mechanism.cut.plate;
   const int flange = plates_for(stock.layout.flange_thickness, t);
   const int core = plates_for(k_groove_room * stock.mechanism.tendon.diameter, t);
-  std::vector<const Anchor*> left, right;
-  for (const Anchor& anchor : stock.product.pulley.anchors)
-    (anchor.side == Side::left ? left : right).push_back(&anchor);
-  const bool pockets = stock.layout.pocket_radius > 0;
-  if (!pockets) left.clear(), right.clear();
+  const auto anchors_of = [&stock](Side side, bool through_face) {
+    std::vector<const Anchor*> anchors;
+    if (stock.layout.pocket_radius <= 0) return anchors;
+    for (const Anchor& anchor : stock.product.pulley.anchors) {
+      if (anchor.side == side && anchor.seat.has_value() == through_face) anchors.push_back(&anchor);
+    }
+    return anchors;
+  };
+  const auto left = anchors_of(Side::left, false), right = anchors_of(Side::right, false);
   LayerMaker maker(plates, stock);
-  maker.add("FLANGE 1", flange, stock.rims.lower, {}, left);
+  maker.add("FLANGE 1", flange, stock.rims.lower, anchors_of(Side::left, true), left);
   maker.add("P1 CORE", core, stock.floor1, left, {});
   maker.add("MIDDLE", flange, stock.rims.middle, {}, {});
   maker.add("P2 CORE", core, stock.floor2, right, {});
-  maker.add("FLANGE 2", flange, stock.rims.upper, {}, right);
+  maker.add("FLANGE 2", flange, stock.rims.upper, anchors_of(Side::right, true), right);
   if (stock.layout.hub_radius > 0) {
     maker.add("HUB", plates_for(stock.layout.z_hub - stock.layout.z_top, t),
               circle_polygon({0, 0}, hub_radius(stock, plates)), {}, {});

@@ -192,7 +192,8 @@ function pocket_outline(r, walled) = let (
 module pocket(t) {
   inner_end = t[3][len(t[3]) - 1];
   outward = (t[1] - inner_end) / norm(t[1] - inner_end);
-  ahead = t[4] / norm(t[4]);
+  // where nothing runs straight into the pocket: across the channel's end
+  ahead = norm(t[4]) > 0 ? t[4] / norm(t[4]) : outward[0] * [0, 1] - outward[1] * [1, 0];
   r = knot_pocket / 2;
   open = t[0] == 2 ? z_hub - z_p2 + 1 : apart ? z_p1 + 1 : -z_p1 - 1;
   closed = (channel_width / 2 + 0.07) * (open > 0 ? -1 : 1);
@@ -207,25 +208,23 @@ module from_face(groove) {
   translate([0, 0, groove == 1 ? 0 : z_top]) mirror([0, 0, groove == 1 ? 0 : 1]) children();
 }
 
-// A countersunk hole to the groove.
+// A countersunk slot to the groove, round at its floor and open to the rim: over a hole the groove's roof could not grow.
 module face_hole(t) {
   radius = channel_width / 2;
   normal = [cos(t[2]), sin(t[2])];
   to_groove = t[0] == 1 ? z_p1 : z_top - z_p2;
-  sunk = max(t[3], radius + 0.02);
-  // The groove's roof grows over a hole in print: it meets the sides of a point steeply.
-  half = t[5] > radius ? acos(radius / t[5]) : 0;
-  around = half > 0 ? concat([for (k = [0 : facets - 1]) let (a = t[2] + half + (360 - 2 * half) * k / (facets - 1)) [cos(a), sin(a)]],
-                             [t[5] / radius * normal])
-                : [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
-  hole = [for (p = around) t[1] + radius * p];
-  rim = [for (p = around) t[1] - (t[3] - radius) * normal + sunk * p];
-  from_face(t[0]) strip([
-    at(rim, t[0] == 1 ? -1 : z_top - z_hub - 1),
-    at(rim, -0.02),
-    at(hole, max(t[4], 0.02)),
-    [for (k = [0 : len(around) - 1]) [hole[k][0], hole[k][1],
-      to_groove + (on_bed(t[0]) ? 0.03 + rise(radius * (1 + around[k] * normal)) : channel_width / 2)]]]);
+  outside = t[0] == 1 ? 1 : z_hub - z_top + 1;
+  end = [for (k = [0 : facets]) let (a = t[2] + 90 + 180 * k / facets) t[1] + radius * [cos(a), sin(a)]];
+  slot = concat(end, [end[facets] + t[5] * normal, end[0] + t[5] * normal]);
+  around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.3) / facets), sin(360 * (k + 0.3) / facets)]];
+  from_face(t[0]) {
+    strip([at(slot, -outside), at(slot, to_groove + 0.03)]);
+    // it narrows into the slot's end, on along one slope
+    if (t[4] > 0) strip([
+      at([for (p = around) t[1] - (t[3] - radius) * normal + t[3] * p], -outside - 0.5),
+      at([for (p = around) t[1] - (t[3] - radius) * normal + t[3] * p], 0),
+      at([for (p = around) t[1] + 0.9 * radius * p], t[4] * (1 + 0.05 * radius / (t[3] - radius)))]);
+  }
 }
 
 // A slot for the tail, flush in the face, with a gable where that lies on the bed.

@@ -337,7 +337,7 @@ std::string face_hole_text(const Anchor& anchor, const Outline& outline) {
       });
   return fmt::format("[{}, {}, {}, {}, {}, {}]", groove_of(anchor), point_text(anchor.seat->hole),
                      decimal(degrees(nearest->psi)), decimal(anchor.seat->radius), decimal(anchor.seat->depth),
-                     decimal(anchor.seat->point));
+                     decimal(anchor.seat->length));
 }
 
 std::string tail_slot_text(const Anchor& anchor) {
@@ -371,12 +371,12 @@ std::string tie_off_arrays(const Product& product) {
              "channels",
              "middle of the knot pocket, outer edge, inner edge, both from the groove inwards, and their straight end",
              channels) +
-         array_text("face_holes", "place, the direction in which the floor looks there, countersink's radius and depth, point",
+         array_text("face_holes",
+                    "slots to the face: the round end's middle, the way out, countersink's radius and depth, length",
                     holes) +
          array_text("tail_slots", "slot for the tendon's tail in the face: from, to, depth, its gable's height",
                     slots) +
-         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) +
-         "\n";
+         array_text("clamp_pilots", "hole of the tail's screw: place, diameter, depth below the face", pilots) + "\n";
 }
 
 std::string floor_arrays(const Product& product, const FlangeRims& rims) {

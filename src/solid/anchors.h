@@ -55,25 +55,26 @@ struct AnchorSite {
   double wall = 0;
   std::vector<Bar> holes;         ///< channel and pocket keep `wall` clear of these
   std::vector<Bar> above_pocket;  ///< the pocket alone keeps clear of these: what stands on the face it opens at
+  const Polygon* rim = nullptr;   ///< of the outer flange
 };
 
-/// Where a channel and its pocket have no room: a hole along the axis at the groove's floor, through the outer flange.
-/// The knot lies in a countersink of the face.
+/// Where a channel and its pocket have no room: a slot through the outer flange, round at the groove's floor and open
+/// to the rim. The knot lies in a countersink of the face. A hole that is closed towards the rim would have the
+/// groove's roof grow over it in print, from nothing.
 struct FaceHole {
-  Vec2 start;  ///< on the pitch curve beside the hole
+  Vec2 start;  ///< on the pitch curve beside the slot
   Vec2 normal;
-  Vec2 hole;
-  double hole_radius = 0;
-  double room = 0;  ///< radius of the countersink at the face
+  Vec2 hole;               ///< middle of the slot's round end
+  double hole_radius = 0;  ///< half the slot's width
+  double room = 0;         ///< radius of the countersink at the face
   double lap = 0;
   double wrap = 0;
-  /// Distance of the point in which the hole ends outwards, so that the groove's roof, which grows over it in print, meets
-  /// its wall steeply; 0: it is round.
-  double point = 0;
+  double length = 0;  ///< from `hole` outwards to where it has left the flange
 
-  /// Middle of the countersink: it and the hole touch on the outer side, where the flange ends.
+  /// Middle of the countersink: its circle and that of the slot's end touch on the outer side, where the flange ends.
   Vec2 pocket() const { return hole - (room - hole_radius) * normal; }
-  std::vector<Bar> bars(double) const { return {{hole, hole, hole_radius}}; }
+  Vec2 open_end() const { return hole + length * normal; }
+  std::vector<Bar> bars(double) const { return {{hole, open_end(), hole_radius}}; }
 };
 
 /// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm

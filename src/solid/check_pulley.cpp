@@ -9,6 +9,7 @@
 #include "fusee/solid/pulley.h"
 #include "solid/nearest_float.h"
 #include "solid/nearest_segment.h"
+#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
@@ -113,16 +114,7 @@ class GrooveGauge {
 
   // Within `margin` of a closed outline, or in it.
   static bool is_within(const Polygon& outline, const Vec2& point, double margin) {
-    if (outline.empty()) return false;
-    bool inside = false;
-    for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-      const Vec2 &a = outline[i], &b = outline[j];
-      if (distance_to_segment(point, a, b) < margin) return true;
-      if ((a.y() > point.y()) != (b.y() > point.y()) &&
-          point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
-        inside = !inside;
-    }
-    return inside;
+    return !outline.empty() && (is_inside(outline, point) || distance_to_edges(outline, point) < margin);
   }
 
   struct Deviation {

@@ -7,6 +7,7 @@
 
 #include "fusee/base/units.h"
 #include "solid/nearest_segment.h"
+#include "solid/plane_distance.h"
 
 namespace fusee {
 namespace {
@@ -18,17 +19,10 @@ constexpr double k_threshold = radians(1.3);
 // Outlines are looked at in steps of this.
 constexpr double k_stride = 0.02;
 
-bool is_inside(const std::vector<Polygon>& loops, const Vec2& point) {
-  bool inside = false;
-  for (const Polygon& loop : loops) {
-    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-      const Vec2 &a = loop[i], &b = loop[j];
-      if ((a.y() > point.y()) != (b.y() > point.y()) &&
-          point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
-        inside = !inside;
-    }
-  }
-  return inside;
+bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
+  return std::count_if(loops.begin(), loops.end(), [&point](const Polygon& loop) { return is_inside(loop, point); }) %
+             2 ==
+         1;
 }
 
 // A layer, widened by `reach` with squared corners: what the next one may lie on.
@@ -37,7 +31,7 @@ class WidenedLayer {
   WidenedLayer(std::vector<Polygon> loops, double reach) : loops_(std::move(loops)), nearest_(loops_), reach_(reach) {}
 
   bool holds(const Vec2& point) const {
-    return nearest_.distance(point) <= reach_ || is_inside(loops_, point) || at_squared_corner(point);
+    return nearest_.distance(point) <= reach_ || is_inside_of(loops_, point) || at_squared_corner(point);
   }
   double distance(const Vec2& point) const { return nearest_.distance(point); }
 

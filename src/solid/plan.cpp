@@ -49,7 +49,7 @@ class Planner {
         base_(base),
         rims_(rims),
         wishes_(wishes),
-        tie_offs_(mechanism, synthesis, wishes) {}
+        tie_offs_(mechanism, synthesis, rims, wishes) {}
 
   BodyPlan plan() {
     BodyPlan plan;

@@ -23,6 +23,17 @@ double gap(const Bar& p, const Bar& q) {
   return apart - p.radius - q.radius;
 }
 
+bool is_inside(const Polygon& loop, const Vec2& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+    const Vec2 &a = loop[i], &b = loop[j];
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y()))
+      inside = !inside;
+  }
+  return inside;
+}
+
 Depth depth_and_normal(const Polygon& convex, const Vec2& point) {
   double least = std::numeric_limits<double>::infinity();
   Vec2 nearest = Vec2::UnitX();

@@ -15,6 +15,8 @@ struct Bar {
 
 /// Between the outsides; negative when they overlap.
 double gap(const Bar& p, const Bar& q);
+/// By the even-odd rule; what lies on the edge may be either.
+bool is_inside(const Polygon& loop, const Vec2& point);
 /// How deep a point lies inside a convex polygon, negative outside, and that polygon's outward normal where it is nearest.
 struct Depth {
   double value = 0;

@@ -149,13 +149,14 @@ class FeatureCutter {
   bool has_p1_, has_p2_;
 };
 
-// Every way through the body is a handle. The bore's holes, one tunnel for each tie-off, for the set screw a branch from
+// Every way through the body is a handle. The bore's holes, a tunnel for each channel, for the set screw a branch from
 // the bore to the hub's side and, with a nut trap, another to its top; and P1's pins, which end in P2.
 int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   const SetScrewLayout& screw = plan.layout.set_screw;
   std::size_t count = stack.through.size();
   for (const PlannedAnchor& anchor : plan.anchors) {
-    if (piece == Piece::whole || (anchor.side == Side::left) == (piece == Piece::p1)) ++count;
+    const bool has = piece == Piece::whole || (anchor.side == Side::left) == (piece == Piece::p1);
+    if (has && std::holds_alternative<AnchorPath>(anchor.way)) ++count;
   }
   if (piece == Piece::p1) count += plan.layout.dowels.places.size();
   if (piece != Piece::p1 && screw.present) count += screw.nut_trap ? 2 : 1;
@@ -264,7 +265,7 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
     const auto& hole = std::get<FaceHole>(planned.way);
     anchor.channel = hole_outline(hole, variant);
     anchor.seat = FaceSeat{hole.room, countersink_depth(layout, hole), planned.side == Side::left ? 0.0 : layout.z_top,
-                           hole.hole, hole.point};
+                           hole.hole, hole.length};
   }
   return anchor;
 }

@@ -16,7 +16,7 @@ namespace {
 
 // A pocket's closed end is this much deeper than its channel, so that no two of their faces coincide.
 constexpr double k_deeper = 0.07;
-// A hole to the bed ends this far past the groove's plane, in the floor's band.
+// A slot to the face begins this far past the groove's plane, in the floor's band.
 constexpr double k_past_plane = 0.03;
 
 /// Where a tie-off lies along the axis, seen as it is printed: its own heights run upwards from the groove's plane.
@@ -122,31 +122,37 @@ TriangleMesh channel_tool(const BodyPlan& plan, Side side, const AnchorPath& pla
   return tool;
 }
 
-// The hole's end in the groove, with a roof where the face lies on the bed.
-std::vector<Vec3> hole_end(const BodyLayout& layout, Side side, const FaceHole& hole, const Polygon& outline,
-                           double half) {
-  std::vector<Vec3> end;
-  for (const Vec2& point : outline) {
-    double z = side == Side::left ? layout.z_p1 + half : layout.z_p2 - half;
-    if (on_bed(layout, side))
-      z = layout.z_p1 + k_past_plane + rise_of(layout, (point - hole.hole).dot(hole.normal) + hole.hole_radius);
-    end.emplace_back(point.x(), point.y(), z);
-  }
-  return end;
+// The countersink narrows into the slot's round end, not quite to its circle, so that no two of their faces coincide.
+TriangleMesh countersink(const FaceHole& hole, double depth, double outside, int variant) {
+  constexpr double k_share = 0.9;
+  const auto circle = [&](const Vec2& centre, double radius) {
+    const int facets = pocket_facets(hole.hole_radius) + variant;
+    Polygon points;
+    for (int k = 0; k < facets; ++k) points.push_back(centre + radius * unit(k_two_pi * (k + 0.31) / facets));
+    return points;
+  };
+  // On along the same slope.
+  const double deeper = depth * (1.0 + 0.5 * (1.0 - k_share) * hole.hole_radius / (hole.room - hole.hole_radius));
+  const Polygon outer = circle(hole.pocket(), hole.room), inner = circle(hole.hole, k_share * hole.hole_radius);
+  return strip({at_height(outer, -0.5 * k_overshoot - outside), at_height(outer, 0.0), at_height(inner, deeper)});
 }
 
-// The countersink begins a little outside of the face, so that no edge of it lies in the face.
+// Seen from the face, which lies at 0: all of it is cut into what stands over the bed, or is open to above.
 TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole& hole, int variant) {
-  constexpr double k_outside = 0.02;
-  const Polygon inner = hole_outline(hole, variant);
-  Polygon outer = inner;
-  const double wider = std::max(hole.room, hole.hole_radius + k_outside) / hole.hole_radius;
-  for (Vec2& point : outer) point = hole.pocket() + wider * (point - hole.hole);
-  const double depth = std::max(countersink_depth(layout, hole), k_outside);
-  const std::vector<Vec3> end = hole_end(layout, side, hole, inner, channel_half_height(layout, variant));
-  if (side == Side::left) return strip({at_height(outer, -k_overshoot), at_height(outer, -k_outside), at_height(inner, depth), end});
-  return strip({at_height(outer, layout.z_hub + k_overshoot), at_height(outer, layout.z_top + k_outside),
-                at_height(inner, layout.z_top - depth), end});
+  const bool left = side == Side::left;
+  const double outside = k_overshoot + (left ? 0.0 : layout.z_hub - layout.z_top);
+  const double to_groove = left ? layout.z_p1 : layout.z_top - layout.z_p2;
+  TriangleMesh tool = prism({hole_outline(hole, variant)}, -outside, to_groove + k_past_plane);
+  if (const double depth = countersink_depth(layout, hole); depth > 0) {
+    const auto both =
+        unite(rounded_to_float(std::move(tool)), rounded_to_float(countersink(hole, depth, outside, variant)));
+    demand(both.has_value(), "slot and countersink do not join");
+    tool = both->mesh;
+  }
+  if (left) return tool;
+  for (Vec3& vertex : tool.vertices) vertex.z() = layout.z_top - vertex.z();
+  turn_inside_out(tool);
+  return tool;
 }
 
 }  // namespace
@@ -169,17 +175,14 @@ bool on_bed(const BodyLayout& layout, Side side) {
   return layout.roof_slope > 0 && side == Side::left && layout.parts == Parts::one;
 }
 
+// Half a circle about the floor's end, tangents from both of its ends outwards.
 Polygon hole_outline(const FaceHole& hole, int variant) {
-  const int facets = pocket_facets(hole.hole_radius) + variant;
-  // From the direction of the point to where its sides touch the circle.
-  const double half = hole.point > 0 ? std::acos(hole.hole_radius / hole.point) : 0.0;
+  const int steps = (pocket_facets(hole.hole_radius) + 1) / 2 + variant;
   Polygon points;
-  for (int k = 0; k < facets; ++k) {
-    const Vec2 direction = hole.point > 0 ? turned(hole.normal, half + (k_two_pi - 2.0 * half) * k / (facets - 1))
-                                          : unit(k_two_pi * (k + 0.31) / facets);
-    points.push_back(hole.hole + hole.hole_radius * direction);
-  }
-  if (hole.point > 0) points.push_back(hole.hole + hole.point * hole.normal);
+  for (int k = 0; k <= steps; ++k)
+    points.push_back(hole.hole + hole.hole_radius * turned(hole.normal, 0.5 * k_pi + k_pi * k / steps));
+  points.push_back(points.back() + hole.length * hole.normal);
+  points.push_back(points.front() + hole.length * hole.normal);
   return points;
 }
 

@@ -8,7 +8,7 @@
 
 namespace fusee {
 
-/// Channel and knot pocket, the pocket open to the nearest face, or the hole through it. Another `variant` has other
+/// Channel and knot pocket, the pocket open to the nearest face, or the slot to the face. Another `variant` has other
 /// facets.
 TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int variant);
 Polygon hole_outline(const FaceHole& hole, int variant);

@@ -109,6 +109,7 @@ double TieOffPlanner::least_pocket(const BodyLayout& layout) const {
 AnchorSite TieOffPlanner::site(const BodyLayout& layout, const Outline& outline) const {
   AnchorSite site{outline, mechanism_.tendon.diameter, layout.channel_width, layout.channel_fillet, layout.min_wall, {},
                   {}};
+  site.rim = outline.side == Side::left ? &rims_.lower : &rims_.upper;
   site.holes.push_back({Vec2::Zero(), Vec2::Zero(), layout.bore.radius});
   for (const Polygon& hole : layout.bore.screw_holes) {
     Vec2 centre = Vec2::Zero();
@@ -179,7 +180,7 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
   anchors.push_back({outline.side, true, pair.wound, {}});
   if (!is_channel(first)) {
     layout.notes.push_back(
-        fmt::format("no room on {} for a tie-off's channel and pocket: the tendon goes through a hole "
+        fmt::format("no room on {} for a tie-off's channel and pocket: the tendon goes through a slot "
                     "to the face",
                     pulley_name(outline.side)));
   }

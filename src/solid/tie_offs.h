@@ -10,6 +10,7 @@
 #include "fusee/solid/layout.h"
 #include "fusee/solid/pulley.h"
 #include "solid/anchors.h"
+#include "solid/body.h"
 
 namespace fusee {
 
@@ -78,10 +79,11 @@ struct TieOffWishes {
 /// Refers to what it is made from.
 class TieOffPlanner {
  public:
-  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes)
-      : mechanism_(mechanism), synthesis_(synthesis), wishes_(wishes) {}
+  TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims,
+                const TieOffWishes& wishes)
+      : mechanism_(mechanism), synthesis_(synthesis), rims_(rims), wishes_(wishes) {}
 
-  /// From now on a hole to the face is taken where a channel and its pocket have no room.
+  /// From now on a slot to the face is taken where a channel and its pocket have no room.
   void allow_face_holes() { face_holes_ = true; }
 
   /// In a layout that has bore, hub, wall and channel.
@@ -109,6 +111,7 @@ class TieOffPlanner {
 
   const Mechanism& mechanism_;
   const SynthesisResult& synthesis_;
+  const FlangeRims& rims_;
   const TieOffWishes& wishes_;
   bool face_holes_ = false;
 };

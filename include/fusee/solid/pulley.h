@@ -14,10 +14,10 @@ namespace fusee {
 /// Where a knot lies that is drawn against the outer face of its pulley.
 struct FaceSeat {
   double radius = 0;  ///< of the countersink at the face, mm
-  double depth = 0;   ///< over which it narrows to the hole
+  double depth = 0;   ///< over which it narrows to the slot
   double z = 0;       ///< of the face
-  Vec2 hole = Vec2::Zero();  ///< middle of the hole
-  double point = 0;          ///< how far from there it ends in a point, outwards; 0: it is round
+  Vec2 hole = Vec2::Zero();  ///< middle of the slot's round end, at the floor
+  double length = 0;         ///< from there outwards to where the slot has left the flange
 };
 
 /// A straight slot in the face, from the knot's pocket outwards: the tail lies flush in it, under a screw's head at its end
@@ -36,13 +36,13 @@ struct TailSlot {
   double head_or_width() const { return head_diameter > width ? head_diameter : width; }
 };
 
-/// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket, or
-/// through a hole along the axis to the outer face.
+/// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket,
+/// or through a slot of the outer flange to its face.
 struct Anchor {
   Side side = Side::left;
   bool wound_end = true;       ///< the end that carries load; false: the spare one at the other end of the arc
   Vec2 exit;                   ///< where the channel's centre line leaves the floor, mm
-  Polygon channel;             ///< outline of the channel, or of the hole, in the groove's plane, ccw
+  Polygon channel;             ///< outline of the channel in the groove's plane, or of the slot in the flange, ccw
   Polygon mouth;               ///< the channel as it is cut, opened towards the groove, for a print without supports
   Vec2 pocket;                 ///< centre of the knot pocket, or of the countersink
   std::optional<FaceSeat> seat = {};  ///< of a tie-off through the face
