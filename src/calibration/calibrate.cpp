@@ -110,6 +110,20 @@ void describe_errors(const Mechanism& declared, const Measurement& measurement, 
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
 }
 
+/// Of what the declared joint leaves: between rows that stand far apart θ(α) bends by more than noise. As logged where
+/// the declared joint has no place.
+Measurement about_declared(const Mechanism& declared, const Measurement& measurement) {
+  const Readings model = predict(declared, {}, bench_log(measurement));
+  Measurement about = measurement;
+  for (std::size_t i = 0; i < about.runs.size(); ++i) {
+    for (std::size_t k = 0; k < model[i].size(); ++k) {
+      if (!std::isfinite(model[i][k])) return measurement;
+      about.runs[i].samples[k].theta -= model[i][k];
+    }
+  }
+  return about;
+}
+
 /// A name that simulated joints without it bear too often takes those into its group that were read as it.
 void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
   for (std::size_t i = 0; i < audited.size(); ++i) {
@@ -124,7 +138,7 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
 
 Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty()) return not_testable(reasons);
-  const NoiseFloor noise = noise_floor(measurement);
+  const NoiseFloor noise = noise_floor(about_declared(declared, measurement));
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
   if (evidence.blocks.size() < 2)

@@ -16,8 +16,8 @@ namespace fusee {
 namespace {
 
 /// Curves over the seen span: of place and direction, of what else they are multiplied by, and those that bend more.
-constexpr Eigen::Index k_smooth = 7;
-constexpr Eigen::Index k_simple = 5;
+constexpr Eigen::Index k_smooth = 10;
+constexpr Eigen::Index k_simple = 6;
 constexpr Eigen::Index k_rough = 18;
 /// Share of the span over which the latter bend, and places at which they are known.
 constexpr double k_bend = 0.06;

@@ -14,7 +14,7 @@ namespace fusee {
 namespace {
 
 constexpr int k_steps = 8;
-constexpr int k_chords = 4;
+constexpr int k_chords = 3;
 /// Of amplitudes, on the way.
 constexpr int k_few_rounds = 3;
 /// Of a step that made things worse.
@@ -120,10 +120,11 @@ Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& a
 }
 
 /// Steps while they gain; slopes before `from` stay what they are.
-Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes) const {
+Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const {
   const Marginal& marginal = *evidence().marginal;
   Tangent here = tangent_of(evidence(), fit);
-  Explained known = marginal.best(here, amplitudes, k_few_rounds);
+  const bool stated = rounds == 1;
+  Explained known = marginal.best(here, amplitudes, rounds);
   double height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
   double share = 1.0;
   for (int i = 0; i < steps; ++i) {
@@ -141,7 +142,7 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
     const bool settled = reached < height + k_settled;
     fit = std::move(next);
     here = there;
-    known = i % 2 == 1 ? marginal.best(here, known.amplitudes, k_few_rounds) : marginal.at(here, known.amplitudes);
+    known = i % 2 == 1 && !stated ? marginal.best(here, known.amplitudes, rounds) : marginal.at(here, known.amplitudes);
     height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
     share = 1.0;
     if (settled) break;
@@ -154,7 +155,7 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   take_slopes(start, 0);
   start.usable = is_finite(evidence(), start);
   if (!start.usable) return start;
-  Fit fit = start.x.size() > 0 ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess()) : std::move(start);
+  Fit fit = start.x.size() > 0 ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds) : std::move(start);
   hold_at_bounds(fit);
   judge(fit);
   return fit;
@@ -177,10 +178,18 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
     best = std::move(fit);
   }
   if (!best.usable) return best;
-  best = descended(std::move(best), base.x.size(), k_chords, base.explained.amplitudes);
-  hold_at_bounds(best);
-  judge(best);
-  return best;
+  // As if all of the error were its: where a discrepancy explains as much, small steps from nothing end too soon.
+  Amplitudes alone = marginal.nothing_unnamed();
+  const Eigen::VectorXd left = tangent_of(evidence(), best).residual;
+  alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
+  Fit first = descended(best, base.x.size(), k_chords, alone, 1);
+  first = descended(std::move(first), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
+  Fit beside = descended(std::move(best), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
+  for (Fit* fit : {&first, &beside}) {
+    hold_at_bounds(*fit);
+    judge(*fit);
+  }
+  return beside.usable && (!first.usable || beside.log_evidence > first.log_evidence) ? beside : first;
 }
 
 void Fitter::judge(Fit& fit) const {

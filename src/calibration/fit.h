@@ -65,7 +65,7 @@ class Fitter {
   void take_slopes(Fit& fit, Eigen::Index from) const;
   Fit beside(const Fit& fit, const Effect& effect) const;
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
-  Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes) const;
+  Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const;
   void judge(Fit& fit) const;
 
   Model model_;

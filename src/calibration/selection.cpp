@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
 
 #include "calibration/catalogue.h"
@@ -79,16 +77,6 @@ Selector::Key Selector::key_of(const EffectSet& effects) const {
 }
 
 void Selector::keep(Fit fit) {
-  if (std::getenv("FUSEE_DEBUG")) {
-    std::string t = "keep";
-    for (auto* e : fit.effects) t += " " + e->name;
-    t += fit.usable ? "" : " UNUSABLE";
-    t += " logZ " + std::to_string(fit.log_evidence) + " price " + std::to_string(fit.explained.log_evidence - fit.log_evidence) + " score " + std::to_string(score(fit)) + " noise " + std::to_string(degrees(fit.explained.amplitudes.noise)) + " x";
-    for (double x : fit.x) t += " " + std::to_string(x);
-    t += " fam";
-    for (double x : fit.explained.amplitudes.families) t += " " + std::to_string(degrees(x)).substr(0, 6);
-    fprintf(stderr, "%s\n", t.c_str());
-  }
   if (!fit.usable) return;
   const auto [place, added] = seen_.try_emplace(key_of(fit.effects), fit);
   if (!added && fit.log_evidence > place->second.log_evidence) place->second = std::move(fit);
@@ -233,7 +221,11 @@ void Selector::settle_best() {
   all = ranked();
   const Fit* simplest = all.front();
   for (const Fit* fit : all) {
-    if (fit->effects.size() < simplest->effects.size() && score(*fit) > score(*all.front()) - k_thresholds.as_good)
+    // What is part of the best set paid for every name less already.
+    const bool is_part = std::all_of(fit->effects.begin(), fit->effects.end(),
+                                     [&](const Effect* effect) { return contains(all.front()->effects, *effect); });
+    const double least = score(*all.front()) - (is_part ? 0.0 : k_thresholds.as_good);
+    if (fit->effects.size() < simplest->effects.size() && score(*fit) > least)
       simplest = fit;
   }
   selection_.best = workers_.one().fit(simplest->effects, simplest->at);

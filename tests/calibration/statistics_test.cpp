@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "calibration/linear_joint.h"
+#include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 
 namespace fusee::linear {

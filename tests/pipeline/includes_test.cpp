@@ -187,7 +187,6 @@ TEST(Includes, OfLibrariesStayInTheirPlaces) {
       {std::regex("^toml\\+\\+"), std::regex("^src/mechanism/")},
       {std::regex("^draco/"), std::regex("^export/mesh_files/draco\\.cpp$")},
       {std::regex("^zip\\.h"), std::regex("^export/mesh_files/")},
-      {std::regex("^ceres/"), std::regex("^src/calibration/misfit_ceres\\.cpp$")},
       {std::regex("^pagmo/"), std::regex("_pagmo\\.cpp$")},
       {std::regex("^boost/"), std::regex("^src/transmission/interval\\.h$")},
       {std::regex("^pugixml"), std::regex("^export/mesh_files/")},

@@ -1,0 +1,155 @@
+// The evidence of a set against densities that are written out, and the shapes without a name.
+#include "calibration/marginal.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "calibration/linear_joint.h"
+#include "calibration/unknown.h"
+
+namespace fusee::linear {
+namespace {
+
+Eigen::VectorXd drawn(Eigen::Index count, std::mt19937& random, double size = 1) {
+  std::normal_distribution<double> normal(0.0, size);
+  return Eigen::VectorXd::NullaryExpr(count, [&](Eigen::Index) { return normal(random); });
+}
+
+/// Two families of three columns over so many rows.
+Discrepancy two_families(Eigen::Index rows, std::mt19937& random) {
+  Discrepancy made;
+  made.columns.resize(rows, 6);
+  for (Eigen::Index k = 0; k < 6; ++k) made.columns.col(k) = drawn(rows, random) / std::sqrt(3.0);
+  made.families = {{Factor::place, 0, 3, 0}, {Factor::load, 3, 3, 0}};
+  return made;
+}
+
+Tangent nothing_varied(const Eigen::VectorXd& residual) {
+  Tangent tangent;
+  tangent.residual = residual;
+  tangent.J.resize(residual.size(), 0);
+  tangent.read.resize(0, 0);
+  return tangent;
+}
+
+/// log N(r; 0, σ² + D λ² Dᵀ) but for the rows' 2π, in full.
+double log_density(const Eigen::VectorXd& r, const Discrepancy& D, const Amplitudes& amplitudes) {
+  Eigen::MatrixXd C = amplitudes.noise * amplitudes.noise * Eigen::MatrixXd::Identity(r.size(), r.size());
+  for (std::size_t f = 0; f < D.families.size(); ++f) {
+    const Eigen::MatrixXd own = D.columns.middleCols(D.families[f].first, D.families[f].count);
+    C += std::pow(amplitudes.families[static_cast<Eigen::Index>(f)], 2) * own * own.transpose();
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(C);
+  return -0.5 * r.dot(factor.solve(r)) - factor.matrixLLT().diagonal().array().log().sum();
+}
+
+TEST(Marginal, IsTheDensityWrittenOut) {
+  std::mt19937 random(1);
+  const Discrepancy D = two_families(40, random);
+  const Marginal marginal(D, 0.1, 1.0);
+  const Amplitudes one{Eigen::Vector2d(0.3, 0.0), 0.1}, other{Eigen::Vector2d(0.05, 0.4), 0.1};
+  const Eigen::VectorXd r = drawn(40, random, 0.2);
+  const double found = marginal.at(nothing_varied(r), one).log_evidence - marginal.at(nothing_varied(r), other).log_evidence;
+  EXPECT_NEAR(found, log_density(r, D, one) - log_density(r, D, other), 1e-8);
+}
+
+TEST(Marginal, IntegratesANumberOverItsPrior) {
+  std::mt19937 random(2);
+  const Discrepancy D = two_families(60, random);
+  const Marginal marginal(D, 0.1, 1.0);
+  const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
+  const Eigen::VectorXd slope = drawn(60, random);
+  const Eigen::VectorXd r = 0.7 * slope + drawn(60, random, 0.1);
+  Tangent tangent = nothing_varied(r);
+  const double without = marginal.at(tangent, amplitudes).log_evidence;
+  tangent.J = slope;
+  tangent.x = tangent.pull = Eigen::VectorXd::Zero(1);
+  tangent.prior = Eigen::VectorXd::Constant(1, 0.5);
+  tangent.read = Eigen::MatrixXd::Zero(1, 1);
+  // At the summit, as a fit leaves it.
+  const double summit = marginal.at(tangent, amplitudes).step[0];
+  tangent.x[0] = summit;
+  tangent.residual -= summit * slope;
+  const double found = marginal.at(tangent, amplitudes).log_evidence - without;
+  double sum = 0;
+  const double step = 1e-3, reference = log_density(r, D, amplitudes);
+  for (double x = summit - 0.5; x < summit + 0.5; x += step)
+    sum += step * std::exp(log_density(r - x * slope, D, amplitudes) + log_prior(x, 0.5) - reference);
+  EXPECT_NEAR(found, std::log(sum), 0.02);
+}
+
+TEST(Marginal, FindsAmplitudesAndLeavesOutWhatIsNot) {
+  std::mt19937 random(3);
+  const Eigen::Index rows = 400, count = 40;
+  Discrepancy D;
+  D.columns.resize(rows, 2 * count);
+  for (Eigen::Index k = 0; k < 2 * count; ++k) D.columns.col(k) = drawn(rows, random) / std::sqrt(static_cast<double>(count));
+  D.families = {{Factor::place, 0, count, 0}, {Factor::load, count, count, 0}};
+  const Marginal marginal(D, 0.1, 1.0);
+  const Eigen::VectorXd r = D.columns.leftCols(count) * drawn(count, random, 0.5) + drawn(rows, random, 0.1);
+  const Explained found = marginal.best(nothing_varied(r), marginal.first_guess(), 40);
+  EXPECT_NEAR(found.amplitudes.families[0], 0.5, 0.15);
+  EXPECT_LT(found.amplitudes.families[1], 0.05);
+  EXPECT_NEAR(found.amplitudes.noise, 0.1, 0.01);
+}
+
+TEST(Marginal, IntervalsCoverAsOftenAsTheySay) {
+  std::mt19937 random(4);
+  const Discrepancy D = two_families(60, random);
+  const Marginal marginal(D, 0.1, 1.0);
+  const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.3), 0.1};
+  Tangent tangent = nothing_varied(Eigen::VectorXd::Zero(60));
+  tangent.J = drawn(60, random);
+  tangent.x = tangent.pull = Eigen::VectorXd::Zero(1);
+  tangent.prior = Eigen::VectorXd::Constant(1, 100.0);
+  tangent.read = Eigen::MatrixXd::Zero(1, 1);
+  constexpr int trials = 2000;
+  int covered = 0;
+  for (int i = 0; i < trials; ++i) {
+    tangent.residual = 0.4 * tangent.J + D.columns.leftCols(3) * drawn(3, random, 0.2) +
+                       D.columns.rightCols(3) * drawn(3, random, 0.3) + drawn(60, random, 0.1);
+    const Explained found = marginal.at(tangent, amplitudes);
+    covered += std::abs(found.step[0] - 0.4) <= 1.96 * std::sqrt(found.covariance(0, 0)) ? 1 : 0;
+  }
+  EXPECT_NEAR(covered / static_cast<double>(trials), 0.95, 0.02);
+}
+
+TEST(Marginal, APriorIsADensityWithTailsThatPay) {
+  double sum = 0;
+  for (double x = -2000; x < 2000; x += 0.01) sum += 0.01 * std::exp(log_prior(x, 1.0));
+  EXPECT_NEAR(sum, 1, 1e-3);
+  EXPECT_LT(log_prior(12, 1.0), log_prior(0, 1.0) - 5);
+  EXPECT_GT(log_prior(12, 1.0), log_prior(0, 1.0) - 72);  // a normal one's
+}
+
+TEST(Unnamed, AWaveOfTheMotorsShaftIsSaidWithItsOrder) {
+  Measurement measurement;
+  measurement.load_unit = "N";
+  measurement.runs = {run_of("one", 0, 12), run_of("two", 5, 12)};
+  auto noise = white_noise(k_floor, 5);
+  for (fusee::Run& run : measurement.runs) {
+    for (Sample& sample : run.samples) sample.theta += 4 * k_floor * std::sin(21 * sample.alpha) + noise(sample);
+  }
+  const Evidence evidence = evidence_of(measurement);
+  Forward forward(joint(), evidence.log);
+  const Unnamed found = unnamed_beside(evidence, Fitter(evidence, forward).fit({}, {}));
+  EXPECT_TRUE(is_unexplained(found, k_floor));
+  const auto wave = std::find_if(found.parts.begin(), found.parts.end(), [](const Unknown& part) { return part.order > 0; });
+  ASSERT_NE(wave, found.parts.end());
+  EXPECT_EQ(wave->factor, "motor harmonic");
+  EXPECT_NEAR(wave->order, 21, 0.8);
+  EXPECT_NEAR(wave->rms, 4 * k_floor / std::sqrt(2.0), 0.5 * k_floor);
+  EXPECT_THAT(wave->words, testing::HasSubstr("of the motor's shaft"));
+}
+
+TEST(Unnamed, NoiseIsNotDescribed) {
+  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 6)));
+  Forward forward(joint(), evidence.log);
+  const Unnamed found = unnamed_beside(evidence, Fitter(evidence, forward).fit({}, {}));
+  EXPECT_FALSE(is_unexplained(found, k_floor));
+  EXPECT_TRUE(found.parts.empty());
+}
+
+}  // namespace
+}  // namespace fusee::linear
