@@ -25,6 +25,11 @@ Json number(double value) {
 }
 Json angle(double value) { return number(degrees(value)); }
 
+/// Null where no joints were simulated.
+Json audit_json(const Audit& audit) {
+  return audit.worlds > 0 ? Json({{"worlds", audit.worlds}, {"named", audit.named}}) : Json();
+}
+
 Json effect_json(const FoundEffect& effect) {
   Json parameters = Json::object();
   for (const FittedParameter& parameter : effect.parameters) {
@@ -36,7 +41,23 @@ Json effect_json(const FoundEffect& effect) {
           {"place", word(effect.place)},
           {"parameters", parameters},
           {"rms_drop_deg", angle(effect.rms_drop)},
+          {"evidence", number(effect.evidence)},
+          {"audit", audit_json(effect.audit)},
           {"correctable_by", word(effect.correctable_by)}};
+}
+
+/// What the discrepancy holds beside the effects.
+Json unknown_json(const std::vector<Unknown>& unknown) {
+  Json list = Json::array();
+  for (const Unknown& part : unknown) {
+    Json json = {{"factor", part.factor},
+                 {"rms_deg", angle(part.rms)},
+                 {"evidence", number(part.evidence)},
+                 {"words", part.words}};
+    if (part.order > 0) json["order"] = number(part.order);
+    list.push_back(json);
+  }
+  return list;
 }
 
 Json figures_json(const ErrorFigures& figures) {
@@ -57,9 +78,7 @@ Json tried_json(const std::vector<Candidate>& tried) {
   Json list = Json::array();
   for (const Candidate& candidate : tried) {
     list.push_back({{"name", candidate.name},
-                    {"held_out_rms_deg", angle(candidate.held_out_rms)},
-                    {"margin", number(candidate.margin)},
-                    {"delta_bic", number(candidate.delta_bic)},
+                    {"evidence", number(candidate.evidence)},
                     {"accepted", candidate.accepted},
                     {"why", candidate.why}});
   }
@@ -132,6 +151,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["rest_autocorrelation"] = number(calibration.rest_autocorrelation);
   json["unexplained_rms_deg"] = angle(calibration.unexplained_rms);
   json["unexplained_where"] = calibration.unexplained_where;
+  json["unknown"] = unknown_json(calibration.unknown);
   json["slips"] = slips_json(product.slips);
   json["detectable"] = detectable_json(calibration);
   json["next_runs"] = calibration.next_runs;

@@ -434,6 +434,17 @@ std::string rest_html(const CalibrationProduct& product) {
   return single(plot);
 }
 
+std::string unknown_html(const Unknown& unknown) {
+  if (unknown.alpha.size() < 2) return "";
+  PlotSeries course{"", Ink::third, {}};
+  for (std::size_t i = 0; i < unknown.alpha.size(); ++i)
+    course.points.emplace_back(degrees(unknown.alpha[i]), degrees(unknown.theta[i]));
+  Plot plot{"Without a name, by " + unknown.factor, {"motor angle α", "°", {}, {}, 1e-6}, {"largest there", "°", {}, {}, 1e-3}, {course}, {}, {}};
+  plot.width = 560;
+  plot.height = 220;
+  return single(plot);
+}
+
 std::string compensation_html(const CalibrationProduct& product) {
   const std::vector<CompensationRow>& table = product.correction.table;
   const Mechanism& mechanism = product.file.mechanism;

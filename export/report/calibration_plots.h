@@ -16,6 +16,8 @@ std::string residual_runs_html(const CalibrationProduct& product);
 std::string residual_levels_html(const CalibrationProduct& product);
 /// What is left over α, all runs together, on an axis of its own with the noise floor.
 std::string rest_html(const CalibrationProduct& product);
+/// A part without a name over α.
+std::string unknown_html(const Unknown& unknown);
 /// Where the motor must stand, against where the declared law puts it.
 std::string compensation_html(const CalibrationProduct& product);
 /// θ over α as it was logged: for data that cannot be judged.

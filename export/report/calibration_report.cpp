@@ -186,6 +186,7 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
           " rms off the error on data that were not fitted. " + std::string(remedy_words(effect)) + "</p>";
   if (const auto found = known.find(effect.name); found != known.end())
     html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
+  if (const std::string audit = audit_words(effect); !audit.empty()) html += "<p>" + safe_text(audit) + "</p>";
   const std::vector<std::string> rivals = rivals_of(effect);
   if (rivals.empty()) return html + "<p>Nothing else in the catalogue explains these data as well.</p></div>";
   html += "<p><b>It may as well be:</b></p><ul>";
@@ -273,25 +274,24 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string colour = " Neighbouring rows of it are correlated by " +
                              readable(calibration.rest_autocorrelation, 2) +
                              "; noise would be near 0. Dashed: the noise floor of a single row.";
-  return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot);
+  std::string unknown;
+  for (const Unknown& part : calibration.unknown)
+    unknown += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
+  if (!unknown.empty()) unknown = "<h3>What has no name, by what it depends on</h3>" + unknown;
+  return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
 }
 
 // ---- evidence -------------------------------------------------------------------------------------------------------
 
-/// Whether `name` stands in the group of an effect that `taken` names; two that came together are named "a + b".
-bool is_as_good(const Calibration& calibration, const std::string& name, const std::string& taken) {
-  const std::string padded = " + " + taken + " + ";
-  for (const FoundEffect& effect : calibration.effects) {
-    if (name == effect.name || padded.find(" + " + effect.name + " + ") == std::string::npos) continue;
-    if (std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end()) return true;
-  }
-  return false;
+/// Whether `name` stands in the group of an effect that another names.
+bool is_as_good(const Calibration& calibration, const std::string& name) {
+  return std::any_of(calibration.effects.begin(), calibration.effects.end(), [&](const FoundEffect& effect) {
+    return name != effect.name && std::find(effect.group.begin(), effect.group.end(), name) != effect.group.end();
+  });
 }
 
 std::string evidence_row(const Candidate& candidate, double most, bool as_good) {
-  const double width = most > 0 ? std::clamp(100 * candidate.held_out_rms / most, 0.0, 100.0) : 100;
-  std::string why = candidate.why.empty() ? "more was needed" : candidate.why;
-  if (as_good) why += "; as good in the end";
+  const double width = most > 0 ? std::clamp(100 * candidate.evidence / most, 0.0, 100.0) : 0;
   return std::string("<tr") +
          (candidate.accepted ? " class=\"taken\""
           : as_good          ? " class=\"alike\""
@@ -302,45 +302,27 @@ std::string evidence_row(const Candidate& candidate, double most, bool as_good) 
                                   : "") +
               open_words(candidate.name)) +
          "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
-         number_cell(degree_words(candidate.held_out_rms)) + number_cell(readable(candidate.margin, 1)) +
-         number_cell(readable(candidate.delta_bic, 1)) + cell(why) + "</tr>";
-}
-
-/// Candidates that were tried together, the one that was taken first.
-std::string evidence_step(const Calibration& calibration, std::vector<Candidate> step, std::size_t number) {
-  std::stable_sort(step.begin(), step.end(), [](const Candidate& a, const Candidate& b) {
-    return a.accepted != b.accepted ? a.accepted : a.held_out_rms < b.held_out_rms;
-  });
-  double most = 0;
-  for (const Candidate& candidate : step)
-    most = std::isfinite(candidate.held_out_rms) ? std::max(most, candidate.held_out_rms) : most;
-  const Candidate& first = step.front();
-  std::string rows;
-  for (const Candidate& candidate : step)
-    rows += evidence_row(candidate, most,
-                         first.accepted && !candidate.accepted && is_as_good(calibration, candidate.name, first.name));
-  return "<h3>" + std::to_string(number) + ". " +
-         (first.accepted ? "Taken: " + safe_text(open_words(first.name)) : std::string("Nothing more was taken")) +
-         "</h3>" + html_table({"candidate", "", "#held-out RMS", "#margin", "#BIC drop", "why"}, rows);
+         number_cell(readable(candidate.evidence / std::log(10.0), 1)) +
+         cell(candidate.why + (as_good ? "; as good in another's place" : "")) + "</tr>";
 }
 
 std::string evidence_section(const Calibration& calibration) {
-  std::string html;
-  std::vector<Candidate> step;
-  std::size_t number = 1;
-  for (const Candidate& candidate : calibration.tried) {
-    step.push_back(candidate);
-    if (!candidate.accepted) continue;
-    html += evidence_step(calibration, step, number++);
-    step.clear();
-  }
-  if (!step.empty()) html += evidence_step(calibration, step, number);
-  if (html.empty()) return "";
-  return section("evidence", "Evidence, step by step",
-                 "<p class=\"lead\">Each candidate added to what was taken before it, and the error on data that it "
-                 "was not fitted to: a short bar is good. Margin: the fall of "
-                 "that error in standard errors over strokes. BIC drop: above 6 it is worth its numbers.</p>" +
-                     html);
+  std::vector<Candidate> all = calibration.tried;
+  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    return a.accepted != b.accepted ? a.accepted : a.evidence > b.evidence;
+  });
+  double most = 0;
+  for (const Candidate& candidate : all)
+    most = std::isfinite(candidate.evidence) ? std::max(most, candidate.evidence) : most;
+  std::string rows;
+  for (const Candidate& candidate : all)
+    rows += evidence_row(candidate, most, !candidate.accepted && is_as_good(calibration, candidate.name));
+  if (rows.empty()) return "";
+  return section("evidence", "Evidence",
+                 "<p class=\"lead\">How many times likelier the data are with an effect than without it, in powers of "
+                 "ten, beside everything else that was found and a discrepancy that may take any smooth shape. A name "
+                 "costs 2.6.</p>" +
+                     html_table({"effect", "", "#powers of ten", "why"}, rows));
 }
 
 std::string detectable_section(const Calibration& calibration) {

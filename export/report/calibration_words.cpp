@@ -53,6 +53,16 @@ std::string first_upper(std::string words) {
   return words;
 }
 
+std::string audit_words(const FoundEffect& effect) {
+  if (effect.audit.worlds == 0) return "";
+  return "In " + std::to_string(effect.audit.worlds) + " simulated joints without " + open_words(effect.name) +
+         ", these runs would have named it in " + std::to_string(effect.audit.named) + ".";
+}
+
+std::string unknown_words(const Unknown& unknown) {
+  return rounded(degrees(unknown.rms), 2) + "° rms, " + unknown.factor + ": " + unknown.words;
+}
+
 std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) text += (i > 0 ? between : "") + words[i];

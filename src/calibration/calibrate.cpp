@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/audit.h"
 #include "calibration/explanation.h"
 #include "calibration/next_runs.h"
+#include "calibration/thresholds.h"
 #include "calibration/verdict.h"
 #include "fusee/calibration/calibration.h"
 #include "fusee/joint/simulate.h"
@@ -108,6 +110,16 @@ void describe_errors(const Mechanism& declared, const Measurement& measurement, 
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
 }
 
+/// A name that simulated joints without it bear too often takes those into its group that were read as it.
+void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
+  for (std::size_t i = 0; i < audited.size(); ++i) {
+    FoundEffect& effect = calibration.effects[i];
+    effect.audit = audited[i].counts;
+    if (effect.audit.named <= k_thresholds.most_mistaken * effect.audit.worlds) continue;
+    for (const Effect* other : audited[i].mistaken) effect.group.push_back(other->name);
+  }
+}
+
 }  // namespace
 
 Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
@@ -126,6 +138,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   Calibration calibration;
   calibration.noise = noise;
   calibration.effects = found_effects(evidence, workers, selection);
+  if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);
   calibration.tried = selection.tried;

@@ -6,8 +6,11 @@
 #include <numeric>
 #include <set>
 
+#include "calibration/marginal.h"
+#include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
+#include "transmission/declared_law.h"
 
 namespace fusee {
 namespace {
@@ -451,6 +454,59 @@ class BlockMaker {
 
 }  // namespace
 
+namespace {
+
+/// By how much the declared joint gives way, all rows, rad; of a joint declared by a ratio, which gives way by nothing,
+/// the load.
+Eigen::VectorXd deflection(const Evidence& evidence, const Eigen::VectorXd& declared) {
+  const DeclaredLaw law(*evidence.declared);
+  Eigen::VectorXd given = declared;
+  if (evidence.declared->transmission) {
+    Eigen::Index at = 0;
+    for (const Run& run : evidence.measurement.runs) {
+      for (const Sample& sample : run.samples) given[at++] = run.has_load ? sample.load : 0.0;
+    }
+    return given;
+  }
+  if (!law.exists()) return {};
+  Eigen::Index row = 0;
+  for (const Run& run : evidence.measurement.runs) {
+    for (const Sample& sample : run.samples) given[row++] -= law.theta_straight_on(sample.alpha);
+  }
+  for (double& angle : given) angle = std::isfinite(angle) ? angle : 0.0;
+  return given;
+}
+
+/// From row to row within blocks, 0 … 1.
+double colour_of(const Evidence& evidence, const Eigen::VectorXd& rest) {
+  double products = 0;
+  double squares = 0;
+  Eigen::Index row = 0;
+  for (const Block& block : evidence.blocks) {
+    for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
+      squares += rest[row] * rest[row];
+      if (i > 0) products += rest[row] * rest[row - 1];
+    }
+  }
+  return squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
+}
+
+}  // namespace
+
+void weigh(Evidence& evidence) {
+  Forward forward(*evidence.declared, evidence.log);
+  const Eigen::VectorXd declared = flat(forward({}));
+  Discrepancy unnamed = discrepancy_of(evidence, deflection(evidence, declared));
+  const Eigen::VectorXd left = (evidence.theta - declared)(evidence.rows());
+  Tangent nothing;
+  nothing.residual = left.unaryExpr([](double angle) { return std::isfinite(angle) ? angle : 0.0; });
+  nothing.J.resize(left.size(), 0);
+  const Marginal blind(std::move(unnamed), evidence.floor, 1.0);
+  const Explained blindly = blind.best(nothing, blind.first_guess());
+  const double colour = colour_of(evidence, nothing.residual - blind.discrepancy().columns * blindly.unnamed);
+  evidence.marginal = std::make_shared<const Marginal>(blind, (1.0 - colour) / (1.0 + colour), blindly.amplitudes);
+}
+
 Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run) {
   std::vector<bool> counted;
   for (Run& run : measurement.runs) run = thinned(run, most_a_run, counted);
@@ -469,6 +525,7 @@ Evidence gather(const DeclaredMechanism& declared, const Measurement& measuremen
   evidence.run_folds = run_folds(evidence);
   choose_factor_folds(evidence);
   evidence.readings = hand_readings(declared);
+  weigh(evidence);
   return evidence;
 }
 

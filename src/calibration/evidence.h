@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct HandReading {
   double uncertainty = 0;  ///< standard
 };
 
+class Marginal;
+
 struct Evidence {
   const DeclaredMechanism* declared = nullptr;
   Measurement measurement;  ///< thinned
@@ -44,6 +47,7 @@ struct Evidence {
   std::vector<std::string> factors;  ///< by which whole levels are held out
   std::vector<HandReading> readings;
   double floor = 0;  ///< rms noise, rad
+  std::shared_ptr<const Marginal> marginal;  ///< by which sets of effects are weighed: weigh()
 
   /// Rows in use, block by block.
   std::vector<Eigen::Index> rows() const;
@@ -51,6 +55,9 @@ struct Evidence {
 };
 
 Evidence gather(const DeclaredMechanism& declared, const Measurement& measurement, double floor);
+
+/// Fills `marginal` from all that stands before it.
+void weigh(Evidence& evidence);
 
 /// Of runs longer than that, so many rows evenly over their strokes: what many looks at the same data can bear.
 Measurement with_fewer_rows(Measurement measurement, std::size_t most_a_run);

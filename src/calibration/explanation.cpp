@@ -66,6 +66,8 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& worker
       if (rival.accepted == effect && as_good(evidence, rival.fit, best)) found.group.push_back(rival.rival->name);
     }
     found.rms_drop = rms_drop(workers, selection, *effect);
+    for (const Candidate& candidate : selection.tried)
+      if (candidate.accepted && candidate.name == effect->name) found.evidence = candidate.evidence;
     all.push_back(std::move(found));
   }
   return all;
@@ -92,11 +94,13 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& work
     const Fit wider = fitter.with_direction(best, *others[i]);
     if (!wider.usable) return;
     const std::vector<ConfidenceInterval> ranges = intervals(evidence, wider);
-    sizes[i] = k_thresholds.least_drop * evidence.floor;
+    sizes[i] = 0;
     for (Eigen::Index k = best.x.size(); k < wider.x.size(); ++k) {
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));
-      sizes[i] =
-          std::max(sizes[i], k_thresholds.detectable * ranges[static_cast<std::size_t>(k)].deviation * sensitivity);
+      const double deviation = ranges[static_cast<std::size_t>(k)].deviation;
+      const double width = std::log(std::max(1.0, tangent_of(evidence, wider).prior[k] / deviation));
+      const double named = std::sqrt(2.0 * (cost_of(*others[i]) + width)) + k_thresholds.power;
+      sizes[i] = std::max(sizes[i], named * deviation * sensitivity);
     }
   });
   std::vector<Detectable> found;

@@ -1,13 +1,68 @@
 #include "calibration/fit.h"
 
-#include "calibration/misfit.h"
+#include <limits>
+
 #include "calibration/starts.h"
 #include "calibration/thresholds.h"
-#include "measurement/strokes.h"
+
+// Gauss and Newton's steps towards the summit of the posterior, with the discrepancy integrated out: what a smooth
+// curve without a name explains as well does not bend the numbers of an effect. A candidate takes its steps by chords:
+// the slopes of the parameters that the base has are its own, those of the effect are found anew at every step. So it
+// costs a dozen simulations, whatever stands beside it.
 
 namespace fusee {
+namespace {
 
-bool is_at_floor(const Fit& fit, double floor) { return held_out_square(fit) <= k_thresholds.at_floor * floor * floor; }
+constexpr int k_steps = 8;
+constexpr int k_chords = 4;
+/// Of amplitudes, on the way.
+constexpr int k_few_rounds = 3;
+/// Of a step that made things worse.
+constexpr double k_shorter = 0.3;
+/// Nats: a step that gains less is the last.
+constexpr double k_settled = 0.05;
+/// Of a number that no practice is known of, in its steps.
+constexpr double k_steps_in_practice = 100.0;
+
+double largest_load(const Measurement& measurement) {
+  double most = 0;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) most = std::max(most, run.has_load ? std::abs(sample.load) : 0.0);
+  }
+  return most;
+}
+
+/// In steps of the parameter.
+double size_in_practice(const Evidence& evidence, const EffectParameter& parameter) {
+  if (&parameter == free_offset(*evidence.declared)) return std::numeric_limits<double>::infinity();
+  if (!(parameter.prior > 0)) return k_steps_in_practice;
+  const double load = parameter.prior_at_load ? largest_load(evidence.measurement) : 1.0;
+  return parameter.prior / parameter.step / (load > 0 ? load : 1.0);
+}
+
+/// A step of the fit, kept within bounds: what would leave them stays there, and the others go where they are best
+/// with it.
+Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
+  Imperfections at = fit.at;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const EffectParameter& parameter = *fit.parameters[k];
+    const double value = (fit.x[static_cast<Eigen::Index>(k)] + step[static_cast<Eigen::Index>(k)]) * parameter.step;
+    set_value(at, parameter, std::clamp(value, parameter.least, parameter.most));
+  }
+  return at;
+}
+
+/// What loose rows leave less than noise does, nats.
+double price_of(const Evidence& evidence, const Fit& fit) {
+  double squares = 0;
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t row : block.rows)
+      squares += price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor);
+  }
+  return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
+}
+
+}  // namespace
 
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
@@ -15,54 +70,125 @@ void hold_at_bounds(Fit& fit) {
   }
 }
 
-/// Of the residuals where a fit begins, rad.
-struct Fitter::Spread {
-  double middle = 0;
-  double scale = 0;  ///< beyond a few of these a row is an outlier
-};
-
-Fitter::Spread Fitter::spread_about(const Imperfections& from) const {
-  const Eigen::VectorXd before = model_.said(from).residual;
-  std::vector<double> near;
-  for (const Eigen::Index row : evidence().rows()) near.push_back(before[row]);
-  const double middle = median_of(near);
-  for (double& value : near) value = std::abs(value - middle);
-  return {middle, std::max(evidence().floor, 1.5 * median_of(near))};
+Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
+  const std::vector<Eigen::Index> rows = evidence.rows();
+  Tangent tangent;
+  tangent.residual = fit.residual(rows);
+  tangent.J = fit.x.size() > 0 ? Eigen::MatrixXd(fit.J(rows, Eigen::all)) : Eigen::MatrixXd(tangent.residual.size(), 0);
+  tangent.x = fit.x;
+  tangent.prior.resize(fit.x.size());
+  for (Eigen::Index k = 0; k < fit.x.size(); ++k)
+    tangent.prior[k] = size_in_practice(evidence, *fit.parameters[static_cast<std::size_t>(k)]);
+  const NormalEquations readings = sums_of_readings(evidence, fit);
+  const double unit = evidence.floor * evidence.floor;
+  tangent.read = readings.JJ / unit;
+  tangent.pull = readings.Jr / unit;
+  tangent.against = against_readings(evidence, fit.at);
+  tangent.give = evidence.declared->transmission ? std::abs(fit.at.ratio_joint.compliance) : 1.0 + fit.at.tendon.stretch;
+  return tangent;
 }
 
-Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
+Fit Fitter::placed(const EffectSet& effects, const Imperfections& at) const {
   Fit fit;
   fit.effects = effects;
   fit.parameters = model_.varied(effects);
-  const Spread spread = spread_about(from);
-  Imperfections start = from;
-  if (const EffectParameter* offset = free_offset(*evidence().declared); offset && value_of(from, *offset) == 0)
-    set_value(start, *offset, spread.middle);
-  const Minimum minimum = least_misfit(model_, fit.parameters, start, spread.scale);
-  fit.usable = minimum.found;
-  if (!fit.usable) return fit;
-  fit.at = minimum.at;
-  fit.x = minimum.x;
-  linearise(fit);
+  fit.at = at;
+  Said words = model_.said(at);
+  fit.residual = std::move(words.residual);
+  fit.loose = std::move(words.loose);
+  fit.x.resize(static_cast<Eigen::Index>(fit.parameters.size()));
+  for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
+    const EffectParameter& parameter = *fit.parameters[static_cast<std::size_t>(k)];
+    fit.x[k] = value_of(at, parameter) / parameter.step;
+  }
+  return fit;
+}
+
+void Fitter::take_slopes(Fit& fit, Eigen::Index from) const {
+  fit.J.conservativeResize(fit.residual.size(), fit.x.size());
+  for (Eigen::Index k = from; k < fit.x.size(); ++k)
+    fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual);
+}
+
+/// At `at`, with the slopes that `base` knows and new ones of what it does not have.
+Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& at) const {
+  Fit fit = placed(effects, at);
+  fit.J = base.J;
+  take_slopes(fit, base.x.size());
+  fit.usable = is_finite(evidence(), fit);
+  return fit;
+}
+
+/// Steps while they gain; slopes before `from` stay what they are.
+Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes) const {
+  const Marginal& marginal = *evidence().marginal;
+  Tangent here = tangent_of(evidence(), fit);
+  Explained known = marginal.best(here, amplitudes, k_few_rounds);
+  double height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
+  double share = 1.0;
+  for (int i = 0; i < steps; ++i) {
+    Fit next = placed(fit.effects, stepped(fit, share * known.step));
+    next.J = fit.J;
+    if (from < next.x.size()) take_slopes(next, from);
+    next.usable = is_finite(evidence(), next);
+    const Tangent there = next.usable ? tangent_of(evidence(), next) : Tangent{};
+    const double reached = next.usable ? marginal.summit(there, known.amplitudes) - price_of(evidence(), next)
+                                       : -std::numeric_limits<double>::infinity();
+    if (!(reached > height)) {
+      share *= k_shorter;
+      continue;
+    }
+    const bool settled = reached < height + k_settled;
+    fit = std::move(next);
+    here = there;
+    known = i % 2 == 1 ? marginal.best(here, known.amplitudes, k_few_rounds) : marginal.at(here, known.amplitudes);
+    height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
+    share = 1.0;
+    if (settled) break;
+  }
+  return fit;
+}
+
+Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
+  Fit start = placed(effects, from);
+  take_slopes(start, 0);
+  start.usable = is_finite(evidence(), start);
+  if (!start.usable) return start;
+  Fit fit = start.x.size() > 0 ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess()) : std::move(start);
+  hold_at_bounds(fit);
   judge(fit);
   return fit;
 }
 
-void Fitter::linearise(Fit& fit) const {
-  Said words = model_.said(fit.at);
-  fit.residual = std::move(words.residual);
-  fit.loose = std::move(words.loose);
-  fit.J.resize(fit.residual.size(), fit.x.size());
-  for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
-    const EffectParameter& parameter = *fit.parameters[static_cast<std::size_t>(k)];
-    fit.J.col(k) = model_.slope(fit.at, parameter, fit.residual);
+Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
+  EffectSet effects = base.effects;
+  effects.push_back(&effect);
+  const Marginal& marginal = *evidence().marginal;
+  Fit best;
+  double promised = -std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& values : starts_of(evidence(), base, effect)) {
+    Imperfections start = base.at;
+    for (std::size_t k = 0; k < values.size(); ++k) set_value(start, effect.parameters[k], values[k]);
+    Fit fit = at(base, effects, start);
+    if (!fit.usable) continue;
+    const double promise = marginal.at(tangent_of(evidence(), fit), base.explained.amplitudes).log_evidence - price_of(evidence(), fit);
+    if (promise <= promised) continue;
+    promised = promise;
+    best = std::move(fit);
   }
-  hold_at_bounds(fit);
+  if (!best.usable) return best;
+  best = descended(std::move(best), base.x.size(), k_chords, base.explained.amplitudes);
+  hold_at_bounds(best);
+  judge(best);
+  return best;
 }
 
 void Fitter::judge(Fit& fit) const {
   fit.usable = fit.usable && is_finite(evidence(), fit);
   if (!fit.usable) return;
+  const Marginal& marginal = *evidence().marginal;
+  fit.explained = marginal.best(tangent_of(evidence(), fit), marginal.first_guess());
+  fit.log_evidence = fit.explained.log_evidence - price_of(evidence(), fit);
   fit.readings = sums_of_readings(evidence(), fit);
   fit.against_readings = against_readings(evidence(), fit.at);
   fit.sums.clear();
@@ -82,7 +208,8 @@ void Fitter::judge(Fit& fit) const {
   fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
 }
 
-Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
+/// `fit` with the numbers of `effect` at zero, of what is searched at its first start.
+Fit Fitter::beside(const Fit& fit, const Effect& effect) const {
   Fit wider = fit;
   wider.effects.push_back(&effect);
   wider.parameters = model_.varied(wider.effects);
@@ -93,10 +220,29 @@ Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
   }
   wider.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wider.parameters.size()));
   wider.x.head(fit.x.size()) = fit.x;
-  wider.J.conservativeResize(Eigen::NoChange, wider.x.size());
-  for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k)
-    wider.J.col(k) = model_.slope(wider.at, *wider.parameters[static_cast<std::size_t>(k)], fit.residual);
+  return wider;
+}
+
+Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
+  Fit wider = beside(fit, effect);
+  take_slopes(wider, fit.x.size());
   judge(wider);
+  return wider;
+}
+
+Fit Fitter::with_chords(const Fit& fit, const Effect& effect) const {
+  Fit wider = beside(fit, effect);
+  wider.J.conservativeResize(wider.residual.size(), wider.x.size());
+  for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
+    const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
+    const double value = value_of(wider.at, parameter);
+    Imperfections moved = wider.at;
+    const double size = size_in_practice(evidence(), parameter) * parameter.step;
+    set_value(moved, parameter, value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
+    const double steps = (value_of(moved, parameter) - value) / parameter.step;
+    wider.J.col(k) = (wider.residual - model_.said(moved).residual) / steps;
+  }
+  wider.usable = is_finite(evidence(), wider);
   return wider;
 }
 

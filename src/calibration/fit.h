@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "calibration/held_out.h"
+#include "calibration/marginal.h"
 #include "calibration/model.h"
 #include "calibration/normal_equations.h"
 
@@ -28,6 +29,8 @@ struct Fit {
   double mean_square = 0;             ///< of the rows it was fitted to, with `price`
   double price = 0;  ///< part of every mean square here: what the play of a loose joint must answer for, rad²
   double against_readings = 0;  ///< sum of squares of what was measured by hand, each by its uncertainty
+  Explained explained;          ///< what the data say there, discrepancy beside it
+  double log_evidence = 0;      ///< of the set, with the price of play; of two sets the larger is the likelier
   bool usable = false;
 };
 
@@ -36,18 +39,15 @@ inline double held_out_square(const Fit& fit) { return std::max(0.0, fit.by_run.
 /// Its root, rad.
 inline double held_out_rms(const Fit& fit) { return std::sqrt(held_out_square(fit)); }
 
-/// Whether what the fit leaves is noise.
-bool is_at_floor(const Fit& fit, double floor);
-
 /// At its bound a parameter stays there, whatever part of the data it is fitted to: its slopes become nothing.
 void hold_at_bounds(Fit& fit);
 
-/// Fits the joint to the evidence. For one thread.
+/// Fits the joint to the evidence, the discrepancy beside it. For one thread.
 class Fitter {
  public:
   Fitter(const Evidence& evidence, Forward& forward) : model_(evidence, forward) {}
 
-  /// Robust, to the end, from where the parameters stand in `from`.
+  /// To the end, from where the parameters stand in `from`.
   Fit fit(const EffectSet& effects, const Imperfections& from) const;
 
   /// `base` with one effect more, from the best of its starts, close to its optimum: what candidates are compared by.
@@ -56,17 +56,22 @@ class Fitter {
   /// `fit` with `effect` added where it does nothing: what the data would say of it. No fit.
   Fit with_direction(const Fit& fit, const Effect& effect) const;
 
+  /// The same with chords in place of slopes: each number's over its size in practice. Not weighed.
+  Fit with_chords(const Fit& fit, const Effect& effect) const;
+
  private:
   const Evidence& evidence() const { return model_.evidence(); }
-  struct Spread;
-  Spread spread_about(const Imperfections& from) const;
-  void linearise(Fit& fit) const;
+  Fit placed(const EffectSet& effects, const Imperfections& at) const;
+  void take_slopes(Fit& fit, Eigen::Index from) const;
+  Fit beside(const Fit& fit, const Effect& effect) const;
+  Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
+  Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes) const;
   void judge(Fit& fit) const;
-  Fit widened(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
-  struct Chord;
-  Chord best_start(const Fit& base, const Effect& effect) const;
 
   Model model_;
 };
+
+/// What a set's evidence is computed from: the rows in use.
+Tangent tangent_of(const Evidence& evidence, const Fit& fit);
 
 }  // namespace fusee

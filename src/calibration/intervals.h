@@ -15,11 +15,8 @@ struct ConfidenceInterval {
   double deviation = 0;  ///< standard
 };
 
-/// Of every fitted x, in their order: by resampling strokes, or by the scatter between runs where that is wider. Of
-/// what the data know, no prior in it.
+/// Of every fitted x, in their order: beside a discrepancy that may take any shape, and what is known from practice and
+/// from calipers.
 std::vector<ConfidenceInterval> intervals(const Evidence& evidence, const Fit& fit);
-
-/// Whether the interval of some number of `effect` holds no zero.
-bool excludes_zero(const Evidence& evidence, const Fit& fit, const Effect& effect);
 
 }  // namespace fusee

@@ -5,11 +5,20 @@
 
 namespace fusee {
 
+namespace {
+
+/// What a row says of the place of a joint with so much play, by what it says of a taut one.
+double weight_of(double loose, double floor) {
+  constexpr double uncertain = 1.0 / 3.0;  // of the play: how far from where it was last pushed a loose joint may rest
+  return floor / std::hypot(floor, uncertain * loose);
+}
+
+}  // namespace
+
 Said Model::said(const Imperfections& at) const {
   Said words{evidence_.theta - flat(forward_(at)), flat(forward_.looseness(at))};
   for (Eigen::Index i = 0; i < words.residual.size(); ++i) {
-    const double beyond = std::max(0.0, std::abs(words.residual[i]) - words.loose[i]);
-    if (words.loose[i] > 0) words.residual[i] = std::copysign(beyond, words.residual[i]);
+    if (words.loose[i] > 0) words.residual[i] *= weight_of(words.loose[i], evidence_.floor);
   }
   return words;
 }
@@ -24,7 +33,8 @@ Eigen::VectorXd Model::slope(const Imperfections& at, const EffectParameter& par
 }
 
 double price_of_play(double loose, double floor) {
-  return 2.0 * floor * floor * std::log1p(2.0 * loose / (std::sqrt(k_two_pi) * floor));
+  const double weight = weight_of(loose, floor);
+  return floor * floor * (1.0 - weight * weight);
 }
 
 double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {

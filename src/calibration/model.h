@@ -11,8 +11,8 @@ namespace fusee {
 
 /// What a model says of the logged angles, all runs one after another.
 struct Said {
-  Eigen::VectorXd residual;  ///< measured − model, rad; beyond the play where the model's joint is loose
-  Eigen::VectorXd loose;     ///< half that play, rad
+  Eigen::VectorXd residual;  ///< measured − model, rad; by its weight where the model's joint is loose
+  Eigen::VectorXd loose;     ///< that play, rad
 };
 
 /// For one thread. Evidence and simulation must outlive it.
@@ -32,9 +32,9 @@ class Model {
   Forward& forward_;
 };
 
-/// What a place within the play must answer for, rad²: a loose joint may stand anywhere, which explains any reading and
-/// so each one less well. The likelihood of a place within the play against that of a reading with noise alone, as a
-/// square of residuals.
+/// By how much the square of a loose row's residual is smaller than noise makes it, for its weight alone, rad²: where
+/// nothing holds a joint it rests where it was last pushed, in friction, and a row there says little; it must neither
+/// decide nor be charged to one set of effects and not to another.
 double price_of_play(double loose, double floor);
 
 /// rms over the rows in use, rad.

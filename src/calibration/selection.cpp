@@ -2,37 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <tuple>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
 
-#include "calibration/acceptance.h"
 #include "calibration/catalogue.h"
-#include "calibration/intervals.h"
 #include "calibration/thresholds.h"
 
-// Greedy, with a look one step further: causes come in pairs, of which neither may explain much alone, and a third that
-// resembles both may explain more than either. So pairs are tried from the best few wherever the best single does not
-// reach the noise; and once there is a set, every member is held against every effect in its place, and gives way where
-// that does better. What is needless beside the others goes last.
+// A beam over sets of effects. A set is as good as its evidence, beside a discrepancy that may take any smooth shape,
+// less what each name costs; the best set ever seen is what stands. A wider set is first looked at by the slopes that
+// each effect had alone, and fitted only if that promises something. Once nothing is gained, every member is left out
+// and held against every effect in its place.
 
 namespace fusee {
 namespace {
 
-struct Trial {
-  Fit fit;
-  Candidate candidate;
-};
+/// Of amplitudes, in a linear look.
+constexpr int k_look_rounds = 4;
 
-/// Places of two among singles.
-struct Pair {
-  std::size_t one = 0;
-  std::size_t other = 0;
+/// What an effect adds to a linear look: slopes over the rows in use.
+struct Look {
+  Eigen::MatrixXd J;
+  Eigen::VectorXd prior;
 };
 
 /// A fit that is there, and what is tried beside it.
 struct Addition {
   const Fit* base = nullptr;
   const Effect* effect = nullptr;
+  double promise = 0;
 };
 
 class Selector {
@@ -43,292 +41,266 @@ class Selector {
   Selection run();
 
  private:
-  void judge(const Fit& before, Trial& trial) const;
-  std::vector<Trial> trials(const std::string& what, const std::vector<Addition>& added);
-  const Trial* best_of(std::vector<Trial>& trials);
-  std::vector<Trial> singles();
-  std::vector<Pair> promising_pairs(const std::vector<Trial>& singles) const;
-  std::optional<Trial> best_pair(const std::vector<Trial>& singles);
-  bool grow();
-  void find_rivals();
-  bool exchange();
-  void drop_needless();
-  void retreat();
-  Fit best_without(const Effect& effect);
-  void note(const std::vector<Trial>& trials, const Trial* taken);
+  using Key = std::vector<std::size_t>;
+  Key key_of(const EffectSet& effects) const;
+  void keep(Fit fit);
+  std::vector<const Fit*> ranked() const;
+  double promised(const Fit& base, const std::vector<std::size_t>& added, int rounds) const;
+  std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added);
+  void try_singles();
+  void try_pairs();
+  bool widen();
+  void settle_best();
+  std::vector<Addition> promising(const Fit& base, std::size_t most) const;
+  bool challenge();
+  void write_down();
 
-  /// Nothing is left to look for, and not because the joint is loose.
-  bool is_done(const Fit& fit) const {
-    return is_at_floor(fit, evidence_.floor) &&
-           fit.price <= k_thresholds.dearest_play * evidence_.floor * evidence_.floor;
-  }
   void report(const std::string& what, double share) const {
     if (options_.progress) options_.progress(what, share);
+  }
+  std::size_t place_of(const Effect& effect) const {
+    return static_cast<std::size_t>(std::find(selection_.catalogue.begin(), selection_.catalogue.end(), &effect) -
+                                    selection_.catalogue.begin());
   }
 
   const Evidence& evidence_;
   Workers& workers_;
   const CalibrationOptions& options_;
   Selection selection_;
+  std::vector<Look> looks_;   ///< of each effect of the catalogue; empty where it cannot be simulated
+  std::map<Key, Fit> seen_;
 };
 
-/// Whether what was added to `before` is to be believed.
-void Selector::judge(const Fit& before, Trial& trial) const {
-  trial.candidate.name.clear();
-  bool holds = accepted(evidence_, before, trial.fit, trial.candidate);
-  for (std::size_t i = before.effects.size(); i < trial.fit.effects.size(); ++i) {
-    const Effect& effect = *trial.fit.effects[i];
-    trial.candidate.name += (trial.candidate.name.empty() ? "" : " + ") + effect.name;
-    if (!holds || excludes_zero(evidence_, trial.fit, effect)) continue;
-    holds = false;
-    trial.candidate.why = "the interval of " + effect.name + " holds zero";
-  }
-  trial.candidate.accepted = holds;
+Selector::Key Selector::key_of(const EffectSet& effects) const {
+  Key key;
+  for (const Effect* effect : effects) key.push_back(place_of(*effect));
+  std::sort(key.begin(), key.end());
+  return key;
 }
 
-/// One effect more than `base`, for each of `added`; usable ones, the lowest held-out error first.
-std::vector<Trial> Selector::trials(const std::string& what, const std::vector<Addition>& added) {
-  std::vector<Trial> all(added.size());
+void Selector::keep(Fit fit) {
+  if (std::getenv("FUSEE_DEBUG")) {
+    std::string t = "keep";
+    for (auto* e : fit.effects) t += " " + e->name;
+    t += fit.usable ? "" : " UNUSABLE";
+    t += " logZ " + std::to_string(fit.log_evidence) + " price " + std::to_string(fit.explained.log_evidence - fit.log_evidence) + " score " + std::to_string(score(fit)) + " noise " + std::to_string(degrees(fit.explained.amplitudes.noise)) + " x";
+    for (double x : fit.x) t += " " + std::to_string(x);
+    t += " fam";
+    for (double x : fit.explained.amplitudes.families) t += " " + std::to_string(degrees(x)).substr(0, 6);
+    fprintf(stderr, "%s\n", t.c_str());
+  }
+  if (!fit.usable) return;
+  const auto [place, added] = seen_.try_emplace(key_of(fit.effects), fit);
+  if (!added && fit.log_evidence > place->second.log_evidence) place->second = std::move(fit);
+}
+
+std::vector<const Fit*> Selector::ranked() const {
+  std::vector<const Fit*> all;
+  for (const auto& [key, fit] : seen_) all.push_back(&fit);
+  std::stable_sort(all.begin(), all.end(), [](const Fit* a, const Fit* b) { return score(*a) > score(*b); });
+  return all;
+}
+
+std::vector<Fit> Selector::fitted(const std::string& what, const std::vector<Addition>& added) {
+  std::vector<Fit> fits(added.size());
   const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
   report(what, 0);
   workers_.each(
       added.size(),
-      [&](const Fitter& fitter, std::size_t i) {
-        all[i].fit = fitter.with_effect(*added[i].base, *added[i].effect);
-        judge(selection_.best, all[i]);
-      },
+      [&](const Fitter& fitter, std::size_t i) { fits[i] = fitter.with_effect(*added[i].base, *added[i].effect); },
       [&](std::size_t done) { report(what, static_cast<double>(done) / count); });
-  std::erase_if(all, [](const Trial& t) { return !t.fit.usable; });
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const Trial& a, const Trial& b) { return score(evidence_, a.fit) < score(evidence_, b.fit); });
-  return all;
+  return fits;
 }
 
-/// The first of `trials` that is still to be believed once it is fitted to the end. Of those that do as well, the one
-/// of fewest numbers.
-const Trial* Selector::best_of(std::vector<Trial>& trials) {
-  const auto first =
-      std::find_if(trials.begin(), trials.end(), [](const Trial& trial) { return trial.candidate.accepted; });
-  if (first == trials.end()) return nullptr;
-  auto simplest = first;
-  for (auto it = first; it != trials.end(); ++it) {
-    if (it->candidate.accepted && it->fit.x.size() < simplest->fit.x.size() && as_good(evidence_, it->fit, first->fit))
-      simplest = it;
-  }
-  std::rotate(trials.begin(), simplest, simplest + 1);
-  for (Trial& trial : trials) {
-    if (!trial.candidate.accepted) continue;
-    Fit settled = workers_.one().fit(trial.fit.effects, trial.fit.at);
-    if (settled.usable) trial.fit = std::move(settled);
-    judge(selection_.best, trial);
-    if (trial.candidate.accepted) return &trial;
-  }
-  return nullptr;
-}
-
-std::vector<Trial> Selector::singles() {
+void Selector::try_singles() {
   std::vector<Addition> added;
-  for (const Effect* effect : selection_.catalogue) {
-    if (!contains(selection_.best.effects, *effect)) added.push_back({&selection_.best, effect});
+  for (const Effect* effect : selection_.catalogue) added.push_back({&selection_.none, effect});
+  std::vector<Fit> fits = fitted("trying effects one by one", added);
+  const Eigen::Index own = selection_.none.x.size();
+  for (Fit& fit : fits) {
+    Look look;
+    if (fit.usable) {
+      const Tangent tangent = tangent_of(evidence_, fit);
+      const Eigen::Index more = fit.x.size() - own;
+      look.J = tangent.J.rightCols(more);
+      look.prior = tangent.prior.tail(more);
+      // Of a single number the chord from nothing says more than the slope at its end.
+      if (more == 1 && fit.x[own] != 0)
+        look.J.col(0) = (tangent_of(evidence_, selection_.none).residual - tangent.residual) / fit.x[own];
+    }
+    looks_.push_back(std::move(look));
+    keep(std::move(fit));
   }
-  return trials("trying effects one by one", added);
 }
 
-/// What a linear look at a fit and its single additions needs: their slopes side by side, over the rows in use.
-struct Directions {
-  Eigen::MatrixXd gram;
-  Eigen::VectorXd pull;             ///< of what the fit leaves
-  std::vector<Eigen::Index> first;  ///< column of each single; the fit's own stand before the first of them
-};
-
-/// A single's directions are its slopes and the way it went.
-Directions directions_of(const std::vector<Eigen::Index>& rows, const Fit& base, const std::vector<Trial>& singles) {
-  Directions all;
-  all.first = {base.x.size()};
-  for (const Trial& single : singles) all.first.push_back(all.first.back() + single.fit.x.size() - base.x.size() + 1);
-  Eigen::MatrixXd columns(static_cast<Eigen::Index>(rows.size()), all.first.back());
-  columns.leftCols(base.x.size()) = base.J(rows, Eigen::all);
-  for (std::size_t i = 0; i < singles.size(); ++i) {
-    const Fit& fit = singles[i].fit;
-    const Eigen::Index own = fit.x.size() - base.x.size();
-    columns.middleCols(all.first[i], own) = fit.J.rightCols(own)(rows, Eigen::all);
-    columns.col(all.first[i] + own) = (base.residual - fit.residual)(rows);
+/// Score of `base` with these effects by a linear look.
+double Selector::promised(const Fit& base, const std::vector<std::size_t>& added, int rounds) const {
+  Tangent tangent = tangent_of(evidence_, base);
+  double cost = base.log_evidence - score(base);
+  for (const std::size_t i : added) {
+    const Look& look = looks_[i];
+    if (look.J.size() == 0) return -std::numeric_limits<double>::infinity();
+    const Eigen::Index before = tangent.x.size();
+    const Eigen::Index all = before + look.J.cols();
+    tangent.J.conservativeResize(Eigen::NoChange, all);
+    tangent.J.rightCols(look.J.cols()) = look.J;
+    tangent.x.conservativeResize(all);
+    tangent.x.tail(look.J.cols()).setZero();
+    tangent.prior.conservativeResize(all);
+    tangent.prior.tail(look.J.cols()) = look.prior;
+    Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
+    read.topLeftCorner(before, before) = tangent.read;
+    tangent.read = read;
+    tangent.pull.conservativeResize(all);
+    tangent.pull.tail(look.J.cols()).setZero();
+    cost += cost_of(*selection_.catalogue[i]);
   }
-  all.gram = columns.transpose() * columns;
-  all.pull = columns.transpose() * base.residual(rows);
-  return all;
+  const double loose = base.explained.log_evidence - base.log_evidence;
+  return evidence_.marginal->best(tangent, base.explained.amplitudes, rounds).log_evidence - loose - cost;
 }
 
-/// Squares that a linear fit of both would take away.
-double promised_by(const Directions& all, const Pair& pair) {
-  std::vector<Eigen::Index> chosen;
-  for (Eigen::Index k = 0; k < all.first.front(); ++k) chosen.push_back(k);
-  for (const std::size_t single : {pair.one, pair.other}) {
-    for (Eigen::Index k = all.first[single]; k < all.first[single + 1]; ++k) chosen.push_back(k);
-  }
-  Eigen::MatrixXd JJ = all.gram(chosen, chosen);
-  JJ.diagonal() += 1e-9 * JJ.diagonal() + Eigen::VectorXd::Constant(JJ.rows(), 1e-300);
-  const Eigen::VectorXd Jr = all.pull(chosen);
-  return Jr.dot(JJ.ldlt().solve(Jr));
-}
-
-/// The best of all pairs of singles by what a linear fit of both would leave, the best first.
-std::vector<Pair> Selector::promising_pairs(const std::vector<Trial>& singles) const {
-  const Directions all = directions_of(evidence_.rows(), selection_.best, singles);
-  std::vector<std::tuple<double, std::size_t, std::size_t>> ranked;
-  for (std::size_t i = 0; i < singles.size(); ++i) {
-    for (std::size_t j = i + 1; j < singles.size(); ++j) ranked.emplace_back(-promised_by(all, {i, j}), i, j);
-  }
-  std::sort(ranked.begin(), ranked.end());
-  std::vector<Pair> pairs;
-  for (const auto& [gain, i, j] : ranked) {
-    if (pairs.size() < k_thresholds.most_pairs) pairs.push_back({i, j});
-  }
-  return pairs;
-}
-
-/// Of pairs in which each is needed beside the other, the one that explains most.
-std::optional<Trial> Selector::best_pair(const std::vector<Trial>& singles) {
-  if (selection_.best.effects.size() + 2 > k_thresholds.most_effects) return std::nullopt;
-  std::vector<Addition> added;
-  for (const Pair& pair : promising_pairs(singles))
-    added.push_back({&singles[pair.one].fit, singles[pair.other].fit.effects.back()});
-  const auto alone = [&](const Effect* effect) -> const Fit& {
-    return std::find_if(singles.begin(), singles.end(), [&](const Trial& t) { return t.fit.effects.back() == effect; })
-        ->fit;
+/// The best of all pairs by a linear look.
+void Selector::try_pairs() {
+  struct Pair {
+    double promise;
+    std::size_t one, other;
   };
-  std::vector<Trial> pairs = trials("trying effects in pairs", added);
-  std::erase_if(pairs, [&](const Trial& pair) {
-    const EffectSet& effects = pair.fit.effects;
-    Candidate scratch;
-    return !pair.candidate.accepted || !accepted(evidence_, alone(effects.back()), pair.fit, scratch) ||
-           !accepted(evidence_, alone(effects[effects.size() - 2]), pair.fit, scratch);
-  });
-  const Trial* best = best_of(pairs);
-  if (best == nullptr) return std::nullopt;
-  return *best;
-}
-
-void Selector::note(const std::vector<Trial>& trials, const Trial* taken) {
-  for (const Trial& trial : trials) {
-    if (&trial == taken) continue;
-    Candidate candidate = trial.candidate;
-    if (candidate.accepted && taken) candidate.why = taken->candidate.name + " explains more";
-    candidate.accepted = false;
-    selection_.tried.push_back(candidate);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    for (std::size_t j = i + 1; j < looks_.size(); ++j) pairs.push_back({0, i, j});
   }
-  if (taken) selection_.tried.push_back(taken->candidate);
-}
-
-/// Takes one effect more, or two that come together.
-bool Selector::grow() {
-  std::vector<Trial> alone = singles();
-  const Trial* first = best_of(alone);
-  std::optional<Trial> pair;
-  if (first == nullptr || !is_done(first->fit)) pair = best_pair(alone);
-  Candidate scratch;
-  if (pair && first != nullptr && !accepted(evidence_, first->fit, pair->fit, scratch)) pair.reset();
-  if (pair) {
-    note(alone, nullptr);
-    pair->candidate.why = "neither explains as much alone";
-    selection_.tried.push_back(pair->candidate);
-    selection_.best = std::move(pair->fit);
-    return true;
-  }
-  note(alone, first);
-  if (first == nullptr) return false;
-  selection_.tried.back().why =
-      "the held-out error falls by " + std::to_string(static_cast<int>(first->candidate.margin)) + " standard errors";
-  Fit best = first->fit;
-  selection_.best = std::move(best);
-  return true;
-}
-
-Fit Selector::best_without(const Effect& effect) {
-  return workers_.one().fit(without(selection_.best.effects, effect), without(selection_.best.at, effect));
-}
-
-/// Every effect in the place of every accepted one; those that come near are fitted to the end.
-void Selector::find_rivals() {
-  selection_.rivals.clear();
-  std::vector<Fit> bases;
-  for (const Effect* effect : selection_.best.effects) bases.push_back(best_without(*effect));
+  const auto look_at = [&](int rounds) {
+    workers_.each(pairs.size(), [&](const Fitter&, std::size_t k) {
+      pairs[k].promise = promised(selection_.none, {pairs[k].one, pairs[k].other}, rounds);
+    });
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.promise > b.promise; });
+  };
+  look_at(1);
+  pairs.resize(std::min(pairs.size(), k_thresholds.most_looks_at_pairs));
+  look_at(k_look_rounds);
   std::vector<Addition> added;
-  for (std::size_t i = 0; i < bases.size(); ++i) {
-    for (const Effect* rival : selection_.catalogue) {
-      if (contains(selection_.best.effects, *rival) || !bases[i].usable) continue;
-      selection_.rivals.push_back({selection_.best.effects[i], rival, {}});
-      added.push_back({&bases[i], rival});
+  for (const Pair& pair : pairs) {
+    const auto base = seen_.find({pair.one});
+    if (added.size() == k_thresholds.most_pairs || base == seen_.end()) continue;
+    added.push_back({&base->second, selection_.catalogue[pair.other], pair.promise});
+  }
+  std::vector<Fit> fits = fitted("trying effects in pairs", added);
+  for (Fit& fit : fits) keep(std::move(fit));
+}
+
+/// Effects beside `base`, by a linear look the best first.
+std::vector<Addition> Selector::promising(const Fit& base, std::size_t most) const {
+  std::vector<Addition> all;
+  for (std::size_t i = 0; i < selection_.catalogue.size(); ++i) {
+    if (contains(base.effects, *selection_.catalogue[i])) continue;
+    all.push_back({&base, selection_.catalogue[i], promised(base, {i}, k_look_rounds)});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Addition& a, const Addition& b) { return a.promise > b.promise; });
+  all.resize(std::min(all.size(), most));
+  return all;
+}
+
+/// Whether a wider set than those of the beam does better than the best so far.
+bool Selector::widen() {
+  std::vector<const Fit*> beam = ranked();
+  beam.resize(std::min(beam.size(), k_thresholds.beam));
+  const double before = score(*beam.front());
+  std::vector<std::vector<Addition>> looks(beam.size());
+  workers_.each(beam.size(), [&](const Fitter&, std::size_t i) {
+    if (beam[i]->effects.size() < k_thresholds.most_effects) looks[i] = promising(*beam[i], k_thresholds.most_looks);
+  });
+  std::vector<Addition> added;
+  for (const std::vector<Addition>& look : looks) {
+    for (const Addition& addition : look) {
+      EffectSet effects = addition.base->effects;
+      effects.push_back(addition.effect);
+      if (addition.promise > before - k_thresholds.hopeless && !seen_.count(key_of(effects))) added.push_back(addition);
     }
   }
-  const double count = static_cast<double>(std::max<std::size_t>(1, added.size()));
-  const double near =
-      k_thresholds.near * std::max(selection_.best.by_factor.mean_square, evidence_.floor * evidence_.floor);
-  workers_.each(
-      added.size(),
-      [&](const Fitter& fitter, std::size_t i) {
-        Fit& fit = selection_.rivals[i].fit;
-        fit = fitter.with_effect(*added[i].base, *added[i].effect);
-        if (fit.usable && fit.by_factor.mean_square < near) fit = fitter.fit(fit.effects, fit.at);
-      },
-      [&](std::size_t done) { report("holding rivals against what was found", static_cast<double>(done) / count); });
-  std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
+  std::vector<Fit> fits = fitted("trying wider sets of effects", added);
+  for (Fit& fit : fits) keep(std::move(fit));
+  return score(*ranked().front()) > before;
 }
 
-/// Lets the rival in that does better than the effect it stands for, if any does.
-bool Selector::exchange() {
-  const Rival* best = nullptr;
-  for (const Rival& rival : selection_.rivals) {
-    const double gain = score(evidence_, selection_.best) - score(evidence_, rival.fit);
-    const bool clearly = gain > k_thresholds.better * evidence_.floor * evidence_.floor &&
-                         excludes_zero(evidence_, rival.fit, *rival.rival);
-    if (clearly && (best == nullptr || score(evidence_, rival.fit) < score(evidence_, best->fit))) best = &rival;
+/// The best few are fitted to the end; of those that do as well the one of fewest effects stands.
+void Selector::settle_best() {
+  std::vector<const Fit*> all = ranked();
+  all.resize(std::min(all.size(), k_thresholds.beam));
+  std::vector<Fit> settled(all.size());
+  workers_.each(all.size(),
+                [&](const Fitter& fitter, std::size_t i) { settled[i] = fitter.fit(all[i]->effects, all[i]->at); });
+  for (Fit& fit : settled) keep(std::move(fit));
+  all = ranked();
+  const Fit* simplest = all.front();
+  for (const Fit* fit : all) {
+    if (fit->effects.size() < simplest->effects.size() && score(*fit) > score(*all.front()) - k_thresholds.as_good)
+      simplest = fit;
   }
-  if (best == nullptr) return false;
-  Candidate candidate;
-  candidate.name = best->accepted->name;
-  candidate.held_out_rms = std::sqrt(selection_.best.by_factor.mean_square);
-  candidate.why = best->rival->name + " does better in its place";
-  selection_.tried.push_back(candidate);
-  Fit better = best->fit;
-  selection_.best = std::move(better);
-  return true;
+  selection_.best = workers_.one().fit(simplest->effects, simplest->at);
+  if (!selection_.best.usable || selection_.best.log_evidence < simplest->log_evidence) selection_.best = *simplest;
 }
 
-void Selector::drop_needless() {
-  for (std::size_t i = 0; i < selection_.best.effects.size() && selection_.best.effects.size() > 1;) {
-    const Effect* effect = selection_.best.effects[i];
-    Fit fewer = best_without(*effect);
-    Candidate candidate;
-    if (!fewer.usable || accepted(evidence_, fewer, selection_.best, candidate)) {
-      ++i;
-      continue;
-    }
-    candidate.name = effect->name;
-    candidate.why = "needless beside the others";
-    selection_.tried.push_back(candidate);
-    selection_.best = std::move(fewer);
-    i = 0;
-  }
-}
-
-/// Part of an error that stays unexplained is no explanation.
-void Selector::retreat() {
-  const double floor2 = evidence_.floor * evidence_.floor;
-  const double all = selection_.none.by_run.mean_square - floor2;
-  const double left = selection_.best.by_run.mean_square - floor2;
-  const bool walks = is_walking(stroke_scatter(evidence_, selection_.best));
-  if (!walks && is_done(selection_.best)) return;
-  if (left <= (1.0 - (walks ? k_thresholds.most_of_what_walks : k_thresholds.most_of_it)) * all) return;
-  for (const Effect* effect : selection_.best.effects) {
-    Candidate candidate;
-    candidate.name = effect->name;
-    candidate.held_out_rms = std::sqrt(selection_.best.by_factor.mean_square);
-    candidate.why = "it resembles a part of what is there, and the rest has another cause";
-    selection_.tried.push_back(candidate);
-  }
-  selection_.best = selection_.none;
+/// Every member is left out, and held against every effect in its place. Whether a better set was found.
+bool Selector::challenge() {
+  const Fit& best = selection_.best;
+  selection_.without.assign(best.effects.size(), {});
+  workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Effect& effect = *best.effects[i];
+    selection_.without[i] = fitter.fit(without(best.effects, effect), without(best.at, effect));
+  });
+  std::vector<std::vector<Addition>> looks(best.effects.size());
+  workers_.each(best.effects.size(), [&](const Fitter&, std::size_t i) {
+    if (selection_.without[i].usable) looks[i] = promising(selection_.without[i], selection_.catalogue.size());
+  });
   selection_.rivals.clear();
+  std::vector<Addition> added;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    std::size_t taken = 0;
+    for (const Addition& addition : looks[i]) {
+      const bool hopeless = addition.promise < score(best) - k_thresholds.hopeless;
+      if (contains(best.effects, *addition.effect) || hopeless || taken++ >= k_thresholds.most_rivals) continue;
+      selection_.rivals.push_back({best.effects[i], addition.effect, {}});
+      added.push_back(addition);
+    }
+  }
+  report("holding rivals against what was found", 0);
+  workers_.each(added.size(), [&](const Fitter& fitter, std::size_t i) {
+    Fit& fit = selection_.rivals[i].fit;
+    fit = fitter.with_effect(*added[i].base, *added[i].effect);
+    if (fit.usable && fit.log_evidence > best.log_evidence - 3.0 * k_thresholds.as_good)
+      fit = fitter.fit(fit.effects, fit.at);
+  });
+  std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
+  const double before = score(best);
+  for (const Fit& fit : selection_.without) keep(fit);
+  for (const Rival& rival : selection_.rivals) keep(rival.fit);
+  return score(*ranked().front()) > before + k_thresholds.better;
+}
+
+std::string nats_words(double nats) {
+  const double decades = nats / std::log(10.0);
+  return (decades < 0 ? "−" : "") + std::to_string(static_cast<int>(std::lround(std::abs(decades))));
+}
+
+/// What the data say of every effect: of those that were accepted what is lost without, of the others what is gained.
+void Selector::write_down() {
+  const Fit& best = selection_.best;
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    Candidate candidate;
+    candidate.name = best.effects[i]->name;
+    candidate.evidence = best.log_evidence - selection_.without[i].log_evidence;
+    candidate.accepted = true;
+    candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
+    selection_.tried.push_back(candidate);
+  }
+  for (const Addition& look : promising(best, selection_.catalogue.size())) {
+    Candidate candidate;
+    candidate.name = look.effect->name;
+    candidate.evidence = look.promise + cost_of(*look.effect) - score(best);
+    candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a name needs";
+    if (!std::isfinite(candidate.evidence)) candidate.why = "the joint could not be simulated with it";
+    selection_.tried.push_back(candidate);
+  }
 }
 
 Selection Selector::run() {
@@ -337,18 +309,32 @@ Selection Selector::run() {
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
   if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);
-  for (int exchanges = 0;;) {
-    while (!is_done(selection_.best) && selection_.best.effects.size() < k_thresholds.most_effects && grow()) {
+  keep(selection_.none);
+  try_singles();
+  try_pairs();
+  for (int exchanges = 0; exchanges <= k_thresholds.most_exchanges; ++exchanges) {
+    while (widen()) {
     }
-    drop_needless();
-    find_rivals();
-    if (exchanges++ == k_thresholds.most_exchanges || !exchange()) break;
+    settle_best();
+    if (!challenge()) break;
   }
-  retreat();
+  write_down();
   return std::move(selection_);
 }
 
 }  // namespace
+
+double cost_of(const Effect& effect) {
+  const bool searched = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                    [](const EffectParameter& p) { return p.searched; });
+  return k_thresholds.price_of_a_name + (searched ? k_thresholds.price_of_a_search : 0.0);
+}
+
+double score(const Fit& fit) {
+  double score = fit.log_evidence;
+  for (const Effect* effect : fit.effects) score -= cost_of(*effect);
+  return score;
+}
 
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {
   return Selector(evidence, workers, options).run();

@@ -13,64 +13,10 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / std::max(1.0, static_cast<double>(values.size()));
 }
 
-/// One-sided 95 % of Student's t.
-double t95(double degrees_of_freedom) {
-  const double n = std::max(1.0, degrees_of_freedom);
-  if (n < 1.5) return 6.31;
-  if (n < 2.5) return 2.92;
-  const double z = 1.6449;
-  return z + (z * z * z + z) / (4.0 * n) + (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * n * n);
-}
-
-/// Infinite of a single value.
-double standard_error_of(const std::vector<double>& values, double mean) {
-  const double n = static_cast<double>(values.size());
-  double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return n > 1 ? std::sqrt(squares / (n - 1.0) / n) : std::numeric_limits<double>::infinity();
-}
-
-double t_of(double mean, double standard_error) { return standard_error > 0 ? mean / standard_error : 0.0; }
-
-double t_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  return t_of(mean, standard_error_of(values, mean));
-}
-
 }  // namespace
 
-Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better) {
-  std::vector<double> drops;
-  std::map<std::size_t, std::vector<double>> by_run;
-  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
-    const double drop = worse.by_factor.by_block[b] - better.by_factor.by_block[b];
-    if (!std::isfinite(drop)) continue;
-    drops.push_back(drop);
-    by_run[evidence.blocks[b].run].push_back(drop);
-  }
-  Comparison comparison;
-  comparison.mean = mean_of(drops);
-  comparison.standard_error = standard_error_of(drops, comparison.mean);
-  comparison.t = t_of(comparison.mean, comparison.standard_error);
-  comparison.needed_t = t95(static_cast<double>(drops.size()) - 1.0);
-  std::vector<double> runs;
-  for (const auto& [run, values] : by_run) runs.push_back(mean_of(values));
-  comparison.t_over_runs = runs.size() > 2 ? t_of(runs) : comparison.t;
-  return comparison;
-}
-
-bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best) {
-  if (rival.against_readings > best.against_readings + k_thresholds.contradicted) return false;
-  const Comparison worse = compare(evidence, rival, best);
-  return worse.mean <= std::max(worse.standard_error, std::pow(k_thresholds.least_drop * evidence.floor, 2));
-}
-
-double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better) {
-  const double r = std::clamp(lag_one_correlation(evidence, better), 0.0, 0.999);
-  const double rows = static_cast<double>(evidence.rows_used());
-  const double independent = std::max(rows * (1.0 - r) / (1.0 + r), static_cast<double>(evidence.blocks.size()));
-  const double more = static_cast<double>(better.x.size() - worse.x.size());
-  return independent * std::log(worse.mean_square / better.mean_square) - more * std::log(independent);
+bool as_good(const Evidence&, const Fit& rival, const Fit& best) {
+  return rival.log_evidence > best.log_evidence - k_thresholds.as_good;
 }
 
 double lag_one_correlation(const Evidence& evidence, const Fit& fit) {

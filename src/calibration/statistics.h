@@ -6,22 +6,8 @@
 
 namespace fusee {
 
-/// How much lower the held-out error of `better` is: mean over the blocks, and standard error of that mean.
-struct Comparison {
-  double mean = 0;  ///< rad²
-  double standard_error = 0;
-  double t = 0;
-  double t_over_runs = 0;
-  double needed_t = 0;  ///< one-sided 95 %
-};
-Comparison compare(const Evidence& evidence, const Fit& worse, const Fit& better);
-
-/// Whether two held-out errors are the same as far as the data can tell: within a standard error, or within a small
-/// part of the noise.
+/// Whether the evidence of two sets is the same as far as the data can tell.
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
-
-/// Drop of the Bayesian information criterion with as many rows as the rest's autocorrelation leaves.
-double bic_drop(const Evidence& evidence, const Fit& worse, const Fit& better);
 
 /// Of the residual from row to row within blocks, −1 … 1.
 double lag_one_correlation(const Evidence& evidence, const Fit& fit);

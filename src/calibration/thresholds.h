@@ -20,57 +20,57 @@ struct Thresholds {
   /// two joints whose effects were found (1.26 and 1.29) would be called unexplained; at 1.35 no verdict
   /// changes.
   double at_floor = 1.35;
-  /// A joint that is loose nearly everywhere explains everything: play that costs more than this many squares of the
-  /// floor is no explanation. Bench joint, every effect in turn (commit a87150f).
-  double dearest_play = 2.0;
+  /// Nats by which the data ask for something beside noise and the model's own error, and its rms in noise floors,
+  /// before a rest is called unexplained.
+  double unexplained = 8.0;
+  double least_left = 0.35;
+  /// The same of a part of it, before it is described.
+  double least_unnamed = 3.0;
+  double least_seen = 0.2;
 
   // ---- what is accepted ----
 
-  /// rms of the smallest effect worth a name, as a part of the floor: below it the model's own error may be as large.
-  /// Explanations that differ by less are one: the quarter of the noise's mean square of profiles/calibration.md, "What
-  /// is done with it", 7 (commits 4135d69, 34972f4).
+  /// Of the declared joint's deflection: what the model of it is trusted to. A log however long tells nothing smaller.
+  double trusted = 0.03;
+  /// Nats that a name costs: a Bayes factor of 400, "decisive" in the usual scale (Kass and Raftery 1995).
+  double price_of_a_name = 6.0;
+  /// … and one whose numbers are searched for.
+  double price_of_a_search = 3.0;
+  /// Sets whose evidence is within so many nats of the best one's do as well.
+  double as_good = 4.0;
+  /// Nats by which a rival takes the place: fits end within so much of the summit.
+  double better = 0.1;
+  /// Degrees of freedom that the noise floor is taken to have.
+  double noise_freedom = 30.0;
+  /// rms of the smallest effect worth a name, as a part of the floor.
   double least_drop = 0.5;
-  /// Drop of the information criterion, with as many rows as the autocorrelation leaves: "strong" evidence in the usual
-  /// scale (Kass and Raftery 1995). An F-test over rows accepts more than half of all nonsense regressors on a real
-  /// residual (profiles/calibration.md, "What is done with it", 5).
-  double least_bic_drop = 6.0;
-  /// In standard errors over runs, beside the one-sided 95 % over strokes: strokes of one run are alike (4135d69).
-  double least_t_over_runs = 1.0;
-  /// Of what stands above the floor: what explains less of it is the neighbour of a cause unknown. Low enough that the
-  /// smaller one of two causes passes: matrix, rows with two faults (4135d69).
-  double least_share = 0.30;
-  /// Sum of squares: what was measured by hand speaks against an explanation that is off by three standard
-  /// uncertainties. Bench joint: a caliper splits a group (c4eabca).
   double contradicted = 9.0;
 
-  // ---- what stands for what ----
-
-  /// A rival takes an effect's place when it does better by this part of the floor's square: less than any data tell
-  /// (34972f4).
-  double better = 0.03;
-  /// A rival by chords that comes within this many times the best held-out error is fitted to the end (59ead82).
-  double near = 2.0;
+  /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
+  int worlds = 200;
+  double most_mistaken = 0.02;
 
   // ---- what is given up ----
 
   /// Strokes that should be alike are apart by this part of the noise within them: the joint does not repeat. Matrix,
   /// rows walking_zero and nothing_coloured_noise; bench joint: a walking zero (34972f4).
   double walks = 0.7;
-  /// Where structure is left, what was found must have taken this share of all there was: else it is the neighbour of a
-  /// cause unknown. Rig data: f_not_in_any_catalogue; matrix, the rows without a name. The real jaw's three effects
-  /// take 97 % of its mean square (c4eabca).
-  double most_of_it = 0.80;
-  /// The same where strokes do not repeat (34972f4).
-  double most_of_what_walks = 0.95;
 
   // ---- how far is looked ----
 
-  /// One unloaded sweep bears about three numbers (profiles/calibration.md, "What to measure", 6), several runs more.
   std::size_t most_effects = 5;
-  /// The best of all pairs by a linear look (59ead82): what is not among them costs a dozen simulations each.
+  std::size_t beam = 4;
+  /// The best of all by a linear look: what is not among them costs a dozen simulations each.
   std::size_t most_pairs = 10;
+  std::size_t most_looks_at_pairs = 40;
+  std::size_t most_looks = 6;
+  /// Nats below the best by which a linear look says that a fit is not worth it.
+  double hopeless = 15.0;
+  std::size_t most_rivals = 10;
   /// Every exchange betters the score; this bounds the wait (7f333b1).
   int most_exchanges = 4;
+  /// More strokes than this have no constant each.
+  std::size_t most_strokes = 48;
 
   // ---- slips of the file ----
 
@@ -99,8 +99,8 @@ struct Thresholds {
 
   // ---- what is said of the rest ----
 
-  /// In standard errors: a one-sided 95 % test with 80 % power takes 2.5, blocks being few 2.8.
-  double detectable = 2.8;
+  /// Standard errors beyond what a name needs at which it comes up in four cases of five.
+  double power = 0.84;
   /// Two explanations that a proposed run puts apart by this many times the noise are told apart by it.
   double told_apart = 3.0;
 };

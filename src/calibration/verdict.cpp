@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibration/unknown.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -88,8 +89,9 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
              " rms from stroke to stroke: look for something loose before any correction.";
     case CalibrationVerdict::unexplained:
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
-             in_degrees(std::hypot(rest.structure, floor)) + " rms are left and noise makes " + in_degrees(floor) +
-             " of it: what is more stays unexplained, " + rest.where + ".";
+             in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " + in_degrees(floor) +
+             " of it: what is more stays unexplained, " + rest.where + "." +
+             (calibration.unknown.empty() ? "" : " It depends on " + calibration.unknown.front().factor + ".");
     case CalibrationVerdict::confounded:
       return (calibration.next_runs.empty() ? "" : "Measure this first: " + calibration.next_runs.front() + ". ") +
              "The data are explained by " + names + ", and cannot tell which.";
@@ -124,20 +126,15 @@ void ask_for_runs(Calibration& calibration) {
 
 Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   Rest rest;
-  rest.structure = std::sqrt(std::max(0.0, fit.by_run.mean_square - fit.price - evidence.floor * evidence.floor));
   rest.autocorrelation = lag_one_correlation(evidence, fit);
   Places places(evidence.measurement);
-  double squares = 0;
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
     for (const std::size_t row : block.rows) {
       const double residual = fit.residual[static_cast<Eigen::Index>(row)];
       places.add(row, direction, residual);
-      squares += residual * residual;
     }
   }
-  rest.fitted = std::sqrt(
-      std::max(0.0, squares / static_cast<double>(std::max<std::size_t>(1, evidence.rows_used())) - fit.price));
   rest.where = places.largest();
   return rest;
 }
@@ -145,14 +142,15 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
 void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  // Held out, a rest is larger than where it was fitted: below the floor there, it is the noise that the fit met.
-  const bool above_floor = !is_at_floor(selection.best, evidence.floor) && rest.fitted > evidence.floor;
+  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
+  const bool unexplained = is_unexplained(unnamed, evidence.floor);
   calibration.rest_autocorrelation = rest.autocorrelation;
-  if (above_floor) {
-    calibration.unexplained_rms = rest.structure;
+  if (unexplained) {
+    calibration.unexplained_rms = unnamed.rms;
     calibration.unexplained_where = rest.where;
+    calibration.unknown = unnamed.parts;
   }
-  calibration.verdict = verdict_of(is_walking(scatter), above_floor, calibration.effects);
+  calibration.verdict = verdict_of(is_walking(scatter), unexplained, calibration.effects);
   calibration.summary =
       finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
   ask_for_runs(calibration);

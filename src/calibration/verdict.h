@@ -11,8 +11,6 @@ namespace fusee {
 
 /// Structure of the residual that repeats.
 struct Rest {
-  double structure = 0;        ///< rms beyond the noise floor, held out, rad
-  double fitted = 0;           ///< rms of all that is left in the rows it was fitted to, noise too, rad
   double autocorrelation = 0;  ///< lag 1, within strokes
   std::string where;           ///< where it is largest
 };

@@ -57,6 +57,7 @@ CalibrateOptions options_from(const Arguments& arguments, const std::filesystem:
       arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_calibration")).string());
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
+  options.audit = !arguments.has("--no-audit");
   options.progress = [&console](const std::string& what, std::optional<double> share) {
     console.progress(share ? progress_bar(*share) + ", " + what : what);
   };
@@ -102,6 +103,7 @@ Command calibrate_command() {
           "could not.",
           {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
            {"--hold-out", "FILE", "a run to validate with only; may be given several\ntimes", true},
+           {"--no-audit", "", "do not count how often these runs would have named what\nis not there"},
            column_option()},
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},
            {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "judge by run_2.csv alone"},

@@ -44,7 +44,9 @@ std::string effect_text(const FoundEffect& effect, const std::string& load_unit)
     words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
   const std::vector<std::string> rivals = rivals_of(effect);
-  return words + (rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals, ", "));
+  words += rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals, ", ");
+  const std::string audit = audit_words(effect);
+  return words + (audit.empty() ? "" : ". " + audit);
 }
 
 std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {
@@ -53,6 +55,7 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   if (texts.empty()) texts.push_back("none accepted");
   if (!c.unexplained_where.empty())
     texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms beyond the noise, " + c.unexplained_where);
+  for (const Unknown& unknown : c.unknown) texts.push_back("without a name: " + unknown_words(unknown));
   return texts;
 }
 
@@ -83,13 +86,10 @@ std::string tried_table(const Calibration& c) {
   if (c.tried.empty()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const Candidate& candidate : c.tried) {
-    rows.push_back({"  " + candidate.name, deg(candidate.held_out_rms), fixed(candidate.margin, 1),
-                    fixed(candidate.delta_bic, 1), candidate.accepted ? "taken" : ""});
+    rows.push_back({"  " + candidate.name, fixed(candidate.evidence, 1), candidate.accepted ? "taken" : ""});
   }
-  return "\n" + table({{"Tried, in this order"},
-                       {"deg held out", Align::right},
-                       {"margin", Align::right},
-                       {"BIC drop", Align::right},
+  return "\n" + table({{"Tried"},
+                       {"evidence (nats)", Align::right},
                        {""}},
                       rows);
 }

@@ -61,6 +61,7 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   CalibrationOptions options;
   options.hold_out = names_from(product.measurement, runs.fitted);
   options.progress = [&](const std::string& what, double share) { bench.step(what, share); };
+  options.audit = bench.options.audit;
   options.look_for_effects = !is_plainly_a_slip(declared, as_read);
   product.calibration = calibrate(expected, product.measurement, options);
   bench.step("looking for slips of the file");

@@ -76,6 +76,7 @@ inline Evidence evidence_of(const Measurement& measurement) {
   }
   evidence.theta = flat(theta);
   evidence.factor_folds = evidence.run_folds;
+  weigh(evidence);
   return evidence;
 }
 

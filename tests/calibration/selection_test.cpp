@@ -122,8 +122,7 @@ std::vector<std::string> all_groups(const Calibration& found) {
 std::string why(const Calibration& found) {
   std::string words;
   for (const Candidate& candidate : found.tried) {
-    words += candidate.name + " " + std::to_string(degrees(candidate.held_out_rms)) + "° t " +
-             std::to_string(candidate.margin) + ": " + candidate.why + "\n";
+    words += candidate.name + " " + std::to_string(candidate.evidence) + ": " + candidate.why + "\n";
   }
   return words;
 }

@@ -16,6 +16,7 @@ struct CalibrationOptions {
   std::vector<std::string>
       hold_out;                  ///< names of runs kept for validation only; empty: whole runs are left out in turn
   bool look_for_effects = true;  ///< false: the file is known not to be of this joint (is_plainly_a_slip())
+  bool audit = true;  ///< simulate joints without what was found, and count how often it would be named
   std::vector<const Effect*> more_effects;  ///< beside those of the program; they must outlive the call
   std::vector<std::string> without;         ///< names of effects that are left out of the catalogue: what if none knew of them?
   std::function<void(const std::string& what, double share)> progress;
@@ -29,24 +30,41 @@ struct FittedParameter {
   std::string sense = {};  ///< what its sign says of the joint ("pins too high"); empty where nothing has to be said
 };
 
+/// Joints simulated without an effect, and in how many of them the same runs would have named it.
+struct Audit {
+  int worlds = 0;  ///< 0: not asked
+  int named = 0;
+};
+
 /// One effect that the data ask for, with all that would do as well.
 struct FoundEffect {
   std::string name;
-  std::vector<std::string> group;  ///< `name` and every effect whose held-out error is within one standard error
+  std::vector<std::string> group;  ///< `name` and every effect that would do nearly as well in its place
   ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
   double rms_drop = 0;  ///< of the held-out residual, rad; never below 0
+  double evidence = 0;  ///< log of how many times less likely the data are without it
+  Audit audit;
   CorrectableBy correctable_by = CorrectableBy::nothing;
 };
 
 /// A candidate that was tried: the evidence for it, or against.
 struct Candidate {
   std::string name;
-  double held_out_rms = 0;  ///< rad, with it added to what was accepted before
-  double margin = 0;        ///< drop of the held-out error in standard errors over blocks
-  double delta_bic = 0;
+  double evidence = 0;  ///< log of how many times likelier the data are with it than without
   bool accepted = false;
   std::string why;  ///< in words
+};
+
+/// A part of the error without a name: on what it depends, how large it is.
+struct Unknown {
+  std::string factor;    ///< "place", "direction", "load" …
+  double order = 0;      ///< of a harmonic: times a turn; else 0
+  double rms = 0;        ///< rad, over all rows in use
+  double evidence = 0;   ///< log of how many times less likely the data are without it
+  std::string words;     ///< on what it depends, and where in the chain such a thing can sit
+  std::vector<double> alpha;  ///< its course over the seen span, rad: of what is in proportion to something, at its largest
+  std::vector<double> theta;
 };
 
 struct ErrorFigures {
@@ -77,6 +95,7 @@ struct Calibration {
   std::vector<std::string> held_out_runs;
   double rest_autocorrelation = 0;  ///< of the residual after all effects, row to row; 0: white
   double unexplained_rms = 0;
+  std::vector<Unknown> unknown;     ///< the largest first
   std::string unexplained_where;  ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
   std::vector<std::string> null_combinations;  ///< accepted effects and rivals that do as well, with their numbers

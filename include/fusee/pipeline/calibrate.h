@@ -18,6 +18,7 @@ struct CalibrateOptions {
   std::filesystem::path folder;                 ///< where the files go
   bool force = false;
   bool dry_run = false;  ///< everything but writing
+  bool audit = true;     ///< CalibrationOptions::audit
   /// What is done now and, where that is known, how much of it. What it throws stops the work.
   std::function<void(const std::string& what, std::optional<double> share)> progress;
   /// Called before each file is staged. What it throws leaves nothing behind.

@@ -1,0 +1,288 @@
+#include "calibration/audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "calibration/thresholds.h"
+
+// The joint of the file with all that was found but one effect, logged as these runs were, with this noise. In its
+// place stands nothing, or another effect of the catalogue, known to the search or not, or a shape without a name, as
+// large as the effect was found. Everything is linear about the fit: chords of each effect over its size in practice,
+// so that a joint is a vector of sums and a search costs milliseconds. Search and score are those of select_effects().
+
+namespace fusee {
+namespace {
+
+constexpr int k_rounds = 4;
+constexpr int k_steps = 3;
+constexpr std::size_t k_tries = 3;
+
+/// Chords of an effect over the rows in use, as columns of one matrix.
+struct Chords {
+  const Effect* effect = nullptr;
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+};
+
+class Auditor {
+ public:
+  Auditor(const Evidence& evidence, Workers& workers, const Selection& selection);
+
+  Audited of(std::size_t found, Workers& workers) const;
+
+ private:
+  struct World {
+    Eigen::VectorXd pull;  ///< Aᵀ z
+    double rr = 0;
+    const Effect* there = nullptr;    ///< what stands in the place
+    const Effect* unknown = nullptr;  ///< what the search does not know
+    Amplitudes start;
+  };
+  using Set = std::vector<std::size_t>;
+  World world(std::size_t found, std::size_t number) const;
+  Eigen::VectorXd noise(std::mt19937_64& dice) const;
+  TangentSums sums(const World& world, const Set& set) const;
+  double score_of(const Explained& explained, const Set& set) const;
+  Set search(const World& world, Set set) const;
+  double rms(const Eigen::VectorXd& values) const { return std::sqrt(values.squaredNorm() / static_cast<double>(values.size())); }
+
+  const Evidence& evidence_;
+  const Selection& selection_;
+  const Marginal& marginal_;
+  std::vector<Chords> chords_;
+  Eigen::VectorXd x_;      ///< as found; zero of what was not
+  Eigen::VectorXd prior_;
+  Eigen::MatrixXd all_;    ///< chords, then the discrepancy's columns
+  Eigen::MatrixXd gram_;
+  Eigen::Index own_ = 0;   ///< columns of chords
+  double give_ = 1;
+};
+
+Auditor::Auditor(const Evidence& evidence, Workers& workers, const Selection& selection)
+    : evidence_(evidence), selection_(selection), marginal_(*evidence.marginal) {
+  const EffectSet& catalogue = selection.catalogue;
+  std::vector<Tangent> looks(catalogue.size());
+  const Tangent best = tangent_of(evidence, selection.best);
+  give_ = best.give;
+  workers.each(catalogue.size(), [&](const Fitter& fitter, std::size_t i) {
+    if (contains(selection.best.effects, *catalogue[i])) return;
+    const Fit wider = fitter.with_chords(selection.best, *catalogue[i]);
+    if (wider.usable) looks[i] = tangent_of(evidence, wider);
+  });
+  std::vector<Eigen::VectorXd> columns;
+  std::vector<double> x, prior;
+  for (std::size_t i = 0; i < catalogue.size(); ++i) {
+    Chords own{catalogue[i], static_cast<Eigen::Index>(columns.size()), 0};
+    if (contains(selection.best.effects, *catalogue[i])) {
+      for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
+        const EffectParameter* number = selection.best.parameters[k];
+        const bool is_own = std::any_of(catalogue[i]->parameters.begin(), catalogue[i]->parameters.end(),
+                                        [&](const EffectParameter& p) { return &p == number; });
+        if (!is_own) continue;
+        const auto at = static_cast<Eigen::Index>(k);
+        columns.push_back(best.J.col(at));
+        x.push_back(best.x[at]);
+        prior.push_back(best.prior[at]);
+      }
+    } else if (looks[i].x.size() > best.x.size()) {
+      for (Eigen::Index k = best.x.size(); k < looks[i].x.size(); ++k) {
+        columns.push_back(looks[i].J.col(k));
+        x.push_back(0);
+        prior.push_back(looks[i].prior[k]);
+      }
+    }
+    own.count = static_cast<Eigen::Index>(columns.size()) - own.first;
+    chords_.push_back(own);
+  }
+  own_ = static_cast<Eigen::Index>(columns.size());
+  const Eigen::MatrixXd& D = marginal_.discrepancy().columns;
+  all_.resize(D.rows(), own_ + D.cols());
+  for (Eigen::Index k = 0; k < own_; ++k) all_.col(k) = columns[static_cast<std::size_t>(k)];
+  all_.rightCols(D.cols()) = D;
+  gram_ = all_.transpose() * all_;
+  x_ = Eigen::Map<const Eigen::VectorXd>(x.data(), own_);
+  prior_ = Eigen::Map<const Eigen::VectorXd>(prior.data(), own_);
+}
+
+/// As large and as coloured as that of these runs.
+Eigen::VectorXd Auditor::noise(std::mt19937_64& dice) const {
+  std::normal_distribution<double> normal;
+  const double colour = (1.0 - marginal_.worth()) / (1.0 + marginal_.worth());
+  const double size = selection_.best.explained.amplitudes.noise;
+  Eigen::VectorXd noise(all_.rows());
+  Eigen::Index row = 0;
+  for (const Block& block : evidence_.blocks) {
+    double last = normal(dice);
+    for (std::size_t i = 0; i < block.rows.size(); ++i, ++row) {
+      noise[row] = size * last;
+      last = colour * last + std::sqrt(1.0 - colour * colour) * normal(dice);
+    }
+  }
+  return noise;
+}
+
+Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
+  std::mt19937_64 dice(1000003ULL * (found + 1) + number);
+  std::normal_distribution<double> normal;
+  const std::vector<Family>& families = marginal_.discrepancy().families;
+  World made;
+  made.start = marginal_.first_guess();
+  // What wriggles, and constants of strokes, cost most of the time: looked at where they are known to be.
+  const auto keep = [&](std::size_t f) {
+    const Family& family = families[f];
+    return family.count <= 12 || selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)] > 0;
+  };
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    double& amplitude = made.start.families[static_cast<Eigen::Index>(f)];
+    if (families[f].fixed > 0) continue;
+    amplitude = keep(f) ? std::max(amplitude, marginal_.floor()) : 0.0;
+  }
+  Eigen::VectorXd z = noise(dice);
+  double size = 0;
+  for (const Chords& one : chords_) {
+    if (one.count == 0 || !contains(selection_.best.effects, *one.effect)) continue;
+    const Eigen::VectorXd part = all_.middleCols(one.first, one.count) * x_.segment(one.first, one.count);
+    if (one.effect == selection_.best.effects[found]) {
+      size = rms(part);
+    } else {
+      z += part;
+    }
+  }
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const Family& family = families[f];
+    const double amplitude = family.fixed > 0 ? family.fixed * give_ : selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
+    if (!(amplitude > 0)) continue;
+    for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(dice) * all_.col(own_ + family.first + k);
+  }
+  size *= std::exp(0.5 * normal(dice));
+  std::vector<std::size_t> others, shapes;
+  for (std::size_t i = 0; i < chords_.size(); ++i) {
+    // What does as well stands in the group already.
+    const bool in_group = std::any_of(selection_.rivals.begin(), selection_.rivals.end(), [&](const Rival& rival) {
+      return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
+             as_good(evidence_, rival.fit, selection_.best);
+    });
+    if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
+  }
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    if (!(families[f].fixed > 0) && families[f].factor != Factor::stroke) shapes.push_back(f);
+  }
+  const std::size_t kind = number % 4;  // nothing, an effect that is known, one that is not, a shape
+  if ((kind == 1 || kind == 2) && !others.empty()) {
+    const Chords& other = chords_[others[(number / 4) % others.size()]];
+    Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
+    for (Eigen::Index k = 0; k < other.count; ++k)
+      part += prior_[other.first + k] * normal(dice) * all_.col(other.first + k);
+    z += part;
+    made.there = other.effect;
+    if (kind == 2) made.unknown = other.effect;
+  } else if (kind == 3 && !shapes.empty()) {
+    const std::size_t f = shapes[(number / 4) % shapes.size()];
+    const Family& family = families[f];
+    Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
+    for (Eigen::Index k = 0; k < family.count; ++k) part += normal(dice) * all_.col(own_ + family.first + k);
+    z += part * (size / std::max(1e-12, rms(part)));
+    made.start.families[static_cast<Eigen::Index>(f)] = std::max(size, marginal_.floor());
+  }
+  made.pull = all_.transpose() * z;
+  made.rr = z.squaredNorm();
+  return made;
+}
+
+TangentSums Auditor::sums(const World& world, const Set& set) const {
+  std::vector<Eigen::Index> columns;
+  for (const std::size_t i : set) {
+    for (Eigen::Index k = 0; k < chords_[i].count; ++k) columns.push_back(chords_[i].first + k);
+  }
+  const Eigen::Index m = all_.cols() - own_;
+  TangentSums sums;
+  sums.JJ = gram_(columns, columns);
+  sums.JD = gram_(columns, Eigen::seqN(own_, m));
+  sums.Jr = world.pull(columns);
+  sums.Dr = world.pull.tail(m);
+  sums.rr = world.rr;
+  sums.rows = static_cast<double>(all_.rows());
+  const auto count = static_cast<Eigen::Index>(columns.size());
+  sums.x = Eigen::VectorXd::Zero(count);
+  sums.prior = prior_(columns);
+  sums.read = Eigen::MatrixXd::Zero(count, count);
+  sums.pull = Eigen::VectorXd::Zero(count);
+  sums.give = give_;
+  return sums;
+}
+
+double Auditor::score_of(const Explained& explained, const Set& set) const {
+  double score = explained.log_evidence;
+  for (const std::size_t i : set) score -= cost_of(*chords_[i].effect);
+  return score;
+}
+
+/// Adds what betters the score, the best first.
+Auditor::Set Auditor::search(const World& world, Set set) const {
+  Explained here = marginal_.best(sums(world, set), world.start, k_rounds + 2);
+  for (int step = 0; step < k_steps; ++step) {
+    std::vector<std::pair<double, std::size_t>> looks;
+    for (std::size_t i = 0; i < chords_.size(); ++i) {
+      if (chords_[i].count == 0 || chords_[i].effect == world.unknown || std::count(set.begin(), set.end(), i)) continue;
+      Set wider = set;
+      wider.push_back(i);
+      looks.emplace_back(-score_of(marginal_.at(sums(world, wider), here.amplitudes), wider), i);
+    }
+    std::sort(looks.begin(), looks.end());
+    looks.resize(std::min(looks.size(), k_tries));
+    double reached = score_of(here, set);
+    Set better;
+    Explained there;
+    for (const auto& [look, i] : looks) {
+      Set wider = set;
+      wider.push_back(i);
+      Explained explained = marginal_.best(sums(world, wider), here.amplitudes, k_rounds);
+      const double score = score_of(explained, wider);
+      if (!(score > reached)) continue;
+      reached = score;
+      better = wider;
+      there = std::move(explained);
+    }
+    if (better.empty()) break;
+    set = better;
+    here = there;
+  }
+  return set;
+}
+
+Audited Auditor::of(std::size_t found, Workers& workers) const {
+  const Effect* named = selection_.best.effects[found];
+  Set others;
+  for (std::size_t i = 0; i < chords_.size(); ++i) {
+    if (chords_[i].effect != named && contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
+  }
+  const auto worlds = static_cast<std::size_t>(k_thresholds.worlds);
+  std::vector<char> blamed(worlds, 0);
+  std::vector<const Effect*> there(worlds, nullptr);
+  workers.each(worlds, [&](const Fitter&, std::size_t i) {
+    const World made = world(found, i);
+    for (const std::size_t chord : search(made, others)) blamed[i] = blamed[i] || chords_[chord].effect == named;
+    there[i] = made.there;
+  });
+  Audited audited;
+  audited.counts.worlds = k_thresholds.worlds;
+  for (std::size_t i = 0; i < worlds; ++i) {
+    if (!blamed[i]) continue;
+    ++audited.counts.named;
+    if (there[i] != nullptr && !contains(audited.mistaken, *there[i])) audited.mistaken.push_back(there[i]);
+  }
+  return audited;
+}
+
+}  // namespace
+
+std::vector<Audited> audit(const Evidence& evidence, Workers& workers, const Selection& selection) {
+  std::vector<Audited> all;
+  if (selection.best.effects.empty()) return all;
+  const Auditor auditor(evidence, workers, selection);
+  for (std::size_t i = 0; i < selection.best.effects.size(); ++i) all.push_back(auditor.of(i, workers));
+  return all;
+}
+
+}  // namespace fusee

@@ -1,0 +1,183 @@
+#include "calibration/discrepancy.h"
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "calibration/thresholds.h"
+#include "measurement/seen_span.h"
+
+// A Gaussian process over place of one length is its eigenfunctions: smooth ones with much of the variance, wrigglier
+// ones with less. Two lengths stand beside each other, so that what is bent like a pin's radius and what is bent like a
+// lump are both described, and each pays for its own columns alone. Everything else is these functions times what the
+// runs vary: a direction, a load, a speed.
+
+namespace fusee {
+namespace {
+
+/// Curves over the seen span: of place and direction, of what else they are multiplied by, and those that bend more.
+constexpr Eigen::Index k_smooth = 7;
+constexpr Eigen::Index k_simple = 5;
+constexpr Eigen::Index k_rough = 18;
+/// Share of the span over which the latter bend, and places at which they are known.
+constexpr double k_bend = 0.06;
+constexpr int k_nodes = 41;
+
+/// What a row stands for.
+struct RowFacts {
+  double place = 0;  ///< 0 … 1 over the seen span of α
+  double direction = 0;
+  double load = 0;   ///< by the largest
+  double speed = 0;  ///< of its run, by the largest
+  double time = 0;   ///< within its run, −1 … 1
+  std::size_t run = 0;
+  std::size_t block = 0;
+};
+
+std::vector<RowFacts> facts_of(const Evidence& evidence) {
+  const SeenSpan span = seen_span(evidence.measurement, &Sample::alpha);
+  double most_load = 0;
+  double most_speed = 0;
+  std::vector<std::size_t> offset;
+  std::size_t rows = 0;
+  for (const Run& run : evidence.measurement.runs) {
+    offset.push_back(rows);
+    rows += run.samples.size();
+    most_speed = std::max(most_speed, run.has_time ? run.speed : 0.0);
+    for (const Sample& sample : run.samples) most_load = std::max(most_load, run.has_load ? std::abs(sample.load) : 0.0);
+  }
+  std::vector<RowFacts> facts;
+  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
+    const Block& block = evidence.blocks[b];
+    const Run& run = evidence.measurement.runs[block.run];
+    const double begin = run.samples.front().time;
+    const double half = std::max(1e-9, 0.5 * (run.samples.back().time - begin));
+    for (const std::size_t row : block.rows) {
+      const Sample& sample = run.samples[row - offset[block.run]];
+      facts.push_back({span.any() ? (sample.alpha - span.least) / span.size() : 0.0,
+                       static_cast<double>(run.strokes[block.stroke].direction),
+                       run.has_load && most_load > 0 ? sample.load / most_load : 0.0,
+                       run.has_time && most_speed > 0 ? run.speed / most_speed : 0.0,
+                       run.has_time ? (sample.time - begin) / half - 1.0 : 0.0, block.run, b});
+    }
+  }
+  return facts;
+}
+
+/// Legendre's polynomials over the span, orthonormal: any shape of so many bends, each as likely.
+Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index count) {
+  Eigen::MatrixXd curves(static_cast<Eigen::Index>(facts.size()), count);
+  for (Eigen::Index i = 0; i < curves.rows(); ++i) {
+    const double u = 2.0 * facts[static_cast<std::size_t>(i)].place - 1.0;
+    for (Eigen::Index k = 0; k < count; ++k)
+      curves(i, k) = std::sqrt(2.0 * static_cast<double>(k) + 1.0) * std::legendre(static_cast<unsigned>(k), u);
+  }
+  return curves;
+}
+
+/// Eigenfunctions of a Gaussian process that bends over a small part of the span: φ φᵀ is its covariance. A lump
+/// anywhere is as likely as any.
+Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
+  const auto kernel = [](double a, double b) { return std::exp(-0.5 * (a - b) * (a - b) / (k_bend * k_bend)); };
+  const auto node = [](Eigen::Index i) { return static_cast<double>(i) / (k_nodes - 1); };
+  Eigen::MatrixXd K(k_nodes, k_nodes);
+  for (Eigen::Index i = 0; i < k_nodes; ++i) {
+    for (Eigen::Index j = 0; j < k_nodes; ++j) K(i, j) = kernel(node(i), node(j));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
+  Eigen::MatrixXd at_rows(static_cast<Eigen::Index>(facts.size()), k_nodes);
+  for (Eigen::Index i = 0; i < at_rows.rows(); ++i) {
+    for (Eigen::Index j = 0; j < k_nodes; ++j) at_rows(i, j) = kernel(facts[static_cast<std::size_t>(i)].place, node(j));
+  }
+  const Eigen::VectorXd size = eigen.eigenvalues().tail(k_rough).cwiseSqrt().cwiseInverse();
+  return at_rows * eigen.eigenvectors().rightCols(k_rough) * size.asDiagonal();
+}
+
+class Builder {
+ public:
+  explicit Builder(Eigen::Index rows) : rows_(rows) {}
+
+  /// Nothing where the columns are nothing.
+  void add(Factor factor, const Eigen::MatrixXd& columns, double fixed = 0) {
+    const double square = columns.squaredNorm() / static_cast<double>(rows_);
+    if (!(square > 1e-12)) return;
+    made_.families.push_back({factor, made_.columns.cols(), columns.cols(), fixed > 0 ? fixed * std::sqrt(square) : 0.0});
+    Eigen::MatrixXd all(rows_, made_.columns.cols() + columns.cols());
+    if (made_.columns.cols() > 0) all.leftCols(made_.columns.cols()) = made_.columns;
+    all.rightCols(columns.cols()) = columns / std::sqrt(square);
+    made_.columns = std::move(all);
+  }
+
+  Discrepancy made() && { return std::move(made_); }
+
+ private:
+  Eigen::Index rows_;
+  Discrepancy made_;
+};
+
+using Part = std::function<double(const RowFacts&)>;
+
+Eigen::VectorXd column(const std::vector<RowFacts>& facts, const Part& part) {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(facts.size()));
+  for (Eigen::Index i = 0; i < all.size(); ++i) all[i] = part(facts[static_cast<std::size_t>(i)]);
+  return all;
+}
+
+/// One column for each value of a key, about their common mean.
+Eigen::MatrixXd indicators(const std::vector<RowFacts>& facts, std::size_t RowFacts::*key, const Part& part) {
+  std::map<std::size_t, Eigen::Index> place;
+  for (const RowFacts& row : facts) place.try_emplace(row.*key, static_cast<Eigen::Index>(place.size()));
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(place.size()));
+  for (std::size_t i = 0; i < facts.size(); ++i) all(static_cast<Eigen::Index>(i), place[facts[i].*key]) = part(facts[i]);
+  return all;
+}
+
+/// Whether the rows differ in it.
+bool varies(const std::vector<RowFacts>& facts, double RowFacts::*number, double least) {
+  SeenSpan span;
+  for (const RowFacts& row : facts) span.take(row.*number);
+  return span.size() > least;
+}
+
+}  // namespace
+
+Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection) {
+  const std::vector<RowFacts> facts = facts_of(evidence);
+  Builder builder(static_cast<Eigen::Index>(facts.size()));
+  if (facts.empty()) return std::move(builder).made();
+  const Eigen::MatrixXd bent = smooth_curves(facts, k_smooth);
+  const Eigen::MatrixXd smooth = bent.leftCols(k_simple);
+  const Eigen::MatrixXd rough = rough_curves(facts);
+  const auto times = [&](const Part& part, const Eigen::MatrixXd& curve) -> Eigen::MatrixXd {
+    return column(facts, part).asDiagonal() * curve;
+  };
+  builder.add(Factor::place, bent);
+  builder.add(Factor::place, rough);
+  builder.add(Factor::direction, times([](const RowFacts& r) { return r.direction; }, bent));
+  builder.add(Factor::direction, times([](const RowFacts& r) { return r.direction; }, rough));
+  if (varies(facts, &RowFacts::load, 0.05)) {
+    builder.add(Factor::load, times([](const RowFacts& r) { return r.load; }, smooth));
+    builder.add(Factor::load_size, times([](const RowFacts& r) { return std::abs(r.load); }, smooth));
+    builder.add(Factor::load_direction, times([](const RowFacts& r) { return std::abs(r.load) * r.direction; }, smooth));
+  }
+  if (varies(facts, &RowFacts::speed, 0.1)) {
+    builder.add(Factor::speed, times([](const RowFacts& r) { return r.speed; }, smooth));
+    builder.add(Factor::speed_direction, times([](const RowFacts& r) { return r.speed * r.direction; }, smooth));
+  }
+  const auto one = [](const RowFacts&) { return 1.0; };
+  if (evidence.measurement.runs.size() > 1) builder.add(Factor::run, indicators(facts, &RowFacts::run, one));
+  builder.add(Factor::drift, indicators(facts, &RowFacts::run, [](const RowFacts& r) { return r.time; }));
+  if (evidence.blocks.size() <= k_thresholds.most_strokes)
+    builder.add(Factor::stroke, indicators(facts, &RowFacts::block, one));
+  const std::vector<Eigen::Index> rows = evidence.rows();
+  if (deflection.size() > 0) {  // of a joint declared by a ratio: what a unit of load does to one of compliance 1
+    const Eigen::VectorXd yielding = deflection(rows);
+    const Eigen::MatrixXd even = yielding.asDiagonal() * smooth;
+    const Eigen::MatrixXd odd = column(facts, [](const RowFacts& r) { return r.direction; }).asDiagonal() * even;
+    builder.add(Factor::model_error, even, k_thresholds.trusted);
+    builder.add(Factor::model_error, odd, k_thresholds.trusted);
+  }
+  return std::move(builder).made();
+}
+
+}  // namespace fusee

@@ -1,0 +1,205 @@
+#include "calibration/unknown.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "calibration/thresholds.h"
+#include "fusee/base/text.h"
+#include "measurement/seen_span.h"
+#include "measurement/strokes.h"
+
+namespace fusee {
+namespace {
+
+/// Places of a drawn course.
+constexpr int k_places = 61;
+/// Orders of a harmonic, times a turn: the least, the most that rows can show, and how finely they are looked through.
+constexpr double k_least_order = 1.0;
+constexpr double k_most_order = 400.0;
+constexpr double k_rows_a_period = 2.5;
+
+struct FactorWords {
+  Factor factor;
+  const char* name;
+  const char* words;
+};
+
+constexpr FactorWords k_words[] = {
+    {Factor::place, "place",
+     "the same at a place whichever way, load and speed: it sits in what turns or bends with the angle, from the motor's "
+     "sensor over pulley and pins to the joint's sensor; re-clock the pulley and see whether it moves along"},
+    {Factor::direction, "direction",
+     "turns over with the direction of motion, whatever load and speed: something gives way before it carries, between "
+     "motor shaft and joint"},
+    {Factor::load, "load",
+     "grows in proportion to the load and turns over with it: something in the loaded chain gives way, from the anchor "
+     "of the tendon to the frame that holds the pins"},
+    {Factor::load_size, "load size",
+     "grows with the size of the load, whichever its sign: something gives way under the tension of both tendons"},
+    {Factor::load_direction, "load and direction",
+     "a loop that grows with the load: something rubs under the tendons' force, at pins, bearing or groove"},
+    {Factor::speed, "speed", "grows with speed, the same both ways: something dynamic, or the clock of the log"},
+    {Factor::speed_direction, "speed and direction",
+     "a loop that grows with speed: something is late or viscous, in a sensor, its filter or a bearing"},
+    {Factor::run, "run", "one constant a run: something was touched, slipped or warmed between the runs"},
+    {Factor::drift, "time", "goes on steadily within a run: something creeps, warms or works loose"},
+    {Factor::stroke, "stroke", "differs from stroke to stroke: something is loose or walks"},
+};
+
+double rms_of(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;
+}
+
+/// Rows in use: the angle of the motor and of the joint.
+struct Angles {
+  Eigen::VectorXd motor, joint;
+  double motor_step = 0;  ///< median from row to row
+  double joint_step = 0;
+};
+
+double median_step(const Eigen::VectorXd& angle) {
+  std::vector<double> steps;
+  for (Eigen::Index i = 1; i < angle.size(); ++i) steps.push_back(std::abs(angle[i] - angle[i - 1]));
+  return steps.empty() ? 0.0 : median_of(steps);
+}
+
+Angles angles_of(const Evidence& evidence) {
+  std::vector<const Sample*> all;
+  for (const Run& run : evidence.measurement.runs) {
+    for (const Sample& sample : run.samples) all.push_back(&sample);
+  }
+  const std::vector<Eigen::Index> rows = evidence.rows();
+  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())), Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    angles.motor[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->alpha;
+    angles.joint[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->theta;
+  }
+  angles.motor_step = median_step(angles.motor);
+  angles.joint_step = median_step(angles.joint);
+  return angles;
+}
+
+/// What the families of a factor add, rows in use.
+Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed, Factor factor) {
+  Eigen::VectorXd part = Eigen::VectorXd::Zero(discrepancy.columns.rows());
+  for (const Family& family : discrepancy.families) {
+    if (family.factor == factor)
+      part += discrepancy.columns.middleCols(family.first, family.count) * unnamed.segment(family.first, family.count);
+  }
+  return part;
+}
+
+/// Means of a part over places: of what turns over with something, of rows where that is positive.
+void draw(const Angles& angles, const Eigen::VectorXd& part, Unknown& unknown) {
+  SeenSpan span;
+  for (const double alpha : angles.motor) span.take(alpha);
+  if (!span.any()) return;
+  const Bins bins{span, k_places};
+  std::map<int, double> largest;
+  for (Eigen::Index i = 0; i < part.size(); ++i) {
+    double& most = largest[bins.bin(angles.motor[i])];
+    if (std::abs(part[i]) > std::abs(most)) most = part[i];
+  }
+  for (const auto& [bin, value] : largest) {
+    unknown.alpha.push_back(0.5 * (bins.edge(bin) + bins.edge(bin + 1)));
+    unknown.theta.push_back(value);
+  }
+}
+
+/// The order whose sine and cosine take most of `left`, and by how much they lower its squares.
+struct Harmonic {
+  double order = 0;
+  double taken = 0;  ///< share of the squares
+  Eigen::VectorXd part;
+};
+
+Harmonic strongest(const Eigen::VectorXd& angle, double row_step, const Eigen::VectorXd& left) {
+  Harmonic best;
+  const double span = angle.maxCoeff() - angle.minCoeff();
+  if (!(span > 0) || !(row_step > 0) || !(left.squaredNorm() > 0)) return best;
+  const double most = std::min(k_most_order, k_two_pi / (k_rows_a_period * row_step));
+  const double step = 0.25 * k_two_pi / span;
+  for (double order = std::max(k_least_order, 1.5 * k_two_pi / span); order < most; order += step) {
+    Eigen::MatrixXd wave(left.size(), 2);
+    wave.col(0) = (order * angle).array().sin();
+    wave.col(1) = (order * angle).array().cos();
+    const Eigen::Vector2d pull = wave.transpose() * left;
+    const Eigen::Vector2d size = (wave.transpose() * wave).ldlt().solve(pull);
+    const double taken = size.dot(pull) / left.squaredNorm();
+    if (taken > best.taken) best = {order, taken, wave * size};
+  }
+  return best;
+}
+
+/// Of the motor or of the joint, if a single harmonic is more than half of what is left, or of what noise leaves of it.
+void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noise, std::vector<Unknown>& parts) {
+  const Harmonic motor = strongest(angles.motor, angles.motor_step, left);
+  const Harmonic joint = strongest(angles.joint, angles.joint_step, left);
+  const bool of_motor = motor.taken >= joint.taken;
+  const Harmonic& best = of_motor ? motor : joint;
+  const double squares = left.squaredNorm();
+  const double above = squares - static_cast<double>(left.size()) * noise * noise;
+  if (!(best.taken * squares > 0.5 * above) || !(above > 0.3 * static_cast<double>(left.size()) * noise * noise)) return;
+  Unknown unknown;
+  unknown.factor = of_motor ? "motor harmonic" : "joint harmonic";
+  const double whole = std::round(best.order);
+  unknown.order = std::abs(best.order - whole) < 0.15 ? whole : best.order;
+  unknown.rms = rms_of(best.part);
+  unknown.evidence = 0.5 * best.taken * squares / (noise * noise);
+  unknown.words = "once in " + rounded(360.0 / unknown.order, 4) + "° of the " + (of_motor ? "motor's shaft" : "joint") +
+                  ", whatever load and direction: look at what turns with it there, " +
+                  (of_motor ? "poles, gear teeth, the sensor's own steps" : "the sensor's ring, balls of a bearing");
+  draw(angles, best.part, unknown);
+  parts.push_back(std::move(unknown));
+}
+
+}  // namespace
+
+Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
+  const Marginal& marginal = *evidence.marginal;
+  const Discrepancy& discrepancy = marginal.discrepancy();
+  const TangentSums sums = marginal.sums_of(tangent_of(evidence, fit));
+  const Explained& all = fit.explained;
+  Unnamed unnamed;
+  unnamed.evidence = all.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
+  const Angles angles = angles_of(evidence);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
+  for (const FactorWords& factor : k_words) {
+    Amplitudes without = all.amplitudes;
+    bool any = false;
+    for (std::size_t f = 0; f < discrepancy.families.size(); ++f) {
+      double& amplitude = without.families[static_cast<Eigen::Index>(f)];
+      if (discrepancy.families[f].factor != factor.factor || !(amplitude > 0)) continue;
+      any = true;
+      amplitude = 0;
+    }
+    if (!any) continue;
+    const Eigen::VectorXd part = part_of(discrepancy, all.unnamed, factor.factor);
+    sum += part;
+    Unknown unknown;
+    unknown.factor = factor.name;
+    unknown.words = factor.words;
+    unknown.rms = rms_of(part);
+    unknown.evidence = all.log_evidence - marginal.best(sums, without, 4).log_evidence;
+    const bool told = unknown.evidence > k_thresholds.least_unnamed && unknown.rms > k_thresholds.least_seen * evidence.floor;
+    if (!told) continue;
+    draw(angles, part, unknown);
+    unnamed.parts.push_back(std::move(unknown));
+  }
+  const double more_noise = std::sqrt(std::max(0.0, all.amplitudes.noise * all.amplitudes.noise - evidence.floor * evidence.floor));
+  unnamed.rms = std::hypot(rms_of(sum), more_noise);
+  const Tangent tangent = tangent_of(evidence, fit);
+  const Eigen::VectorXd place = part_of(discrepancy, all.unnamed, Factor::place);
+  Eigen::VectorXd left = tangent.residual - sum + place;
+  if (tangent.x.size() > 0) left -= tangent.J * all.step;
+  find_harmonic(angles, left, evidence.floor, unnamed.parts);
+  std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(), [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
+  return unnamed;
+}
+
+bool is_unexplained(const Unnamed& unnamed, double floor) {
+  return unnamed.evidence > k_thresholds.unexplained && unnamed.rms > k_thresholds.least_left * floor;
+}
+
+}  // namespace fusee
