@@ -103,7 +103,7 @@ Command calibrate_command() {
           "could not.",
           {{"-o,--out", "DIR", "where the files go\n(default: out/<name of SPEC>_calibration)"},
            {"--hold-out", "FILE", "a run to validate with only; may be given several\ntimes", true},
-           {"--no-audit", "", "do not count how often these runs would have named what\nis not there"},
+           {"--no-audit", "", "do not count how often these runs would have\nnamed what is not there"},
            column_option()},
           {{"fusee calibrate arm.toml run_1.csv run_2.csv", "files in out/arm_calibration; open its report.html"},
            {"fusee calibrate arm.toml run_1.csv --hold-out run_2.csv", "judge by run_2.csv alone"},
