@@ -28,6 +28,8 @@ Json number(double value) {
   return std::stod(rounded(value, 9));
 }
 Json angle(double value) { return number(degrees(value)); }
+/// Four digits: what is right to some tens of per cent.
+Json size(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 
 std::string_view word(BenchChange change) {
   switch (change) {
@@ -78,10 +80,10 @@ Json steps_json(const Plan& plan, const std::vector<PlanStep>& steps, bool with_
 
 Json cause_json(const PlannedCause& cause) {
   return {{"name", cause.name},
-          {"usual_deg", angle(cause.usual)},
-          {"smallest_deg", angle(cause.smallest)},
-          {"smallest_alone_deg", cause.smallest_alone ? angle(*cause.smallest_alone) : Json()},
-          {"smallest", {{"key", "identified." + cause.key}, {"value", number(cause.smallest_key)}}},
+          {"usual_deg", size(degrees(cause.usual))},
+          {"smallest_deg", size(degrees(cause.smallest))},
+          {"smallest_alone_deg", cause.smallest_alone ? size(degrees(*cause.smallest_alone)) : Json()},
+          {"smallest", {{"key", "identified." + cause.key}, {"value", size(cause.smallest_key)}}},
           {"confounded_with", cause.rivals}};
 }
 

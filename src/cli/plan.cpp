@@ -169,13 +169,13 @@ Command plan_command() {
   return {"plan",
           "SPEC",
           "which runs to measure, what they can show",
-          "Finds the shortest set of runs with which the causes that matter for the joint of\n"
-          "SPEC can be told apart: every run that could be made is simulated with every cause\n"
-          "of the catalogue at its usual size, and the runs that tell most for their minutes\n"
-          "are chosen. Says the smallest size of each cause that would be seen, what stays\n"
-          "together, how often a name would be false, and what more minutes would buy. Leaves\n"
-          "plan.html (to follow at the bench), plan.json and empty run files for\n"
-          "'fusee calibrate', which 'fusee simulate' can rehearse.",
+          "Finds the shortest set of runs with which the causes that matter for the joint\n"
+          "of SPEC can be told apart: every run that could be made is simulated with every\n"
+          "cause of the catalogue at its usual size, and the runs that tell most for their\n"
+          "minutes are chosen. Says the smallest size of each cause that would be seen,\n"
+          "what stays together, how often a name would be false, and what more minutes\n"
+          "would buy. Leaves plan.html (to follow at the bench), plan.json and empty run\n"
+          "files for 'fusee calibrate', which 'fusee simulate' can rehearse.",
           {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_plan)"},
            {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0.02)"},
            {"--minutes", "MIN", "at the bench (default 15)"},

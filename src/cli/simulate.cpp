@@ -136,10 +136,11 @@ Command simulate_command() {
           "through the motor angles of LOG.csv (alpha_deg and, if known, time_s, load_N,\n"
           "temperature_C; theta_deg may be missing), row by row and with its history: play,\n"
           "friction, slack, sensors. Prints a table that 'fusee calibrate' reads: theta_deg\n"
-          "is what the joint's sensor would show, joint_deg where the joint stands, tension1_N\n"
-          "and tension2_N lie between pulley and pin, motor_torque_Nmm is what turns the\n"
-          "pulley. status says where nothing holds the joint. The pulley is the one made as\n"
-          "declared, on which [identified] was found, unless --corrected is given.",
+          "is what the joint's sensor would show, joint_deg where the joint stands;\n"
+          "tension1_N and tension2_N lie between pulley and pin, motor_torque_Nmm is what\n"
+          "turns the pulley. status says where nothing holds the joint. The pulley is the\n"
+          "one made as declared, on which [identified] was found, unless --corrected is\n"
+          "given.",
           {{"-o,--out", "FILE", "write the table to FILE, and show a summary"},
            {"--corrected", "", "with the pulley that 'fusee build SPEC' makes, which\nundoes what a pulley can"},
            {"--noise-deg", "DEG", "of the joint's sensor, standard deviation\n(default 0)"},

@@ -77,7 +77,7 @@ TEST(Simulate, SaysWhereNothingHoldsTheJoint) {
     if (state.status != EquilibriumStatus::loose) continue;
     loose = true;
     EXPECT_GT(state.loose, 0);
-    EXPECT_NEAR(state.t1.lower, 0, 1e-9);
+    EXPECT_LT(state.t1.lower, 1e-6);  // N: less holds nothing
   }
   EXPECT_TRUE(loose);
 }

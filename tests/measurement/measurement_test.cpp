@@ -663,5 +663,52 @@ TEST(MeasurementAgainstDeclared, AMotionLostInNoiseAccusesNoColumn) {
   EXPECT_THAT(reasons_of(measurement), HasSubstr("move further"));
 }
 
+// ---- what drives a joint --------------------------------------------------------------------------------------------
+
+std::filesystem::path written(const std::string& text) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("fusee-driving-" + std::to_string(::getpid()) + ".csv");
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(Driving, NeedsNoTheta) {
+  const DeclaredMechanism joint = testing::forearm();
+  for (const char* text : {"time_s,alpha_deg,load_N\n0,1,5\n1,2,\n2,3,6\n", "time_s,alpha_deg,load_N,theta_deg\n0,1,5,\n1,2,,\n2,3,6,\n"}) {
+    const Measurement log = read_driving(written(text), joint);
+    ASSERT_THAT(log.runs, SizeIs(1));
+    ASSERT_THAT(log.runs[0].samples, SizeIs(3));
+    EXPECT_DOUBLE_EQ(log.runs[0].samples[1].alpha, radians(2.0));
+    EXPECT_EQ(log.runs[0].samples[1].load, 5) << "the load before";
+    EXPECT_TRUE(std::isnan(log.runs[0].samples[1].theta));
+    EXPECT_THAT(log.notes, SizeIs(1));
+  }
+}
+
+TEST(Driving, TakesATorqueAsATipForce) {
+  const DeclaredMechanism joint = testing::forearm();
+  MeasurementOptions options;
+  options.columns["load"] = "tau_Nm";
+  const Measurement log = read_driving(written("alpha_deg,tau_Nm\n0,1\n1,1\n"), joint, options);
+  EXPECT_DOUBLE_EQ(log.runs[0].samples[0].load, 1000.0 / joint.joint.R);
+}
+
+TEST(Driving, WithoutAnyAlphaIsNone) {
+  EXPECT_THROW(read_driving(written("alpha_deg\n\n"), testing::forearm()), InputError);
+  EXPECT_THROW(read_driving(written("alpha_deg\nnan\n"), testing::forearm()), InputError);
+}
+
+TEST(UnfilledRuns, HaveNoMeasuredRows) {
+  const Parsed run = parsed("time_s,alpha_deg,load_N,theta_deg\n0,1,5,\n1,2,5,\n2,3,5,\n");
+  ASSERT_THAT(run.measurement.not_testable, SizeIs(1));
+  EXPECT_THAT(run.measurement.not_testable[0], HasSubstr("no measured rows: theta is empty in all 3 rows"));
+}
+
+TEST(Mounting, IsOneForARun) {
+  const std::string head = "alpha_deg,theta_deg,joint_sensor_turned_deg\n";
+  EXPECT_DOUBLE_EQ(parsed(head + "0,0,90\n1,0,\n2,0,90\n").run.mounting.joint_sensor_turned, radians(90.0));
+  EXPECT_THAT(error_of(head + "0,0,90\n1,0,0\n"), HasSubstr("changes within the run"));
+  EXPECT_EQ(parsed("alpha_deg,theta_deg\n0,0\n1,0\n").run.mounting, fusee::Mounting{});
+}
+
 }  // namespace
 }  // namespace fusee

@@ -95,6 +95,33 @@ void add_calibrations(std::vector<PinnedRun>& all) {
   add("forearm", k_root / "profiles/forearm.toml", files_in(k_root / "profiles/measured", "forearm_", ".csv"));
 }
 
+Outputs planned(const fs::path& spec) {
+  PlanFilesOptions options;
+  options.folder = fs::temp_directory_path() / "fusee-pins";
+  options.dry_run = true;
+  return plan(read_mechanism(spec), options).outputs;
+}
+
+/// A measured run driven once more, with play, an encoder off its axis and noise; and with the corrected pulley.
+Outputs simulated() {
+  const fs::path log = k_root / "profiles/measured/forearm_2.csv";
+  const MechanismFile file =
+      read_mechanism(k_root / "profiles/forearm.toml", {{"identified.backlash_deg", "1"},
+                                                        {"identified.pulley_scale_percent", "-1.2"},
+                                                        {"identified.joint_eccentricity_sin_deg", "0.5"}});
+  SimulateOptions options;
+  options.noise = radians(0.02);
+  const std::string now = simulation_csv(simulate(file, log, options).simulation);
+  options.corrected = true;
+  return {{"now.csv", now}, {"corrected.csv", simulation_csv(simulate(file, log, options).simulation)}};
+}
+
+void add_plans(std::vector<PinnedRun>& all) {
+  for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml"))
+    all.push_back({"plan/" + spec.stem().string(), [spec] { return planned(spec); }});
+  all.push_back({"simulate/forearm", simulated});
+}
+
 /// Between them these have identified a tendon, a pin, and more than one of them at once.
 void add_corrected_builds(std::vector<PinnedRun>& all) {
   for (const std::string name : {"b_stretch", "d_guide_radius"}) {
@@ -115,6 +142,7 @@ std::vector<PinnedRun> runs() {
   add_builds(all);
   add_calibrations(all);
   add_corrected_builds(all);
+  add_plans(all);
   all.push_back({"reproduce/paper", [] { return paper_files(reproduce_paper()); }});
   all.push_back({"optimize/paper_optimum", [] { return optimum_outputs(k_root / "profiles/paper_optimum.toml"); }});
   return all;

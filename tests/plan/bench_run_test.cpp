@@ -80,13 +80,16 @@ TEST(TurnedEncoder, OfTheJointToo) {
   sensor.eccentricity_cos = 0.03;
   const double turn = 0.7;
   const BenchRun run{.rows = {{0, 0, 0, 0}, {1, 0, 0, 0}}};
-  const auto error = [&](double theta, const JointSensorError& of) { return sensed(run, {theta, theta}, of)[1] - theta; };
+  const auto error = [&](double theta, const JointSensorError& of) {
+    return sensed(run, {theta, theta}, of)[1] - theta;
+  };
   for (const double theta : {-0.5, 0.2})
     EXPECT_NEAR(error(theta, turned(sensor, turn)), error(theta + turn, sensor) - error(turn, sensor), 1e-15);
 }
 
 TEST(Ranking, PutsTheMostTellingFirst) {
-  std::vector<RankedMeasurement> all = {{"none", 1, {0.5, 0.9}}, {"wide", 1, {9, 0.1}}, {"both", 1, {1.1, 1.2}}, {"wider", 1, {10, 0}}};
+  std::vector<RankedMeasurement> all = {
+      {"none", 1, {0.5, 0.9}}, {"wide", 1, {9, 0.1}}, {"both", 1, {1.1, 1.2}}, {"wider", 1, {10, 0}}};
   rank(all);
   EXPECT_EQ(all[0].words, "both");
   EXPECT_EQ(all[1].words, "wider");

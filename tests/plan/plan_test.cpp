@@ -27,7 +27,8 @@ DeclaredMechanism ratio_joint() {
 }
 
 const PlannedCause& cause(const Plan& plan, const std::string& name) {
-  const auto found = std::find_if(plan.causes.begin(), plan.causes.end(), [&](const PlannedCause& c) { return c.name == name; });
+  const auto found =
+      std::find_if(plan.causes.begin(), plan.causes.end(), [&](const PlannedCause& c) { return c.name == name; });
   if (found == plan.causes.end()) throw std::runtime_error("no cause " + name);
   return *found;
 }
@@ -142,7 +143,8 @@ class Separations : public ::testing::Test {
 
 TEST_F(Separations, NothingIsToldFromItself) {
   const Information known = after(2);
-  for (const Cause& cause : signatures.causes()) EXPECT_LT(margin(signatures, known, cause, &cause), 0.5) << cause.effect->name;
+  for (const Cause& cause : signatures.causes())
+    EXPECT_LT(margin(signatures, known, cause, &cause), 0.5) << cause.effect->name;
 }
 
 TEST_F(Separations, AnotherIsNotEasierThanNone) {
@@ -150,7 +152,8 @@ TEST_F(Separations, AnotherIsNotEasierThanNone) {
   for (const Cause& cause : signatures.causes()) {
     const double seen = margin(signatures, known, cause, nullptr);
     for (const Cause& rival : signatures.causes())
-      EXPECT_LE(margin(signatures, known, cause, &rival), seen * (1 + 1e-9)) << cause.effect->name << rival.effect->name;
+      EXPECT_LE(margin(signatures, known, cause, &rival), seen * (1 + 1e-9))
+          << cause.effect->name << rival.effect->name;
   }
 }
 
@@ -174,7 +177,8 @@ TEST_F(Separations, ACaliperTellsWhatRunsCannot) {
   const Cause& scale = named("pulley_scale");
   const Cause& offset = named("radius_offset");
   const Information runs = after(4);
-  const Information read = runs.with(signatures.of(*scale.numbers.front())).with(signatures.of(*offset.numbers.front()));
+  const Information read =
+      runs.with(signatures.of(*scale.numbers.front())).with(signatures.of(*offset.numbers.front()));
   EXPECT_GT(margin(signatures, read, scale, &offset), margin(signatures, runs, scale, &offset));
 }
 
