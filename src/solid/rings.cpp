@@ -135,7 +135,7 @@ class StackMesher {
     return {{&hub.outline}, {high}};
   }
 
-  // The recess' walls; what remains open is its ceiling.
+  // The recess' walls; what remains open is its ceiling, or its end in the top.
   FlatFace add_recess(FlatFace& bottom) {
     std::uint32_t below = add_loop(stack_.recess.front().points, stack_.recess.front().z);
     bottom.add(stack_.recess.front().points, below);
@@ -154,6 +154,8 @@ class StackMesher {
     FlatFace bottom{{&stack_.rings.front().points}, {0}};
     FlatFace ceiling;
     if (!stack_.recess.empty()) ceiling = add_recess(bottom);
+    const bool ceiled = !stack_.recess.empty() && stack_.recess.back().z < top_height();
+    if (!stack_.recess.empty() && !ceiled) top.add(stack_.recess.back().points, ceiling.firsts.front());
     for (const Shaft& shaft : stack_.through) {
       const std::uint32_t low = add_loop(shaft.outline, shaft.low);
       const std::uint32_t high = add_loop(shaft.outline, shaft.high);
@@ -163,10 +165,11 @@ class StackMesher {
     }
     close(top, true);
     close(bottom, false);
-    if (!stack_.recess.empty()) close(ceiling, false);
+    if (ceiled) close(ceiling, false);
   }
 
   double bottom_height() const { return stack_.rings.front().z; }
+  double top_height() const { return stack_.hub ? stack_.hub->high : stack_.rings.back().z; }
 
   void close(const FlatFace& face, bool facing_up) {
     std::vector<Polygon> loops;

@@ -29,7 +29,7 @@ struct Shaft {
 struct RingStack {
   std::vector<Ring> rings;
   std::optional<Shaft> hub;     ///< stands on the highest ring
-  std::vector<Ring> recess;     ///< from its mouth in the bottom face up to its ceiling, which is flat; empty: none
+  std::vector<Ring> recess;     ///< from its mouth in the bottom face to its flat ceiling, or through the top; empty: none
   std::vector<Shaft> through;   ///< up to the top of all, from the bottom or, within the recess, from its ceiling
 };
 
