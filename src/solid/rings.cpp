@@ -154,8 +154,8 @@ class StackMesher {
     FlatFace bottom{{&stack_.rings.front().points}, {0}};
     FlatFace ceiling;
     if (!stack_.recess.empty()) ceiling = add_recess(bottom);
-    const bool ceiled = !stack_.recess.empty() && stack_.recess.back().z < top_height();
-    if (!stack_.recess.empty() && !ceiled) top.add(stack_.recess.back().points, ceiling.firsts.front());
+    const bool ceiled = !stack_.recess.empty() && !recess_goes_through(stack_);
+    if (recess_goes_through(stack_)) top.add(stack_.recess.back().points, ceiling.firsts.front());
     for (const Shaft& shaft : stack_.through) {
       const std::uint32_t low = add_loop(shaft.outline, shaft.low);
       const std::uint32_t high = add_loop(shaft.outline, shaft.high);
@@ -169,7 +169,6 @@ class StackMesher {
   }
 
   double bottom_height() const { return stack_.rings.front().z; }
-  double top_height() const { return stack_.hub ? stack_.hub->high : stack_.rings.back().z; }
 
   void close(const FlatFace& face, bool facing_up) {
     std::vector<Polygon> loops;
@@ -223,6 +222,10 @@ double stacked_volume(const std::vector<Ring>& rings) {
 double prism_volume(const Shaft& shaft) { return signed_area(shaft.outline) * (shaft.high - shaft.low); }
 
 }  // namespace
+
+bool recess_goes_through(const RingStack& stack) {
+  return !stack.recess.empty() && stack.recess.back().z == (stack.hub ? stack.hub->high : stack.rings.back().z);
+}
 
 RingStack scaled_to_float(RingStack stack, double scale) {
   const auto round = [scale](Polygon& points, double& z) {

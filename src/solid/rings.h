@@ -33,6 +33,8 @@ struct RingStack {
   std::vector<Shaft> through;   ///< up to the top of all, from the bottom or, within the recess, from its ceiling
 };
 
+/// Does the recess end in the top of all, and not in a ceiling?
+bool recess_goes_through(const RingStack& stack);
 /// Every coordinate times `scale`, rounded to float.
 RingStack scaled_to_float(RingStack stack, double scale);
 /// The stack's coordinates are kept to the bit.
