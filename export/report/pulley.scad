@@ -157,7 +157,10 @@ module recess_cone() {
   mouth = len(horn_teeth) > 0 ? horn_teeth : [for (a = horn_rays) edge_of_hole(bore + hole_compensation, a)];
   hole = [for (a = horn_rays) edge_of_hole(horn_holes[0][2] + hole_compensation, a)];
   ledge = max([for (k = [0 : len(hole) - 1]) norm(mouth[k] - hole[k])]);
-  strip([at(mouth, horn_recess - 0.001), at(mouth, horn_recess), at(hole, horn_recess + rise(ledge))]);
+  // its ends are round, for a strip's are seen whole from a corner; they lie within the recess and the hole
+  end = [for (a = horn_rays) horn_holes[0][2] / 4 * [cos(a), sin(a)]];
+  top = horn_recess + rise(ledge);
+  strip([at(end, horn_recess - 0.5), at(mouth, horn_recess - 0.001), at(mouth, horn_recess), at(hole, top), at(end, top + 0.5)]);
 }
 
 module bore_hole() {
