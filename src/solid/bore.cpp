@@ -142,8 +142,8 @@ void fit_shaft(BoreLayout& bore, const Body& body, double diameter, double compe
   make_round(bore, diameter + compensation);
 }
 
-// Corners of two polygons nearer than this, as seen from the axis, are taken for corners on one ray: 0.03 mm at 3 mm, and
-// a third of what the flat of a tooth takes.
+// Corners of two polygons nearer than this, as seen from the axis, are taken for corners on one ray: 0.03 mm at 3 mm,
+// and a third of what the flat of a tooth takes.
 constexpr double k_same_ray = 0.01;
 
 double angle_of(const Vec2& point) { return std::atan2(point.y(), point.x()); }

@@ -15,8 +15,8 @@ Polygon polyhole(double diameter, const Vec2& centre);
 /// that.
 BoreLayout bore_layout(const Mechanism& mechanism, double diameter);
 
-/// The cone in which a horn's recess narrows to the centre screw's hole. Both rims have a corner on each ray from the axis
-/// on which either polygon has one, so that the cone ends in the hole itself and leaves no ledge about it.
+/// The cone in which a horn's recess narrows to the centre screw's hole. Both rims have a corner on each ray from the
+/// axis on which either polygon has one, so that the cone ends in the hole itself and leaves no ledge about it.
 struct RecessCone {
   Polygon rim;        ///< the recess' outline
   Polygon hole;       ///< the centre screw's; corner i is on the ray of the rim's corner i

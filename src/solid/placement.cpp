@@ -30,8 +30,8 @@ constexpr double k_slices = 4.0;
 constexpr double k_bore_roundness = 0.01;
 constexpr double k_bore_reach = 1.0;
 constexpr double k_bore_at_axis = 0.01;
-// A point that stands out from its neighbours by less is no corner, mm: a turn tells nothing where edges are as short as
-// the grain of a float. The corners of a circle of 200 facets and 5 mm stand out by ten times this.
+// A point that stands out from its neighbours by less is no corner, mm: a turn tells nothing where edges are as short
+// as the grain of a float. The corners of a circle of 200 facets and 5 mm stand out by ten times this.
 constexpr double k_straight = 1e-4;
 
 double radius_of(const Polygon& outline) { return std::sqrt(std::abs(signed_area(convex_hull(outline))) / k_pi); }
