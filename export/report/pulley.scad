@@ -135,7 +135,11 @@ module polyhole(d, sides) {
   rotate(90 + 180 / sides) circle(r = d / 2 / cos(180 / sides), $fn = sides);
 }
 
-module round_hole(d) { polyhole(d, max(8, round(2 * d))); }
+function sides(d) = max(8, round(2 * d));
+module round_hole(d) { polyhole(d, sides(d)); }
+// its edge in the direction a: a is within half a side's angle of the middle of that side, which stands at d / 2
+function edge_of_hole(d, a) = let (side = 360 / sides(d), off = a - 90 - side * round((a - 90) / side))
+  d / 2 / cos(off) * [cos(a), sin(a)];
 
 module bore_outline() {
   d = bore + hole_compensation;
@@ -148,12 +152,21 @@ module bore_outline() {
   else round_hole(d);
 }
 
-// A recess narrows in a cone to the hole of its centre screw.
+// A recess narrows in a cone to the hole of its centre screw: both seen along the same rays from the axis.
+module recess_cone() {
+  mouth = len(horn_teeth) > 0 ? horn_teeth : [for (a = horn_rays) edge_of_hole(bore + hole_compensation, a)];
+  hole = [for (a = horn_rays) edge_of_hole(horn_holes[0][2] + hole_compensation, a)];
+  ledge = max([for (k = [0 : len(hole) - 1]) norm(mouth[k] - hole[k])]);
+  // its ends are round, for a strip's are seen whole from a corner; they lie within the recess and the hole
+  end = [for (a = horn_rays) horn_holes[0][2] / 4 * [cos(a), sin(a)]];
+  top = horn_recess + rise(ledge);
+  strip([at(end, horn_recess - 0.5), at(mouth, horn_recess - 0.001), at(mouth, horn_recess), at(hole, top), at(end, top + 0.5)]);
+}
+
 module bore_hole() {
   sunk = horn_recess > 0;
   translate([0, 0, -1]) linear_extrude(1 + (sunk ? horn_recess : z_hub + 1), convexity = 4) bore_outline();
-  if (sunk && slope > 0) translate([0, 0, horn_recess - 0.001])
-    linear_extrude(rise(horn_ledge), scale = horn_narrowing, convexity = 4) bore_outline();
+  if (sunk && slope > 0) recess_cone();
   for (hole = horn_holes) translate([hole[0], hole[1], -1]) linear_extrude(z_hub + 2) round_hole(hole[2] + hole_compensation);
 }
 

@@ -265,16 +265,22 @@ std::string screw_numbers(const BodyLayout& layout, double compensation) {
          hidden("hub_wall", hub_wall, "the hub grows with the bore so that this is left outside of it and of the nut");
 }
 
+std::string directions_text(const Polygon& points) {
+  std::vector<std::string> angles;
+  for (const Vec2& point : points) angles.push_back(decimal(degrees(std::atan2(point.y(), point.x()))));
+  return fmt::format("{}", fmt::join(angles, ", "));
+}
+
 std::string bore_numbers(const BoreLayout& bore, double compensation) {
   std::string text;
   if (bore.kind == Bore::horn) text += hidden("bore", shaft_diameter(bore, compensation), "of the horn");
-  const double share = bore.horn_recess > 0 ? recess_roof_share(bore) : 1;
+  const Polygon rim = bore.horn_recess > 0 ? recess_cone(bore).rim : bore.outline;
   text += fmt::format("bore_shape = \"{}\";\n", name_of(bore.kind));
   text += hidden("horn_recess", bore.horn_recess, "depth of a servo horn's pocket; 0: the bore goes through");
-  text += hidden("horn_narrowing", share, "of the pocket, to the hole of the horn's centre screw");
-  text += hidden("horn_ledge", circumradius(bore.outline) * (1 - share), "by how much, at most");
+  text += fmt::format("horn_rays = [{}];  // degrees: where the pocket's cone has corners\n",
+                      bore.horn_recess > 0 ? directions_text(rim) : "");
   text += fmt::format("horn_teeth = {};  // outline around a servo's toothed shaft\n",
-                      bore.spline_teeth > 0 ? points_text(bore.outline) : "[]");
+                      bore.spline_teeth > 0 ? points_text(rim) : "[]");
   std::vector<std::string> holes;
   for (const Polygon& outline : bore.screw_holes) {
     const RoundHole hole = circle_within(outline);

@@ -163,25 +163,24 @@ class StackBuilder {
     const BoreLayout& bore = layout_.bore;
     const bool recessed = low == 0.0 && bore.horn_recess > 0;
     if (recessed) {
-      stack_.recess = recess();
+      stack_.recess = recess(high);
     } else if (bore.horn_recess <= 0) {
       stack_.through.push_back({bore.outline, low, high});
     }
-    for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
-      const bool from_recess = recessed && k == 0;
-      stack_.through.push_back({bore.screw_holes[k], from_recess ? stack_.recess.back().z : low, high});
-    }
+    const bool holed = recessed && stack_.recess.back().z == high;
+    for (std::size_t k = holed ? 1 : 0; k < bore.screw_holes.size(); ++k)
+      stack_.through.push_back({bore.screw_holes[k], recessed && k == 0 ? stack_.recess.back().z : low, high});
   }
 
-  // Its ceiling would be a ring about the centre screw's hole, which no printer bridges: a cone leads up to the hole.
-  std::vector<Ring> recess() const {
+  // Its ceiling would be a ring about the centre screw's hole, which no printer bridges: a cone leads up into the hole.
+  std::vector<Ring> recess(double top) const {
     const BoreLayout& bore = layout_.bore;
-    std::vector<Ring> rings{{0.0, bore.outline}, {bore.horn_recess, bore.outline}};
-    if (bore.horn_roof <= 0) return rings;
-    Polygon roof = bore.outline;
-    for (Vec2& point : roof) point *= recess_roof_share(bore);
-    rings.push_back({bore.horn_recess + bore.horn_roof, std::move(roof)});
-    return rings;
+    if (bore.horn_roof <= 0) return {{0.0, bore.outline}, {bore.horn_recess, bore.outline}};
+    const RecessCone cone = recess_cone(bore);
+    return {{0.0, cone.rim},
+            {bore.horn_recess, cone.rim},
+            {bore.horn_recess + bore.horn_roof, cone.hole},
+            {top, cone.hole}};
   }
 
   const Outline& p1_;

@@ -15,7 +15,15 @@ Polygon polyhole(double diameter, const Vec2& centre);
 /// that.
 BoreLayout bore_layout(const Mechanism& mechanism, double diameter);
 
-/// A horn's recess narrows in a cone to this share of its outline, just wider than the centre screw's hole.
-double recess_roof_share(const BoreLayout& bore);
+/// The cone in which a horn's recess narrows to the centre screw's hole. Both rims have a corner on each ray from the
+/// axis on which either polygon has one, so that the cone ends in the hole itself and leaves no ledge about it.
+struct RecessCone {
+  Polygon rim;        ///< the recess' outline
+  Polygon hole;       ///< the centre screw's; corner i is on the ray of the rim's corner i
+  double travel = 0;  ///< the furthest that a corner moves inward
+};
+
+/// Of a bore with a recess, whose outline the hole lies within.
+RecessCone recess_cone(const BoreLayout& bore);
 
 }  // namespace fusee

@@ -106,9 +106,9 @@ void roof_pockets(BodyLayout& layout) {
 }
 
 void roof_recess(BodyLayout& layout) {
-  const BoreLayout& bore = layout.bore;
+  BoreLayout& bore = layout.bore;
   if (layout.roof_slope <= 0 || bore.horn_recess <= 0) return;
-  layout.bore.horn_roof = rise_of(layout, circumradius(bore.outline) * (1.0 - recess_roof_share(bore)));
+  bore.horn_roof = rise_of(layout, recess_cone(bore).travel);
 }
 
 }  // namespace fusee

@@ -153,7 +153,7 @@ class FeatureCutter {
 // the bore to the hub's side and, with a nut trap, another to its top; and P1's pins, which end in P2.
 int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   const SetScrewLayout& screw = plan.layout.set_screw;
-  std::size_t count = stack.through.size();
+  std::size_t count = stack.through.size() + (recess_goes_through(stack) ? 1 : 0);
   for (const PlannedAnchor& anchor : plan.anchors) {
     const bool has = piece == Piece::whole || (anchor.side == Side::left) == (piece == Piece::p1);
     if (has && std::holds_alternative<AnchorPath>(anchor.way)) ++count;

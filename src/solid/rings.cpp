@@ -135,7 +135,7 @@ class StackMesher {
     return {{&hub.outline}, {high}};
   }
 
-  // The recess' walls; what remains open is its ceiling.
+  // The recess' walls; what remains open is its ceiling, or its end in the top.
   FlatFace add_recess(FlatFace& bottom) {
     std::uint32_t below = add_loop(stack_.recess.front().points, stack_.recess.front().z);
     bottom.add(stack_.recess.front().points, below);
@@ -154,6 +154,8 @@ class StackMesher {
     FlatFace bottom{{&stack_.rings.front().points}, {0}};
     FlatFace ceiling;
     if (!stack_.recess.empty()) ceiling = add_recess(bottom);
+    const bool ceiled = !stack_.recess.empty() && !recess_goes_through(stack_);
+    if (recess_goes_through(stack_)) top.add(stack_.recess.back().points, ceiling.firsts.front());
     for (const Shaft& shaft : stack_.through) {
       const std::uint32_t low = add_loop(shaft.outline, shaft.low);
       const std::uint32_t high = add_loop(shaft.outline, shaft.high);
@@ -163,7 +165,7 @@ class StackMesher {
     }
     close(top, true);
     close(bottom, false);
-    if (!stack_.recess.empty()) close(ceiling, false);
+    if (ceiled) close(ceiling, false);
   }
 
   double bottom_height() const { return stack_.rings.front().z; }
@@ -220,6 +222,10 @@ double stacked_volume(const std::vector<Ring>& rings) {
 double prism_volume(const Shaft& shaft) { return signed_area(shaft.outline) * (shaft.high - shaft.low); }
 
 }  // namespace
+
+bool recess_goes_through(const RingStack& stack) {
+  return !stack.recess.empty() && stack.recess.back().z == (stack.hub ? stack.hub->high : stack.rings.back().z);
+}
 
 RingStack scaled_to_float(RingStack stack, double scale) {
   const auto round = [scale](Polygon& points, double& z) {

@@ -29,10 +29,12 @@ struct Shaft {
 struct RingStack {
   std::vector<Ring> rings;
   std::optional<Shaft> hub;     ///< stands on the highest ring
-  std::vector<Ring> recess;     ///< from its mouth in the bottom face up to its ceiling, which is flat; empty: none
+  std::vector<Ring> recess;     ///< from its mouth in the bottom face to its flat ceiling, or through the top; empty: none
   std::vector<Shaft> through;   ///< up to the top of all, from the bottom or, within the recess, from its ceiling
 };
 
+/// Does the recess end in the top of all, and not in a ceiling?
+bool recess_goes_through(const RingStack& stack);
 /// Every coordinate times `scale`, rounded to float.
 RingStack scaled_to_float(RingStack stack, double scale);
 /// The stack's coordinates are kept to the bit.
