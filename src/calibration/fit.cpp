@@ -52,14 +52,21 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// What loose rows leave less than noise does, nats.
+/// What loose rows leave less than noise does, and the places where a joint may have rested that a stroke has room for,
+/// nats: what stands anywhere explains anything.
 double price_of(const Evidence& evidence, const Fit& fit) {
-  double squares = 0;
+  const double unit = evidence.floor * evidence.floor;
+  double price = 0;
   for (const Block& block : evidence.blocks) {
-    for (const std::size_t row : block.rows)
-      squares += price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor);
+    double places = 0;
+    for (const std::size_t row : block.rows) {
+      const double square = price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor) / unit;
+      price += 0.5 * evidence.marginal->worth() * square;
+      places -= 0.5 * std::log1p(-std::min(square, 1.0 - 1e-9));
+    }
+    price += k_thresholds.places_a_stroke * places / static_cast<double>(block.rows.size());
   }
-  return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
+  return price;
 }
 
 }  // namespace
@@ -197,7 +204,7 @@ void Fitter::judge(Fit& fit) const {
   if (!fit.usable) return;
   const Marginal& marginal = *evidence().marginal;
   fit.explained = marginal.best(tangent_of(evidence(), fit), marginal.first_guess());
-  fit.log_evidence = fit.explained.log_evidence - price_of(evidence(), fit);
+  fit.log_evidence = fit.explained.log_evidence_here - price_of(evidence(), fit);
   fit.readings = sums_of_readings(evidence(), fit);
   fit.against_readings = against_readings(evidence(), fit.at);
   fit.sums.clear();

@@ -134,11 +134,15 @@ Explained Marginal::explained(const TangentSums& tangent, const Amplitudes& ampl
     squares += step.dot(tangent.read * step) - 2.0 * step.dot(tangent.pull);
   }
   explained.log_evidence = s.constant - 0.5 * squares;
+  explained.log_evidence_here = s.constant - 0.5 * (s.rr + tangent.against);
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!std::isfinite(tangent.prior[k])) continue;
     explained.log_evidence += log_prior(tangent.x[k] + step[k], tangent.prior[k]) + 0.5 * std::log(k_two_pi);
+    explained.log_evidence_here += log_prior(tangent.x[k], tangent.prior[k]) + 0.5 * std::log(k_two_pi);
   }
-  if (count > 0) explained.log_evidence -= factor.matrixLLT().diagonal().array().log().sum();
+  const double width = count > 0 ? factor.matrixLLT().diagonal().array().log().sum() : 0.0;
+  explained.log_evidence -= width;
+  explained.log_evidence_here -= width;
   explained.unnamed = Eigen::VectorXd::Zero(discrepancy_.columns.cols());
   Eigen::VectorXd u = s.At;
   if (count > 0) u -= s.AB * step;

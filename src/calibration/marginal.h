@@ -42,7 +42,8 @@ struct TangentSums {
 
 /// What the data say at a tangent.
 struct Explained {
-  double log_evidence = 0;
+  double log_evidence = 0;     ///< at the summit that the tangent promises
+  double log_evidence_here = 0;  ///< at x itself: a promise that a bend does not keep counts for nothing
   Eigen::VectorXd step;        ///< of x to the posterior's summit
   Eigen::MatrixXd covariance;  ///< of x
   Eigen::VectorXd unnamed;     ///< what the discrepancy's columns add at the summit, rad each

@@ -42,9 +42,8 @@ struct Thresholds {
   double better = 0.1;
   /// Degrees of freedom that the noise floor is taken to have.
   double noise_freedom = 30.0;
-  /// rms of the smallest effect worth a name, as a part of the floor.
-  double least_drop = 0.5;
-  double contradicted = 9.0;
+  /// Independent places that a stroke of a loose joint has room for.
+  double places_a_stroke = 1.0;
 
   /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
   int worlds = 200;

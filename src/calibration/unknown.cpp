@@ -165,6 +165,7 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   unnamed.evidence = all.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
   const Angles angles = angles_of(evidence);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
+  Unknown largest;
   for (const FactorWords& factor : k_words) {
     Amplitudes without = all.amplitudes;
     bool any = false;
@@ -182,6 +183,10 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
     unknown.words = factor.words;
     unknown.rms = rms_of(part);
     unknown.evidence = all.log_evidence - marginal.best(sums, without, 4).log_evidence;
+    if (unknown.rms > largest.rms) {
+      largest = unknown;
+      draw(angles, part, largest);
+    }
     const bool told = unknown.evidence > k_thresholds.least_unnamed && unknown.rms > k_thresholds.least_seen * evidence.floor;
     if (!told) continue;
     draw(angles, part, unknown);
@@ -194,6 +199,8 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   Eigen::VectorXd left = tangent.residual - sum + place;
   if (tangent.x.size() > 0) left -= tangent.J * all.step;
   find_harmonic(angles, left, evidence.floor, unnamed.parts);
+  // Where any of several would do for the others, the largest is said.
+  if (unnamed.parts.empty() && largest.rms > k_thresholds.least_seen * evidence.floor) unnamed.parts.push_back(largest);
   std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(), [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
   return unnamed;
 }
