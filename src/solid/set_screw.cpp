@@ -60,8 +60,11 @@ double hub_radius_for(const SetScrewLayout& screw, double bore_radius, double wa
 }
 
 double height_to_spare(const SetScrewLayout& screw, const BodyLayout& layout, double wall) {
+  // The screw's place leaves nothing to spare on one side: rounding decides nothing there.
+  constexpr double k_rounding = 1e-9;
   const double above = layout.z_hub - screw.z - teardrop_top(screw) - wall;
-  return std::min(above, screw.z - layout.z_top - below(screw));
+  const double least = std::min(above, screw.z - layout.z_top - below(screw));
+  return std::abs(least) < k_rounding ? 0.0 : least;
 }
 
 }  // namespace fusee
