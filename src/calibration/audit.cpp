@@ -25,6 +25,11 @@ struct Chords {
   Eigen::Index count = 0;
 };
 
+/// Of a number, from practice and from a caliper.
+double known_size(const Tangent& tangent, Eigen::Index k) {
+  return 1.0 / std::sqrt(1.0 / (tangent.prior[k] * tangent.prior[k]) + tangent.read(k, k));
+}
+
 class Auditor {
  public:
   Auditor(const Evidence& evidence, Workers& workers, const Selection& selection);
@@ -83,13 +88,13 @@ Auditor::Auditor(const Evidence& evidence, Workers& workers, const Selection& se
         const auto at = static_cast<Eigen::Index>(k);
         columns.push_back(best.J.col(at));
         x.push_back(best.x[at]);
-        prior.push_back(best.prior[at]);
+        prior.push_back(known_size(best, at));
       }
     } else if (looks[i].x.size() > best.x.size()) {
       for (Eigen::Index k = best.x.size(); k < looks[i].x.size(); ++k) {
         columns.push_back(looks[i].J.col(k));
         x.push_back(0);
-        prior.push_back(looks[i].prior[k]);
+        prior.push_back(known_size(looks[i], k));
       }
     }
     own.count = static_cast<Eigen::Index>(columns.size()) - own.first;

@@ -54,7 +54,7 @@ TEST_F(Concluded, NothingFoundAndNothingLeft) {
 }
 
 TEST_F(Concluded, OneCauseAlone) {
-  leave(1.3);
+  leave(1.1);
   find({{"backlash"}});
   EXPECT_EQ(verdict(), CalibrationVerdict::explained);
   EXPECT_THAT(calibration.summary, HasSubstr("explained by backlash."));
