@@ -56,7 +56,7 @@ struct TendonHistory {
   double lower = 0;
   Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
   double ratio = 1;      ///< lower per upper tension that Give is seen with
-  double strained = 0;  ///< by how much the strain of the lower span grew in the last step
+  double strained = 0;   ///< by how much the strain of the lower span grew in the last step
 };
 
 /// A tendon's directions at its pin, away from it, and what it pushes the pin with.
@@ -96,8 +96,8 @@ struct AtAlpha {
   double swelling = 1;      ///< 1 + expansion: of material since home
   Spans spans;              ///< all but the upper length and the capstan factor, without what comes from the pulley
   Turned turned;
-  Slide slide;        ///< what slides on the pulley, at a strain near the one that will be found
-  double moved = 0;   ///< by how much the search last moved that strain
+  Slide slide;       ///< what slides on the pulley, at a strain near the one that will be found
+  double moved = 0;  ///< by how much the search last moved that strain
 };
 
 GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
@@ -248,10 +248,8 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   tendon.rim_reference = 0.5 * (span.normal + path.normal);
   const double density = 1.0 / (1.0 + tension / model.EA);
   tendon.upper_material = density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
-  tendon.lower_material =
-      density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
-  tendon.wound =
-      WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
+  tendon.lower_material = density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
+  tendon.wound = WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
   tendon.upper = tendon.lower = tension;
   tendon.home_push = AtPin(span.normal, path.normal).push(tension, tension);
   return tendon;
@@ -507,7 +505,8 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
     if (!std::isfinite(paths[i].wound)) return state.refuse(step);
     at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA, step);
     at[i].spans.lower_material += at[i].swelling * (step.tendon.released[i] - state.released[i]);
-    const bool has_path = at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;
+    const bool has_path =
+        at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;
     if (!has_path) return state.refuse(step);
   }
   const double expected = model.expected(step.alpha);

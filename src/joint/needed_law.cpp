@@ -79,13 +79,16 @@ Mechanism with_law(Mechanism joint, const NeededLaw& needed) {
 
 namespace {
 
-/// One run up and down through these angles under a constant tip force.
+/// One run up and down through these angles under a constant tip force, twice: in the first round what lies on the
+/// pulleys slides as it will not again.
 BenchLog sweep(const std::vector<LawRow>& rows, double tip_force) {
   BenchRun run;
   run.has_load = true;
   const auto add = [&](const LawRow& row) { run.rows.push_back({.alpha = row.alpha, .load = tip_force}); };
-  std::for_each(rows.begin(), rows.end(), add);
-  std::for_each(rows.rbegin(), rows.rend(), add);
+  for (int round = 0; round < 2; ++round) {
+    std::for_each(rows.begin(), rows.end(), add);
+    std::for_each(rows.rbegin(), rows.rend(), add);
+  }
   return {run};
 }
 
@@ -93,7 +96,8 @@ BenchLog sweep(const std::vector<LawRow>& rows, double tip_force) {
 std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow>& at, double tip_force) {
   const std::vector<double> theta = predict(joint, {}, sweep(at, tip_force)).front();
   std::vector<double> mean;
-  for (std::size_t i = 0; i < at.size(); ++i) mean.push_back(0.5 * (theta[i] + theta[theta.size() - 1 - i]));
+  for (std::size_t i = 0; i < at.size(); ++i)
+    mean.push_back(0.5 * (theta[2 * at.size() + i] + theta[theta.size() - 1 - i]));
   return mean;
 }
 

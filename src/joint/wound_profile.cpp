@@ -46,10 +46,10 @@ struct SlidStretch {
 
 /// What lies between `from` and `to` with the strain ε e^{fall (to − turn)}, ε at `to`.
 ///
-/// By parts: ∫ f(q) ds over q = e^{fall φ} is f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ, exact where nothing
-/// falls.
+/// By parts: ∫ f(q) ds over q = e^{fall φ} is f(1) (s_to − s_from) + fall ∫ (s − s_from) q f'(q) dψ, exact where
+/// nothing falls.
 SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const GroovePlace& to, double strain, double fall,
-                double swelling) {
+                    double swelling) {
   const double arc = to.arc - from.arc;
   const double whole = 1.0 + strain;
   SlidStretch sum{{arc / whole, 0.5 * strain * strain / whole * arc}, arc};
@@ -157,7 +157,8 @@ double GrooveArc::arc(double turn) const {
   const double h = to.turn - from.turn;
   const double u = (turn - from.turn) / h;
   const double v = 1.0 - u;
-  return v * v * ((1.0 + 2.0 * u) * from.arc + u * h * from.slope) + u * u * ((1.0 + 2.0 * v) * to.arc - v * h * to.slope);
+  return v * v * ((1.0 + 2.0 * u) * from.arc + u * h * from.slope) +
+         u * u * ((1.0 + 2.0 * v) * to.arc - v * h * to.slope);
 }
 
 WoundProfile::WoundProfile(std::shared_ptr<const GrooveArc> groove, double friction, const GroovePlace& take_off,
@@ -177,8 +178,7 @@ Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) con
   turned.before = take_off.arc > take_off_.arc ? take_off_ : take_off;
   turned.lies = strain(swelling);
   std::size_t left = pieces_.size();
-  while (left > 0 && pieces_[left - 1].from.arc >= turned.before.arc)
-    turned.came_off += pieces_[--left].held.material;
+  while (left > 0 && pieces_[left - 1].from.arc >= turned.before.arc) turned.came_off += pieces_[--left].held.material;
   if (left == 0) {
     const double bottom = pieces_.empty() ? take_off_.arc : pieces_.front().from.arc;
     turned.past_knot = linear(bottom - turned.before.arc, home_density_, home_density_, swelling);

@@ -60,25 +60,26 @@ class WoundProfile;
 /// A pulley that has turned, before the strain at its take-off is known.
 struct Turned {
   GroovePlace take_off;
-  GroovePlace before;        ///< where what is wound in this step begins; the take-off itself while paying out
-  std::size_t below = 0;     ///< pieces that stay as they are …
-  WoundPiece top;            ///< … and the one above them, cut at the take-off
-  bool has_top = false;      ///< else nothing is left on the pulley
-  double lies = 0;           ///< strain of what lies at `before`
-  double came_off = 0;       ///< material, with the turning alone, mm
-  WoundContent past_knot;            ///< of that: what the range was left for by
+  GroovePlace before;      ///< where what is wound in this step begins; the take-off itself while paying out
+  std::size_t below = 0;   ///< pieces that stay as they are …
+  WoundPiece top;          ///< … and the one above them, cut at the take-off
+  bool has_top = false;    ///< else nothing is left on the pulley
+  double lies = 0;         ///< strain of what lies at `before`
+  double came_off = 0;     ///< material, with the turning alone, mm
+  WoundContent past_knot;  ///< of that: what the range was left for by
 };
 
 /// What a turned pulley holds at a trial strain of its take-off.
 struct Slide {
   double strain = 0;
-  double freed = 0;   ///< material that came off since the last step, mm; negative: went on
-  double length = 0;  ///< a span of this length would give as much per strain: d freed / d strain = length/(1 + strain)²
-  double at_before = 0;   ///< strain at Turned::before
+  double freed = 0;  ///< material that came off since the last step, mm; negative: went on
+  double length =
+      0;  ///< a span of this length would give as much per strain: d freed / d strain = length/(1 + strain)²
+  double at_before = 0;  ///< strain at Turned::before
   bool slides = false;
-  double fall = 0;      ///< of the part that slides
-  GroovePlace cut;      ///< where that ends
-  WoundContent sliding;         ///< what it holds between there and Turned::before
+  double fall = 0;        ///< of the part that slides
+  GroovePlace cut;        ///< where that ends
+  WoundContent sliding;   ///< what it holds between there and Turned::before
   std::size_t below = 0;  ///< pieces beyond the cut that stay as they are
   WoundPiece rest;        ///< what stays of the one that was cut
   bool has_rest = false;

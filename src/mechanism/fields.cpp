@@ -284,7 +284,8 @@ void add_mechanism(std::vector<Field>& table) {
                                                         "paper: point pins, r2 drawn in polar coordinates"}));
   table.push_back(number<pulley, &PulleyDrive::mu>(
       {"pulley.friction", "mu", "0.2",
-       "effective friction between tendon and groove: what lies on the pulley slides as far as this lets it"},
+       "effective friction between tendon and groove: what lies on the pulley slides as far as this lets it, up to a "
+       "knot 5 mm of arc beyond the range; in a V of full angle b the material's over sin(b/2)"},
       "", 0, 2));
   table.push_back(
       number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));

@@ -99,12 +99,12 @@ TEST(ErrorSources, OfTheReferenceAreTheKnownOnes) {
 TEST(ErrorSources, StretchAndFrictionVanishWithTheirCause) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 10.0;
-  mechanism.guides.mu = 0;
+  mechanism.guides.mu = mechanism.pulley.mu = 0;
   EXPECT_NEAR(named(error_sources(mechanism), "friction").most, 0.0, 1e-9);
   EXPECT_GT(-named(error_sources(mechanism), "stretch").least, 1e-4);
   mechanism.load.tip_force = 0;
   mechanism.tendon.pretension = 0;
-  mechanism.guides.mu = 0.2;
+  mechanism.guides.mu = mechanism.pulley.mu = 0.2;
   EXPECT_NEAR(named(error_sources(mechanism), "stretch").most, 0.0, 1e-9);
   EXPECT_NEAR(named(error_sources(mechanism), "friction").most, 0.0, 1e-9);
 }

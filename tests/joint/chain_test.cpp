@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <vector>
 
 #include "fusee/joint/equilibrium.h"
@@ -505,16 +506,18 @@ TEST(Chain, WithFrictionOverManyPointsOfThePin) {
 // What lies on the pulleys as 500 elements of the tendon that move with it, each kept within what the capstan law lets
 // it have: no profile by place, no piece that is cut, no span that stands for others.
 TEST(Elements, OfTheTendonSlideInTheGrooveAsTheModelSays) {
-  for (const double friction : {0.05, 0.2, 0.5}) {
+  // Measured: 1.3e-4, 5.3e-4, 5.8e-4 of the deviation.
+  const std::vector<double> all{0.05, 0.2, 0.5}, one{0.2};
+  for (const double friction : std::getenv("FUSEE_LONG_TESTS") != nullptr ? all : one) {
     Mechanism mechanism = rubbery(2.0, 0.0);
     mechanism.pulley.mu = friction;
-    std::vector<Row> rows = up_and_down(mechanism, 500.0, 40);
+    std::vector<Row> rows = up_and_down(mechanism, 500.0, 30);
     for (int i = 1; i <= 20; ++i) rows.push_back({0.0, 500.0 - 50.0 * i});  // to −500 N·mm
     for (const Row& row : up_and_down(mechanism, -500.0, 20)) rows.push_back(row);
     const std::vector<Simulated> elements = simulate<Elements>(mechanism, rows, 500);
     const Disagreement off = disagreement(mechanism, rows, elements);
-    EXPECT_LT(off.theta, 3e-3) << friction;
-    EXPECT_LT(off.tension, 1e-3) << friction;
+    EXPECT_LT(off.theta, 1e-3) << friction;
+    EXPECT_LT(off.tension, 2e-4) << friction;
     // Seen failing: with another friction.
     mechanism.pulley.mu = friction + 0.15;
     EXPECT_GT(disagreement(mechanism, rows, elements).theta, 1e-2) << friction;

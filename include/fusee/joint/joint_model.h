@@ -49,8 +49,8 @@ class MadePulleys {
 };
 
 /// Where a tendon is tied: this much of arc beyond the end of the range that it unwinds to, mm. An assumption: what
-/// `fusee build` makes has 40° to 95° of wrap there, and a joint's file says nothing of it; with μ 0.2 what lies deeper
-/// moves by less than a tenth of what lies at the take-off.
+/// `fusee build` makes has 40° to 95° of wrap there, and a joint's file says nothing of it. 15 mm more change the mean
+/// deflection by 0.6 % at most (R 100, r1 16, 12 N, μ 0.05 to 0.5).
 constexpr double k_knot_beyond = 5.0;
 
 struct UpperSpans;  // both upper spans over the joint's angles, looked up

@@ -49,14 +49,14 @@ struct PulleyError {
 };
 
 struct TendonError {
-  double stretch = 0;     ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
-  double pretension = 0;  ///< added to that of tendon 1 at home, N
-  double slack = 0;       ///< of both tendons together, beyond what pretension takes up, mm
-  double creep = 0;       ///< compliance added in every decade of time that a tension acts, as a fraction
-  double slip = 0;        ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
-  double slip_time = 0;   ///< s, on the bench's clock: runs one after another
-  double thermal1 = 0;    ///< unloaded length of tendon 1 added per kelvin, as a fraction
-  double thermal2 = 0;    ///< of tendon 2: one may lie nearer to what is warm
+  double stretch = 0;          ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
+  double pretension = 0;       ///< added to that of tendon 1 at home, N
+  double slack = 0;            ///< of both tendons together, beyond what pretension takes up, mm
+  double creep = 0;            ///< compliance added in every decade of time that a tension acts, as a fraction
+  double slip = 0;             ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
+  double slip_time = 0;        ///< s, on the bench's clock: runs one after another
+  double thermal1 = 0;         ///< unloaded length of tendon 1 added per kelvin, as a fraction
+  double thermal2 = 0;         ///< of tendon 2: one may lie nearer to what is warm
   double groove_friction = 0;  ///< added to the coefficient between tendon and groove
 
   bool operator==(const TendonError&) const = default;
