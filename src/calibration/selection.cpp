@@ -296,7 +296,8 @@ void Selector::write_down() {
 }
 
 Selection Selector::run() {
-  selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects);
+  selection_.catalogue =
+      catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects, options_.without);
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
   if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);

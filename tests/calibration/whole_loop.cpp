@@ -87,7 +87,10 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
   add("pulley_runout", [&](LoopCase& c) { c.hidden.runout_x = 0.004 * R, c.hidden.runout_y = -0.003 * R; });
   add("profile_error", [&](LoopCase& c) { c.hidden.profile_error = 0.006 * R; });
   add("guide_radius", [&](LoopCase& c) { c.hidden.guide_radius = 0.03 * R; });
-  add("guide_position", [&](LoopCase& c) { c.hidden.guide_outward = 0.012 * R, c.hidden.guide_down = -0.005 * R; });
+  add("guide_position", [&](LoopCase& c) {
+    c.hidden.guide_outward = 0.012 * R, c.hidden.guide_down = -0.005 * R;
+    c.hidden.pin_outward = {-0.004 * R, 0}, c.hidden.pin_down = {0, 0.004 * R};
+  });
   add("joint_length", [&](LoopCase& c) { c.hidden.joint_length = -0.05 * R; });
   add("tendon_stretch", [&](LoopCase& c) {
     c.hidden.modulus = declared.tendon.modulus / 4.0;

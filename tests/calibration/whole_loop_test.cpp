@@ -41,8 +41,8 @@ Imperfections truth_of(const Hidden& hidden, const DeclaredMechanism& declared) 
   at.pulley.outline.runout_x = hidden.runout_x;
   at.pulley.outline.runout_y = hidden.runout_y;
   at.pins.radius = hidden.guide_radius;
-  at.pins.left.outward = at.pins.right.outward = hidden.guide_outward;
-  at.pins.left.down = at.pins.right.down = hidden.guide_down;
+  at.pins.left = {hidden.guide_outward + hidden.pin_outward[0], hidden.guide_down + hidden.pin_down[0]};
+  at.pins.right = {hidden.guide_outward + hidden.pin_outward[1], hidden.guide_down + hidden.pin_down[1]};
   at.joint.length = hidden.joint_length;
   if (hidden.modulus > 0) at.tendon.stretch = declared.tendon.modulus / hidden.modulus - 1;
   at.joint.weight.cos = hidden.gravity * std::sin(hidden.gravity_direction);

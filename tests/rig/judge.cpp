@@ -35,9 +35,11 @@ bool is_outside(const std::string& fault, const std::vector<std::string>& withou
   return !has_name(fault) || holds(without, fault);
 }
 
+/// The groove rubs otherwise than the file says, whatever other faults there are.
+bool has_other_groove(const Case& made) { return made.hidden.groove_friction != Hidden{}.groove_friction; }
+
 bool holds_truth(const std::vector<std::string>& group, const Case& made, const std::vector<std::string>& without) {
-  const bool other_groove = made.hidden.groove_friction != Hidden{}.groove_friction;
-  if (other_groove && holds(group, "groove_friction")) return true;
+  if (has_other_groove(made) && holds(group, "groove_friction")) return true;
   return std::any_of(made.faults.begin(), made.faults.end(), [&](const std::string& fault) {
     if (!is_outside(fault, without)) return holds(group, fault);
     const std::vector<std::string> kin = kin_of(fault);
@@ -137,6 +139,8 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
   }
   std::string groups;
   for (const FoundEffect& effect : found.effects) {
+    if (has_other_groove(made) && !holds(made.faults, "groove_friction"))
+      add_covered("groove_friction", effect, made, one.numbers);
     const bool wrong = !holds_truth(effect.group, made, without);
     one.false_groups += wrong ? 1 : 0;
     one.wrong_alone += wrong && effect.group.size() == 1 ? 1 : 0;
@@ -190,6 +194,7 @@ Rates rates(const std::vector<Judgement>& judgements) {
     const bool blamed = one.false_groups > 0;
     count(one.outside ? all.false_blame_outside : all.false_blame, blamed);
     count(all.wrong_alone, one.wrong_alone > 0);
+    count(all.untestable, one.verdict == CalibrationVerdict::not_testable);
     if (one.outside) {
       all.kept.part += one.held;
       all.kept.all += one.named;
@@ -229,6 +234,7 @@ std::string rate_table(const std::vector<Judgement>& judgements) {
   row("kept: in a reported group, per fault with a name beside one without", found.kept);
   row("unexplained or not repeatable, per joint with a fault without a name", found.unexplained_outside);
   row("no effect, per joint as declared", found.quiet);
+  row("not testable, per joint (what such a joint has counts as not held)", found.untestable);
   row("true number within its 95 % interval, per number of a fault that is named", found.covered);
   return text;
 }

@@ -65,6 +65,7 @@ struct Rates {
   Rate wrong_alone;          ///< joints in which something was named alone that is not there
   Rate unexplained_outside;  ///< joints with a fault without a name that were called unexplained or not_repeatable
   Rate quiet;                ///< joints as declared that were called no_effect
+  Rate untestable;           ///< joints that were called not_testable: nothing of theirs can be held
   Rate covered;              ///< numbers of named faults within their 95 % intervals
 };
 Rates rates(const std::vector<Judgement>& judgements);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "calibration/contract_effects.h"
 #include "fusee/base/diagnostics.h"
@@ -13,6 +14,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Calibration answer(CalibrationVerdict verdict, const std::vector<std::vector<std::string>>& groups) {
   Calibration found;
@@ -79,6 +81,17 @@ TEST(Judge, a_cause_left_out_of_the_catalogue_has_no_name) {
   EXPECT_EQ(kin.named, 0u);
   EXPECT_EQ(kin.false_groups, 0u);
   EXPECT_EQ(judge(lash, answer(CalibrationVerdict::explained, {{"creep"}}), {"backlash"}).false_groups, 1u);
+}
+
+TEST(Judge, calibration_names_nothing_that_its_catalogue_lacks) {
+  const Case lash = make_case({"backlash", {"backlash"}}, 1, {Protocol::single});
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "left_out";
+  const auto said = [&](const std::vector<std::string>& without) {
+    const std::string words = calibrate_case(lash, folder, without).words;
+    return words.substr(words.find(':'));
+  };
+  EXPECT_THAT(said({}), HasSubstr("backlash"));
+  EXPECT_THAT(said({"backlash"}), Not(HasSubstr("backlash")));
 }
 
 TEST(Judge, keeps_known_faults_beside_unknown_ones_apart) {
