@@ -18,6 +18,8 @@ constexpr int k_places = 61;
 constexpr double k_least_order = 1.0;
 constexpr double k_most_order = 400.0;
 constexpr double k_rows_a_period = 2.5;
+/// Of a description.
+constexpr std::size_t k_most_parts = 4;
 
 struct FactorWords {
   Factor factor;
@@ -156,51 +158,74 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noi
 
 }  // namespace
 
+namespace {
+
+/// The data explained by so many factors, each taken while it is needed beside those before it: several would do for
+/// one another, and a description names the one that does most.
+struct Described {
+  Explained explained;
+  std::vector<std::pair<const FactorWords*, double>> factors;  ///< with what each added, nats
+};
+
+Described described(const Marginal& marginal, const TangentSums& sums, double size) {
+  const std::vector<Family>& families = marginal.discrepancy().families;
+  Described found;
+  found.explained = marginal.best(sums, marginal.nothing_unnamed());
+  for (std::size_t step = 0; step < k_most_parts; ++step) {
+    const FactorWords* taken = nullptr;
+    Explained better = found.explained;
+    for (const FactorWords& factor : k_words) {
+      Amplitudes wider = found.explained.amplitudes;
+      bool any = false;
+      for (std::size_t f = 0; f < families.size(); ++f) {
+        double& amplitude = wider.families[static_cast<Eigen::Index>(f)];
+        if (families[f].factor != factor.factor || amplitude > 0) continue;
+        amplitude = size;
+        any = true;
+      }
+      if (!any) continue;
+      Explained trial = marginal.best(sums, wider);
+      if (trial.log_evidence <= better.log_evidence) continue;
+      better = std::move(trial);
+      taken = &factor;
+    }
+    const double gain = better.log_evidence - found.explained.log_evidence;
+    if (taken == nullptr || gain < k_thresholds.least_unnamed) break;
+    found.explained = std::move(better);
+    found.factors.emplace_back(taken, gain);
+  }
+  return found;
+}
+
+}  // namespace
+
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   const Marginal& marginal = *evidence.marginal;
   const Discrepancy& discrepancy = marginal.discrepancy();
-  const TangentSums sums = marginal.sums_of(tangent_of(evidence, fit));
-  const Explained& all = fit.explained;
-  Unnamed unnamed;
-  unnamed.evidence = all.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
+  const Tangent tangent = tangent_of(evidence, fit);
+  const TangentSums sums = marginal.sums_of(tangent);
   const Angles angles = angles_of(evidence);
+  const Described all = described(marginal, sums, std::max(evidence.floor, rms_of(tangent.residual)));
+  Unnamed unnamed;
+  unnamed.evidence = all.explained.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
-  Unknown largest;
-  for (const FactorWords& factor : k_words) {
-    Amplitudes without = all.amplitudes;
-    bool any = false;
-    for (std::size_t f = 0; f < discrepancy.families.size(); ++f) {
-      double& amplitude = without.families[static_cast<Eigen::Index>(f)];
-      if (discrepancy.families[f].factor != factor.factor || !(amplitude > 0)) continue;
-      any = true;
-      amplitude = 0;
-    }
-    if (!any) continue;
-    const Eigen::VectorXd part = part_of(discrepancy, all.unnamed, factor.factor);
+  for (const auto& [factor, gain] : all.factors) {
+    const Eigen::VectorXd part = part_of(discrepancy, all.explained.unnamed, factor->factor);
     sum += part;
     Unknown unknown;
-    unknown.factor = factor.name;
-    unknown.words = factor.words;
+    unknown.factor = factor->name;
+    unknown.words = factor->words;
     unknown.rms = rms_of(part);
-    unknown.evidence = all.log_evidence - marginal.best(sums, without, 4).log_evidence;
-    if (unknown.rms > largest.rms) {
-      largest = unknown;
-      draw(angles, part, largest);
-    }
-    const bool told = unknown.evidence > k_thresholds.least_unnamed && unknown.rms > k_thresholds.least_seen * evidence.floor;
-    if (!told) continue;
+    unknown.evidence = gain;
+    if (unknown.rms < k_thresholds.least_seen * evidence.floor) continue;
     draw(angles, part, unknown);
     unnamed.parts.push_back(std::move(unknown));
   }
-  const double more_noise = std::sqrt(std::max(0.0, all.amplitudes.noise * all.amplitudes.noise - evidence.floor * evidence.floor));
-  unnamed.rms = std::hypot(rms_of(sum), more_noise);
-  const Tangent tangent = tangent_of(evidence, fit);
-  const Eigen::VectorXd place = part_of(discrepancy, all.unnamed, Factor::place);
-  Eigen::VectorXd left = tangent.residual - sum + place;
-  if (tangent.x.size() > 0) left -= tangent.J * all.step;
+  const double noise = all.explained.amplitudes.noise;
+  unnamed.rms = std::hypot(rms_of(sum), std::sqrt(std::max(0.0, noise * noise - evidence.floor * evidence.floor)));
+  Eigen::VectorXd left = tangent.residual - sum + part_of(discrepancy, all.explained.unnamed, Factor::place);
+  if (tangent.x.size() > 0) left -= tangent.J * all.explained.step;
   find_harmonic(angles, left, evidence.floor, unnamed.parts);
-  // Where any of several would do for the others, the largest is said.
-  if (unnamed.parts.empty() && largest.rms > k_thresholds.least_seen * evidence.floor) unnamed.parts.push_back(largest);
   std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(), [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
   return unnamed;
 }
