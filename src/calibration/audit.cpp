@@ -17,6 +17,8 @@ namespace {
 constexpr int k_rounds = 4;
 constexpr int k_steps = 3;
 constexpr std::size_t k_tries = 3;
+/// Of what was found: an effect that is smaller in practice cannot stand for it.
+constexpr double k_as_large = 0.5;
 
 /// Chords of an effect over the rows in use, as columns of one matrix.
 struct Chords {
@@ -160,6 +162,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
     if (!(amplitude > 0)) continue;
     for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(dice) * all_.col(own_ + family.first + k);
   }
+  const double found_size = size;
   size *= std::exp(0.5 * normal(dice));
   std::vector<std::size_t> others, shapes;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
@@ -180,7 +183,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
     for (Eigen::Index k = 0; k < other.count; ++k)
       part += prior_[other.first + k] * normal(dice) * all_.col(other.first + k);
     z += part;
-    made.there = other.effect;
+    if (rms(part) > k_as_large * found_size) made.there = other.effect;
     if (kind == 2) made.unknown = other.effect;
   } else if (kind == 3 && !shapes.empty()) {
     const std::size_t f = shapes[(number / 4) % shapes.size()];

@@ -52,21 +52,14 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// What loose rows leave less than noise does, and the places where a joint may have rested that a stroke has room for,
-/// nats: what stands anywhere explains anything.
+/// What loose rows leave less than noise does, nats.
 double price_of(const Evidence& evidence, const Fit& fit) {
-  const double unit = evidence.floor * evidence.floor;
-  double price = 0;
+  double squares = 0;
   for (const Block& block : evidence.blocks) {
-    double places = 0;
-    for (const std::size_t row : block.rows) {
-      const double square = price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor) / unit;
-      price += 0.5 * evidence.marginal->worth() * square;
-      places -= 0.5 * std::log1p(-std::min(square, 1.0 - 1e-9));
-    }
-    price += k_thresholds.places_a_stroke * places / static_cast<double>(block.rows.size());
+    for (const std::size_t row : block.rows)
+      squares += price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor);
   }
-  return price;
+  return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
 }
 
 }  // namespace

