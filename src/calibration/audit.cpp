@@ -52,17 +52,19 @@ class Auditor {
   TangentSums sums(const World& world, const Set& set) const;
   double score_of(const Explained& explained, const Set& set) const;
   Set search(const World& world, Set set) const;
-  double rms(const Eigen::VectorXd& values) const { return std::sqrt(values.squaredNorm() / static_cast<double>(values.size())); }
+  double rms(const Eigen::VectorXd& values) const {
+    return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+  }
 
   const Evidence& evidence_;
   const Selection& selection_;
   const Marginal& marginal_;
   std::vector<Chords> chords_;
-  Eigen::VectorXd x_;      ///< as found; zero of what was not
+  Eigen::VectorXd x_;  ///< as found; zero of what was not
   Eigen::VectorXd prior_;
-  Eigen::MatrixXd all_;    ///< chords, then the discrepancy's columns
+  Eigen::MatrixXd all_;  ///< chords, then the discrepancy's columns
   Eigen::MatrixXd gram_;
-  Eigen::Index own_ = 0;   ///< columns of chords
+  Eigen::Index own_ = 0;  ///< columns of chords
   double give_ = 1;
 };
 
@@ -158,7 +160,9 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   }
   for (std::size_t f = 0; f < families.size(); ++f) {
     const Family& family = families[f];
-    const double amplitude = family.fixed > 0 ? family.fixed * give_ : selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
+    const double amplitude = family.fixed > 0
+                                 ? family.fixed * give_
+                                 : selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
     if (!(amplitude > 0)) continue;
     for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(dice) * all_.col(own_ + family.first + k);
   }
@@ -171,7 +175,8 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
       return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
              as_good(evidence_, rival.fit, selection_.best);
     });
-    if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
+    if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect))
+      others.push_back(i);
   }
   for (std::size_t f = 0; f < families.size(); ++f) {
     if (!(families[f].fixed > 0) && families[f].factor != Factor::stroke) shapes.push_back(f);
@@ -232,7 +237,8 @@ Auditor::Set Auditor::search(const World& world, Set set) const {
   for (int step = 0; step < k_steps; ++step) {
     std::vector<std::pair<double, std::size_t>> looks;
     for (std::size_t i = 0; i < chords_.size(); ++i) {
-      if (chords_[i].count == 0 || chords_[i].effect == world.unknown || std::count(set.begin(), set.end(), i)) continue;
+      if (chords_[i].count == 0 || chords_[i].effect == world.unknown || std::count(set.begin(), set.end(), i))
+        continue;
       Set wider = set;
       wider.push_back(i);
       looks.emplace_back(-score_of(marginal_.at(sums(world, wider), here.amplitudes), wider), i);

@@ -29,7 +29,8 @@ struct FactorWords {
 
 constexpr FactorWords k_words[] = {
     {Factor::place, "place",
-     "the same at a place whichever way, load and speed: it sits in what turns or bends with the angle, from the motor's "
+     "the same at a place whichever way, load and speed: it sits in what turns or bends with the angle, from the "
+     "motor's "
      "sensor over pulley and pins to the joint's sensor; re-clock the pulley and see whether it moves along"},
     {Factor::direction, "direction",
      "turns over with the direction of motion, whatever load and speed: something gives way before it carries, between "
@@ -72,7 +73,8 @@ Angles angles_of(const Evidence& evidence) {
     for (const Sample& sample : run.samples) all.push_back(&sample);
   }
   const std::vector<Eigen::Index> rows = evidence.rows();
-  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())), Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
+  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())),
+                Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     angles.motor[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->alpha;
     angles.joint[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->theta;
@@ -142,14 +144,16 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noi
   const Harmonic& best = of_motor ? motor : joint;
   const double squares = left.squaredNorm();
   const double above = squares - static_cast<double>(left.size()) * noise * noise;
-  if (!(best.taken * squares > 0.5 * above) || !(above > 0.3 * static_cast<double>(left.size()) * noise * noise)) return;
+  if (!(best.taken * squares > 0.5 * above) || !(above > 0.3 * static_cast<double>(left.size()) * noise * noise))
+    return;
   Unknown unknown;
   unknown.factor = of_motor ? "motor harmonic" : "joint harmonic";
   const double whole = std::round(best.order);
   unknown.order = std::abs(best.order - whole) < 0.15 ? whole : best.order;
   unknown.rms = rms_of(best.part);
   unknown.evidence = 0.5 * best.taken * squares / (noise * noise);
-  unknown.words = "once in " + rounded(360.0 / unknown.order, 4) + "° of the " + (of_motor ? "motor's shaft" : "joint") +
+  unknown.words = "once in " + rounded(360.0 / unknown.order, 4) + "° of the " +
+                  (of_motor ? "motor's shaft" : "joint") +
                   ", whatever load and direction: look at what turns with it there, " +
                   (of_motor ? "poles, gear teeth, the sensor's own steps" : "the sensor's ring, balls of a bearing");
   draw(angles, best.part, unknown);
@@ -226,7 +230,8 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   Eigen::VectorXd left = tangent.residual - sum + part_of(discrepancy, all.explained.unnamed, Factor::place);
   if (tangent.x.size() > 0) left -= tangent.J * all.explained.step;
   find_harmonic(angles, left, evidence.floor, unnamed.parts);
-  std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(), [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
+  std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(),
+                   [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
   return unnamed;
 }
 

@@ -10,8 +10,8 @@
 #include "fusee/base/units.h"
 #include "fusee/calibration/calibration.h"
 #include "fusee/joint/simulate.h"
-#include "fusee/mechanism/file.h"
 #include "fusee/mechanism/effect.h"
+#include "fusee/mechanism/file.h"
 
 namespace fusee {
 namespace {
@@ -108,8 +108,7 @@ Imperfections well_seen(const DeclaredMechanism& declared, const Effect& effect)
   const BenchLog log = bench_log(measurement);
   const Readings as_declared = predict(declared, {}, log);
   double size = 1;
-  for (int i = 0; i < 60 && apart(predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
-    size *= 1.25;
+  for (int i = 0; i < 60 && apart(predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i) size *= 1.25;
   return moved(size);
 }
 
