@@ -1,5 +1,6 @@
 #include "calibration/discrepancy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -144,6 +145,11 @@ bool varies(const std::vector<RowFacts>& facts, double RowFacts::*number, double
   return span.size() > least;
 }
 
+/// Whether a stroke's rows lie at many places. A constant of each stand at one place is any data whatever.
+bool strokes_span_places(const Evidence& evidence) {
+  return std::none_of(evidence.measurement.runs.begin(), evidence.measurement.runs.end(), is_from_point_to_point);
+}
+
 }  // namespace
 
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection) {
@@ -173,7 +179,7 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   const auto one = [](const RowFacts&) { return 1.0; };
   if (evidence.measurement.runs.size() > 1) builder.add(Factor::run, indicators(facts, &RowFacts::run, one));
   builder.add(Factor::drift, indicators(facts, &RowFacts::run, [](const RowFacts& r) { return r.time; }));
-  if (evidence.blocks.size() <= k_thresholds.most_strokes)
+  if (evidence.blocks.size() <= k_thresholds.most_strokes && strokes_span_places(evidence))
     builder.add(Factor::stroke, indicators(facts, &RowFacts::block, one));
   const std::vector<Eigen::Index> rows = evidence.rows();
   if (deflection.size() > 0) {  // of a joint declared by a ratio: what a unit of load does to one of compliance 1

@@ -143,7 +143,7 @@ TEST(PointToPoint, soft_tendons_show_between_loads) {
   for (const Protocol& protocol : k_protocols) {
     if (protocol.stops == alternating_ends && protocol.rows == 1) continue;  // 36 rows at two places
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), soft(), 5)});
-    EXPECT_THAT(names_of(found), Contains("tendon_stretch")) << protocol.name;
+    EXPECT_THAT(names_of(found), Contains("tendon_stretch")) << protocol.name << ": " << found.summary;
     EXPECT_LT(found.after.rms, 0.6 * found.before.rms) << protocol.name;
   }
 }
@@ -151,7 +151,7 @@ TEST(PointToPoint, soft_tendons_show_between_loads) {
 TEST(PointToPoint, play_shows_between_the_sides_that_a_place_was_come_to_from) {
   for (const Protocol& protocol : k_protocols) {
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), loose(), 5)});
-    EXPECT_THAT(names_of(found), Contains("backlash")) << protocol.name;
+    EXPECT_THAT(names_of(found), Contains("backlash")) << protocol.name << ": " << found.summary;
     EXPECT_LT(found.after.rms, 0.2 * found.before.rms) << protocol.name;
   }
 }
@@ -159,7 +159,7 @@ TEST(PointToPoint, play_shows_between_the_sides_that_a_place_was_come_to_from) {
 // Where each place is come to from one side only, play could be shape as well: it is named with what could be it.
 TEST(PointToPoint, ends_alone_do_not_name_play_alone) {
   const Calibration found = calibrated({log_of(alternating_ends(20), loose(), 5)});
-  EXPECT_EQ(found.verdict, CalibrationVerdict::confounded);
+  EXPECT_EQ(found.verdict, CalibrationVerdict::confounded) << found.summary;
 }
 
 TEST(PointToPoint, loads_within_a_run_are_held_out) {
