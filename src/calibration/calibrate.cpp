@@ -139,8 +139,8 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
 Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
                       const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty()) return not_testable(reasons);
-  const NoiseFloor noise = noise_floor(about_declared(declared, measurement));
   const Measurement learnt_from = part(measurement, options.hold_out, false);
+  const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from));
   const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
   if (evidence.blocks.size() < 2)
     return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});

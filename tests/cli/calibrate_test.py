@@ -153,7 +153,7 @@ class Calibrate(harness.Scratch):
         self.assertEqual(page.open, [])
         self.assertEqual(page.ids, ["numbers", "actions", "effects", "residuals", "rest", "figures", "evidence", "detectable"])
         self.assertIn("<b>&joint", page.words)
-        self.assertIn("Taken: backlash", page.words)
+        self.assertIn("✓ backlash", page.words)
         self.assertNotRegex(page.words, r"\b(nan|inf|null)\b")
         self.assertNotRegex(text, r"@import|url\(|https?://(?!www\.w3\.org)")
         # Before and after on one axis: the same range in both plots of a run.
@@ -178,7 +178,7 @@ class Calibrate(harness.Scratch):
             text = self.expect(f"calibrate joint.toml run_1.csv run_2.csv --dry-run {more}", 0, "before +after.*Effects.*backlash.*Correction").stdout.decode()
             self.assertLessEqual(max(len(line) for line in text.splitlines()), 80)
             self.assertRegex(text, r"(?s)Would be written \(--dry-run\).*corrected\.toml +\d+ B.*in out/joint_calibration")
-            self.assertEqual("Tried, in this order" in text, more == "-v")
+            self.assertEqual("evidence (nats)" in text, more == "-v")
         self.assertFalse((self.folder / "out").exists())
 
     def test_quiet_verbose_and_the_bar(self):
