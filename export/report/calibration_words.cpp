@@ -105,8 +105,7 @@ std::string infeasible_words(const Correction& correction) {
 }
 
 std::string tied_words(const Correction& correction) {
-  return "tie its tendons with the unloaded joint at home and the motor at " +
-         rounded(degrees(correction.tied_at), 4) +
+  return "tie its tendons with the unloaded joint at home and the motor at " + rounded(degrees(correction.tied_at), 4) +
          " deg: under its mean load the joint then follows its law; tied at 0 it is off by as much, which "
          "compensation.csv has";
 }

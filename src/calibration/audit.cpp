@@ -17,6 +17,8 @@ namespace {
 constexpr int k_rounds = 4;
 constexpr int k_steps = 3;
 constexpr std::size_t k_tries = 3;
+/// Of what was found: an effect that is smaller in practice cannot stand for it.
+constexpr double k_as_large = 0.5;
 
 /// Chords of an effect over the rows in use, as columns of one matrix.
 struct Chords {
@@ -24,6 +26,11 @@ struct Chords {
   Eigen::Index first = 0;
   Eigen::Index count = 0;
 };
+
+/// Of a number, from practice and from a caliper.
+double known_size(const Tangent& tangent, Eigen::Index k) {
+  return 1.0 / std::sqrt(1.0 / (tangent.prior[k] * tangent.prior[k]) + tangent.read(k, k));
+}
 
 class Auditor {
  public:
@@ -45,17 +52,19 @@ class Auditor {
   TangentSums sums(const World& world, const Set& set) const;
   double score_of(const Explained& explained, const Set& set) const;
   Set search(const World& world, Set set) const;
-  double rms(const Eigen::VectorXd& values) const { return std::sqrt(values.squaredNorm() / static_cast<double>(values.size())); }
+  double rms(const Eigen::VectorXd& values) const {
+    return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+  }
 
   const Evidence& evidence_;
   const Selection& selection_;
   const Marginal& marginal_;
   std::vector<Chords> chords_;
-  Eigen::VectorXd x_;      ///< as found; zero of what was not
+  Eigen::VectorXd x_;  ///< as found; zero of what was not
   Eigen::VectorXd prior_;
-  Eigen::MatrixXd all_;    ///< chords, then the discrepancy's columns
+  Eigen::MatrixXd all_;  ///< chords, then the discrepancy's columns
   Eigen::MatrixXd gram_;
-  Eigen::Index own_ = 0;   ///< columns of chords
+  Eigen::Index own_ = 0;  ///< columns of chords
   double give_ = 1;
 };
 
@@ -83,13 +92,13 @@ Auditor::Auditor(const Evidence& evidence, Workers& workers, const Selection& se
         const auto at = static_cast<Eigen::Index>(k);
         columns.push_back(best.J.col(at));
         x.push_back(best.x[at]);
-        prior.push_back(best.prior[at]);
+        prior.push_back(known_size(best, at));
       }
     } else if (looks[i].x.size() > best.x.size()) {
       for (Eigen::Index k = best.x.size(); k < looks[i].x.size(); ++k) {
         columns.push_back(looks[i].J.col(k));
         x.push_back(0);
-        prior.push_back(looks[i].prior[k]);
+        prior.push_back(known_size(looks[i], k));
       }
     }
     own.count = static_cast<Eigen::Index>(columns.size()) - own.first;
@@ -151,10 +160,13 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   }
   for (std::size_t f = 0; f < families.size(); ++f) {
     const Family& family = families[f];
-    const double amplitude = family.fixed > 0 ? family.fixed * give_ : selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
+    const double amplitude = family.fixed > 0
+                                 ? family.fixed * give_
+                                 : selection_.best.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
     if (!(amplitude > 0)) continue;
     for (Eigen::Index k = 0; k < family.count; ++k) z += amplitude * normal(dice) * all_.col(own_ + family.first + k);
   }
+  const double found_size = size;
   size *= std::exp(0.5 * normal(dice));
   std::vector<std::size_t> others, shapes;
   for (std::size_t i = 0; i < chords_.size(); ++i) {
@@ -163,7 +175,8 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
       return rival.accepted == selection_.best.effects[found] && rival.rival == chords_[i].effect &&
              as_good(evidence_, rival.fit, selection_.best);
     });
-    if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect)) others.push_back(i);
+    if (chords_[i].count > 0 && !in_group && !contains(selection_.best.effects, *chords_[i].effect))
+      others.push_back(i);
   }
   for (std::size_t f = 0; f < families.size(); ++f) {
     if (!(families[f].fixed > 0) && families[f].factor != Factor::stroke) shapes.push_back(f);
@@ -175,7 +188,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
     for (Eigen::Index k = 0; k < other.count; ++k)
       part += prior_[other.first + k] * normal(dice) * all_.col(other.first + k);
     z += part;
-    made.there = other.effect;
+    if (rms(part) > k_as_large * found_size) made.there = other.effect;
     if (kind == 2) made.unknown = other.effect;
   } else if (kind == 3 && !shapes.empty()) {
     const std::size_t f = shapes[(number / 4) % shapes.size()];
@@ -224,7 +237,8 @@ Auditor::Set Auditor::search(const World& world, Set set) const {
   for (int step = 0; step < k_steps; ++step) {
     std::vector<std::pair<double, std::size_t>> looks;
     for (std::size_t i = 0; i < chords_.size(); ++i) {
-      if (chords_[i].count == 0 || chords_[i].effect == world.unknown || std::count(set.begin(), set.end(), i)) continue;
+      if (chords_[i].count == 0 || chords_[i].effect == world.unknown || std::count(set.begin(), set.end(), i))
+        continue;
       Set wider = set;
       wider.push_back(i);
       looks.emplace_back(-score_of(marginal_.at(sums(world, wider), here.amplitudes), wider), i);

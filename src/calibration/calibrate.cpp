@@ -136,7 +136,8 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
 
 }  // namespace
 
-Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement, const CalibrationOptions& options) {
+Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
+                      const CalibrationOptions& options) {
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty()) return not_testable(reasons);
   const NoiseFloor noise = noise_floor(about_declared(declared, measurement));
   const Measurement learnt_from = part(measurement, options.hold_out, false);

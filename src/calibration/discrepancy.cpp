@@ -45,7 +45,8 @@ std::vector<RowFacts> facts_of(const Evidence& evidence) {
     offset.push_back(rows);
     rows += run.samples.size();
     most_speed = std::max(most_speed, run.has_time ? run.speed : 0.0);
-    for (const Sample& sample : run.samples) most_load = std::max(most_load, run.has_load ? std::abs(sample.load) : 0.0);
+    for (const Sample& sample : run.samples)
+      most_load = std::max(most_load, run.has_load ? std::abs(sample.load) : 0.0);
   }
   std::vector<RowFacts> facts;
   for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
@@ -88,7 +89,8 @@ Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
   Eigen::MatrixXd at_rows(static_cast<Eigen::Index>(facts.size()), k_nodes);
   for (Eigen::Index i = 0; i < at_rows.rows(); ++i) {
-    for (Eigen::Index j = 0; j < k_nodes; ++j) at_rows(i, j) = kernel(facts[static_cast<std::size_t>(i)].place, node(j));
+    for (Eigen::Index j = 0; j < k_nodes; ++j)
+      at_rows(i, j) = kernel(facts[static_cast<std::size_t>(i)].place, node(j));
   }
   const Eigen::VectorXd size = eigen.eigenvalues().tail(k_rough).cwiseSqrt().cwiseInverse();
   return at_rows * eigen.eigenvectors().rightCols(k_rough) * size.asDiagonal();
@@ -102,7 +104,8 @@ class Builder {
   void add(Factor factor, const Eigen::MatrixXd& columns, double fixed = 0) {
     const double square = columns.squaredNorm() / static_cast<double>(rows_);
     if (!(square > 1e-12)) return;
-    made_.families.push_back({factor, made_.columns.cols(), columns.cols(), fixed > 0 ? fixed * std::sqrt(square) : 0.0});
+    made_.families.push_back(
+        {factor, made_.columns.cols(), columns.cols(), fixed > 0 ? fixed * std::sqrt(square) : 0.0});
     Eigen::MatrixXd all(rows_, made_.columns.cols() + columns.cols());
     if (made_.columns.cols() > 0) all.leftCols(made_.columns.cols()) = made_.columns;
     all.rightCols(columns.cols()) = columns / std::sqrt(square);
@@ -128,8 +131,10 @@ Eigen::VectorXd column(const std::vector<RowFacts>& facts, const Part& part) {
 Eigen::MatrixXd indicators(const std::vector<RowFacts>& facts, std::size_t RowFacts::*key, const Part& part) {
   std::map<std::size_t, Eigen::Index> place;
   for (const RowFacts& row : facts) place.try_emplace(row.*key, static_cast<Eigen::Index>(place.size()));
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(place.size()));
-  for (std::size_t i = 0; i < facts.size(); ++i) all(static_cast<Eigen::Index>(i), place[facts[i].*key]) = part(facts[i]);
+  Eigen::MatrixXd all =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(place.size()));
+  for (std::size_t i = 0; i < facts.size(); ++i)
+    all(static_cast<Eigen::Index>(i), place[facts[i].*key]) = part(facts[i]);
   return all;
 }
 
@@ -164,7 +169,8 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   if (varies(facts, &RowFacts::load, 0.05)) {
     builder.add(Factor::load, times([](const RowFacts& r) { return r.load; }, smooth));
     builder.add(Factor::load_size, times([](const RowFacts& r) { return std::abs(r.load); }, smooth));
-    builder.add(Factor::load_direction, times([](const RowFacts& r) { return std::abs(r.load) * r.direction; }, smooth));
+    builder.add(Factor::load_direction,
+                times([](const RowFacts& r) { return std::abs(r.load) * r.direction; }, smooth));
   }
   if (varies(facts, &RowFacts::speed, 0.1)) {
     builder.add(Factor::speed, times([](const RowFacts& r) { return r.speed; }, smooth));

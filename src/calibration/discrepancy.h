@@ -1,6 +1,6 @@
 /// \file
-/// What no effect has a name for, as far as it can be described: families of smooth functions of place, direction, load,
-/// speed and time, each of one unknown amplitude.
+/// What no effect has a name for, as far as it can be described: families of smooth functions of place, direction,
+/// load, speed and time, each of one unknown amplitude.
 #pragma once
 
 #include <Eigen/Dense>
@@ -13,17 +13,17 @@ namespace fusee {
 
 /// On what a part of an error depends.
 enum class Factor {
-  place,             ///< α alone, whichever way, load and speed
-  direction,         ///< odd in the direction of motion
-  load,              ///< in proportion to the load
-  load_size,         ///< with the size of the load, whichever its sign
-  load_direction,    ///< a loop that grows with the load
-  speed,             ///< in proportion to the speed, the same both ways
-  speed_direction,   ///< a loop that grows with speed
-  run,               ///< one constant a run
-  drift,             ///< steadily in time within a run
-  stroke,            ///< one constant a stroke
-  model_error,       ///< what the model itself is not trusted to
+  place,            ///< α alone, whichever way, load and speed
+  direction,        ///< odd in the direction of motion
+  load,             ///< in proportion to the load
+  load_size,        ///< with the size of the load, whichever its sign
+  load_direction,   ///< a loop that grows with the load
+  speed,            ///< in proportion to the speed, the same both ways
+  speed_direction,  ///< a loop that grows with speed
+  run,              ///< one constant a run
+  drift,            ///< steadily in time within a run
+  stroke,           ///< one constant a stroke
+  model_error,      ///< what the model itself is not trusted to
 };
 
 /// Neighbouring columns with one amplitude: the rms of what they may add, over all rows.

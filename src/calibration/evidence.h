@@ -46,7 +46,7 @@ struct Evidence {
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed where the data vary them, or as run_folds
   std::vector<std::string> factors;  ///< by which whole levels are held out
   std::vector<HandReading> readings;
-  double floor = 0;  ///< rms noise, rad
+  double floor = 0;                          ///< rms noise, rad
   std::shared_ptr<const Marginal> marginal;  ///< by which sets of effects are weighed: weigh()
 
   /// Rows in use, block by block.

@@ -52,21 +52,14 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
-/// What loose rows leave less than noise does, and the places where a joint may have rested that a stroke has room for,
-/// nats: what stands anywhere explains anything.
+/// What loose rows leave less than noise does, nats.
 double price_of(const Evidence& evidence, const Fit& fit) {
-  const double unit = evidence.floor * evidence.floor;
-  double price = 0;
+  double squares = 0;
   for (const Block& block : evidence.blocks) {
-    double places = 0;
-    for (const std::size_t row : block.rows) {
-      const double square = price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor) / unit;
-      price += 0.5 * evidence.marginal->worth() * square;
-      places -= 0.5 * std::log1p(-std::min(square, 1.0 - 1e-9));
-    }
-    price += k_thresholds.places_a_stroke * places / static_cast<double>(block.rows.size());
+    for (const std::size_t row : block.rows)
+      squares += price_of_play(fit.loose[static_cast<Eigen::Index>(row)], evidence.floor);
   }
-  return price;
+  return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
 }
 
 }  // namespace
@@ -91,7 +84,8 @@ Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
   tangent.read = readings.JJ / unit;
   tangent.pull = readings.Jr / unit;
   tangent.against = against_readings(evidence, fit.at);
-  tangent.give = evidence.declared->transmission ? std::abs(fit.at.ratio_joint.compliance) : 1.0 + fit.at.tendon.stretch;
+  tangent.give =
+      evidence.declared->transmission ? std::abs(fit.at.ratio_joint.compliance) : 1.0 + fit.at.tendon.stretch;
   return tangent;
 }
 
@@ -162,7 +156,9 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   take_slopes(start, 0);
   start.usable = is_finite(evidence(), start);
   if (!start.usable) return start;
-  Fit fit = start.x.size() > 0 ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds) : std::move(start);
+  Fit fit = start.x.size() > 0
+                ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds)
+                : std::move(start);
   hold_at_bounds(fit);
   judge(fit);
   return fit;
@@ -179,7 +175,8 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
     for (std::size_t k = 0; k < values.size(); ++k) set_value(start, effect.parameters[k], values[k]);
     Fit fit = at(base, effects, start);
     if (!fit.usable) continue;
-    const double promise = marginal.at(tangent_of(evidence(), fit), base.explained.amplitudes).log_evidence - price_of(evidence(), fit);
+    const double promise =
+        marginal.at(tangent_of(evidence(), fit), base.explained.amplitudes).log_evidence - price_of(evidence(), fit);
     if (promise <= promised) continue;
     promised = promise;
     best = std::move(fit);
@@ -254,7 +251,8 @@ Fit Fitter::with_chords(const Fit& fit, const Effect& effect) const {
     const double value = value_of(wider.at, parameter);
     Imperfections moved = wider.at;
     const double size = size_in_practice(evidence(), parameter) * parameter.step;
-    set_value(moved, parameter, value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
+    set_value(moved, parameter,
+              value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
     const double steps = (value_of(moved, parameter) - value) / parameter.step;
     wider.J.col(k) = (wider.residual - model_.said(moved).residual) / steps;
   }

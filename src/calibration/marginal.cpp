@@ -1,6 +1,7 @@
 #include "calibration/marginal.h"
 
 #include <cmath>
+#include <limits>
 
 #include "calibration/thresholds.h"
 
@@ -188,10 +189,12 @@ Explained Marginal::at(const TangentSums& sums, const Amplitudes& amplitudes) co
 
 Explained Marginal::best(const TangentSums& sums, Amplitudes from, int rounds) const {
   Explained best;
+  double last = -std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
     const Solved s = solved(sums, from);
     Explained now = explained(sums, from, s);
-    const bool settled = round > 0 && now.log_evidence < best.log_evidence + k_settled;
+    const bool settled = std::abs(now.log_evidence - last) < k_settled;  // on the way it may fall
+    last = now.log_evidence;
     if (round == 0 || now.log_evidence > best.log_evidence) best = now;
     if (settled || round + 1 == rounds) break;
     from = reestimated(sums, now, s);

@@ -20,11 +20,11 @@ struct Tangent {
   Eigen::MatrixXd J;         ///< dθ/dx
   Eigen::VectorXd residual;  ///< measured − model, rad
   Eigen::VectorXd x;
-  Eigen::VectorXd prior;     ///< size of each x in practice; infinite: not known
-  Eigen::MatrixXd read;      ///< of what was measured by hand: information about x …
-  Eigen::VectorXd pull;      ///< … and its gradient
-  double against = 0;        ///< … and squares at x
-  double give = 1;           ///< deflection there by the declared joint's: what the model is trusted to grows with it
+  Eigen::VectorXd prior;  ///< size of each x in practice; infinite: not known
+  Eigen::MatrixXd read;   ///< of what was measured by hand: information about x …
+  Eigen::VectorXd pull;   ///< … and its gradient
+  double against = 0;     ///< … and squares at x
+  double give = 1;        ///< deflection there by the declared joint's: what the model is trusted to grows with it
 };
 
 /// A tangent's sums over rows, not weighted: all that its evidence needs.
@@ -42,11 +42,11 @@ struct TangentSums {
 
 /// What the data say at a tangent.
 struct Explained {
-  double log_evidence = 0;     ///< at the summit that the tangent promises
+  double log_evidence = 0;       ///< at the summit that the tangent promises
   double log_evidence_here = 0;  ///< at x itself: a promise that a bend does not keep counts for nothing
-  Eigen::VectorXd step;        ///< of x to the posterior's summit
-  Eigen::MatrixXd covariance;  ///< of x
-  Eigen::VectorXd unnamed;     ///< what the discrepancy's columns add at the summit, rad each
+  Eigen::VectorXd step;          ///< of x to the posterior's summit
+  Eigen::MatrixXd covariance;    ///< of x
+  Eigen::VectorXd unnamed;       ///< what the discrepancy's columns add at the summit, rad each
   Amplitudes amplitudes;
 };
 

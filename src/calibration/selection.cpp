@@ -65,7 +65,7 @@ class Selector {
   Workers& workers_;
   const CalibrationOptions& options_;
   Selection selection_;
-  std::vector<Look> looks_;   ///< of each effect of the catalogue; empty where it cannot be simulated
+  std::vector<Look> looks_;  ///< of each effect of the catalogue; empty where it cannot be simulated
   std::map<Key, Fit> seen_;
 };
 
@@ -225,8 +225,7 @@ void Selector::settle_best() {
     const bool is_part = std::all_of(fit->effects.begin(), fit->effects.end(),
                                      [&](const Effect* effect) { return contains(all.front()->effects, *effect); });
     const double least = score(*all.front()) - (is_part ? 0.0 : k_thresholds.as_good);
-    if (fit->effects.size() < simplest->effects.size() && score(*fit) > least)
-      simplest = fit;
+    if (fit->effects.size() < simplest->effects.size() && score(*fit) > least) simplest = fit;
   }
   selection_.best = workers_.one().fit(simplest->effects, simplest->at);
   if (!selection_.best.usable || selection_.best.log_evidence < simplest->log_evidence) selection_.best = *simplest;
@@ -296,8 +295,7 @@ void Selector::write_down() {
 }
 
 Selection Selector::run() {
-  selection_.catalogue =
-      catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects, options_.without);
+  selection_.catalogue = catalogue(*evidence_.declared, evidence_.measurement, options_.more_effects, options_.without);
   selection_.none = workers_.one().fit({}, {});
   selection_.best = selection_.none;
   if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);

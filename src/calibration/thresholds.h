@@ -42,8 +42,6 @@ struct Thresholds {
   double better = 0.1;
   /// Degrees of freedom that the noise floor is taken to have.
   double noise_freedom = 30.0;
-  /// Independent places that a stroke of a loose joint has room for.
-  double places_a_stroke = 1.0;
 
   /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
   int worlds = 200;

@@ -18,6 +18,8 @@ constexpr int k_places = 61;
 constexpr double k_least_order = 1.0;
 constexpr double k_most_order = 400.0;
 constexpr double k_rows_a_period = 2.5;
+/// Of a description.
+constexpr std::size_t k_most_parts = 4;
 
 struct FactorWords {
   Factor factor;
@@ -27,7 +29,8 @@ struct FactorWords {
 
 constexpr FactorWords k_words[] = {
     {Factor::place, "place",
-     "the same at a place whichever way, load and speed: it sits in what turns or bends with the angle, from the motor's "
+     "the same at a place whichever way, load and speed: it sits in what turns or bends with the angle, from the "
+     "motor's "
      "sensor over pulley and pins to the joint's sensor; re-clock the pulley and see whether it moves along"},
     {Factor::direction, "direction",
      "turns over with the direction of motion, whatever load and speed: something gives way before it carries, between "
@@ -73,7 +76,8 @@ Angles angles_of(const Evidence& evidence) {
     for (const Sample& sample : run.samples) all.push_back(&sample);
   }
   const std::vector<Eigen::Index> rows = evidence.rows();
-  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())), Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
+  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())),
+                Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     angles.motor[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->alpha;
     angles.joint[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->theta;
@@ -143,14 +147,16 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noi
   const Harmonic& best = of_motor ? motor : joint;
   const double squares = left.squaredNorm();
   const double above = squares - static_cast<double>(left.size()) * noise * noise;
-  if (!(best.taken * squares > 0.5 * above) || !(above > 0.3 * static_cast<double>(left.size()) * noise * noise)) return;
+  if (!(best.taken * squares > 0.5 * above) || !(above > 0.3 * static_cast<double>(left.size()) * noise * noise))
+    return;
   Unknown unknown;
   unknown.factor = of_motor ? "motor harmonic" : "joint harmonic";
   const double whole = std::round(best.order);
   unknown.order = std::abs(best.order - whole) < 0.15 ? whole : best.order;
   unknown.rms = rms_of(best.part);
   unknown.evidence = 0.5 * best.taken * squares / (noise * noise);
-  unknown.words = "once in " + rounded(360.0 / unknown.order, 4) + "° of the " + (of_motor ? "motor's shaft" : "joint") +
+  unknown.words = "once in " + rounded(360.0 / unknown.order, 4) + "° of the " +
+                  (of_motor ? "motor's shaft" : "joint") +
                   ", whatever load and direction: look at what turns with it there, " +
                   (of_motor ? "poles, gear teeth, the sensor's own steps" : "the sensor's ring, balls of a bearing");
   draw(angles, best.part, unknown);
@@ -159,52 +165,76 @@ void find_harmonic(const Angles& angles, const Eigen::VectorXd& left, double noi
 
 }  // namespace
 
+namespace {
+
+/// The data explained by so many factors, each taken while it is needed beside those before it: several would do for
+/// one another, and a description names the one that does most.
+struct Described {
+  Explained explained;
+  std::vector<std::pair<const FactorWords*, double>> factors;  ///< with what each added, nats
+};
+
+Described described(const Marginal& marginal, const TangentSums& sums, double size) {
+  const std::vector<Family>& families = marginal.discrepancy().families;
+  Described found;
+  found.explained = marginal.best(sums, marginal.nothing_unnamed());
+  for (std::size_t step = 0; step < k_most_parts; ++step) {
+    const FactorWords* taken = nullptr;
+    Explained better = found.explained;
+    for (const FactorWords& factor : k_words) {
+      Amplitudes wider = found.explained.amplitudes;
+      bool any = false;
+      for (std::size_t f = 0; f < families.size(); ++f) {
+        double& amplitude = wider.families[static_cast<Eigen::Index>(f)];
+        if (families[f].factor != factor.factor || amplitude > 0) continue;
+        amplitude = size;
+        any = true;
+      }
+      if (!any) continue;
+      Explained trial = marginal.best(sums, wider);
+      if (trial.log_evidence <= better.log_evidence) continue;
+      better = std::move(trial);
+      taken = &factor;
+    }
+    const double gain = better.log_evidence - found.explained.log_evidence;
+    if (taken == nullptr || gain < k_thresholds.least_unnamed) break;
+    found.explained = std::move(better);
+    found.factors.emplace_back(taken, gain);
+  }
+  return found;
+}
+
+}  // namespace
+
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   const Marginal& marginal = *evidence.marginal;
   const Discrepancy& discrepancy = marginal.discrepancy();
-  const TangentSums sums = marginal.sums_of(tangent_of(evidence, fit));
-  const Explained& all = fit.explained;
-  Unnamed unnamed;
-  unnamed.evidence = all.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
+  const Tangent tangent = tangent_of(evidence, fit);
+  const TangentSums sums = marginal.sums_of(tangent);
   const Angles angles = angles_of(evidence);
+  const Described all = described(marginal, sums, std::max(evidence.floor, rms_of(tangent.residual)));
+  Unnamed unnamed;
+  unnamed.evidence = all.explained.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
-  Unknown largest;
-  for (const FactorWords& factor : k_words) {
-    Amplitudes without = all.amplitudes;
-    bool any = false;
-    for (std::size_t f = 0; f < discrepancy.families.size(); ++f) {
-      double& amplitude = without.families[static_cast<Eigen::Index>(f)];
-      if (discrepancy.families[f].factor != factor.factor || !(amplitude > 0)) continue;
-      any = true;
-      amplitude = 0;
-    }
-    if (!any) continue;
-    const Eigen::VectorXd part = part_of(discrepancy, all.unnamed, factor.factor);
+  for (const auto& [factor, gain] : all.factors) {
+    const Eigen::VectorXd part = part_of(discrepancy, all.explained.unnamed, factor->factor);
     sum += part;
     Unknown unknown;
-    unknown.factor = factor.name;
-    unknown.words = factor.words;
+    unknown.factor = factor->name;
+    unknown.words = factor->words;
     unknown.rms = rms_of(part);
-    unknown.evidence = all.log_evidence - marginal.best(sums, without, 4).log_evidence;
-    if (unknown.rms > largest.rms) {
-      largest = unknown;
-      draw(angles, part, largest);
-    }
-    const bool told = unknown.evidence > k_thresholds.least_unnamed && unknown.rms > k_thresholds.least_seen * evidence.floor;
-    if (!told) continue;
+    unknown.evidence = gain;
+    if (unknown.rms < k_thresholds.least_seen * evidence.floor) continue;
     draw(angles, part, unknown);
     unnamed.parts.push_back(std::move(unknown));
   }
-  const double more_noise = std::sqrt(std::max(0.0, all.amplitudes.noise * all.amplitudes.noise - evidence.floor * evidence.floor));
-  unnamed.rms = std::hypot(rms_of(sum), more_noise);
-  const Tangent tangent = tangent_of(evidence, fit);
-  const Eigen::VectorXd place = part_of(discrepancy, all.unnamed, Factor::place);
-  Eigen::VectorXd left = tangent.residual - sum + place;
-  if (tangent.x.size() > 0) left -= tangent.J * all.step;
+  const double noise = all.explained.amplitudes.noise;
+  unnamed.rms = std::hypot(rms_of(sum), std::sqrt(std::max(0.0, noise * noise - evidence.floor * evidence.floor)));
+  Eigen::VectorXd left = tangent.residual - sum + part_of(discrepancy, all.explained.unnamed, Factor::place);
+  if (tangent.x.size() > 0) left -= tangent.J * all.explained.step;
   find_harmonic(angles, left, evidence.floor, unnamed.parts);
-  // Where any of several would do for the others, the largest is said.
-  if (unnamed.parts.empty() && largest.rms > k_thresholds.least_seen * evidence.floor) unnamed.parts.push_back(largest);
-  std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(), [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
+  std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(),
+                   [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
   return unnamed;
 }
 

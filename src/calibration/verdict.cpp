@@ -89,8 +89,8 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
              " rms from stroke to stroke: look for something loose before any correction.";
     case CalibrationVerdict::unexplained:
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
-             in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " + in_degrees(floor) +
-             " of it: what is more stays unexplained, " + rest.where + "." +
+             in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " +
+             in_degrees(floor) + " of it: what is more stays unexplained, " + rest.where + "." +
              (calibration.unknown.empty() ? "" : " It depends on " + calibration.unknown.front().factor + ".");
     case CalibrationVerdict::confounded:
       return (calibration.next_runs.empty() ? "" : "Measure this first: " + calibration.next_runs.front() + ". ") +

@@ -236,6 +236,12 @@ std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
     if (!along.empty() && !(place.turn > along.back().turn && place.arc > along.back().arc)) continue;
     along.push_back(place);
   }
+  // What turns inward all along is no groove, and no pulley; who asks all the same is told of a round one.
+  if (along.size() < 2) {
+    const LowerPath home = model.lower(0.0)[right ? 1 : 0];
+    const GroovePlace place = place_of(side, home, 0.0);
+    along = {place, {place.turn + 1.0, place.arc + std::abs(home.p)}};
+  }
   return std::make_shared<const GrooveArc>(std::move(along), k_knot_beyond);
 }
 

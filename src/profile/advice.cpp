@@ -105,8 +105,12 @@ struct Turn {
   const Dial* dial;
   double direction;
 
+  /// Downwards a number that cannot be negative is divided: a step of 100 % halves it, and none goes past all that is positive.
   double at(double step) const {
-    return std::clamp(dial->value + direction * step * dial->scale, dial->least, dial->most);
+    const double by = step * dial->scale;
+    const bool divided = direction < 0 && dial->least >= 0 && dial->value > 0;
+    const double to = divided ? dial->value / (1.0 + by / dial->value) : dial->value + direction * by;
+    return std::clamp(to, dial->least, dial->most);
   }
   /// A further step changes no more.
   bool ends_before(double step, double before) const { return at(step) == at(before); }

@@ -50,7 +50,8 @@ TEST(Marginal, IsTheDensityWrittenOut) {
   const Marginal marginal(D, 0.1, 1.0);
   const Amplitudes one{Eigen::Vector2d(0.3, 0.0), 0.1}, other{Eigen::Vector2d(0.05, 0.4), 0.1};
   const Eigen::VectorXd r = drawn(40, random, 0.2);
-  const double found = marginal.at(nothing_varied(r), one).log_evidence - marginal.at(nothing_varied(r), other).log_evidence;
+  const double found =
+      marginal.at(nothing_varied(r), one).log_evidence - marginal.at(nothing_varied(r), other).log_evidence;
   EXPECT_NEAR(found, log_density(r, D, one) - log_density(r, D, other), 1e-8);
 }
 
@@ -84,7 +85,8 @@ TEST(Marginal, FindsAmplitudesAndLeavesOutWhatIsNot) {
   const Eigen::Index rows = 400, count = 40;
   Discrepancy D;
   D.columns.resize(rows, 2 * count);
-  for (Eigen::Index k = 0; k < 2 * count; ++k) D.columns.col(k) = drawn(rows, random) / std::sqrt(static_cast<double>(count));
+  for (Eigen::Index k = 0; k < 2 * count; ++k)
+    D.columns.col(k) = drawn(rows, random) / std::sqrt(static_cast<double>(count));
   D.families = {{Factor::place, 0, count, 0}, {Factor::load, count, count, 0}};
   const Marginal marginal(D, 0.1, 1.0);
   const Eigen::VectorXd r = D.columns.leftCols(count) * drawn(count, random, 0.5) + drawn(rows, random, 0.1);
@@ -135,7 +137,8 @@ TEST(Unnamed, AWaveOfTheMotorsShaftIsSaidWithItsOrder) {
   Forward forward(joint(), evidence.log);
   const Unnamed found = unnamed_beside(evidence, Fitter(evidence, forward).fit({}, {}));
   EXPECT_TRUE(is_unexplained(found, k_floor));
-  const auto wave = std::find_if(found.parts.begin(), found.parts.end(), [](const Unknown& part) { return part.order > 0; });
+  const auto wave =
+      std::find_if(found.parts.begin(), found.parts.end(), [](const Unknown& part) { return part.order > 0; });
   ASSERT_NE(wave, found.parts.end());
   EXPECT_EQ(wave->factor, "motor harmonic");
   EXPECT_NEAR(wave->order, 21, 0.8);

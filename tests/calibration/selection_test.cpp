@@ -10,8 +10,8 @@
 #include "fusee/base/units.h"
 #include "fusee/calibration/calibration.h"
 #include "fusee/joint/simulate.h"
-#include "fusee/mechanism/file.h"
 #include "fusee/mechanism/effect.h"
+#include "fusee/mechanism/file.h"
 
 namespace fusee {
 namespace {
@@ -108,8 +108,7 @@ Imperfections well_seen(const DeclaredMechanism& declared, const Effect& effect)
   const BenchLog log = bench_log(measurement);
   const Readings as_declared = predict(declared, {}, log);
   double size = 1;
-  for (int i = 0; i < 60 && apart(predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i)
-    size *= 1.25;
+  for (int i = 0; i < 60 && apart(predict(declared, moved(size), log), as_declared) < 8 * k_noise; ++i) size *= 1.25;
   return moved(size);
 }
 
@@ -134,9 +133,12 @@ TEST_P(EveryEffect, IsFoundInDataThatHoldIt) {
   const Effect* effect = find_effect(GetParam(), JointKind::tendons);
   ASSERT_NE(effect, nullptr);
   const Imperfections truth = well_seen(declared, *effect);
+  const BenchLog log = bench_log(logged(declared, {}, k_full));
+  if (apart(predict(declared, truth, log), predict(declared, {}, log)) < 3 * k_noise)
+    GTEST_SKIP() << "however large, it hardly moves this joint";
   const Calibration found = calibrate(declared, logged(declared, truth, k_full));
   EXPECT_THAT(found.verdict, testing::AnyOf(CalibrationVerdict::explained, CalibrationVerdict::confounded));
-  EXPECT_EQ(found.effects.size(), 1u);
+  EXPECT_EQ(found.effects.size(), 1u) << found.summary;
   EXPECT_THAT(all_groups(found), Contains(GetParam())) << found.summary << "\n" << why(found);
   EXPECT_LT(found.after.held_out_rms, 1.1 * k_noise);
 }

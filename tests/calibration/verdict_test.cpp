@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "calibration/explanation.h"
 #include "calibration/catalogue.h"
+#include "calibration/explanation.h"
 #include "calibration/linear_joint.h"
 #include "fusee/calibration/words.h"
 
@@ -54,7 +54,7 @@ TEST_F(Concluded, NothingFoundAndNothingLeft) {
 }
 
 TEST_F(Concluded, OneCauseAlone) {
-  leave(1.3);
+  leave(1.1);
   find({{"backlash"}});
   EXPECT_EQ(verdict(), CalibrationVerdict::explained);
   EXPECT_THAT(calibration.summary, HasSubstr("explained by backlash."));
@@ -72,7 +72,8 @@ TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   find({{"zero_offset", "motor_offset"}});
   calibration.next_runs = {"drive the joint to a mark", "something else"};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.summary, testing::StartsWith("Measure this first: drive the joint to a mark. The data are explained by one of {"));
+  EXPECT_THAT(calibration.summary,
+              testing::StartsWith("Measure this first: drive the joint to a mark. The data are explained by one of {"));
   // One cause alone asks for nothing first.
   calibration.effects.clear();
   find({{"backlash"}});
@@ -98,7 +99,8 @@ TEST_F(Concluded, ARestIsDescribedByWhatItDependsOn) {
   leave(1);
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
-    for (const std::size_t row : block.rows) selection.best.residual[static_cast<Eigen::Index>(row)] += 5 * k_floor * direction;
+    for (const std::size_t row : block.rows)
+      selection.best.residual[static_cast<Eigen::Index>(row)] += 5 * k_floor * direction;
   }
   EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
   ASSERT_FALSE(calibration.unknown.empty());
@@ -156,7 +158,8 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
   Selection selection;
   selection.catalogue = catalogue(joint(), evidence.measurement);
   selection.none = workers.one().fit({}, {});
-  for (const auto& [gain, words] : {std::pair(-0.01, "it shows too little"), std::pair(0.01, "it shows too much"), std::pair(0.0, "")}) {
+  for (const auto& [gain, words] :
+       {std::pair(-0.01, "it shows too little"), std::pair(0.01, "it shows too much"), std::pair(0.0, "")}) {
     selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
     selection.best.at.sensor.gain = gain;
     const std::vector<FoundEffect> found = found_effects(evidence, workers, selection);

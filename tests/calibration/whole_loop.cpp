@@ -93,7 +93,7 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
   });
   add("joint_length", [&](LoopCase& c) { c.hidden.joint_length = -0.05 * R; });
   add("tendon_stretch", [&](LoopCase& c) {
-    c.hidden.modulus = declared.tendon.modulus / 4.0;
+    c.hidden.modulus = declared.tendon.modulus / 3.0;
     c.plans = about(load);
     c.load = load;
   });

@@ -86,7 +86,7 @@ TEST(Judge, a_cause_left_out_of_the_catalogue_has_no_name) {
 }
 
 TEST(Judge, calibration_names_nothing_that_its_catalogue_lacks) {
-  const Case lash = make_case({"backlash", {"backlash"}}, 1, {Protocol::single});
+  const Case lash = make_case({"backlash", {"backlash"}}, 1, {Protocol::full});
   const auto folder = std::filesystem::path(::testing::TempDir()) / "left_out";
   const auto said = [&](const std::vector<std::string>& without) {
     const std::string words = calibrate_case(lash, folder, without).words;
