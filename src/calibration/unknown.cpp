@@ -57,13 +57,16 @@ double rms_of(const Eigen::VectorXd& values) {
 /// Rows in use: the angle of the motor and of the joint.
 struct Angles {
   Eigen::VectorXd motor, joint;
-  double motor_step = 0;  ///< median from row to row
+  double motor_step = 0;  ///< median from row to row, of those between which the motor moved
   double joint_step = 0;
 };
 
-double median_step(const Eigen::VectorXd& angle) {
+/// Of rows at one held angle noise alone moves the joint's: they show no order.
+double median_step(const Eigen::VectorXd& angle, const Eigen::VectorXd& motor) {
   std::vector<double> steps;
-  for (Eigen::Index i = 1; i < angle.size(); ++i) steps.push_back(std::abs(angle[i] - angle[i - 1]));
+  for (Eigen::Index i = 1; i < angle.size(); ++i) {
+    if (motor[i] != motor[i - 1]) steps.push_back(std::abs(angle[i] - angle[i - 1]));
+  }
   return steps.empty() ? 0.0 : median_of(steps);
 }
 
@@ -79,8 +82,8 @@ Angles angles_of(const Evidence& evidence) {
     angles.motor[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->alpha;
     angles.joint[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->theta;
   }
-  angles.motor_step = median_step(angles.motor);
-  angles.joint_step = median_step(angles.joint);
+  angles.motor_step = median_step(angles.motor, angles.motor);
+  angles.joint_step = median_step(angles.joint, angles.motor);
   return angles;
 }
 

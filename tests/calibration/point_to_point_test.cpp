@@ -16,6 +16,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 /// Where the motor is held, under what load, for how many rows.
 struct Stop {
@@ -141,7 +142,7 @@ TEST(PointToPoint, a_joint_as_declared_is_blamed_for_nothing) {
 
 TEST(PointToPoint, soft_tendons_show_between_loads) {
   for (const Protocol& protocol : k_protocols) {
-    if (protocol.stops == alternating_ends && protocol.rows == 1) continue;  // 36 rows at two places
+    if (protocol.stops == alternating_ends) continue;  // two_places_name_nothing
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), soft(), 5)});
     EXPECT_THAT(names_of(found), Contains("tendon_stretch")) << protocol.name << ": " << found.summary;
     EXPECT_LT(found.after.rms, 0.6 * found.before.rms) << protocol.name;
@@ -150,16 +151,35 @@ TEST(PointToPoint, soft_tendons_show_between_loads) {
 
 TEST(PointToPoint, play_shows_between_the_sides_that_a_place_was_come_to_from) {
   for (const Protocol& protocol : k_protocols) {
+    if (protocol.stops == alternating_ends) continue;  // two_places_name_nothing
     const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), loose(), 5)});
     EXPECT_THAT(names_of(found), Contains("backlash")) << protocol.name << ": " << found.summary;
     EXPECT_LT(found.after.rms, 0.2 * found.before.rms) << protocol.name;
   }
 }
 
-// Where each place is come to from one side only, play could be shape as well: it is named with what could be it.
-TEST(PointToPoint, ends_alone_do_not_name_play_alone) {
-  const Calibration found = calibrated({log_of(alternating_ends(20), loose(), 5)});
-  EXPECT_EQ(found.verdict, CalibrationVerdict::confounded) << found.summary;
+struct Ends {
+  rig::Hidden (*hidden)();
+  const char* name;
+  const char* seen_with;  ///< how the factor begins on which the unnamed error is said to depend
+};
+
+// At two places a smooth error with no name has two numbers, and an effect little fewer: the data are likelier with the
+// effect, and not by as much as a name needs. What is more, each place is come to from one side only. No harmonic is
+// seen in two places either.
+TEST(PointToPoint, two_places_name_nothing) {
+  for (const Ends& ends : {Ends{loose, "backlash", "place"}, Ends{soft, "tendon_stretch", "load"}}) {
+    const Calibration found = calibrated({log_of(alternating_ends(20), ends.hidden(), 5)});
+    EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained) << found.summary;
+    EXPECT_THAT(names_of(found), IsEmpty());
+    ASSERT_FALSE(found.unknown.empty()) << ends.name;
+    EXPECT_THAT(found.unknown.front().factor, StartsWith(ends.seen_with));
+    const auto tried = std::find_if(found.tried.begin(), found.tried.end(),
+                                    [&](const Candidate& candidate) { return candidate.name == ends.name; });
+    ASSERT_NE(tried, found.tried.end()) << ends.name;
+    EXPECT_GT(tried->evidence, 0) << ends.name;
+    EXPECT_EQ(tried->why, "it adds less than a name needs");
+  }
 }
 
 TEST(PointToPoint, loads_within_a_run_are_held_out) {
