@@ -98,7 +98,7 @@ TEST(CalibrateVerb, ASlipIsSaidAndChangesNothingElse) {
     const auto named = [&](const OutputFile& one) { return one.name == name; };
     return std::find_if(result.outputs.begin(), result.outputs.end(), named)->bytes;
   };
-  const std::string words = "guides.OE_mm = -14 in place of 14 would explain the data to 0.02°: is the sign right?";
+  const std::string words = "guides.OE_mm = -14 in place of 14 would explain the data to 0.019°: is the sign right?";
   EXPECT_THAT(text_of("calibration.json"), testing::AllOf(HasSubstr("\"key\": \"guides.OE_mm\""), HasSubstr("\"would_be\": -14"),
                                                           HasSubstr(words)));
   EXPECT_THAT(text_of("report.html"), HasSubstr(words));

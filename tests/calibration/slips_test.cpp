@@ -178,7 +178,7 @@ TEST(UndoneSlips, are_said_where_no_effect_explains) {
   EXPECT_THAT(slips[0].would_be, ElementsAre(-14.0));
   EXPECT_LT(slips[0].rms, 1.1 * found.noise.rms);
   EXPECT_EQ(slip_words(slips[0]),
-            "guides.OE_mm = -14 in place of 14 would explain the data to 0.02°: is the sign right?");
+            "guides.OE_mm = -14 in place of 14 would explain the data to 0.019°: is the sign right?");
 }
 
 TEST(UndoneSlips, are_seen_before_any_search_where_they_are_plain) {
@@ -216,7 +216,7 @@ TEST(UndoneSlips, leave_room_for_an_effect_beside_them) {
 TEST(UndoneSlips, leave_room_for_a_cause_without_a_name) {
   Bench bench = rig_data("f_not_in_any_catalogue");
   bench.right.guides.OE *= -1;
-  EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("would explain the data to 0.073°")));
+  EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("would explain the data to 0.076°")));
 }
 
 TEST(UndoneSlips, stand_before_effects_that_are_larger_than_any) {
