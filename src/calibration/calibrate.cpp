@@ -152,7 +152,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
          "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
-  calibration.effects = found_effects(evidence, workers, selection);
+  calibration.effects = found_effects(evidence, selection);
   if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);

@@ -39,19 +39,18 @@ std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect&
   return effect.name + " (" + numbers + ")";
 }
 
-/// By how much the held-out error falls with `effect` beside the others, rad; by how much it does from the declared
-/// joint where the others alone give none that could be simulated. An effect without which the held-out error is no
-/// larger takes nothing away, and not less than nothing.
-double rms_drop(Workers& workers, const Selection& selection, const Effect& effect) {
-  const Fit& best = selection.best;
-  const Fit others = workers.one().fit(without(best.effects, effect), without(best.at, effect));
+/// By how much the held-out error falls with the effect at `place` beside the others, rad; by how much it does from the
+/// declared joint where the others alone give none that could be simulated. An effect without which the held-out error
+/// is no larger takes nothing away, and not less than nothing.
+double rms_drop(const Selection& selection, std::size_t place) {
+  const Fit& others = selection.without[place];
   const Fit& before = others.usable ? others : selection.none;
-  return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(best.by_factor.mean_square));
+  return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(selection.best.by_factor.mean_square));
 }
 
 }  // namespace
 
-std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& workers, const Selection& selection) {
+std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection) {
   const Fit& best = selection.best;
   const std::vector<ConfidenceInterval> ranges = intervals(evidence, best);
   std::vector<FoundEffect> all;
@@ -65,7 +64,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& worker
     for (const Rival& rival : selection.rivals) {
       if (rival.accepted == effect && as_good(evidence, rival.fit, best)) found.group.push_back(rival.rival->name);
     }
-    found.rms_drop = rms_drop(workers, selection, *effect);
+    found.rms_drop = rms_drop(selection, all.size());
     for (const Candidate& candidate : selection.tried)
       if (candidate.accepted && candidate.name == effect->name) found.evidence = candidate.evidence;
     all.push_back(std::move(found));

@@ -11,7 +11,7 @@
 namespace fusee {
 
 /// In the order of selection.best.effects.
-std::vector<FoundEffect> found_effects(const Evidence& evidence, Workers& workers, const Selection& selection);
+std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection);
 
 /// "pulley_scale (scale_percent = −2.01) or slack (slack_mm = 0.31): 0.004° rms apart in these runs", one for each
 /// rival that does as well.

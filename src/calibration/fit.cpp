@@ -131,18 +131,21 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
   for (int i = 0; i < steps; ++i) {
     Fit next = placed(fit.effects, stepped(fit, share * known.step));
     next.J = fit.J;
-    if (from < next.x.size()) take_slopes(next, from);
     next.usable = is_finite(evidence(), next);
-    const Tangent there = next.usable ? tangent_of(evidence(), next) : Tangent{};
-    const double reached = next.usable ? marginal.summit(there, known.amplitudes) - price_of(evidence(), next)
-                                       : -std::numeric_limits<double>::infinity();
-    if (!(reached > height)) {
+    const double reached =
+        next.usable ? marginal.summit(tangent_of(evidence(), next), known.amplitudes) - price_of(evidence(), next)
+                    : -std::numeric_limits<double>::infinity();
+    if (reached > height) {  // slopes cost most, and a step that is not taken needs none
+      take_slopes(next, from);
+      next.usable = is_finite(evidence(), next);
+    }
+    if (!(reached > height) || !next.usable) {
       share *= k_shorter;
       continue;
     }
     const bool settled = reached < height + k_settled;
     fit = std::move(next);
-    here = there;
+    here = tangent_of(evidence(), fit);
     known = i % 2 == 1 && !stated ? marginal.best(here, known.amplitudes, rounds) : marginal.at(here, known.amplitudes);
     height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
     share = 1.0;

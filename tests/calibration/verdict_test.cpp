@@ -145,9 +145,10 @@ TEST(RmsDrop, IsNeverBelowNothing) {
   selection.catalogue = catalogue(joint(), evidence.measurement);
   const Effect& stretch = named("tendon_stretch");
   selection.none = workers.one().fit({}, {});
+  selection.without = {selection.none};
   selection.best = workers.one().fit({&stretch}, {});
   selection.best.by_factor.mean_square = 2 * selection.none.by_factor.mean_square;  // held out, it does harm
-  const std::vector<FoundEffect> found = found_effects(evidence, workers, selection);
+  const std::vector<FoundEffect> found = found_effects(evidence, selection);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].rms_drop, 0);
 }
@@ -158,11 +159,12 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
   Selection selection;
   selection.catalogue = catalogue(joint(), evidence.measurement);
   selection.none = workers.one().fit({}, {});
+  selection.without = {selection.none};
   for (const auto& [gain, words] :
        {std::pair(-0.01, "it shows too little"), std::pair(0.01, "it shows too much"), std::pair(0.0, "")}) {
     selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
     selection.best.at.sensor.gain = gain;
-    const std::vector<FoundEffect> found = found_effects(evidence, workers, selection);
+    const std::vector<FoundEffect> found = found_effects(evidence, selection);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].parameters[0].sense, words);
   }
