@@ -227,9 +227,9 @@ Command analyze_command() {
           "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
           "model of two elastic tendons with pretension, friction at the pins and in the\n"
           "grooves (what lies on a pulley slides as far as that lets it), in its third\n"
-          "cycle, alpha growing. The summary says what is largest, what is slack, and what makes\n"
-          "the joint miss its angle. At the ends of the range the motion turns back: there\n"
-          "both directions show the same state.",
+          "cycle, alpha growing. The summary says what is largest, what is slack, and\n"
+          "what makes the joint miss its angle. At the ends of the range the motion turns\n"
+          "back: there both directions show the same state.",
           {{"-o,--out", "FILE", "write the table to FILE: JSON if it ends in .json,\nelse CSV"},
            {"--csv", "", "the table as CSV on stdout"},
            {"--steps", "N", "steps of the table (default 60)"},
