@@ -100,7 +100,9 @@ Marginal::Solved Marginal::solved(const TangentSums& sums, const Amplitudes& amp
   A.diagonal().array() += 1.0;
   s.A.compute(A);
   s.B = beta * (s.size.asDiagonal() * sums.JD(Eigen::all, s.columns).transpose());
-  s.AB = s.A.solve(s.B);
+  // Where there is no effect there is nothing to solve: Eigen looks at the first number even of none.
+  s.AB = s.B;
+  if (s.AB.size() > 0) s.A.solveInPlace(s.AB);
   s.t = beta * s.size.cwiseProduct(sums.Dr(s.columns));
   s.At = s.A.solve(s.t);
   s.JJ = beta * sums.JJ - s.B.transpose() * s.AB;
