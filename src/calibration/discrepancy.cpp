@@ -19,6 +19,7 @@ namespace {
 /// Curves over the seen span: of place and direction, of what else they are multiplied by, and those that bend more.
 constexpr Eigen::Index k_smooth = 10;
 constexpr Eigen::Index k_simple = 6;
+constexpr Eigen::Index k_plain = 3;
 constexpr Eigen::Index k_rough = 18;
 /// Share of the span over which the latter bend, and places at which they are known.
 constexpr double k_bend = 0.06;
@@ -28,6 +29,7 @@ constexpr int k_nodes = 41;
 struct RowFacts {
   double place = 0;  ///< 0 … 1 over the seen span of α
   double direction = 0;
+  double since = 0;  ///< of the span, since the stroke began
   double load = 0;   ///< by the largest
   double speed = 0;  ///< of its run, by the largest
   double time = 0;   ///< within its run, −1 … 1
@@ -56,8 +58,10 @@ std::vector<RowFacts> facts_of(const Evidence& evidence) {
     const double half = std::max(1e-9, 0.5 * (run.samples.back().time - begin));
     for (const std::size_t row : block.rows) {
       const Sample& sample = run.samples[row - offset[block.run]];
+      const double begun = run.samples[run.strokes[block.stroke].first].alpha;
       facts.push_back({span.any() ? (sample.alpha - span.least) / span.size() : 0.0,
                        static_cast<double>(run.strokes[block.stroke].direction),
+                       span.any() ? std::abs(sample.alpha - begun) / span.size() : 0.0,
                        run.has_load && most_load > 0 ? sample.load / most_load : 0.0,
                        run.has_time && most_speed > 0 ? run.speed / most_speed : 0.0,
                        run.has_time ? (sample.time - begin) / half - 1.0 : 0.0, block.run, b});
@@ -138,6 +142,17 @@ Eigen::MatrixXd indicators(const std::vector<RowFacts>& facts, std::size_t RowFa
   return all;
 }
 
+/// What dies away behind a reversal.
+Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part) {
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(facts.size()), 3);
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    const RowFacts& row = facts[static_cast<std::size_t>(i)];
+    Eigen::Index k = 0;
+    for (const double way : {0.02, 0.06, 0.2}) all(i, k++) = part(row) * std::exp(-row.since / way);
+  }
+  return all;
+}
+
 /// Whether the rows differ in it.
 bool varies(const std::vector<RowFacts>& facts, double RowFacts::*number, double least) {
   SeenSpan span;
@@ -162,15 +177,28 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   const auto times = [&](const Part& part, const Eigen::MatrixXd& curve) -> Eigen::MatrixXd {
     return column(facts, part).asDiagonal() * curve;
   };
-  builder.add(Factor::place, bent);
+  const Eigen::MatrixXd plain = bent.leftCols(k_plain), more = bent.middleCols(k_plain, k_simple - k_plain),
+                        most = bent.rightCols(k_smooth - k_simple);
+  const auto direction = [](const RowFacts& r) { return r.direction; };
+  builder.add(Factor::place, plain);
+  builder.add(Factor::place, more);
+  builder.add(Factor::place, most);
   builder.add(Factor::place, rough);
-  builder.add(Factor::direction, times([](const RowFacts& r) { return r.direction; }, bent));
-  builder.add(Factor::direction, times([](const RowFacts& r) { return r.direction; }, rough));
+  builder.add(Factor::direction, times(direction, plain));
+  builder.add(Factor::direction, times(direction, more));
+  builder.add(Factor::direction, times(direction, most));
+  builder.add(Factor::direction, times(direction, rough));
+  builder.add(Factor::direction, transients(facts, direction));
   if (varies(facts, &RowFacts::load, 0.05)) {
     builder.add(Factor::load, times([](const RowFacts& r) { return r.load; }, smooth));
     builder.add(Factor::load_size, times([](const RowFacts& r) { return std::abs(r.load); }, smooth));
     builder.add(Factor::load_direction,
                 times([](const RowFacts& r) { return std::abs(r.load) * r.direction; }, smooth));
+    builder.add(Factor::load, times([](const RowFacts& r) { return 2.5 * r.load * r.load * r.load - 1.5 * r.load; }, plain));
+    builder.add(Factor::load_size, times([](const RowFacts& r) { return 1.5 * r.load * r.load - 0.5; }, plain));
+    builder.add(Factor::load_direction, times([](const RowFacts& r) { return r.load * r.direction; }, plain));
+    builder.add(Factor::load_direction,
+                transients(facts, [](const RowFacts& r) { return std::abs(r.load) * r.direction; }));
   }
   if (varies(facts, &RowFacts::speed, 0.1)) {
     builder.add(Factor::speed, times([](const RowFacts& r) { return r.speed; }, smooth));

@@ -60,9 +60,11 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     found.place = effect->place;
     found.correctable_by = effect->correctable_by;
     found.parameters = fitted_parameters(evidence, best, ranges, *effect);
-    found.group = {effect->name};
+    found.group.clear();
+    for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
     for (const Rival& rival : selection.rivals) {
-      if (rival.accepted == effect && as_good(evidence, rival.fit, best)) found.group.push_back(rival.rival->name);
+      const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
+      if (rival.accepted == effect && !in_group && as_good(evidence, rival.fit, best)) found.group.push_back(rival.rival->name);
     }
     found.rms_drop = rms_drop(selection, all.size());
     for (const Candidate& candidate : selection.tried)

@@ -111,7 +111,12 @@ Marginal::Solved Marginal::solved(const TangentSums& sums, const Amplitudes& amp
   const double rows = worth_ * sums.rows;
   const double freedom = k_thresholds.noise_freedom;
   const double excess = floor_ * floor_ / (amplitudes.noise * amplitudes.noise);
-  s.constant = 0.5 * rows * std::log(beta) - s.A.matrixLLT().diagonal().array().log().sum() +
+  double rarity = 0;
+  for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
+    const double ratio = amplitudes.families[static_cast<Eigen::Index>(f)] / (k_thresholds.usual_unknown * floor_);
+    if (!(discrepancy_.families[f].fixed > 0)) rarity += std::log1p(ratio * ratio);
+  }
+  s.constant = -rarity + 0.5 * rows * std::log(beta) - s.A.matrixLLT().diagonal().array().log().sum() +
                0.5 * freedom * (std::log(excess) - excess);
   return s;
 }
@@ -170,7 +175,9 @@ Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, 
     place += family.count;
     determined += known;
     if (family.fixed > 0) continue;
-    amplitude = std::sqrt(now.unnamed.segment(family.first, family.count).squaredNorm() / known);
+    const double ratio = amplitude / (k_thresholds.usual_unknown * floor_);
+    const double rarity = 2.0 * ratio * ratio / (1.0 + ratio * ratio);
+    amplitude = std::sqrt(now.unnamed.segment(family.first, family.count).squaredNorm() / (known + rarity));
     if (amplitude < k_nothing * floor_) amplitude = 0;
   }
   // Σ (r − J step − D a)², by what the sums know.

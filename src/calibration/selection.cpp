@@ -43,14 +43,17 @@ class Selector {
   Key key_of(const EffectSet& effects) const;
   void keep(Fit fit);
   std::vector<const Fit*> ranked() const;
-  double promised(const Fit& base, const std::vector<std::size_t>& added, int rounds) const;
+  double promised(const Fit& base, const std::vector<const Look*>& looks, const EffectSet& added, int rounds) const;
+  Look look_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added);
   void try_singles();
   void try_pairs();
   bool widen();
   void settle_best();
-  std::vector<Addition> promising(const Fit& base, std::size_t most) const;
+  std::vector<Addition> promising(const Fitter& fitter, const Fit& base, std::size_t most) const;
   bool challenge();
+  std::vector<Weighed> weighed() const;
+  bool drop_doubtful();
   void write_down();
 
   void report(const std::string& what, double share) const {
@@ -122,11 +125,12 @@ void Selector::try_singles() {
 }
 
 /// Score of `base` with these effects by a linear look.
-double Selector::promised(const Fit& base, const std::vector<std::size_t>& added, int rounds) const {
+double Selector::promised(const Fit& base, const std::vector<const Look*>& looks, const EffectSet& added, int rounds) const {
   Tangent tangent = tangent_of(evidence_, base);
   double cost = base.log_evidence - score(base);
-  for (const std::size_t i : added) {
-    const Look& look = looks_[i];
+  for (const Effect* effect : added) cost += rareness_of(*effect);
+  for (const Look* one : looks) {
+    const Look& look = *one;
     if (look.J.size() == 0) return -std::numeric_limits<double>::infinity();
     const Eigen::Index before = tangent.x.size();
     const Eigen::Index all = before + look.J.cols();
@@ -141,7 +145,6 @@ double Selector::promised(const Fit& base, const std::vector<std::size_t>& added
     tangent.read = read;
     tangent.pull.conservativeResize(all);
     tangent.pull.tail(look.J.cols()).setZero();
-    cost += cost_of(*selection_.catalogue[i]);
   }
   const double loose = base.explained.log_evidence - base.log_evidence;
   return evidence_.marginal->best(tangent, base.explained.amplitudes, rounds).log_evidence - loose - cost;
@@ -159,7 +162,9 @@ void Selector::try_pairs() {
   }
   const auto look_at = [&](int rounds) {
     workers_.each(pairs.size(), [&](const Fitter&, std::size_t k) {
-      pairs[k].promise = promised(selection_.none, {pairs[k].one, pairs[k].other}, rounds);
+      const std::size_t one = pairs[k].one, other = pairs[k].other;
+      pairs[k].promise = promised(selection_.none, {&looks_[one], &looks_[other]},
+                                  {selection_.catalogue[one], selection_.catalogue[other]}, rounds);
     });
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.promise > b.promise; });
   };
@@ -176,12 +181,24 @@ void Selector::try_pairs() {
   for (Fit& fit : fits) keep(std::move(fit));
 }
 
+/// By chords over the effect's size in practice.
+Look Selector::look_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const {
+  const Fit wider = fitter.with_chords(base, effect);
+  if (!wider.usable) return {};
+  const Tangent tangent = tangent_of(evidence_, wider);
+  const Eigen::Index more = wider.x.size() - base.x.size();
+  return {tangent.J.rightCols(more), tangent.prior.tail(more)};
+}
+
 /// Effects beside `base`, by a linear look the best first.
-std::vector<Addition> Selector::promising(const Fit& base, std::size_t most) const {
+std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base, std::size_t most) const {
   std::vector<Addition> all;
   for (std::size_t i = 0; i < selection_.catalogue.size(); ++i) {
     if (contains(base.effects, *selection_.catalogue[i])) continue;
-    all.push_back({&base, selection_.catalogue[i], promised(base, {i}, k_look_rounds)});
+    const Effect* effect = selection_.catalogue[i];
+    const Look beside = look_beside(fitter, base, *effect);
+    all.push_back({&base, effect, std::max(promised(base, {&looks_[i]}, {effect}, k_look_rounds),
+                                           promised(base, {&beside}, {effect}, k_look_rounds))});
   }
   std::stable_sort(all.begin(), all.end(), [](const Addition& a, const Addition& b) { return a.promise > b.promise; });
   all.resize(std::min(all.size(), most));
@@ -194,8 +211,9 @@ bool Selector::widen() {
   beam.resize(std::min(beam.size(), k_thresholds.beam));
   const double before = score(*beam.front());
   std::vector<std::vector<Addition>> looks(beam.size());
-  workers_.each(beam.size(), [&](const Fitter&, std::size_t i) {
-    if (beam[i]->effects.size() < k_thresholds.most_effects) looks[i] = promising(*beam[i], k_thresholds.most_looks);
+  workers_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
+    if (beam[i]->effects.size() < k_thresholds.most_effects)
+      looks[i] = promising(fitter, *beam[i], k_thresholds.most_looks);
   });
   std::vector<Addition> added;
   for (const std::vector<Addition>& look : looks) {
@@ -210,7 +228,7 @@ bool Selector::widen() {
   return score(*ranked().front()) > before;
 }
 
-/// The best few are fitted to the end; of those that do as well the one of fewest effects stands.
+/// The best few are fitted to the end.
 void Selector::settle_best() {
   std::vector<const Fit*> all = ranked();
   all.resize(std::min(all.size(), k_thresholds.beam));
@@ -218,17 +236,9 @@ void Selector::settle_best() {
   workers_.each(all.size(),
                 [&](const Fitter& fitter, std::size_t i) { settled[i] = fitter.fit(all[i]->effects, all[i]->at); });
   for (Fit& fit : settled) keep(std::move(fit));
-  all = ranked();
-  const Fit* simplest = all.front();
-  for (const Fit* fit : all) {
-    // What is part of the best set paid for every name less already.
-    const bool is_part = std::all_of(fit->effects.begin(), fit->effects.end(),
-                                     [&](const Effect* effect) { return contains(all.front()->effects, *effect); });
-    const double least = score(*all.front()) - (is_part ? 0.0 : k_thresholds.as_good);
-    if (fit->effects.size() < simplest->effects.size() && score(*fit) > least) simplest = fit;
-  }
-  selection_.best = workers_.one().fit(simplest->effects, simplest->at);
-  if (!selection_.best.usable || selection_.best.log_evidence < simplest->log_evidence) selection_.best = *simplest;
+  const Fit* likeliest = ranked().front();
+  selection_.best = workers_.one().fit(likeliest->effects, likeliest->at);
+  if (!selection_.best.usable || selection_.best.log_evidence < likeliest->log_evidence) selection_.best = *likeliest;
 }
 
 /// Every member is left out, and held against every effect in its place. Whether a better set was found.
@@ -240,8 +250,8 @@ bool Selector::challenge() {
     selection_.without[i] = fitter.fit(without(best.effects, effect), without(best.at, effect));
   });
   std::vector<std::vector<Addition>> looks(best.effects.size());
-  workers_.each(best.effects.size(), [&](const Fitter&, std::size_t i) {
-    if (selection_.without[i].usable) looks[i] = promising(selection_.without[i], selection_.catalogue.size());
+  workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
+    if (selection_.without[i].usable) looks[i] = promising(fitter, selection_.without[i], selection_.catalogue.size());
   });
   selection_.rivals.clear();
   std::vector<Addition> added;
@@ -268,6 +278,28 @@ bool Selector::challenge() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
+std::vector<Weighed> Selector::weighed() const {
+  const double misfit = std::max(1.0, selection_.best.explained.amplitudes.noise / evidence_.floor);
+  std::vector<Weighed> sets;
+  for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / (k_thresholds.temperature * misfit * misfit)});
+  return sets;
+}
+
+/// What is not sure enough to be named, with all that could stand in its place, goes, the most doubtful first.
+bool Selector::drop_doubtful() {
+  const std::vector<Weighed> sets = weighed();
+  selection_.groups.clear();
+  for (const Effect* effect : selection_.best.effects)
+    selection_.groups.push_back(credible_group(sets, selection_.best.effects, *effect, k_thresholds.most_mistaken));
+  const auto worst =
+      std::max_element(selection_.groups.begin(), selection_.groups.end(),
+                       [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });
+  if (worst == selection_.groups.end() || worst->doubt <= k_thresholds.most_mistaken) return false;
+  const Effect& doubtful = *worst->members.front();
+  selection_.best = workers_.one().fit(without(selection_.best.effects, doubtful), without(selection_.best.at, doubtful));
+  return true;
+}
+
 std::string nats_words(double nats) {
   const double decades = nats / std::log(10.0);
   return (decades < 0 ? "−" : "") + std::to_string(static_cast<int>(std::lround(std::abs(decades))));
@@ -284,10 +316,10 @@ void Selector::write_down() {
     candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
     selection_.tried.push_back(candidate);
   }
-  for (const Addition& look : promising(best, selection_.catalogue.size())) {
+  for (const Addition& look : promising(workers_.one(), best, selection_.catalogue.size())) {
     Candidate candidate;
     candidate.name = look.effect->name;
-    candidate.evidence = look.promise + cost_of(*look.effect) - score(best);
+    candidate.evidence = look.promise + rareness_of(*look.effect) - score(best);
     candidate.why = candidate.evidence < 0 ? "the data are likelier without it" : "it adds less than a name needs";
     if (!std::isfinite(candidate.evidence)) candidate.why = "the joint could not be simulated with it";
     selection_.tried.push_back(candidate);
@@ -308,21 +340,31 @@ Selection Selector::run() {
     settle_best();
     if (!challenge()) break;
   }
+  bool dropped = false;
+  while (drop_doubtful()) dropped = true;
+  if (dropped) {
+    challenge();
+    drop_doubtful();
+  }
   write_down();
   return std::move(selection_);
 }
 
 }  // namespace
 
-double cost_of(const Effect& effect) {
+double price_of_search(const Effect& effect) {
   const bool searched = std::any_of(effect.parameters.begin(), effect.parameters.end(),
                                     [](const EffectParameter& p) { return p.searched; });
-  return k_thresholds.price_of_a_name + (searched ? k_thresholds.price_of_a_search : 0.0);
+  return searched ? k_thresholds.price_of_a_search : 0.0;
 }
+
+double rareness_of(const Effect& effect) { return k_thresholds.rareness + price_of_search(effect); }
+
+double cost_of(const Effect& effect) { return k_thresholds.price_of_a_name + price_of_search(effect); }
 
 double score(const Fit& fit) {
   double score = fit.log_evidence;
-  for (const Effect* effect : fit.effects) score -= cost_of(*effect);
+  for (const Effect* effect : fit.effects) score -= rareness_of(*effect);
   return score;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/posterior.h"
 #include "calibration/statistics.h"
 #include "calibration/workers.h"
 #include "fusee/calibration/calibration.h"
@@ -24,13 +25,16 @@ struct Selection {
   Fit best;                   ///< with all accepted effects
   std::vector<Fit> without;   ///< `best` without each of its effects, in their order
   std::vector<Rival> rivals;  ///< of every accepted effect, usable ones
+  std::vector<CredibleGroup> groups;  ///< of every accepted effect
   std::vector<Candidate> tried;
 };
 
+/// By how much an effect is rarer than none, nats.
+double rareness_of(const Effect& effect);
 /// What a name costs, nats.
 double cost_of(const Effect& effect);
 
-/// Evidence of a set against the others: that of the data, less what every name costs.
+/// Log of how likely a set is, but for a constant: by the data, and by how common faults are.
 double score(const Fit& fit);
 
 /// An empty catalogue's answer with an unusable `none` where the declared joint has no equilibrium.

@@ -32,6 +32,11 @@ struct Thresholds {
 
   /// Of the declared joint's deflection: what the model of it is trusted to. A log however long tells nothing smaller.
   double trusted = 0.03;
+  /// Nats by which an effect is rarer than none: of the catalogue's 26 two or three are on a joint that is looked at.
+  double rareness = 2.3;
+  double usual_unknown = 0.3;
+  /// Evidence is overstated ...
+  double temperature = 1.5;
   /// Nats that a name costs: a Bayes factor of 400, "decisive" in the usual scale (Kass and Raftery 1995).
   double price_of_a_name = 6.0;
   /// … and one whose numbers are searched for.

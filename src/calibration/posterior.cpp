@@ -1,0 +1,73 @@
+#include "calibration/posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fusee {
+namespace {
+
+bool shares(const EffectSet& one, const EffectSet& other) {
+  return std::any_of(one.begin(), one.end(), [&](const Effect* effect) { return contains(other, *effect); });
+}
+
+/// Weights of the likeliest set's 1.
+std::vector<double> weights_of(const std::vector<Weighed>& sets) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Weighed& set : sets) most = std::max(most, set.log_weight);
+  std::vector<double> weights;
+  for (const Weighed& set : sets) weights.push_back(std::exp(set.log_weight - most));
+  return weights;
+}
+
+/// Of what all weigh, the part of sets that hold none of these.
+double doubt_of(const std::vector<Weighed>& sets, const std::vector<double>& weights, const EffectSet& members) {
+  double without = 0, all = 0;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    all += weights[i];
+    if (!shares(sets[i].effects, members)) without += weights[i];
+  }
+  return all > 0 ? without / all : 1.0;
+}
+
+/// What most of the weight has in the place of `members`; nothing where it has nothing there.
+const Effect* in_their_place(const std::vector<Weighed>& sets, const std::vector<double>& weights,
+                             const EffectSet& members, const EffectSet& best) {
+  std::vector<std::pair<const Effect*, double>> others;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (shares(sets[i].effects, members)) continue;
+    for (const Effect* effect : sets[i].effects) {
+      if (contains(best, *effect)) continue;
+      const auto known =
+          std::find_if(others.begin(), others.end(), [&](const auto& other) { return other.first == effect; });
+      if (known == others.end()) {
+        others.emplace_back(effect, weights[i]);
+      } else {
+        known->second += weights[i];
+      }
+    }
+  }
+  const auto largest =
+      std::max_element(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return largest == others.end() ? nullptr : largest->first;
+}
+
+}  // namespace
+
+CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const Effect& named,
+                             double most_doubt) {
+  const std::vector<double> weights = weights_of(sets);
+  CredibleGroup group{{&named}, doubt_of(sets, weights, {&named})};
+  while (group.doubt > most_doubt) {
+    const Effect* other = in_their_place(sets, weights, group.members, best);
+    if (other == nullptr) break;
+    EffectSet wider = group.members;
+    wider.push_back(other);
+    const double doubt = doubt_of(sets, weights, wider);
+    if (!(doubt < group.doubt)) break;
+    group = {std::move(wider), doubt};
+  }
+  return group;
+}
+
+}  // namespace fusee
