@@ -29,15 +29,24 @@ WoundContent linear(double arc, double density_from, double density_to, double s
           0.5 * (energy_per_arc(density_from, swelling) + energy_per_arc(density_to, swelling)) * arc};
 }
 
-/// Gauss's places and weights on [0, 1].
+/// Gauss's places and weights on [−1, 1].
 constexpr std::array<std::array<double, 2>, 3> k_gauss{
-    {{0.112701665379258311, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.887298334620741689, 5.0 / 18.0}}};
+    {{-0.774596669241483377, 5.0 / 18.0}, {0.0, 8.0 / 18.0}, {0.774596669241483377, 5.0 / 18.0}}};
 /// Of the wrap, rad, and of what falls over it by e^{μφ}: 1e-7 of its change.
 constexpr double k_panel = 1.0;
 /// Less strain than this is none: to logarithms it is that much.
 constexpr double k_no_strain = 1e-17;
 
 double log_of(double strain) { return std::log(std::max(strain, k_no_strain)); }
+
+/// e^x and e^−x to rounding, for |x| ≤ 0.4.
+std::array<double, 2> both_ways(double x) {
+  const double y = x * x;
+  const double even =
+      1.0 + y * (1.0 / 2 + y * (1.0 / 24 + y * (1.0 / 720 + y * (1.0 / 40320 + y * (1.0 / 3628800 + y / 479001600)))));
+  const double odd = x * (1.0 + y * (1.0 / 6 + y * (1.0 / 120 + y * (1.0 / 5040 + y * (1.0 / 362880 + y / 39916800)))));
+  return {even + odd, even - odd};
+}
 
 struct SlidStretch {
   WoundContent held;
@@ -58,21 +67,24 @@ SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const Groo
     const int panels = static_cast<int>(std::ceil(turn * std::max(1.0, std::abs(fall)) / k_panel));
     const double origin = groove.arc(to.turn) - arc;
     const double width = turn / panels;
-    const double fall_over = panels > 1 ? std::exp(fall * width) : 1.0;
+    const double half_fall = std::exp(0.5 * fall * width);
+    const auto [ahead, behind] = both_ways(0.5 * fall * width * k_gauss[2][0]);
+    const std::array<double, 3> at_places{half_fall * behind, half_fall, half_fall * ahead};
     double material = 0, energy = 0, length = 0;
-    for (const auto& [place, weight] : k_gauss) {
-      double behind = place * width;
-      double q = std::exp(fall * behind);
-      for (int panel = 0; panel < panels; ++panel) {
+    double over_panels = 1;
+    for (int panel = 0; panel < panels; ++panel) {
+      for (std::size_t i = 0; i < k_gauss.size(); ++i) {
+        const auto& [place, weight] = k_gauss[i];
+        const double turned = (panel + 0.5 * (1.0 + place)) * width;
+        const double q = over_panels * at_places[i];
         const double here = strain * q;
         const double stretched = 1.0 / (1.0 + here);
-        const double moved = weight * q * stretched * stretched * (groove.arc(to.turn - behind) - origin);
+        const double moved = weight * q * stretched * stretched * (groove.arc(to.turn - turned) - origin);
         material -= moved;
         energy += moved * here * (1.0 + 0.5 * here);
         length += moved * (1.0 - here) * stretched;
-        behind += width;
-        q *= fall_over;
       }
+      over_panels *= half_fall * half_fall;
     }
     const double scale = fall * width;
     sum.held.material += scale * strain * material;
