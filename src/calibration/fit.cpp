@@ -219,13 +219,16 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
   Amplitudes alone = marginal.nothing_unnamed();
   const Eigen::VectorXd left = tangent_of(evidence(), best).residual;
   alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
-  Fit first = descended(best, base.x.size(), k_chords, alone, 1);
-  first = descended(std::move(first), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
-  Fit beside = descended(std::move(best), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
-  for (Fit* fit : {&first, &beside}) {
-    hold_at_bounds(*fit);
-    judge(*fit);
-  }
+  const auto judged = [&](Fit from) {
+    Fit fit = descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
+    hold_at_bounds(fit);
+    judge(fit);
+    return fit;
+  };
+  Fit first = judged(descended(best, base.x.size(), k_chords, alone, 1));
+  // What the start promised is reached: small steps from there would not find more.
+  if (first.usable && first.log_evidence >= promised) return first;
+  Fit beside = judged(std::move(best));
   return beside.usable && (!first.usable || beside.log_evidence > first.log_evidence) ? beside : first;
 }
 
