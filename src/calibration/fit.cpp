@@ -19,8 +19,10 @@ constexpr int k_chords = 3;
 constexpr int k_few_rounds = 3;
 /// Of a step that made things worse.
 constexpr double k_shorter = 0.3;
-/// Nats: a step that gains less is the last.
+/// Nats: a step that gains less is the last …
 constexpr double k_settled = 0.05;
+/// … and one that promises less, a sixteenth of a standard error, is not simulated.
+constexpr double k_worth_a_step = 2e-3;
 /// Of a number that no practice is known of, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
@@ -50,6 +52,25 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
     set_value(at, parameter, std::clamp(value, parameter.least, parameter.most));
   }
   return at;
+}
+
+/// Each by its step.
+Eigen::VectorXd numbers_of(const Parameters& parameters, const Imperfections& at) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(parameters.size()));
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const EffectParameter& parameter = *parameters[static_cast<std::size_t>(k)];
+    x[k] = value_of(at, parameter) / parameter.step;
+  }
+  return x;
+}
+
+/// What a tangent says of the place `x`.
+Tangent said_of(Tangent tangent, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd step = x - tangent.x;
+  tangent.residual -= tangent.J * step;
+  tangent.against += step.dot(tangent.read * step) - 2.0 * step.dot(tangent.pull);
+  tangent.x = x;
+  return tangent;
 }
 
 /// What loose rows leave less than noise does, nats.
@@ -97,11 +118,7 @@ Fit Fitter::placed(const EffectSet& effects, const Imperfections& at) const {
   Said words = model_.said(at);
   fit.residual = std::move(words.residual);
   fit.loose = std::move(words.loose);
-  fit.x.resize(static_cast<Eigen::Index>(fit.parameters.size()));
-  for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
-    const EffectParameter& parameter = *fit.parameters[static_cast<std::size_t>(k)];
-    fit.x[k] = value_of(at, parameter) / parameter.step;
-  }
+  fit.x = numbers_of(fit.parameters, at);
   return fit;
 }
 
@@ -120,15 +137,28 @@ Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& a
   return fit;
 }
 
-/// Steps while they gain; slopes before `from` stay what they are.
+/// Steps while they gain, or promise to; slopes before `from` stay what they are.
 Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const {
   const Marginal& marginal = *evidence().marginal;
   Tangent here = tangent_of(evidence(), fit);
   const bool stated = rounds == 1;
   Explained known = marginal.best(here, amplitudes, rounds);
-  double height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
+  bool estimated = true;  // the amplitudes, where it stands
   double share = 1.0;
   for (int i = 0; i < steps; ++i) {
+    double height = marginal.summit(here, known.amplitudes);
+    const auto promised = [&] {
+      const Imperfections there = stepped(fit, share * known.step);
+      return marginal.summit(said_of(here, numbers_of(fit.parameters, there)), known.amplitudes) - height;
+    };
+    if (promised() < k_worth_a_step) {
+      if (estimated) break;
+      known = marginal.best(here, known.amplitudes, rounds);
+      estimated = true;
+      height = marginal.summit(here, known.amplitudes);
+      if (promised() < k_worth_a_step) break;
+    }
+    height -= price_of(evidence(), fit);
     Fit next = placed(fit.effects, stepped(fit, share * known.step));
     next.J = fit.J;
     next.usable = is_finite(evidence(), next);
@@ -146,8 +176,8 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
     const bool settled = reached < height + k_settled;
     fit = std::move(next);
     here = tangent_of(evidence(), fit);
-    known = i % 2 == 1 && !stated ? marginal.best(here, known.amplitudes, rounds) : marginal.at(here, known.amplitudes);
-    height = marginal.summit(here, known.amplitudes) - price_of(evidence(), fit);
+    estimated = i % 2 == 1 || stated;
+    known = estimated && !stated ? marginal.best(here, known.amplitudes, rounds) : marginal.at(here, known.amplitudes);
     share = 1.0;
     if (settled) break;
   }
@@ -189,13 +219,16 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
   Amplitudes alone = marginal.nothing_unnamed();
   const Eigen::VectorXd left = tangent_of(evidence(), best).residual;
   alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
-  Fit first = descended(best, base.x.size(), k_chords, alone, 1);
-  first = descended(std::move(first), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
-  Fit beside = descended(std::move(best), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
-  for (Fit* fit : {&first, &beside}) {
-    hold_at_bounds(*fit);
-    judge(*fit);
-  }
+  const auto judged = [&](Fit from) {
+    Fit fit = descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
+    hold_at_bounds(fit);
+    judge(fit);
+    return fit;
+  };
+  Fit first = judged(descended(best, base.x.size(), k_chords, alone, 1));
+  // What the start promised is reached: small steps from there would not find more.
+  if (first.usable && first.log_evidence >= promised) return first;
+  Fit beside = judged(std::move(best));
   return beside.usable && (!first.usable || beside.log_evidence > first.log_evidence) ? beside : first;
 }
 

@@ -23,6 +23,21 @@ double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
 }
 
+/// Of A⁻¹ = L⁻ᵀ L⁻¹, strip by strip: a column of L⁻¹ begins at its own row.
+Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& A) {
+  constexpr Eigen::Index strip = 16;
+  const Eigen::MatrixXd& L = A.matrixLLT();
+  Eigen::VectorXd diagonal(L.rows());
+  for (Eigen::Index first = 0; first < L.rows(); first += strip) {
+    const Eigen::Index left = L.rows() - first;
+    const Eigen::Index count = std::min(strip, left);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Identity(left, count);
+    L.bottomRightCorner(left, left).triangularView<Eigen::Lower>().solveInPlace(columns);
+    diagonal.segment(first, count) = columns.colwise().squaredNorm();
+  }
+  return diagonal;
+}
+
 }  // namespace
 
 double log_prior(double x, double prior) {
@@ -160,9 +175,7 @@ Explained Marginal::explained(const TangentSums& tangent, const Amplitudes& ampl
 }
 
 Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, const Solved& s) const {
-  const Eigen::Index active = s.size.size();
-  const Eigen::MatrixXd A_inverse = s.A.solve(Eigen::MatrixXd::Identity(active, active));
-  Eigen::VectorXd unknown = A_inverse.diagonal();
+  Eigen::VectorXd unknown = inverse_diagonal(s.A);
   if (now.step.size() > 0) unknown += (s.AB * now.covariance).cwiseProduct(s.AB).rowwise().sum();
   Amplitudes better = now.amplitudes;
   double determined = static_cast<double>(now.step.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "fusee/base/plane.h"
 #include "fusee/transmission/load.h"
@@ -40,6 +41,9 @@ constexpr double k_least_strain = 1e-14;
 constexpr double k_rough_step = 1e-5;   // rad
 constexpr double k_newton_step = 1e-3;  // rad
 constexpr int k_newton_rounds = 6;
+/// The same before the joint's place was searched for: from row to row it is mostly nearer than this to where it is
+/// looked for.
+constexpr double k_glide = 0.02;  // rad
 /// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
 constexpr double k_least_hold = 1e-4;
 
@@ -135,17 +139,27 @@ Spans with_slide(Spans spans, const AtAlpha& at) {
   return spans;
 }
 
-/// Slides by the strain that was found with the present slide. Was it that already, but for `near`?
+/// How near a slide's strain has to be to the one found with it.
+double near_strain(const JointModel& model) { return std::max(model.last_step, k_least_strain); }
+
+/// Slides by the strain that is expected `next`. Was it already as by the one that was found `now`: by its strain, or
+/// because what it gives up to there is what its span said of it?
 ///
 /// Newton's steps; where they swing back they run in circles round a kink (what slides turns round), and half of one
 /// breaks the circle.
-bool slide_found(AtAlpha& at, const WoundProfile& wound, double found, double near) {
-  double by = found - at.slide.strain;
-  if (std::abs(by) <= near) return true;
-  if (by * at.moved < 0 && std::abs(by) > 0.5 * std::abs(at.moved)) by *= 0.5;
+bool slide_found(AtAlpha& at, const WoundProfile& wound, double now, double next, const JointModel& model) {
+  const double near = near_strain(model);
+  const double strain = at.slide.strain, freed = at.slide.freed, length = at.slide.length;
+  const bool same = std::abs(now - strain) <= near;
+  double by = std::max(next, 0.0) - strain;
+  if (std::abs(by) <= near) return same;
+  const bool swings = by * at.moved < 0 && std::abs(by) > 0.5 * std::abs(at.moved);
+  if (swings) by *= 0.5;
   at.moved = by;
-  at.slide = wound.slide(at.turned, at.slide.strain + by, at.swelling);
-  return false;
+  at.slide = wound.slide(at.turned, strain + by, at.swelling);
+  const double said = length * (1.0 / (1.0 + strain) - 1.0 / (1.0 + at.slide.strain));
+  const double missed = std::abs(at.swelling * (at.slide.freed - freed) - said);
+  return same || (!swings && missed <= model.last_step * at.path.p);
 }
 
 /// A tendon at a trial θ.
@@ -157,6 +171,7 @@ struct Trial {
   double wrap = 0;
   double pull = 0;   ///< on the joint, towards the tendon's own side: T_up m
   double slope = 0;  ///< of pull with respect to the image's θ
+  double lower_slope = 0;  ///< of the lower span's tension
 };
 
 Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
@@ -177,6 +192,8 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
   if (trial.wrap > 0) rate += trial.balance.per_capstan * mu * trial.span.dnormal;
   trial.slope = rate * m + trial.balance.upper * trial.span.dm;
+  if (trial.balance.crossed != 0 && trial.balance.upper > 0)
+    trial.lower_slope = rate * trial.balance.lower / trial.balance.upper;
   return trial;
 }
 
@@ -285,14 +302,14 @@ Spent wind(WoundProfile& wound, const AtAlpha& at) {
   return spent;
 }
 
-/// Takes a trial as what happened.
-Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial) {
+/// Takes a trial as what happened; what slides, but for `near`.
+Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial, double near) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
   const auto head = [EA](double upper, double lower) {
     return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
   };
-  if (std::abs(at.slide.strain - now.lower / EA) > k_least_strain)
+  if (std::abs(at.slide.strain - now.lower / EA) > near)
     at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
   Spent spent = wind(tendon.wound, at);
   spent.friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
@@ -358,7 +375,7 @@ struct JointMotion::State {
   std::optional<Rest> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start,
                                double last_step) const;
   std::optional<Rest> settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
-  bool consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now);
+  bool consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now, double move);
   EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
@@ -408,37 +425,49 @@ std::optional<Rest> JointMotion::State::balanced(const std::array<AtAlpha, 2>& a
   return Rest{*found, held, false};
 }
 
-/// What slides on both pulleys, and where pins give way the ratios of both tendons' tensions, taken as they were found;
-/// were they so already?
-bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now) {
-  constexpr double near = 1e-7;
-  // What is left of a tension's miss is its square, unless what slides turns round just there.
-  const double near_strain = std::max(model.last_step, k_least_strain);
+/// What slides on both pulleys, and where pins give way the ratios of both tendons' tensions, taken as they will be
+/// when the joint has moved on by `move`; were they so already?
+bool JointMotion::State::consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now, double move) {
+  constexpr double near_ratio = 1e-7;
   bool same = true;
   for (std::size_t i = 0; i < 2; ++i) {
     const TendonBalance& balance = now[i].balance;
-    same = slide_found(at[i], tendons[i].wound, balance.lower / at[i].spans.EA, near_strain) && same;
+    const double next = balance.lower + mirror_sign(tendons[i].side) * move * now[i].lower_slope;
+    const double EA = at[i].spans.EA;
+    same = slide_found(at[i], tendons[i].wound, balance.lower / EA, next / EA, model) && same;
     if (!(model.pin_give > 0 && balance.upper > 0 && balance.lower > 0)) continue;
     const double ratio = balance.lower / balance.upper;
-    if (std::abs(ratio - tendons[i].ratio) <= near) continue;
+    if (std::abs(ratio - tendons[i].ratio) <= near_ratio) continue;
     tendons[i].ratio = ratio;
     same = false;
   }
   return same;
 }
 
-/// The joint's place and what slides, found together: roughly the one with a first guess of the other, then both by a
-/// step of Newton's each; where that does not do (a kink, a bearing that holds) one after the other.
+/// The joint's place and what slides, found together, both by a step of Newton's each. Where that does not do (a kink,
+/// a bearing that holds, nothing that holds) one after the other.
 std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start) {
-  auto rest = balanced(at, step, start, std::max(model.last_step, k_rough_step));
+  bool searched = false;
+  const auto search = [&](double from) {
+    const double exactly = std::exchange(searched, true) ? model.last_step : std::max(model.last_step, k_rough_step);
+    return balanced(at, step, from, exactly);
+  };
+  // Where pins give way there may be two places that hold, and the search finds the one that is in keeping.
+  const bool first_search = loose || model.bearing_friction > 0 || model.pin_give > 0;
+  auto rest = first_search ? search(start) : std::optional(Rest{std::clamp(start, model.theta_least, model.theta_most)});
   for (int i = 0; i < k_rounds && rest; ++i) {
     rest->trials = trials(at, rest->theta);
     const Residual beyond = residual(rest->trials, step, rest->theta);
-    const bool same = consistent(at, rest->trials);
     const double move = beyond.slope < 0 && !rest->stays ? -(beyond.value - rest->held) / beyond.slope : 0.0;
+    const bool same = consistent(at, rest->trials, move);
+    const bool held = std::max(rest->trials[0].balance.upper, rest->trials[1].balance.upper) >= k_least_hold;
+    if (!searched && !(held && beyond.slope < 0 && std::abs(move) <= k_glide)) {
+      rest = search(start);
+      continue;
+    }
     if (same && std::abs(move) <= model.last_step) return rest;
-    if (rest->stays || std::abs(move) > k_newton_step || i >= k_newton_rounds)
-      rest = balanced(at, step, rest->theta, model.last_step);
+    if (rest->stays || (searched && std::abs(move) > k_newton_step) || i >= k_newton_rounds)
+      rest = search(rest->theta);
     else
       rest->theta += move;
   }
@@ -456,7 +485,7 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   point.theta = theta = found;
   point.stiffness = point.stiffness_stuck = model.weight_slope(found);
   for (std::size_t i = 0; i < 2; ++i) {
-    const Spent spent = settle(tendons[i], at[i], now[i]);
+    const Spent spent = settle(tendons[i], at[i], now[i], near_strain(model));
     wound_energy += spent.wound;
     friction += spent.friction;
     groove_friction += spent.groove_friction;

@@ -19,9 +19,18 @@ constexpr int k_approach = 24;
 /// What sensors and play may add to the angles that were logged, rad.
 constexpr double k_beyond = 0.1;
 
-/// What the mechanism does not see: the same for all sensors.
-Imperfections without_sensor(Imperfections at) {
+/// The order of a wave of no size, and the time of a slip of none, do nothing.
+template <typename Wave>
+void forget_idle_order(Wave& wave) {
+  if (wave.wave_sin == 0 && wave.wave_cos == 0) wave.wave_order = Wave{}.wave_order;
+}
+
+/// What moves the mechanism: the same for all sensors, and for numbers that do nothing beside the others.
+Imperfections that_move(Imperfections at) {
   at.sensor = {};
+  forget_idle_order(at.motor);
+  forget_idle_order(at.pulley.outline);
+  if (at.tendon.slip == 0 && at.ratio_joint.step == 0) at.tendon.slip_time = 0;
   return at;
 }
 
@@ -50,6 +59,21 @@ double standing(const EquilibriumPoint& point) {
   return point.status == EquilibriumStatus::no_equilibrium ? std::numeric_limits<double>::quiet_NaN() : point.theta;
 }
 double play_of(const EquilibriumPoint& point) { return std::max(point.loose_above, point.loose_below); }
+
+/// Whether a joint without memory of time moves alike in both.
+bool are_driven_alike(const BenchRun& one, const BenchRun& other) {
+  const auto alike = [&one](const BenchRow& a, const BenchRow& b) {
+    return a.alpha == b.alpha && (!one.has_load || a.load == b.load) &&
+           (!one.has_temperature || a.temperature == b.temperature);
+  };
+  return one.has_load == other.has_load && one.has_temperature == other.has_temperature &&
+         one.mounting.motor_sensor_turned == other.mounting.motor_sensor_turned &&
+         std::equal(one.rows.begin(), one.rows.end(), other.rows.begin(), other.rows.end(), alike);
+}
+
+bool minds_time(const Imperfections& at) {
+  return at.tendon.creep != 0 || at.tendon.slip != 0 || !(at.ratio_joint == RatioJointError{});
+}
 
 JointState state_of(const EquilibriumPoint& point) {
   JointState state{point.status, standing(point)};
@@ -106,6 +130,12 @@ void TendonCreep::rest(double time) {
 Forward::Forward(const Mechanism& declared, const BenchLog& log, const Mechanism& made_for)
     : declared_(declared), log_(log), clock_(bench_clock(log)), first_temperature_(first_temperature(log)) {
   if (!declared.transmission) made_.emplace(made_for);
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    all_.push_back(i);
+    std::size_t first = 0;
+    while (first < i && !are_driven_alike(log[first], log[i])) ++first;
+    driven_.push_back(first);
+  }
   for (const BenchRun& run : log) {
     for (const BenchRow& row : run.rows) {
       alpha_least_ = std::min(alpha_least_, row.alpha);
@@ -208,17 +238,18 @@ std::vector<double> Forward::geared(std::size_t index, const Imperfections& at, 
   return theta;
 }
 
-void Forward::move(const Imperfections& at, const std::function<void(std::size_t, const EquilibriumPoint&)>& found) {
+void Forward::move(const Imperfections& at, const std::vector<std::size_t>& runs,
+                   const std::function<void(std::size_t, const EquilibriumPoint&)>& found) {
   if (made_) {
     const JointMotion home = at_home(at);
     const double EA = section_stiffness(mounted(declared_, at).mechanism.tendon);
     TendonCreep creep(at.tendon.creep, EA, home, {.torque = declared_.load.torque});
-    for (std::size_t i = 0; i < log_.size(); ++i)
+    for (const std::size_t i : runs)
       elastic(i, home, at, creep, [&](const EquilibriumPoint& point) { found(i, point); });
     return;
   }
   CreepMemory drift;
-  for (std::size_t i = 0; i < log_.size(); ++i) {
+  for (const std::size_t i : runs) {
     for (const double theta : geared(i, at, drift)) {
       EquilibriumPoint point;
       point.theta = theta;
@@ -228,16 +259,25 @@ void Forward::move(const Imperfections& at, const std::function<void(std::size_t
 }
 
 const Forward::Motion& Forward::mechanism(const Imperfections& imperfections) {
-  const Imperfections key = without_sensor(imperfections);
+  const Imperfections key = that_move(imperfections);
   for (const Motion& motion : latest_) {
     if (motion.key == key && !motion.theta.empty()) return motion;
   }
   Motion& place = latest_[next_++ % latest_.size()];
   place = {key, Readings(log_.size()), Readings(log_.size())};
-  move(key, [&](std::size_t run, const EquilibriumPoint& point) {
+  const std::vector<std::size_t>& stands_for = minds_time(key) ? all_ : driven_;
+  std::vector<std::size_t> moved;
+  for (const std::size_t run : all_) {
+    if (stands_for[run] == run) moved.push_back(run);
+  }
+  move(key, moved, [&](std::size_t run, const EquilibriumPoint& point) {
     place.theta[run].push_back(standing(point));
     place.loose[run].push_back(play_of(point));
   });
+  for (const std::size_t run : all_) {
+    place.theta[run] = place.theta[stands_for[run]];
+    place.loose[run] = place.loose[stands_for[run]];
+  }
   return place;
 }
 
@@ -250,7 +290,7 @@ Readings Forward::operator()(const Imperfections& imperfections) {
 
 std::vector<std::vector<JointState>> Forward::states(const Imperfections& at) {
   std::vector<std::vector<JointState>> all(log_.size());
-  move(without_sensor(at), [&](std::size_t run, const EquilibriumPoint& point) {
+  move(that_move(at), all_, [&](std::size_t run, const EquilibriumPoint& point) {
     all[run].push_back(made_ ? state_of(point) : JointState{point.status, point.theta});
   });
   for (std::size_t i = 0; i < log_.size(); ++i) {

@@ -67,8 +67,8 @@ class Forward {
 
   const Motion& mechanism(const Imperfections& imperfections);
   JointMotion at_home(const Imperfections& imperfections);
-  /// Calls `found` with what every row of every run finds; of a joint declared by a ratio only θ is known.
-  void move(const Imperfections& imperfections,
+  /// Calls `found` with what every row of these runs finds; of a joint declared by a ratio only θ is known.
+  void move(const Imperfections& imperfections, const std::vector<std::size_t>& runs,
             const std::function<void(std::size_t run, const EquilibriumPoint&)>& found);
   void elastic(std::size_t run, JointMotion motion, const Imperfections& imperfections, TendonCreep& creep,
                const std::function<void(const EquilibriumPoint&)>& found) const;
@@ -78,12 +78,14 @@ class Forward {
 
   const Mechanism& declared_;
   const BenchLog& log_;
-  std::vector<double> clock_;  ///< added to the time of each run
+  std::vector<double> clock_;        ///< added to the time of each run
+  std::vector<std::size_t> all_;     ///< runs
+  std::vector<std::size_t> driven_;  ///< the first run that was driven as each is, but for its pace
   double first_temperature_ = 0;
   std::optional<MadePulleys> made_;
   double alpha_least_ = 0;
   double alpha_most_ = 0;
-  std::array<Motion, 4> latest_;
+  std::array<Motion, 16> latest_;
   std::size_t next_ = 0;
   std::array<Geometry, 4> latest_geometry_;
   std::size_t next_geometry_ = 0;

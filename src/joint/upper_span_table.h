@@ -27,12 +27,14 @@ class UpperSpanTable {
   Look at(double theta) const;
 
  private:
-  struct Knot {
-    double length, m, dm, d2m, normal, dnormal, d2normal;
+  /// A quintic over a piece, from its least angle on in pieces.
+  using Quintic = std::array<double, 6>;
+  struct Piece {
+    Quintic length, m, normal;
   };
   double least_;
   double step_;
-  std::vector<Knot> knots_;
+  std::vector<Piece> pieces_;
 };
 
 /// Of the left tendon's image and of the right one.

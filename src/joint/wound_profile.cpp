@@ -29,15 +29,24 @@ WoundContent linear(double arc, double density_from, double density_to, double s
           0.5 * (energy_per_arc(density_from, swelling) + energy_per_arc(density_to, swelling)) * arc};
 }
 
-/// Gauss's places and weights on [0, 1].
+/// Gauss's places and weights on [−1, 1].
 constexpr std::array<std::array<double, 2>, 3> k_gauss{
-    {{0.112701665379258311, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.887298334620741689, 5.0 / 18.0}}};
+    {{-0.774596669241483377, 5.0 / 18.0}, {0.0, 8.0 / 18.0}, {0.774596669241483377, 5.0 / 18.0}}};
 /// Of the wrap, rad, and of what falls over it by e^{μφ}: 1e-7 of its change.
 constexpr double k_panel = 1.0;
 /// Less strain than this is none: to logarithms it is that much.
 constexpr double k_no_strain = 1e-17;
 
 double log_of(double strain) { return std::log(std::max(strain, k_no_strain)); }
+
+/// e^x and e^−x to rounding, for |x| ≤ 0.4.
+std::array<double, 2> both_ways(double x) {
+  const double y = x * x;
+  const double even =
+      1.0 + y * (1.0 / 2 + y * (1.0 / 24 + y * (1.0 / 720 + y * (1.0 / 40320 + y * (1.0 / 3628800 + y / 479001600)))));
+  const double odd = x * (1.0 + y * (1.0 / 6 + y * (1.0 / 120 + y * (1.0 / 5040 + y * (1.0 / 362880 + y / 39916800)))));
+  return {even + odd, even - odd};
+}
 
 struct SlidStretch {
   WoundContent held;
@@ -58,18 +67,24 @@ SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const Groo
     const int panels = static_cast<int>(std::ceil(turn * std::max(1.0, std::abs(fall)) / k_panel));
     const double origin = groove.arc(to.turn) - arc;
     const double width = turn / panels;
+    const double half_fall = std::exp(0.5 * fall * width);
+    const auto [ahead, behind] = both_ways(0.5 * fall * width * k_gauss[2][0]);
+    const std::array<double, 3> at_places{half_fall * behind, half_fall, half_fall * ahead};
     double material = 0, energy = 0, length = 0;
+    double over_panels = 1;
     for (int panel = 0; panel < panels; ++panel) {
-      for (const auto& [place, weight] : k_gauss) {
-        const double behind = (panel + place) * width;
-        const double q = std::exp(fall * behind);
+      for (std::size_t i = 0; i < k_gauss.size(); ++i) {
+        const auto& [place, weight] = k_gauss[i];
+        const double turned = (panel + 0.5 * (1.0 + place)) * width;
+        const double q = over_panels * at_places[i];
         const double here = strain * q;
         const double stretched = 1.0 / (1.0 + here);
-        const double moved = weight * q * stretched * stretched * (groove.arc(to.turn - behind) - origin);
+        const double moved = weight * q * stretched * stretched * (groove.arc(to.turn - turned) - origin);
         material -= moved;
         energy += moved * here * (1.0 + 0.5 * here);
         length += moved * (1.0 - here) * stretched;
       }
+      over_panels *= half_fall * half_fall;
     }
     const double scale = fall * width;
     sum.held.material += scale * strain * material;
@@ -80,13 +95,22 @@ SlidStretch sliding(const GrooveArc& groove, const GroovePlace& from, const Groo
   return sum;
 }
 
-/// `piece` below `place`.
+WoundContent operator-(const WoundContent& all, const WoundContent& part) {
+  return {all.material - part.material, all.energy - part.energy};
+}
+
+/// `piece` below `place`. Mostly little of it is taken off, which is sooner summed up than what stays.
 WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& place, double swelling) {
   if (piece.slid) {
-    const double strain = strain_of(piece.density_to, swelling) * std::exp(piece.fall * (piece.to.turn - place.turn));
+    const double above = strain_of(piece.density_to, swelling);
+    const double here = above * std::exp(piece.fall * (piece.to.turn - place.turn));
+    const bool takes_little =
+        piece.swelling == swelling && piece.to.turn - place.turn < place.turn - piece.from.turn;
+    piece.held = takes_little ? piece.held - sliding(groove, place, piece.to, above, piece.fall, swelling).held
+                              : sliding(groove, piece.from, place, here, piece.fall, swelling).held;
     piece.to = place;
-    piece.density_to = density_of(strain, swelling);
-    piece.held = sliding(groove, piece.from, piece.to, strain, piece.fall, swelling).held;
+    piece.density_to = density_of(here, swelling);
+    piece.swelling = swelling;
     return piece;
   }
   const double share = (place.arc - piece.from.arc) / (piece.to.arc - piece.from.arc);
@@ -103,18 +127,20 @@ struct Bound {
   double fall = 0;
   bool pulls = true;  ///< else it lets go
 
-  /// By how much it is beyond what has this strain, which it moves where that is positive.
+  /// By how much it is beyond what has the logarithm of its strain `there`, which it moves where that is positive.
   double beyond(double at, double there) const {
-    const double by = log_strain + fall * (turn - at) - log_of(there);
+    const double by = log_strain + fall * (turn - at) - there;
     return pulls ? by : -by;
   }
 };
 
-/// Where the bound stops moving `piece`; `piece.to` where it moves nothing of it, `piece.from` where all.
-GroovePlace cut_of(const WoundPiece& piece, const Bound& bound, const GrooveArc& groove, double swelling) {
-  const double at_to = bound.beyond(piece.to.turn, strain_of(piece.density_to, swelling));
+/// Where the bound stops moving `piece`; `piece.to` where it moves nothing of it, `piece.from` where all. Given the
+/// logarithms of the strains at its ends.
+GroovePlace cut_of(const WoundPiece& piece, double log_from, double log_to, const Bound& bound,
+                   const GrooveArc& groove) {
+  const double at_to = bound.beyond(piece.to.turn, log_to);
   if (!(at_to > 0)) return piece.to;
-  const double at_from = bound.beyond(piece.from.turn, strain_of(piece.density_from, swelling));
+  const double at_from = bound.beyond(piece.from.turn, log_from);
   if (at_from > 0) return piece.from;
   // Straight in between: exact where the piece has slid, and what was laid in a step is short.
   const double share = at_to / (at_to - at_from);
@@ -137,7 +163,13 @@ GrooveArc::GrooveArc(std::vector<GroovePlace> along, double knot_beyond) {
       const double left = along[i].turn - along[i - 1].turn, right = along[i + 1].turn - along[i].turn;
       here = (slope(i - 1) * right + slope(i) * left) / (left + right);
     }
-    knots_.push_back({along[i].turn, along[i].arc, here});
+    knots_.push_back({along[i].turn, along[i].arc, here, 0, 0});
+  }
+  for (std::size_t i = 0; i < last; ++i) {
+    const double h = along[i + 1].turn - along[i].turn;
+    const double from = knots_[i].slope - slope(i), to = knots_[i + 1].slope - slope(i);
+    knots_[i].bend = -(2.0 * from + to) / h;
+    knots_[i].twist = (from + to) / (h * h);
   }
   per_turn_ = static_cast<double>(last) / (knots_.back().turn - knots_.front().turn);
   knot_ = {knots_.front().turn - knot_beyond / knots_.front().slope, knots_.front().arc - knot_beyond};
@@ -153,19 +185,15 @@ double GrooveArc::arc(double turn) const {
   while (knots_[i].turn > turn) --i;
   while (knots_[i + 1].turn < turn) ++i;
   const Knot& from = knots_[i];
-  const Knot& to = knots_[i + 1];
-  const double h = to.turn - from.turn;
-  const double u = (turn - from.turn) / h;
-  const double v = 1.0 - u;
-  return v * v * ((1.0 + 2.0 * u) * from.arc + u * h * from.slope) +
-         u * u * ((1.0 + 2.0 * v) * to.arc - v * h * to.slope);
+  const double h = turn - from.turn;
+  return from.arc + h * (from.slope + h * (from.bend + h * from.twist));
 }
 
 WoundProfile::WoundProfile(std::shared_ptr<const GrooveArc> groove, double friction, const GroovePlace& take_off,
                            double density)
     : groove_(std::move(groove)), friction_(friction), home_density_(density), take_off_(take_off), density_(density) {
   if (!(groove_->knot().arc < take_off.arc)) return;
-  WoundPiece all{groove_->knot(), take_off, density, density, true, 0.0, {}};
+  WoundPiece all{groove_->knot(), take_off, density, density, true, 0.0, {}, 1.0};
   all.held = sliding(*groove_, all.from, all.to, strain_of(density, 1.0), 0.0, 1.0).held;
   pieces_.push_back(all);
 }
@@ -177,6 +205,7 @@ Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) con
   turned.take_off = take_off;
   turned.before = take_off.arc > take_off_.arc ? take_off_ : take_off;
   turned.lies = strain(swelling);
+  turned.log_lies = log_of(turned.lies);
   std::size_t left = pieces_.size();
   while (left > 0 && pieces_[left - 1].from.arc >= turned.before.arc) turned.came_off += pieces_[--left].held.material;
   if (left == 0) {
@@ -193,7 +222,13 @@ Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) con
     turned.top = below(*groove_, turned.top, turned.before, swelling);
     turned.came_off -= turned.top.held.material;
   }
-  if (take_off.arc < take_off_.arc) turned.lies = strain_of(turned.top.density_to, swelling);
+  const bool goes_on = turned.top.density_to == density_;
+  const double top = goes_on ? turned.lies : strain_of(turned.top.density_to, swelling);
+  turned.log_top = goes_on ? turned.log_lies : log_of(top);
+  if (take_off.arc < take_off_.arc) {
+    turned.lies = top;
+    turned.log_lies = turned.log_top;
+  }
   return turned;
 }
 
@@ -209,7 +244,7 @@ Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) 
   Bound bound{turned.before.turn, 0, strain > lies ? -friction_ : friction_, strain > lies};
   const double falls = bound.fall * (turned.take_off.turn - turned.before.turn);
   bound.log_strain = log_of(strain) + falls;
-  slide.slides = turned.has_top && bound.beyond(bound.turn, lies) > 0;
+  slide.slides = turned.has_top && bound.beyond(bound.turn, turned.log_lies) > 0;
   const double q = slide.slides ? std::exp(falls) : 1.0;
   const double top = slide.slides ? strain * q : lies;
   slide.at_before = laid > 0 ? top : strain;
@@ -222,8 +257,12 @@ Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) 
   if (!slide.slides) return slide;
   slide.fall = bound.fall;
   double came_loose = 0;
+  double log_to = turned.log_top;
   for (;;) {
-    slide.cut = cut_of(slide.rest, bound, *groove_, swelling);
+    const double log_from = slide.rest.density_from == slide.rest.density_to
+                                ? log_to
+                                : log_of(strain_of(slide.rest.density_from, swelling));
+    slide.cut = cut_of(slide.rest, log_from, log_to, bound, *groove_);
     if (slide.cut.arc >= slide.rest.to.arc) break;
     came_loose += slide.rest.held.material;
     if (slide.cut.arc > slide.rest.from.arc) {
@@ -233,7 +272,9 @@ Slide WoundProfile::slide(const Turned& turned, double strain, double swelling) 
     }
     slide.has_rest = slide.below > 0;
     if (!slide.has_rest) break;
+    const double density = slide.rest.density_from;
     slide.rest = pieces_[--slide.below];
+    log_to = slide.rest.density_to == density ? log_from : log_of(strain_of(slide.rest.density_to, swelling));
   }
   const SlidStretch moved = sliding(*groove_, slide.cut, turned.before, top, bound.fall, swelling);
   slide.sliding = moved.held;
@@ -258,11 +299,11 @@ WoundContent WoundProfile::accept(const Turned& turned, const Slide& slide, doub
   const double at_before = density_of(slide.at_before, swelling);
   if (slide.slides && turned.before.arc > slide.cut.arc) {
     const double at_cut = slide.at_before * std::exp(slide.fall * (turned.before.turn - slide.cut.turn));
-    put({slide.cut, turned.before, density_of(at_cut, swelling), at_before, true, slide.fall, slide.sliding});
+    put({slide.cut, turned.before, density_of(at_cut, swelling), at_before, true, slide.fall, slide.sliding, swelling});
   }
   if (const double laid = turned.take_off.arc - turned.before.arc; laid > 0) {
     const double now = density_of(slide.strain, swelling);
-    put({turned.before, turned.take_off, at_before, now, false, 0.0, linear(laid, at_before, now, swelling)});
+    put({turned.before, turned.take_off, at_before, now, false, 0.0, linear(laid, at_before, now, swelling), swelling});
   }
   take_off_ = turned.take_off;
   density_ = density_of(slide.strain, swelling);

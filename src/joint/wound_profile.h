@@ -30,6 +30,7 @@ class GrooveArc {
  private:
   struct Knot {
     double turn, arc, slope;
+    double bend, twist;  ///< arc + h (slope + h (bend + h twist)) at h beyond it, up to the next
   };
   std::vector<Knot> knots_;
   double per_turn_ = 0;  ///< knots
@@ -52,6 +53,7 @@ struct WoundPiece {
   bool slid = false;
   double fall = 0;  ///< of what slid, per rad
   WoundContent held;
+  double swelling = 1;  ///< at which `held` was summed up
 };
 
 class WoundProfile;
@@ -63,7 +65,9 @@ struct Turned {
   std::size_t below = 0;   ///< pieces that stay as they are …
   WoundPiece top;          ///< … and the one above them, cut at the take-off
   bool has_top = false;    ///< else nothing is left on the pulley
-  double lies = 0;         ///< strain of what lies at `before`
+  double lies = 0;         ///< strain of what lies at `before` …
+  double log_lies = 0;     ///< … and its logarithm
+  double log_top = 0;      ///< the same at the upper end of `top`
   double came_off = 0;     ///< material, with the turning alone, mm
   WoundContent past_knot;  ///< of that: what the range was left for by
 };

@@ -64,6 +64,31 @@ Lower free_below(const Transmission& law, Side side, double image_alpha) {
   return {here.reach - crossing, here.normal};
 }
 
+/// What a mechanism gives one of its tendons, in its right-hand image.
+struct Given {
+  Given(const Mechanism& mechanism, Side its_side)
+      : law(mechanism),
+        side(its_side),
+        R(mechanism.joint.R),
+        pin(side == Side::right ? mechanism.guides.ED : mechanism.guides.EB, -mechanism.guides.OE),
+        rho(mechanism.guide_pitch_radius()),
+        EA(mechanism.tendon.modulus * k_pi / 4 * mechanism.tendon.diameter * mechanism.tendon.diameter) {}
+
+  UpperLine upper(double image_theta) const { return upper_line(R, image_theta, pin, rho); }
+  Lower lower(double image_alpha) const { return free_below(law, side, image_alpha); }
+  /// Moment arm about the pulley's axis.
+  double arm(double image_alpha) const {
+    const TransmissionPoint at = law.at_alpha(mirror_sign(side) * image_alpha);
+    return side == Side::right ? at.t2.p : at.t1.p;
+  }
+
+  Transmission law;
+  Side side;
+  double R;
+  Vec2 pin;
+  double rho, EA;
+};
+
 /// A span or a piece of the wrap.
 struct Piece {
   double length = 0;
@@ -76,24 +101,20 @@ double tension(const Piece& piece, double EA) { return std::max(0.0, EA * (piece
 class Chain {
  public:
   Chain(const Mechanism& mechanism, Side side, double home_tension, int points)
-      : law_(mechanism), side_(side), mu_(mechanism.guides.mu), rho_(mechanism.guide_pitch_radius()) {
-    EA_ = mechanism.tendon.modulus * k_pi / 4 * mechanism.tendon.diameter * mechanism.tendon.diameter;
-    pin_ = {side == Side::right ? mechanism.guides.ED : mechanism.guides.EB, -mechanism.guides.OE};
-    R_ = mechanism.joint.R;
-    lower_ = lower_at(0.0);
-    const double home = upper_line(R_, 0.0, pin_, rho_).normal;
+      : given_(mechanism, side), mu_(mechanism.guides.mu), lower_(given_.lower(0.0)) {
+    const double home = given_.upper(0.0).normal;
     const double spacing = (home - lower_.normal) / points;
     for (int i = -40 * points; i <= 40 * points; ++i) rim_.push_back(lower_.normal + (i + 0.5) * spacing);
     pieces_ = {{1.0, 1.0}};
     first_ = last_ = index_above(lower_.normal);
-    fit(pieces_, first_, last_, upper_line(R_, 0.0, pin_, rho_), lower_);
-    for (Piece& piece : pieces_) piece.material = piece.length / (1.0 + home_tension / EA_);
-    pile_density_ = 1.0 / (1.0 + home_tension / EA_);
+    fit(pieces_, first_, last_, given_.upper(0.0), lower_);
+    for (Piece& piece : pieces_) piece.material = piece.length / (1.0 + home_tension / given_.EA);
+    pile_density_ = 1.0 / (1.0 + home_tension / given_.EA);
   }
 
   /// The pulley moves on; θ is not known yet.
   void turn(double image_alpha) {
-    next_ = lower_at(image_alpha);
+    next_ = given_.lower(image_alpha);
     winding_ = wound_by(image_alpha);
     alpha_next_ = image_alpha;
   }
@@ -108,17 +129,17 @@ class Chain {
     std::vector<Piece> pieces = pieces_;
     std::size_t first = first_;
     std::size_t last = last_;
-    const UpperLine upper = upper_line(R_, image_theta, pin_, rho_);
+    const UpperLine upper = given_.upper(image_theta);
     if (winding_ < 0) pieces.front().material += paid_out();
     fit(pieces, first, last, upper, next_);
     if (winding_ > 0) pieces.front().length += winding_;
     relax(pieces, first, upper.normal);
-    const Pull result{tension(pieces.back(), EA_), tension(pieces.front(), EA_), tension(pieces.back(), EA_) * upper.arm};
+    const Pull result{tension(pieces.back(), given_.EA), tension(pieces.front(), given_.EA), tension(pieces.back(), given_.EA) * upper.arm};
     if (keep) {
       move_pile(result.lower);
       if (winding_ > 0) {
         pieces.front().length -= winding_;
-        pieces.front().material -= winding_ / (1.0 + result.lower / EA_);
+        pieces.front().material -= winding_ / (1.0 + result.lower / given_.EA);
       }
       pieces_ = std::move(pieces);
       first_ = first;
@@ -130,16 +151,11 @@ class Chain {
   }
 
  private:
-  const TendonPoint& tendon(const TransmissionPoint& at) const { return side_ == Side::right ? at.t2 : at.t1; }
-
-  Lower lower_at(double image_alpha) const { return free_below(law_, side_, image_alpha); }
-
   /// Arc that comes onto the pulley: what comes over the pin (∫p dα, Simpson) less what the lower line takes.
   double wound_by(double image_alpha) const {
-    const double sign = mirror_sign(side_);
-    const auto p = [&](double a) { return tendon(law_.at_alpha(sign * a)).p; };
-    const double over = (image_alpha - alpha_) / 6 * (p(alpha_) + 4 * p(0.5 * (alpha_ + image_alpha)) + p(image_alpha));
-    return over - (next_.reach - lower_.reach) + rho_ * (next_.normal - lower_.normal);
+    const double between = given_.arm(0.5 * (alpha_ + image_alpha));
+    const double over = (image_alpha - alpha_) / 6 * (given_.arm(alpha_) + 4 * between + given_.arm(image_alpha));
+    return over - (next_.reach - lower_.reach) + given_.rho * (next_.normal - lower_.normal);
   }
 
   std::size_t index_above(double normal) const {
@@ -167,26 +183,26 @@ class Chain {
       return part;
     };
     while (last < new_last) {
-      const double below = rho_ * (rim_[last] - (last > first ? rim_[last - 1] : lower.normal)) + (last > first ? 0.0 : lower.reach);
-      const double above = upper.free + rho_ * (upper.normal - rim_[last]);
+      const double below = given_.rho * (rim_[last] - (last > first ? rim_[last - 1] : lower.normal)) + (last > first ? 0.0 : lower.reach);
+      const double above = upper.free + given_.rho * (upper.normal - rim_[last]);
       const Piece part = split(below / (below + above), pieces.size() - 1);
       pieces.insert(pieces.end() - 1, part);
       ++last;
     }
     while (first > new_first) {
-      const double above = rho_ * ((first < last ? rim_[first] : upper.normal) - rim_[first - 1]) + (first < last ? 0.0 : upper.free);
-      const double below = lower.reach + rho_ * (rim_[first - 1] - lower.normal);
+      const double above = given_.rho * ((first < last ? rim_[first] : upper.normal) - rim_[first - 1]) + (first < last ? 0.0 : upper.free);
+      const double below = lower.reach + given_.rho * (rim_[first - 1] - lower.normal);
       const Piece part = split(below / (below + above), 0);
       pieces.insert(pieces.begin(), part);
       --first;
     }
     if (first == last) {
-      pieces[0].length = upper.free + rho_ * (upper.normal - lower.normal) + lower.reach;
+      pieces[0].length = upper.free + given_.rho * (upper.normal - lower.normal) + lower.reach;
       return;
     }
-    pieces.front().length = lower.reach + rho_ * (rim_[first] - lower.normal);
-    for (std::size_t i = first + 1; i < last; ++i) pieces[i - first].length = rho_ * (rim_[i] - rim_[i - 1]);
-    pieces.back().length = upper.free + rho_ * (upper.normal - rim_[last - 1]);
+    pieces.front().length = lower.reach + given_.rho * (rim_[first] - lower.normal);
+    for (std::size_t i = first + 1; i < last; ++i) pieces[i - first].length = given_.rho * (rim_[i] - rim_[i - 1]);
+    pieces.back().length = upper.free + given_.rho * (upper.normal - rim_[last - 1]);
   }
 
   /// Lets material slip at each point of friction until nowhere the ratio of tensions is beyond it.
@@ -209,15 +225,15 @@ class Chain {
   }
 
   double slip(Piece& below, Piece& above, double ratio) const {
-    const double up = tension(above, EA_);
-    const double down = tension(below, EA_);
+    const double up = tension(above, given_.EA);
+    const double down = tension(below, given_.EA);
     double factor = 0;  // wanted up/down
     if (up > ratio * down) factor = ratio;
     if (down > ratio * up) factor = 1.0 / ratio;
     if (factor == 0) return 0;
     // One Newton step on up = factor · down; the next pass does the rest.
-    const double up_slope = -EA_ * above.length / (above.material * above.material);
-    const double down_slope = EA_ * below.length / (below.material * below.material);
+    const double up_slope = -given_.EA * above.length / (above.material * above.material);
+    const double down_slope = given_.EA * below.length / (below.material * below.material);
     double crossing = -(up - factor * down) / (up_slope - factor * down_slope);
     crossing = std::clamp(crossing, -0.5 * above.material, 0.5 * below.material);
     above.material += crossing;
@@ -243,7 +259,7 @@ class Chain {
 
   void move_pile(double lower_tension) {
     if (winding_ >= 0) {
-      pile_.push_back({winding_, 1.0 / (1.0 + lower_tension / EA_)});
+      pile_.push_back({winding_, 1.0 / (1.0 + lower_tension / given_.EA)});
       return;
     }
     double left = -winding_;
@@ -255,10 +271,8 @@ class Chain {
     }
   }
 
-  Transmission law_;
-  Side side_;
-  double mu_, rho_, EA_ = 0, R_ = 0;
-  Vec2 pin_;
+  Given given_;
+  double mu_;
   std::vector<double> rim_;     ///< normals of the points of friction, fixed on the rim
   std::vector<Piece> pieces_;   ///< from the pulley up
   std::size_t first_, last_;    ///< rim points the tendon lies on
@@ -273,12 +287,9 @@ class Chain {
 class Elements {
  public:
   Elements(const Mechanism& mechanism, Side side, double home_tension, int count)
-      : law_(mechanism), side_(side), mu_(mechanism.pulley.mu), rho_(mechanism.guide_pitch_radius()) {
-    EA_ = mechanism.tendon.modulus * k_pi / 4 * mechanism.tendon.diameter * mechanism.tendon.diameter;
-    pin_ = {side == Side::right ? mechanism.guides.ED : mechanism.guides.EB, -mechanism.guides.OE};
-    R_ = mechanism.joint.R;
+      : given_(mechanism, side), mu_(mechanism.pulley.mu) {
     survey();
-    const double home = home_tension / EA_;
+    const double home = home_tension / given_.EA;
     turn(0.0);
     material_ = (arc_now_ + span(0.0)) / (1.0 + home) / count;
     strain_.assign(static_cast<std::size_t>(arc_now_ / (1.0 + home) / material_) + 1, home);
@@ -292,7 +303,7 @@ class Elements {
     const double share = place - static_cast<double>(i);
     arc_now_ = arcs_[i] + share * (arcs_[i + 1] - arcs_[i]);
     turn_now_ = turns_[i] + share * (turns_[i + 1] - turns_[i]);
-    lower_ = point(image_alpha);
+    lower_ = given_.lower(image_alpha);
   }
 
   Chain::Pull pull(double image_theta, bool keep = false) {
@@ -322,33 +333,27 @@ class Elements {
       excess(high, length, &laid);
       strain_ = std::move(laid);
     }
-    return {EA_ * high, EA_ * high, EA_ * high * upper_line(R_, image_theta, pin_, rho_).arm};
+    return {given_.EA * high, given_.EA * high, given_.EA * high * given_.upper(image_theta).arm};
   }
 
  private:
-  Lower point(double image_alpha) const { return free_below(law_, side_, image_alpha); }
-
   /// Arc from the knot and turning of the normal, along the range: what comes over the pin (∫p dα) less what the lower line takes.
   void survey() {
-    const bool right = side_ == Side::right;
-    const double from = right ? law_.alpha_min() : -law_.alpha_max();
-    const double to = right ? law_.alpha_max() : -law_.alpha_min();
+    const bool right = given_.side == Side::right;
+    const double from = right ? given_.law.alpha_min() : -given_.law.alpha_max();
+    const double to = right ? given_.law.alpha_max() : -given_.law.alpha_min();
     constexpr int count = 4000;
     double over = 0;
     Lower first;
-    const auto p = [&](double a) {
-      const TransmissionPoint at = law_.at_alpha(mirror_sign(side_) * a);
-      return right ? at.t2.p : at.t1.p;
-    };
     for (int i = 0; i <= count; ++i) {
       const double alpha = from + (to - from) * i / count;
       const double step = (to - from) / count;
-      if (i > 0) over += step / 6 * (p(alpha - step) + 4 * p(alpha - 0.5 * step) + p(alpha));
-      const Lower here = point(alpha);
+      if (i > 0) over += step / 6 * (given_.arm(alpha - step) + 4 * given_.arm(alpha - 0.5 * step) + given_.arm(alpha));
+      const Lower here = given_.lower(alpha);
       if (i == 0) first = here;
       alphas_.push_back(alpha);
-      arcs_.push_back(5.0 + over - (here.reach - first.reach) + rho_ * (here.normal - first.normal));
-      turns_.push_back(5.0 / p(from) + here.normal - first.normal + alpha - from);
+      arcs_.push_back(5.0 + over - (here.reach - first.reach) + given_.rho * (here.normal - first.normal));
+      turns_.push_back(5.0 / given_.arm(from) + here.normal - first.normal + alpha - from);
     }
   }
   double turn_at(double arc) const {
@@ -359,8 +364,8 @@ class Elements {
     return turns_[i - 1] + (turns_[i] - turns_[i - 1]) * (arc - arcs_[i - 1]) / (arcs_[i] - arcs_[i - 1]);
   }
   double span(double image_theta) const {
-    const UpperLine upper = upper_line(R_, image_theta, pin_, rho_);
-    return upper.free + rho_ * (upper.normal - lower_.normal) + lower_.reach;
+    const UpperLine upper = given_.upper(image_theta);
+    return upper.free + given_.rho * (upper.normal - lower_.normal) + lower_.reach;
   }
 
   /// Length of the span that its material does not fill at this strain, mm.
@@ -382,10 +387,8 @@ class Elements {
     return length - (total_ - on_pulley) * (1.0 + strain);
   }
 
-  Transmission law_;
-  Side side_;
-  double mu_, rho_, EA_ = 0, R_ = 0;
-  Vec2 pin_;
+  Given given_;
+  double mu_;
   std::vector<double> alphas_, arcs_, turns_;
   std::vector<double> strain_;
   double material_ = 0, total_ = 0;
