@@ -52,6 +52,7 @@ class Auditor {
   TangentSums sums(const World& world, const Set& set) const;
   double score_of(const Explained& explained, const Set& set) const;
   Set search(const World& world, Set set) const;
+  bool could_be(const World& world, const Set& found, std::size_t named) const;
   double rms(const Eigen::VectorXd& values) const {
     return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
   }
@@ -265,6 +266,23 @@ Auditor::Set Auditor::search(const World& world, Set set) const {
   return set;
 }
 
+/// Whether what is there stands in the group of what was named.
+bool Auditor::could_be(const World& world, const Set& found, std::size_t named) const {
+  if (world.there == nullptr || world.there == world.unknown) return false;
+  Set instead;
+  for (const std::size_t i : found) {
+    if (chords_[i].effect == world.there) return true;
+    if (i != named) instead.push_back(i);
+  }
+  for (std::size_t i = 0; i < chords_.size(); ++i) {
+    if (chords_[i].effect == world.there) instead.push_back(i);
+  }
+  const auto reached = [&](const Set& set) {
+    return score_of(marginal_.best(sums(world, set), world.start, k_rounds + 2), set);
+  };
+  return reached(instead) > reached(found) - k_thresholds.temperature * std::log(1.0 / k_thresholds.least_of_a_group);
+}
+
 Audited Auditor::of(std::size_t found, Workers& workers) const {
   const Effect* named = selection_.best.effects[found];
   Set others;
@@ -276,15 +294,32 @@ Audited Auditor::of(std::size_t found, Workers& workers) const {
   std::vector<const Effect*> there(worlds, nullptr);
   workers.each(worlds, [&](const Fitter&, std::size_t i) {
     const World made = world(found, i);
-    for (const std::size_t chord : search(made, others)) blamed[i] = blamed[i] || chords_[chord].effect == named;
+    const Set set = search(made, others);
+    for (const std::size_t chord : set) {
+      if (chords_[chord].effect == named) blamed[i] = !could_be(made, set, chord);
+    }
     there[i] = made.there;
   });
+  std::vector<std::pair<int, const Effect*>> mistaken;
   Audited audited;
   audited.counts.worlds = k_thresholds.worlds;
   for (std::size_t i = 0; i < worlds; ++i) {
     if (!blamed[i]) continue;
     ++audited.counts.named;
-    if (there[i] != nullptr && !contains(audited.mistaken, *there[i])) audited.mistaken.push_back(there[i]);
+    if (there[i] == nullptr) continue;
+    const auto known = std::find_if(mistaken.begin(), mistaken.end(), [&](const auto& m) { return m.second == there[i]; });
+    if (known == mistaken.end()) {
+      mistaken.emplace_back(1, there[i]);
+    } else {
+      ++known->first;
+    }
+  }
+  std::stable_sort(mistaken.begin(), mistaken.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  audited.beyond = audited.counts.named;
+  for (const auto& [count, effect] : mistaken) {
+    if (audited.beyond <= k_thresholds.most_mistaken * audited.counts.worlds) break;
+    audited.mistaken.push_back(effect);
+    audited.beyond -= count;
   }
   return audited;
 }

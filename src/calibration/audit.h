@@ -11,7 +11,9 @@ namespace fusee {
 /// What simulated joints without an effect say of its name.
 struct Audited {
   Audit counts;
-  EffectSet mistaken;  ///< effects that were there and were read as this one
+  EffectSet mistaken;  ///< effects that were there and were read as this one, as many as it takes to be sure
+  int beyond = 0;      ///< joints that bore the name and had none of these
+  bool given_up = false;
 };
 
 /// Of each effect of selection.best, in their order.

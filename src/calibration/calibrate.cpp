@@ -124,14 +124,21 @@ Measurement about_declared(const Mechanism& declared, const Measurement& measure
   return about;
 }
 
-/// A name that simulated joints without it bear too often takes those into its group that were read as it.
-void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
+/// What was read as an effect joins its group; a name that joints of any other kind bear too often is given up, and so
+/// is one of a group that says nothing any more. What is left of `audited` stands beside the groups.
+void take_audit(std::vector<Audited>& audited, Workers& workers, Selection& selection) {
+  EffectSet doubtful;
   for (std::size_t i = 0; i < audited.size(); ++i) {
-    FoundEffect& effect = calibration.effects[i];
-    effect.audit = audited[i].counts;
-    if (effect.audit.named <= k_thresholds.most_mistaken * effect.audit.worlds) continue;
-    for (const Effect* other : audited[i].mistaken) effect.group.push_back(other->name);
+    EffectSet& group = selection.groups[i].members;
+    for (const Effect* other : audited[i].mistaken) {
+      if (!contains(group, *other)) group.push_back(other);
+    }
+    audited[i].given_up = audited[i].beyond > k_thresholds.most_mistaken * audited[i].counts.worlds ||
+                          group.size() > k_thresholds.most_of_a_group;
+    if (audited[i].given_up) doubtful.push_back(group.front());
   }
+  give_up(doubtful, workers, selection);
+  std::erase_if(audited, [](const Audited& one) { return one.given_up; });
 }
 
 }  // namespace
@@ -141,19 +148,23 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty()) return not_testable(reasons);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from));
-  const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
+  Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
   if (evidence.blocks.size() < 2)
     return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Workers workers(evidence);
-  const Selection selection = select_effects(evidence, workers, options);
+  expect_what_is_seen(evidence, workers, options);
+  Selection selection = select_effects(evidence, workers, options);
   if (!selection.none.usable)
     return not_testable(
         {"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not "
          "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
+  std::vector<Audited> audited;
+  if (options.audit) audited = audit(evidence, workers, selection);
+  take_audit(audited, workers, selection);
   calibration.effects = found_effects(evidence, selection);
-  if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
+  for (std::size_t i = 0; i < audited.size(); ++i) calibration.effects[i].audit = audited[i].counts;
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);
   calibration.tried = selection.tried;

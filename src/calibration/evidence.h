@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,6 +49,7 @@ struct Evidence {
   std::vector<HandReading> readings;
   double floor = 0;                          ///< rms noise, rad
   std::shared_ptr<const Marginal> marginal;  ///< by which sets of effects are weighed: weigh()
+  std::map<const EffectParameter*, double> sizes;  ///< of numbers that in practice are larger than these data bear
 
   /// Rows in use, block by block.
   std::vector<Eigen::Index> rows() const;

@@ -15,6 +15,8 @@ namespace {
 
 constexpr int k_steps = 8;
 constexpr int k_chords = 3;
+/// With the amplitudes that the place before had.
+constexpr int k_passes = 3;
 /// Of amplitudes, on the way.
 constexpr int k_few_rounds = 3;
 /// Of a step that made things worse.
@@ -37,6 +39,7 @@ double largest_load(const Measurement& measurement) {
 /// In steps of the parameter.
 double size_in_practice(const Evidence& evidence, const EffectParameter& parameter) {
   if (&parameter == free_offset(*evidence.declared)) return std::numeric_limits<double>::infinity();
+  if (const auto known = evidence.sizes.find(&parameter); known != evidence.sizes.end()) return known->second;
   if (!(parameter.prior > 0)) return k_steps_in_practice;
   const double load = parameter.prior_at_load ? largest_load(evidence.measurement) : 1.0;
   return parameter.prior / parameter.step / (load > 0 ? load : 1.0);
@@ -84,6 +87,11 @@ double price_of(const Evidence& evidence, const Fit& fit) {
 }
 
 }  // namespace
+
+/// Whether the slopes promise a better place than this.
+bool is_promising(const Fit& fit) {
+  return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5;
+}
 
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
@@ -194,6 +202,13 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
                 : std::move(start);
   hold_at_bounds(fit);
   judge(fit);
+  for (int pass = 0; pass < k_passes && fit.usable && is_promising(fit); ++pass) {
+    Fit further = descended(fit, 0, k_steps, fit.explained.amplitudes, 1);
+    hold_at_bounds(further);
+    judge(further);
+    if (!further.usable || !(further.log_evidence > fit.log_evidence + k_settled)) break;
+    fit = std::move(further);
+  }
   return fit;
 }
 

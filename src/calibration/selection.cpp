@@ -290,7 +290,7 @@ bool Selector::drop_doubtful() {
   const std::vector<Weighed> sets = weighed();
   selection_.groups.clear();
   for (const Effect* effect : selection_.best.effects)
-    selection_.groups.push_back(credible_group(sets, selection_.best.effects, *effect, k_thresholds.most_mistaken));
+    selection_.groups.push_back(credible_group(sets, selection_.best.effects, *effect, k_thresholds.least_of_a_group));
   const auto worst =
       std::max_element(selection_.groups.begin(), selection_.groups.end(),
                        [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });
@@ -366,6 +366,50 @@ double score(const Fit& fit) {
   double score = fit.log_evidence;
   for (const Effect* effect : fit.effects) score -= rareness_of(*effect);
   return score;
+}
+
+void expect_what_is_seen(Evidence& evidence, Workers& workers, const CalibrationOptions& options) {
+  const EffectSet all = catalogue(*evidence.declared, evidence.measurement, options.more_effects, options.without);
+  const Fit none = workers.one().fit({}, {});
+  if (!none.usable) return;
+  const auto rms = [](const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); };
+  const double seen = k_thresholds.most_expected * std::max(rms(tangent_of(evidence, none).residual), 5.0 * evidence.floor);
+  std::vector<Tangent> looks(all.size());
+  std::vector<Parameters> parameters(all.size());
+  workers.each(all.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Fit wider = fitter.with_chords(none, *all[i]);
+    if (!wider.usable) return;
+    looks[i] = tangent_of(evidence, wider);
+    parameters[i] = wider.parameters;
+  });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (Eigen::Index k = none.x.size(); k < looks[i].x.size(); ++k) {
+      const double moved = rms(looks[i].J.col(k)) * looks[i].prior[k];
+      if (moved > seen) evidence.sizes[parameters[i][static_cast<std::size_t>(k)]] = looks[i].prior[k] * seen / moved;
+    }
+  }
+}
+
+void give_up(const EffectSet& doubtful, Workers& workers, Selection& selection) {
+  if (doubtful.empty()) return;
+  EffectSet effects = selection.best.effects;
+  Imperfections at = selection.best.at;
+  for (const Effect* effect : doubtful) {
+    effects = without(effects, *effect);
+    at = without(at, *effect);
+    std::erase_if(selection.rivals, [&](const Rival& rival) { return rival.accepted == effect; });
+    std::erase_if(selection.groups, [&](const CredibleGroup& group) { return group.members.front() == effect; });
+    for (Candidate& candidate : selection.tried) {
+      if (candidate.name != effect->name) continue;
+      candidate.accepted = false;
+      candidate.why = "simulated joints without it, logged by the same runs, bear its name too often";
+    }
+  }
+  selection.best = workers.one().fit(effects, at);
+  selection.without.assign(effects.size(), {});
+  workers.each(effects.size(), [&](const Fitter& fitter, std::size_t i) {
+    selection.without[i] = fitter.fit(without(effects, *effects[i]), without(selection.best.at, *effects[i]));
+  });
 }
 
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {

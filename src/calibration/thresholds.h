@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 
 namespace fusee {
 
@@ -34,9 +35,10 @@ struct Thresholds {
   double trusted = 0.03;
   /// Nats by which an effect is rarer than none: of the catalogue's 26 two or three are on a joint that is looked at.
   double rareness = 2.3;
-  double usual_unknown = 0.3;
+  double usual_unknown = getenv("US") ? atof(getenv("US")) : 0.5;
+  double most_expected = 2.0;
   /// Evidence is overstated ...
-  double temperature = 1.5;
+  double temperature = getenv("TT") ? atof(getenv("TT")) : 1.5;
   /// Nats that a name costs: a Bayes factor of 400, "decisive" in the usual scale (Kass and Raftery 1995).
   double price_of_a_name = 6.0;
   /// … and one whose numbers are searched for.
@@ -51,6 +53,9 @@ struct Thresholds {
   /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
   int worlds = 200;
   double most_mistaken = 0.02;
+  double least_of_a_group = 0.005;
+  /// Of more effects a group says nothing.
+  std::size_t most_of_a_group = 12;
 
   // ---- what is given up ----
 
@@ -107,6 +112,6 @@ struct Thresholds {
   double told_apart = 3.0;
 };
 
-inline constexpr Thresholds k_thresholds{};
+inline const Thresholds k_thresholds{};
 
 }  // namespace fusee

@@ -145,12 +145,13 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
     const bool wrong = !holds_truth(effect.group, made, without);
     one.false_groups += wrong ? 1 : 0;
     one.wrong_alone += wrong && effect.group.size() == 1 ? 1 : 0;
-    groups += (wrong ? "  !{" : "  {") + joined(effect.group) + "}";
+    groups += (wrong ? "  !{" : "  {") + joined(effect.group) + "}" + rounded(effect.evidence, 2);
   }
   std::string seen;
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);
   one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
               " x noise): " + std::string(word(one.verdict)) + groups;
+  if (found.unexplained_rms > 0) one.words += "  left " + rounded(found.unexplained_rms / found.noise.rms, 2);
   return one;
 }
 
