@@ -237,12 +237,13 @@ Auditor::Set Auditor::search(const World& world, Set set) const {
   Explained here = marginal_.best(sums(world, set), world.start, k_rounds + 2);
   for (int step = 0; step < k_steps; ++step) {
     std::vector<std::pair<double, std::size_t>> looks;
+    const SizedDiscrepancy beside = marginal_.sized(here.amplitudes, give_);
     for (std::size_t i = 0; i < chords_.size(); ++i) {
       if (chords_[i].count == 0 || chords_[i].effect == world.unknown || std::count(set.begin(), set.end(), i))
         continue;
       Set wider = set;
       wider.push_back(i);
-      looks.emplace_back(-score_of(marginal_.at(sums(world, wider), here.amplitudes), wider), i);
+      looks.emplace_back(-score_of(marginal_.at(sums(world, wider), beside), wider), i);
     }
     std::sort(looks.begin(), looks.end());
     looks.resize(std::min(looks.size(), k_tries));

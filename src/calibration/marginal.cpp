@@ -18,6 +18,8 @@ constexpr double k_nothing = 0.03;
 /// Degrees of freedom of Student's t.
 constexpr double k_tail = 2.0;
 
+double square(double x) { return x * x; }
+
 /// Information that the prior gives near x.
 double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
@@ -46,15 +48,12 @@ double log_prior(double x, double prior) {
   return constant - std::log(prior) - 0.5 * (k_tail + 1.0) * std::log1p(x * x / (k_tail * prior * prior));
 }
 
-/// Of one pair of amplitudes: everything over the columns in use, scaled by their amplitudes.
+/// Of a tangent beside a discrepancy of given size.
 struct Marginal::Solved {
-  std::vector<Eigen::Index> columns;
-  Eigen::VectorXd size;
-  Eigen::LLT<Eigen::MatrixXd> A;  ///< I + λ DᵀD λ β
-  Eigen::MatrixXd B;              ///< λ DᵀJ β
-  Eigen::MatrixXd AB;             ///< A⁻¹ B
-  Eigen::VectorXd t, At;          ///< λ Dᵀr β, A⁻¹ t
-  Eigen::MatrixXd JJ;             ///< with the discrepancy integrated out
+  Eigen::MatrixXd B;      ///< λ DᵀJ β
+  Eigen::MatrixXd AB;     ///< A⁻¹ B
+  Eigen::VectorXd t, At;  ///< λ Dᵀr β, A⁻¹ t
+  Eigen::MatrixXd JJ;     ///< with the discrepancy integrated out
   Eigen::VectorXd Jr;
   double rr = 0;
   double constant = 0;  ///< log of the likelihood without its squares
@@ -98,45 +97,55 @@ TangentSums Marginal::sums_of(const Tangent& tangent) const {
   return sums;
 }
 
-Marginal::Solved Marginal::solved(const TangentSums& sums, const Amplitudes& amplitudes) const {
-  Solved s;
+SizedDiscrepancy Marginal::sized(const Amplitudes& amplitudes, double give) const {
+  SizedDiscrepancy u{amplitudes, worth_ / (amplitudes.noise * amplitudes.noise), {}, {}, {}};
   std::vector<double> size;
   for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
     const Family& family = discrepancy_.families[f];
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     for (Eigen::Index k = 0; amplitude > 0 && k < family.count; ++k) {
-      s.columns.push_back(family.first + k);
-      size.push_back(family.fixed > 0 ? amplitude * sums.give : amplitude);
+      u.columns.push_back(family.first + k);
+      size.push_back(family.fixed > 0 ? amplitude * give : amplitude);
     }
   }
-  s.size = Eigen::Map<const Eigen::VectorXd>(size.data(), static_cast<Eigen::Index>(size.size()));
-  const double beta = worth_ / (amplitudes.noise * amplitudes.noise);
-  Eigen::MatrixXd A = beta * (s.size.asDiagonal() * gram_(s.columns, s.columns) * s.size.asDiagonal());
+  u.size = Eigen::Map<const Eigen::VectorXd>(size.data(), static_cast<Eigen::Index>(size.size()));
+  Eigen::MatrixXd A = u.beta * (u.size.asDiagonal() * gram_(u.columns, u.columns) * u.size.asDiagonal());
   A.diagonal().array() += 1.0;
-  s.A.compute(A);
-  s.B = beta * (s.size.asDiagonal() * sums.JD(Eigen::all, s.columns).transpose());
+  u.A.compute(A);
+  return u;
+}
+
+/// Cauchy's: what has no name is the rarer the larger it is, and may be as large as it is.
+double Marginal::log_prior_of(const Amplitudes& amplitudes) const {
+  double sum = 0;
+  for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
+    const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
+    if (!(discrepancy_.families[f].fixed > 0)) sum -= std::log1p(square(amplitude / (k_thresholds.usual_unknown * floor_)));
+  }
+  return sum;
+}
+
+Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepancy& u) const {
+  Solved s;
+  s.B = u.beta * (u.size.asDiagonal() * sums.JD(Eigen::all, u.columns).transpose());
   // Where there is no effect there is nothing to solve: Eigen looks at the first number even of none.
   s.AB = s.B;
-  if (s.AB.size() > 0) s.A.solveInPlace(s.AB);
-  s.t = beta * s.size.cwiseProduct(sums.Dr(s.columns));
-  s.At = s.A.solve(s.t);
-  s.JJ = beta * sums.JJ - s.B.transpose() * s.AB;
-  s.Jr = beta * sums.Jr - s.AB.transpose() * s.t;
-  s.rr = beta * sums.rr - s.t.dot(s.At);
+  if (s.AB.size() > 0) u.A.solveInPlace(s.AB);
+  s.t = u.beta * u.size.cwiseProduct(sums.Dr(u.columns));
+  s.At = u.A.solve(s.t);
+  s.JJ = u.beta * sums.JJ - s.B.transpose() * s.AB;
+  s.Jr = u.beta * sums.Jr - s.AB.transpose() * s.t;
+  s.rr = u.beta * sums.rr - s.t.dot(s.At);
   const double rows = worth_ * sums.rows;
   const double freedom = k_thresholds.noise_freedom;
-  const double excess = floor_ * floor_ / (amplitudes.noise * amplitudes.noise);
-  double rarity = 0;
-  for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
-    const double ratio = amplitudes.families[static_cast<Eigen::Index>(f)] / (k_thresholds.usual_unknown * floor_);
-    if (!(discrepancy_.families[f].fixed > 0)) rarity += std::log1p(ratio * ratio);
-  }
-  s.constant = -rarity + 0.5 * rows * std::log(beta) - s.A.matrixLLT().diagonal().array().log().sum() +
+  const double excess = floor_ * floor_ / (u.amplitudes.noise * u.amplitudes.noise);
+  s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * std::log(u.beta) -
+               u.A.matrixLLT().diagonal().array().log().sum() +
                0.5 * freedom * (std::log(excess) - excess);
   return s;
 }
 
-Explained Marginal::explained(const TangentSums& tangent, const Amplitudes& amplitudes, const Solved& s) const {
+Explained Marginal::explained(const TangentSums& tangent, const SizedDiscrepancy& u, const Solved& s) const {
   const Eigen::Index count = tangent.x.size();
   Eigen::MatrixXd H = s.JJ + tangent.read;
   Eigen::VectorXd g = s.Jr + tangent.pull;
@@ -147,7 +156,7 @@ Explained Marginal::explained(const TangentSums& tangent, const Amplitudes& ampl
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(H);
   Explained explained;
-  explained.amplitudes = amplitudes;
+  explained.amplitudes = u.amplitudes;
   explained.step = count > 0 ? Eigen::VectorXd(factor.solve(g)) : Eigen::VectorXd();
   explained.covariance = factor.solve(Eigen::MatrixXd::Identity(count, count));
   const Eigen::VectorXd& step = explained.step;
@@ -156,26 +165,28 @@ Explained Marginal::explained(const TangentSums& tangent, const Amplitudes& ampl
     squares += step.dot(s.JJ * step) - 2.0 * step.dot(s.Jr);
     squares += step.dot(tangent.read * step) - 2.0 * step.dot(tangent.pull);
   }
-  explained.log_evidence = s.constant - 0.5 * squares;
-  explained.log_evidence_here = s.constant - 0.5 * (s.rr + tangent.against);
+  explained.height = s.constant - 0.5 * (s.rr + tangent.against);
+  explained.height_ahead = s.constant - 0.5 * squares;
+  double width = count > 0 ? factor.matrixLLT().diagonal().array().log().sum() : 0.0;
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!std::isfinite(tangent.prior[k])) continue;
-    explained.log_evidence += log_prior(tangent.x[k] + step[k], tangent.prior[k]) + 0.5 * std::log(k_two_pi);
-    explained.log_evidence_here += log_prior(tangent.x[k], tangent.prior[k]) + 0.5 * std::log(k_two_pi);
+    explained.height += log_prior(tangent.x[k], tangent.prior[k]);
+    explained.height_ahead += log_prior(tangent.x[k] + step[k], tangent.prior[k]);
+    width -= 0.5 * std::log(k_two_pi);
   }
-  const double width = count > 0 ? factor.matrixLLT().diagonal().array().log().sum() : 0.0;
-  explained.log_evidence -= width;
-  explained.log_evidence_here -= width;
+  explained.log_evidence = explained.height_ahead - width;
+  explained.log_evidence_here = explained.height - width;
   explained.unnamed = Eigen::VectorXd::Zero(discrepancy_.columns.cols());
-  Eigen::VectorXd u = s.At;
-  if (count > 0) u -= s.AB * step;
-  for (std::size_t i = 0; i < s.columns.size(); ++i)
-    explained.unnamed[s.columns[i]] = s.size[static_cast<Eigen::Index>(i)] * u[static_cast<Eigen::Index>(i)];
+  Eigen::VectorXd scaled = s.At;
+  if (count > 0) scaled -= s.AB * step;
+  for (std::size_t i = 0; i < u.columns.size(); ++i)
+    explained.unnamed[u.columns[i]] = u.size[static_cast<Eigen::Index>(i)] * scaled[static_cast<Eigen::Index>(i)];
   return explained;
 }
 
-Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, const Solved& s) const {
-  Eigen::VectorXd unknown = inverse_diagonal(s.A);
+Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, const SizedDiscrepancy& u,
+                                 const Solved& s) const {
+  Eigen::VectorXd unknown = inverse_diagonal(u.A);
   if (now.step.size() > 0) unknown += (s.AB * now.covariance).cwiseProduct(s.AB).rowwise().sum();
   Amplitudes better = now.amplitudes;
   double determined = static_cast<double>(now.step.size());
@@ -188,9 +199,9 @@ Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, 
     place += family.count;
     determined += known;
     if (family.fixed > 0) continue;
-    const double ratio = amplitude / (k_thresholds.usual_unknown * floor_);
-    const double rarity = 2.0 * ratio * ratio / (1.0 + ratio * ratio);
-    amplitude = std::sqrt(now.unnamed.segment(family.first, family.count).squaredNorm() / (known + rarity));
+    const double rarer = square(amplitude / (k_thresholds.usual_unknown * floor_));
+    const double against = 2.0 * rarer / (1.0 + rarer);  // the prior's slope over log amplitude
+    amplitude = std::sqrt(now.unnamed.segment(family.first, family.count).squaredNorm() / (known + against));
     if (amplitude < k_nothing * floor_) amplitude = 0;
   }
   // Σ (r − J step − D a)², by what the sums know.
@@ -205,21 +216,22 @@ Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, 
   return better;
 }
 
-Explained Marginal::at(const TangentSums& sums, const Amplitudes& amplitudes) const {
-  return explained(sums, amplitudes, solved(sums, amplitudes));
+Explained Marginal::at(const TangentSums& sums, const SizedDiscrepancy& beside) const {
+  return explained(sums, beside, solved(sums, beside));
 }
 
 Explained Marginal::best(const TangentSums& sums, Amplitudes from, int rounds) const {
   Explained best;
   double last = -std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
-    const Solved s = solved(sums, from);
-    Explained now = explained(sums, from, s);
+    const SizedDiscrepancy u = sized(from, sums.give);
+    const Solved s = solved(sums, u);
+    Explained now = explained(sums, u, s);
     const bool settled = std::abs(now.log_evidence - last) < k_settled;  // on the way it may fall
     last = now.log_evidence;
     if (round == 0 || now.log_evidence > best.log_evidence) best = now;
     if (settled || round + 1 == rounds) break;
-    from = reestimated(sums, now, s);
+    from = reestimated(sums, now, u, s);
   }
   return best;
 }
@@ -227,7 +239,7 @@ Explained Marginal::best(const TangentSums& sums, Amplitudes from, int rounds) c
 double Marginal::summit(const Tangent& tangent, const Amplitudes& amplitudes) const {
   Tangent here = tangent;
   here.J.resize(tangent.J.rows(), 0);
-  const Solved s = solved(sums_of(here), amplitudes);
+  const Solved s = solved(sums_of(here), sized(amplitudes, here.give));
   double density = s.constant - 0.5 * (s.rr + tangent.against);
   for (Eigen::Index k = 0; k < tangent.x.size(); ++k) density += log_prior(tangent.x[k], tangent.prior[k]);
   return density;

@@ -48,6 +48,18 @@ struct Explained {
   Eigen::MatrixXd covariance;    ///< of x
   Eigen::VectorXd unnamed;       ///< what the discrepancy's columns add at the summit, rad each
   Amplitudes amplitudes;
+  double height = 0;        ///< log of the posterior's density at x, as Marginal::summit()
+  double height_ahead = 0;  ///< … and what the tangent promises of it at x + step
+};
+
+/// A discrepancy of amplitudes that are given: what all tangents beside it share. Columns in use alone, each scaled by
+/// its amplitude.
+struct SizedDiscrepancy {
+  Amplitudes amplitudes;
+  double beta = 0;  ///< of a row's square, 1/rad²
+  std::vector<Eigen::Index> columns;
+  Eigen::VectorXd size;
+  Eigen::LLT<Eigen::MatrixXd> A;  ///< I + λ DᵀD λ β
 };
 
 /// Sums over the rows in use that every set of effects shares.
@@ -71,8 +83,14 @@ class Marginal {
   /// DᵀD
   const Eigen::MatrixXd& gram() const { return gram_; }
 
+  /// `give`: as TangentSums.
+  SizedDiscrepancy sized(const Amplitudes& amplitudes, double give) const;
+
   /// With amplitudes as they are given.
-  Explained at(const TangentSums& sums, const Amplitudes& amplitudes) const;
+  Explained at(const TangentSums& sums, const SizedDiscrepancy& beside) const;
+  Explained at(const TangentSums& sums, const Amplitudes& amplitudes) const {
+    return at(sums, sized(amplitudes, sums.give));
+  }
   Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const { return at(sums_of(tangent), amplitudes); }
   /// With those that make the data likeliest, sought from there; a family of none there has none.
   Explained best(const TangentSums& sums, Amplitudes from, int rounds = k_rounds) const;
@@ -84,9 +102,11 @@ class Marginal {
 
  private:
   struct Solved;
-  Solved solved(const TangentSums& sums, const Amplitudes& amplitudes) const;
-  Explained explained(const TangentSums& sums, const Amplitudes& amplitudes, const Solved& solved) const;
-  Amplitudes reestimated(const TangentSums& sums, const Explained& now, const Solved& solved) const;
+  double log_prior_of(const Amplitudes& amplitudes) const;
+  Solved solved(const TangentSums& sums, const SizedDiscrepancy& beside) const;
+  Explained explained(const TangentSums& sums, const SizedDiscrepancy& beside, const Solved& solved) const;
+  Amplitudes reestimated(const TangentSums& sums, const Explained& now, const SizedDiscrepancy& beside,
+                         const Solved& solved) const;
 
   Discrepancy discrepancy_;
   Eigen::MatrixXd gram_;

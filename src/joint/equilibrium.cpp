@@ -169,8 +169,8 @@ struct Trial {
   Spans spans;
   TendonBalance balance;
   double wrap = 0;
-  double pull = 0;   ///< on the joint, towards the tendon's own side: T_up m
-  double slope = 0;  ///< of pull with respect to the image's θ
+  double pull = 0;         ///< on the joint, towards the tendon's own side: T_up m
+  double slope = 0;        ///< of pull with respect to the image's θ
   double lower_slope = 0;  ///< of the lower span's tension
 };
 
@@ -454,7 +454,8 @@ std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, cons
   };
   // Where pins give way there may be two places that hold, and the search finds the one that is in keeping.
   const bool first_search = loose || model.bearing_friction > 0 || model.pin_give > 0;
-  auto rest = first_search ? search(start) : std::optional(Rest{std::clamp(start, model.theta_least, model.theta_most)});
+  auto rest =
+      first_search ? search(start) : std::optional(Rest{std::clamp(start, model.theta_least, model.theta_most)});
   for (int i = 0; i < k_rounds && rest; ++i) {
     rest->trials = trials(at, rest->theta);
     const Residual beyond = residual(rest->trials, step, rest->theta);

@@ -6,24 +6,25 @@
 namespace fusee {
 namespace {
 
-constexpr double k_step = 0.012;  // rad
+constexpr double k_step = 0.024;  // rad
 constexpr std::size_t k_most_pieces = 4096;
 
-template <typename Knot>
-Knot slope_at(const std::vector<Knot>& values, std::size_t i) {
-  Knot slope{};
-  const std::size_t last = values.size() - 1;
-  for (std::size_t k = 0; k < slope.size(); ++k) {
-    const auto at = [&](std::size_t j) { return values[j][k]; };
-    if (i >= 2 && i + 2 <= last) {
-      slope[k] = (at(i - 2) - 8.0 * at(i - 1) + 8.0 * at(i + 1) - at(i + 2)) / 12.0;
-    } else if (i < 2) {
-      slope[k] = (-25.0 * at(i) + 48.0 * at(i + 1) - 36.0 * at(i + 2) + 16.0 * at(i + 3) - 3.0 * at(i + 4)) / 12.0;
-    } else {
-      slope[k] = (25.0 * at(i) - 48.0 * at(i - 1) + 36.0 * at(i - 2) - 16.0 * at(i - 3) + 3.0 * at(i - 4)) / 12.0;
-    }
+/// What each of the points 0 … 5 weighs in the value at `u` of the quintic through all of them (Lagrange).
+std::array<double, 6> weights_at(double u) {
+  constexpr std::size_t count = 6;
+  constexpr std::array<double, count> k_others{-120, 24, -12, 12, -24, 120};  // ∏ (k − j) over the other points j
+  std::array<double, count> before{}, weights{};
+  double product = 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    before[k] = product;
+    product *= u - static_cast<double>(k);
   }
-  return slope;
+  product = 1;
+  for (std::size_t k = count; k-- > 0;) {
+    weights[k] = before[k] * product / k_others[k];
+    product *= u - static_cast<double>(k);
+  }
+  return weights;
 }
 
 }  // namespace
@@ -39,31 +40,38 @@ LowerPathTable::LowerPathTable(const JointModel& model, double least, double mos
     values_.push_back({left.p, left.normal, left.reach, left.wound, right.p, right.normal, right.reach, right.wound,
                        exact_expected_(alpha)});
   }
-  for (std::size_t i = 0; i <= pieces; ++i) slopes_.push_back(slope_at(values_, i));
+}
+
+bool LowerPathTable::covers(double alpha) const {
+  return alpha >= least_ && alpha < least_ + step_ * static_cast<double>(values_.size() - 1);
+}
+
+LowerPathTable::Near LowerPathTable::near(double alpha) const {
+  const double place = (alpha - least_) / step_;
+  // Between the third and the fourth place, but for the ends.
+  const auto before = static_cast<std::size_t>(place);
+  const std::size_t first = std::min(before - std::min<std::size_t>(before, 2), values_.size() - 6);
+  return {first, weights_at(place - static_cast<double>(first))};
 }
 
 std::array<LowerPath, 2> LowerPathTable::paths(double alpha) const {
-  const double place = (alpha - least_) / step_;
-  if (!(place >= 0 && place < static_cast<double>(values_.size() - 1))) return exact_(alpha);
-  const auto i = static_cast<std::size_t>(place);
-  const double u = place - static_cast<double>(i);
-  const double a = u * u * (2.0 * u - 3.0) + 1.0;
-  const double b = u * (u - 1.0) * (u - 1.0);
-  const double c = u * u * (3.0 - 2.0 * u);
-  const double d = u * u * (u - 1.0);
-  std::array<double, k_members> at{};
-  for (std::size_t k = 0; k < k_members; ++k)
-    at[k] = a * values_[i][k] + b * slopes_[i][k] + c * values_[i + 1][k] + d * slopes_[i + 1][k];
-  // Next to where the law ends a cubic knows nothing.
+  if (!covers(alpha)) return exact_(alpha);
+  const Near near = this->near(alpha);
+  Knot at{};
+  for (std::size_t i = 0; i < near.weights.size(); ++i) {
+    for (std::size_t k = 0; k < k_members; ++k) at[k] += near.weights[i] * values_[near.first + i][k];
+  }
+  // Next to where the law ends a quintic knows nothing.
   if (!std::isfinite(at[3]) || !std::isfinite(at[7])) return exact_(alpha);
   return {LowerPath{at[0], at[1], at[2], at[3]}, LowerPath{at[4], at[5], at[6], at[7]}};
 }
 
 double LowerPathTable::expected(double alpha) const {
-  const double place = (alpha - least_) / step_;
-  if (!(place >= 0 && place < static_cast<double>(values_.size() - 1))) return exact_expected_(alpha);
-  const auto i = static_cast<std::size_t>(place);
-  return values_[i].back() + (place - static_cast<double>(i)) * (values_[i + 1].back() - values_[i].back());
+  if (!covers(alpha)) return exact_expected_(alpha);
+  const Near near = this->near(alpha);
+  double expected = 0;
+  for (std::size_t i = 0; i < near.weights.size(); ++i) expected += near.weights[i] * values_[near.first + i].back();
+  return expected;
 }
 
 }  // namespace fusee

@@ -10,15 +10,15 @@
 
 namespace fusee {
 
-/// By cubics over pulley angles half a degree or so apart: to 1e-7 mm of JointModel::lower. The function itself answers
-/// outside and where a tendon has no path.
+/// By quintics through six pulley angles a degree and a half or so apart: to 1e-7 mm of JointModel::lower. The function
+/// itself answers outside and where a tendon has no path.
 class LowerPathTable {
  public:
   /// Over pulley angles from `least` to `most`, rad.
   LowerPathTable(const JointModel& model, double least, double most);
 
   std::array<LowerPath, 2> paths(double alpha) const;
-  /// JointModel::expected: a start for root finders, straight between places.
+  /// JointModel::expected: a start for root finders.
   double expected(double alpha) const;
 
  private:
@@ -26,10 +26,17 @@ class LowerPathTable {
   static constexpr std::size_t k_members = 9;
   using Knot = std::array<double, k_members>;
 
+  /// Of six neighbouring places: the first one, and what each weighs in the value at `alpha`.
+  struct Near {
+    std::size_t first = 0;
+    std::array<double, 6> weights{};
+  };
+  bool covers(double alpha) const;
+  Near near(double alpha) const;
+
   double least_;
   double step_;
   std::vector<Knot> values_;
-  std::vector<Knot> slopes_;  ///< per step
   std::function<std::array<LowerPath, 2>(double)> exact_;
   std::function<double(double)> exact_expected_;
 };

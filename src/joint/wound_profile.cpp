@@ -104,8 +104,7 @@ WoundPiece below(const GrooveArc& groove, WoundPiece piece, const GroovePlace& p
   if (piece.slid) {
     const double above = strain_of(piece.density_to, swelling);
     const double here = above * std::exp(piece.fall * (piece.to.turn - place.turn));
-    const bool takes_little =
-        piece.swelling == swelling && piece.to.turn - place.turn < place.turn - piece.from.turn;
+    const bool takes_little = piece.swelling == swelling && piece.to.turn - place.turn < place.turn - piece.from.turn;
     piece.held = takes_little ? piece.held - sliding(groove, place, piece.to, above, piece.fall, swelling).held
                               : sliding(groove, piece.from, place, here, piece.fall, swelling).held;
     piece.to = place;

@@ -138,6 +138,17 @@ BENCHMARK(calibrate_rows)
     ->UseRealTime()
     ->Iterations(1);
 
+/// The joint moved through the rows once: what a fit does for every number of every step.
+void move_joint(benchmark::State& state) {
+  const BenchLog log = bench_log(measured(texts(state.range(0))));
+  Imperfections soft;
+  soft.tendon.stretch = 1.5;
+  soft.shaft.backlash = radians(1.0);
+  for (auto _ : state) benchmark::DoNotOptimize(predict(forearm(), soft, log));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(move_joint)->Name("move the joint, rows")->Arg(850)->Arg(2500)->Unit(benchmark::kMillisecond);
+
 void read_rows(benchmark::State& state) {
   const std::vector<std::string> runs = texts(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(measured(runs));

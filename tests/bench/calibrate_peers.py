@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """`fusee calibrate` and scipy.optimize.least_squares on the same runs, in the same run of this script.
 
-    calibrate_peers.py FUSEE
+    calibrate_peers.py FUSEE [BENCH_FIT]
 
-Needs numpy and scipy. What is compared: the runs are of a joint whose sensor shows too much and whose motor has play. scipy is told which effects to fit (gain, play,
+BENCH_FIT is the program of fit_bench.cpp; unless told, the one in FUSEE's build. Needs numpy and scipy. What is compared: the runs are of a joint whose sensor shows too much and whose motor has play. scipy is told which effects to fit (gain, play,
 and the joint sensor's zero) and fits them once, to all rows, over a forward model written anew here in numpy: exact kinematics over pins of their radius and a play operator,
 no elasticity, no history but the play's. fusee is told nothing: it reads the files, finds the noise floor, tries every effect of its catalogue and pairs of them through an elastic
 model with friction, each with runs left out, looks for rivals, and writes the correction and a report. So the ratio is that of a whole calibration to one fit of three numbers of a known
 model; divided by the number of candidates it says what one of them costs. Both must end at the same rest, or the script fails.
+
+Fit against fit: BENCH_FIT is told the same three numbers and fits them with what calibrate fits with, elastic model, friction, discrepancy and all. scipy then fits them over the
+same forward model as a function (predict() through a pipe, the same rows), so the difference is the method's; and over its own, which knows kinematics alone.
 """
 
 import json
@@ -42,6 +45,7 @@ pretension_N = 4
 """
 RUNS, ROWS, STROKES, NOISE = 5, 500, 6, 0.02
 GAIN, PLAY = 0.015, 2.0
+START, SCALE = np.array([0.0, np.radians(0.5), 0.0]), np.array([1e-3, 1e-2, 1e-3])
 
 
 def path_length(theta):
@@ -93,6 +97,10 @@ def write(folder, runs, measured):
         file.write(SPEC)
 
 
+def inputs(folder):
+    return [f"{folder}/joint.toml", *[f"{folder}/run_{i}.csv" for i in range(1, RUNS + 1)]]
+
+
 def timed(work):
     start = time.perf_counter()
     return work(), time.perf_counter() - start
@@ -100,23 +108,50 @@ def timed(work):
 
 def fitted(runs, measured):
     theta = np.concatenate(measured)
-    return least_squares(lambda p: model(p, runs) - theta, [0.0, np.radians(0.5), 0.0], x_scale=[1e-3, 1e-2, 1e-3])
+    return least_squares(lambda p: model(p, runs) - theta, START, x_scale=SCALE)
+
+
+def fit_against_fit(bench, folder, kinematic):
+    """Prints one fit by BENCH_FIT, and one by scipy over the same joint."""
+    process = subprocess.Popen([bench, *inputs(folder)], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    ours = json.loads(process.stdout.readline())
+    count = 0
+
+    # Slopes from steps that are large against the simulation's own 1e-9 rad: near 1, of a part of each number's scale.
+    def residual(scaled):
+        nonlocal count
+        parameters = SCALE * (scaled - 1)
+        count += 1
+        process.stdin.write(("%.17g %.17g %.17g\n" % tuple(parameters)).encode())
+        process.stdin.flush()
+        return -np.frombuffer(process.stdout.read(8 * ours["rows"]))
+
+    solution, theirs = timed(lambda: least_squares(residual, 1 + START / SCALE, diff_step=0.1))
+    gain, play, _ = SCALE * (solution.x - 1)
+    process.stdin.close()
+    process.wait()
+    words = lambda gain, play: f"gain {100 * gain:.3f} %, play {np.degrees(abs(play)):.3f} deg"
+    print(f"one fit of the same three numbers of the elastic joint, {ours['rows']} rows: fusee {1e3 * ours['seconds']:.1f} ms, {words(ours['gain'], ours['play'])}; "
+          f"scipy over the same physics {1e3 * theirs:.1f} ms, {count} simulations, {words(gain, play)}")
+    print(f"fusee is {theirs / ours['seconds']:.1f} times faster than scipy on the same physics, {kinematic / ours['seconds']:.1f} times than scipy on kinematics alone")
 
 
 def main():
     fusee = os.path.abspath(sys.argv[1])
+    bench = os.path.abspath(sys.argv[2]) if len(sys.argv) > 2 else os.path.join(os.path.dirname(fusee), "tests/bench/bench_fit")
     random = np.random.default_rng(1)
     reach = 0.9 * min(-np.interp(np.radians(-30), GRID, LENGTH), np.interp(np.radians(30), GRID, LENGTH)) / R1
     runs = [motion(reach)] * RUNS
     measured = [(1 + GAIN) * joint_angle(behind_play(alpha, np.radians(PLAY))) + np.radians(NOISE) * random.standard_normal(ROWS) for alpha in runs]
     with tempfile.TemporaryDirectory() as folder:
         write(folder, runs, measured)
-        command = [fusee, "calibrate", "joint.toml", *[f"run_{i}.csv" for i in range(1, RUNS + 1)], "--json"]
+        command = [fusee, "calibrate", *inputs("."), "--json"]
         process, ours = timed(lambda: subprocess.run(command, cwd=folder, capture_output=True, text=True))
         if process.returncode != 0:
             sys.exit(process.stdout + process.stderr)
-    answer = json.loads(process.stdout)
-    solution, theirs = timed(lambda: fitted(runs, measured))
+        answer = json.loads(process.stdout)
+        solution, theirs = timed(lambda: fitted(runs, measured))
+        fit_against_fit(bench, folder, theirs)
     rest = np.degrees(np.sqrt(np.mean(solution.fun**2)))
     print(f"scipy least_squares, 3 numbers of a model that is known: {theirs:.3f} s, {solution.nfev} steps, gain {100 * solution.x[0]:.3f} %, "
           f"play {np.degrees(abs(solution.x[1])):.3f} deg, rms {rest:.4f} deg")

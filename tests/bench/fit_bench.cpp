@@ -1,0 +1,67 @@
+// One fit of three numbers that are told, gain, play and zero, to measured runs; then the same joint as a function, for
+// least squares that other people wrote over the same physics: calibrate_peers.py.
+//
+//   bench_fit SPEC RUN.csv...
+//
+// On standard output a line of JSON of the fit. Then for every line "gain play zero" (rad) of standard input the
+// residuals of as many rows as the line said, measured − model in rad, as doubles.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "calibration/fit.h"
+#include "fusee/base/plane.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/joint/simulate.h"
+#include "fusee/mechanism/file.h"
+
+namespace {
+
+using namespace fusee;
+
+constexpr double k_floor = radians(0.02);
+constexpr int k_times = 7;
+
+const Effect* effect(const char* name) { return find_effect(name, JointKind::tendons); }
+
+/// Best of some, each with a simulation of its own: what others do on the machine only makes it slower.
+double fit_seconds(const Evidence& evidence, const EffectSet& effects, Fit& fit) {
+  double best = 1e300;
+  for (int i = 0; i < k_times; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    Forward forward(*evidence.declared, evidence.log);
+    fit = Fitter(evidence, forward).fit(effects, {});
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+void answer(const Evidence& evidence) {
+  Imperfections at;
+  while (std::scanf("%lf %lf %lf", &at.sensor.gain, &at.shaft.backlash, &at.sensor.zero) == 3) {
+    const Eigen::VectorXd residual = evidence.theta - flat(predict(*evidence.declared, at, evidence.log));
+    std::fwrite(residual.data(), sizeof(double), static_cast<std::size_t>(residual.size()), stdout);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fputs("usage: bench_fit SPEC RUN.csv...\n", stderr);
+    return 2;
+  }
+  const DeclaredMechanism declared = expected_joint(read_mechanism(argv[1]).mechanism);
+  const std::vector<std::filesystem::path> runs(argv + 2, argv + argc);
+  const Evidence evidence = gather(declared, read_measurement(runs, declared), k_floor);
+  Fit fit;
+  const double seconds =
+      fit_seconds(evidence, {effect("joint_sensor_gain"), effect("backlash"), effect("zero_offset")}, fit);
+  std::printf("{\"seconds\": %.6f, \"rows\": %ld, \"gain\": %.9g, \"play\": %.9g, \"zero\": %.9g}\n", seconds,
+              static_cast<long>(evidence.theta.size()), fit.at.sensor.gain, fit.at.shaft.backlash, fit.at.sensor.zero);
+  std::fflush(stdout);
+  answer(evidence);
+}
