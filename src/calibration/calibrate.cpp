@@ -124,21 +124,16 @@ Measurement about_declared(const Mechanism& declared, const Measurement& measure
   return about;
 }
 
-/// What was read as an effect joins its group; a name that joints of any other kind bear too often is given up, and so
-/// is one of a group that says nothing any more. What is left of `audited` stands beside the groups.
-void take_audit(std::vector<Audited>& audited, Workers& workers, Selection& selection) {
-  EffectSet doubtful;
+/// A name that simulated joints without it bear too often is none to stand alone: what was read as it joins the group.
+void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
   for (std::size_t i = 0; i < audited.size(); ++i) {
-    EffectSet& group = selection.groups[i].members;
+    FoundEffect& effect = calibration.effects[i];
+    effect.audit = audited[i].counts;
     for (const Effect* other : audited[i].mistaken) {
-      if (!contains(group, *other)) group.push_back(other);
+      if (std::find(effect.group.begin(), effect.group.end(), other->name) == effect.group.end())
+        effect.group.push_back(other->name);
     }
-    audited[i].given_up = audited[i].beyond > k_thresholds.most_mistaken * audited[i].counts.worlds ||
-                          group.size() > k_thresholds.most_of_a_group;
-    if (audited[i].given_up) doubtful.push_back(group.front());
   }
-  give_up(doubtful, workers, selection);
-  std::erase_if(audited, [](const Audited& one) { return one.given_up; });
 }
 
 }  // namespace
@@ -153,18 +148,15 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
     return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Workers workers(evidence);
   expect_what_is_seen(evidence, workers, options);
-  Selection selection = select_effects(evidence, workers, options);
+  const Selection selection = select_effects(evidence, workers, options);
   if (!selection.none.usable)
     return not_testable(
         {"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not "
          "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
-  std::vector<Audited> audited;
-  if (options.audit) audited = audit(evidence, workers, selection);
-  take_audit(audited, workers, selection);
   calibration.effects = found_effects(evidence, selection);
-  for (std::size_t i = 0; i < audited.size(); ++i) calibration.effects[i].audit = audited[i].counts;
+  if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);
   calibration.tried = selection.tried;

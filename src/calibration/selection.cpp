@@ -390,28 +390,6 @@ void expect_what_is_seen(Evidence& evidence, Workers& workers, const Calibration
   }
 }
 
-void give_up(const EffectSet& doubtful, Workers& workers, Selection& selection) {
-  if (doubtful.empty()) return;
-  EffectSet effects = selection.best.effects;
-  Imperfections at = selection.best.at;
-  for (const Effect* effect : doubtful) {
-    effects = without(effects, *effect);
-    at = without(at, *effect);
-    std::erase_if(selection.rivals, [&](const Rival& rival) { return rival.accepted == effect; });
-    std::erase_if(selection.groups, [&](const CredibleGroup& group) { return group.members.front() == effect; });
-    for (Candidate& candidate : selection.tried) {
-      if (candidate.name != effect->name) continue;
-      candidate.accepted = false;
-      candidate.why = "simulated joints without it, logged by the same runs, bear its name too often";
-    }
-  }
-  selection.best = workers.one().fit(effects, at);
-  selection.without.assign(effects.size(), {});
-  workers.each(effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    selection.without[i] = fitter.fit(without(effects, *effects[i]), without(selection.best.at, *effects[i]));
-  });
-}
-
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {
   return Selector(evidence, workers, options).run();
 }

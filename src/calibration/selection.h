@@ -40,9 +40,6 @@ double score(const Fit& fit);
 /// Fills `sizes`: no number is expected to move the reading by much more than what is seen.
 void expect_what_is_seen(Evidence& evidence, Workers& workers, const CalibrationOptions& options);
 
-/// Takes effects out of `best` and out of all that stands beside it.
-void give_up(const EffectSet& doubtful, Workers& workers, Selection& selection);
-
 /// An empty catalogue's answer with an unusable `none` where the declared joint has no equilibrium.
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options);
 

@@ -54,8 +54,6 @@ struct Thresholds {
   int worlds = 200;
   double most_mistaken = 0.02;
   double least_of_a_group = 0.005;
-  /// Of more effects a group says nothing.
-  std::size_t most_of_a_group = 12;
 
   // ---- what is given up ----
 
