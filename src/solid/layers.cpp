@@ -63,8 +63,9 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang) {
   const double reach = k_layer / std::tan(overhang + k_threshold);
   const Bounds box = bounds(lying);
   std::vector<Vec3> ledges;
-  std::vector<Polygon> below = section(lying, box.low.z() + 0.5 * k_layer);
-  for (double z = box.low.z() + 1.5 * k_layer; z < box.high.z(); z += k_layer) {
+  // What stands out over the first layer comes down onto the bed: PrusaSlicer puts no support that low.
+  std::vector<Polygon> below = section(lying, box.low.z() + 1.5 * k_layer);
+  for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) {
     std::vector<Polygon> here = section(lying, z);
     const WidenedLayer widened(std::move(below), reach);
     for (const Polygon& loop : here) {

@@ -94,8 +94,14 @@ TEST(Layers, AMushroomStandsOutOnce) {
   EXPECT_EQ(ledges(tower({{4, 0}, {4, 5}, {4.15, 5}, {4.15, 7}}, 64)), 0u);
 }
 
+TEST(Layers, TheBedBearsTheSecond) {
+  EXPECT_EQ(ledges(tower({{5, 0}, {5, 0.2}, {8, 0.2}, {8, 5}}, 64)), 0u);
+  EXPECT_EQ(ledges(tower({{5, 0}, {5, 0.4}, {8, 0.4}, {8, 5}}, 64)), 1u);
+}
+
 TEST(Blame, IsTheNearestTieOffsAndItIsNotPlannedThereAgain) {
-  const Mechanism mechanism = plain_mechanism();
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.tail = Tail::none;
   const SynthesisResult shape = pulley_of(circle(20), circle(18));
   const BodyPlan plan = plan_body(mechanism, shape);
   const Vec3 far(0, 0, plan.layout.z_p1);
