@@ -46,7 +46,10 @@ class TailPlacer {
     const bool gabled = on_bed(layout_, anchor.side);
     slot.roof = gabled ? 0.5 * slot.width * std::tan(gable_slope(layout_)) : 0.0;
     slot.depth = std::max(k_gabled_ratio * d_, k_depth_ratio * d_ - slot.roof);
-    const bool over_channels = to_channels(anchor.side) - slot.depth - slot.roof >= k_least_ground;
+    const double deep = slot.depth + slot.roof;
+    // A groove's plane shows its floor alone, and what is tied off in it.
+    if (to_plane(anchor.side) - deep < k_least_ground) return std::nullopt;
+    const bool over_channels = to_channels(anchor.side) - deep >= k_least_ground;
     if (screw_ != nullptr && !add_screw(slot, anchor.side)) return std::nullopt;
     slot.from = anchor.pocket();
     const double edge = anchor.pocket_radius(layout_);
@@ -74,10 +77,11 @@ class TailPlacer {
   }
 
  private:
-  // From the face to where a channel is nearest to it: its ceiling rises upwards, as the part is printed.
+  // From the face.
+  double to_plane(Side side) const { return side == Side::left ? layout_.z_p1 : layout_.z_top - layout_.z_p2; }
+  // To where a channel is nearest to it: its ceiling rises upwards, as the part is printed.
   double to_channels(Side side) const {
-    const double to_plane = side == Side::left ? layout_.z_p1 : layout_.z_top - layout_.z_p2;
-    return to_plane - 0.5 * layout_.channel_width - (on_bed(layout_, side) ? 0.0 : layout_.channel_roof);
+    return to_plane(side) - 0.5 * layout_.channel_width - (on_bed(layout_, side) ? 0.0 : layout_.channel_roof);
   }
 
   void add_channels_beside(const PlannedAnchor& own, std::vector<Bar>& bars) const {
