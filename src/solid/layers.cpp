@@ -25,9 +25,9 @@ bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
          1;
 }
 
-// A layer, widened by `reach`: what the next one may lie on. PrusaSlicer squares the corners of what it widens, but edges of a
-// few µm, which a section may always have, make round ones of them: what only a squared corner holds is supported as
-// chance has it (three blocks under one of 160 parts).
+// A layer, widened by `reach`: what the next one may lie on. PrusaSlicer squares the corners of what it widens, but
+// edges of a few µm, which a section may always have, make round ones of them: what only a squared corner holds is
+// supported as chance has it (three blocks under one of 160 parts).
 class WidenedLayer {
  public:
   WidenedLayer(std::vector<Polygon> loops, double reach) : loops_(std::move(loops)), nearest_(loops_), reach_(reach) {}

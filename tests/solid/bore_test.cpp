@@ -18,7 +18,8 @@ using testing::plain_mechanism;
 double angle_between(const Vec2& a, const Vec2& b) { return std::abs(std::atan2(cross(a, b), a.dot(b))); }
 
 bool has(const Polygon& polygon, const Vec2& corner) {
-  return std::any_of(polygon.begin(), polygon.end(), [&](const Vec2& point) { return (point - corner).norm() < 1e-12; });
+  return std::any_of(polygon.begin(), polygon.end(),
+                     [&](const Vec2& point) { return (point - corner).norm() < 1e-12; });
 }
 
 BoreLayout recess(const Polygon& outline, const Polygon& hole) {
@@ -69,7 +70,8 @@ TEST(RecessCone, TakesTheCornersOfBoth) {
   for (const int outer : {4, 7, 16}) {
     for (const int inner : {3, 8, 10}) {
       for (const double turn : {0.0, 0.05, 0.4, 3.0}) {
-        SCOPED_TRACE(std::to_string(outer) + " and " + std::to_string(inner) + " corners, turned by " + std::to_string(turn));
+        SCOPED_TRACE(std::to_string(outer) + " and " + std::to_string(inner) + " corners, turned by " +
+                     std::to_string(turn));
         expect_cone(recess(regular(outer, 5, 0.3), regular(inner, 1.5, turn)));
       }
     }
