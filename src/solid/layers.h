@@ -10,8 +10,8 @@
 namespace fusee {
 
 /// Places where a layer stands out over the one below by more than a face at `overhang` above the horizontal would, as
-/// PrusaSlicer finds them: the part as it lies, in layers of 0.2 mm, each widened with squared corners. One a loop of a
-/// layer, the furthest. A ceiling that is closed all round has none: it is bridged.
+/// PrusaSlicer finds them: the part as it lies, in layers of 0.2 mm, each widened all round, from the third on. One a
+/// loop of a layer, the furthest. A ceiling that is closed all round has none: it is bridged.
 std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang);
 
 }  // namespace fusee

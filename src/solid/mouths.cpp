@@ -9,9 +9,11 @@
 namespace fusee {
 namespace {
 
-// The mouth's wall leans over by this against the groove's edge. PrusaSlicer widens a layer by 0.193 mm at 45° and 0.2 mm
-// layers, with squared corners; the tip between a wall and an edge that grows by 0.19 mm stays within it down to 59°.
-constexpr double k_lean = radians(20);
+// The mouth's wall leans over by this against the groove's edge, and by up to 7° more where the edge is curved. The tip
+// between them moves outwards by the edge's step over the sine of its angle: 0.183 mm of a roof at 47.5° and layers of
+// 0.2 mm become 0.1915 mm at 73°, and PrusaSlicer widens a layer by 0.193 mm at 45°. With 20° only its squared corners
+// held the tip, and they hold as chance has it (layers.cpp).
+constexpr double k_lean = radians(10);
 // From where the channel's outer edge lies this far within the floor it is left as it is.
 constexpr double k_depth = 0.1;
 constexpr int k_steps = 12;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fusee/base/units.h"
+#include "solid/corners.h"
 #include "solid/disjoint_sets.h"
 #include "solid/outline_fit.h"
 
@@ -30,9 +31,6 @@ constexpr double k_slices = 4.0;
 constexpr double k_bore_roundness = 0.01;
 constexpr double k_bore_reach = 1.0;
 constexpr double k_bore_at_axis = 0.01;
-// A point that stands out from its neighbours by less is no corner, mm: a turn tells nothing where edges are as short
-// as the grain of a float. The corners of a circle of 200 facets and 5 mm stand out by ten times this.
-constexpr double k_straight = 1e-4;
 
 double radius_of(const Polygon& outline) { return std::sqrt(std::abs(signed_area(convex_hull(outline))) / k_pi); }
 
@@ -164,24 +162,6 @@ std::optional<FittedWay> best_of(const std::vector<Way>& ways, const GrooveFloor
 }
 
 // ---- the bore ------------------------------------------------------------------------------------
-
-/// Corners alone: triangles of a wall leave points along its straight lines, and what stands out least goes first.
-Polygon corners_of(Polygon corners) {
-  while (corners.size() > 3) {
-    const std::size_t n = corners.size();
-    std::size_t flattest = 0;
-    double least = k_straight;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double out = distance_to_segment(corners[i], corners[(i + n - 1) % n], corners[(i + 1) % n]);
-      if (out >= least) continue;
-      least = out;
-      flattest = i;
-    }
-    if (least == k_straight) break;
-    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(flattest));
-  }
-  return corners;
-}
 
 /// The circle through the corners, by least squares; none where they are on no circle. A flat is a chord, and its ends
 /// are on the circle too.

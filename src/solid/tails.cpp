@@ -41,18 +41,20 @@ class TailPlacer {
         floor2_(plan.floor2) {}
 
   std::optional<TailSlot> place(const PlannedAnchor& anchor) const {
-    const bool left = anchor.side == Side::left;
     TailSlot slot;
     slot.width = layout_.channel_width;
     const bool gabled = on_bed(layout_, anchor.side);
     slot.roof = gabled ? 0.5 * slot.width * std::tan(gable_slope(layout_)) : 0.0;
     slot.depth = std::max(k_gabled_ratio * d_, k_depth_ratio * d_ - slot.roof);
-    const double to_channel = (left ? layout_.z_p1 : layout_.z_top - layout_.z_p2) - 0.5 * layout_.channel_width;
-    if (to_channel - slot.depth - slot.roof < k_least_ground) return std::nullopt;
+    const double deep = slot.depth + slot.roof;
+    // A groove's plane shows its floor alone, and what is tied off in it.
+    if (to_plane(anchor.side) - deep < k_least_ground) return std::nullopt;
+    const bool over_channels = to_channels(anchor.side) - deep >= k_least_ground;
     if (screw_ != nullptr && !add_screw(slot, anchor.side)) return std::nullopt;
     slot.from = anchor.pocket();
     const double edge = anchor.pocket_radius(layout_);
-    const std::vector<Bar> at_face = obstacles_at_face(anchor);
+    std::vector<Bar> at_face = obstacles_at_face(anchor);
+    if (!over_channels) add_channels_beside(anchor, at_face);
     std::optional<TailSlot> best;
     double longest = edge + k_shortest_ratio * d_ - 0.5 * d_;
     // From the direction in which the channel leads, to both sides in turn.
@@ -60,6 +62,9 @@ class TailPlacer {
     for (int k = 0; k < k_directions; ++k) {
       const double turn = (k % 2 == 0 ? 1.0 : -1.0) * k_two_pi / k_directions * ((k + 1) / 2);
       const Vec2 direction = turned(ahead, turn);
+      // Its own channel comes from behind.
+      const bool beside = direction.dot(ahead) >= 0 || edge * std::abs(cross(direction, ahead)) >= slot.width;
+      if (!over_channels && !beside) continue;
       for (double length = edge + k_longest_ratio * d_; length > longest; length -= 0.5 * d_) {
         slot.to = slot.from + length * direction;
         if (!is_free(slot, anchor.side, at_face)) continue;
@@ -72,6 +77,21 @@ class TailPlacer {
   }
 
  private:
+  // From the face.
+  double to_plane(Side side) const { return side == Side::left ? layout_.z_p1 : layout_.z_top - layout_.z_p2; }
+  // To where a channel is nearest to it: its ceiling rises upwards, as the part is printed.
+  double to_channels(Side side) const {
+    return to_plane(side) - 0.5 * layout_.channel_width - (on_bed(layout_, side) ? 0.0 : layout_.channel_roof);
+  }
+
+  void add_channels_beside(const PlannedAnchor& own, std::vector<Bar>& bars) const {
+    for (const PlannedAnchor& anchor : plan_.anchors) {
+      if (&anchor == &own || anchor.side != own.side) continue;
+      const std::vector<Bar> cut = anchor.bars(layout_);
+      bars.insert(bars.end(), cut.begin(), cut.end());
+    }
+  }
+
   // As long as there is material under the slot; false where that is too little.
   bool add_screw(TailSlot& slot, Side side) const {
     const double ground = layout_.parts == Parts::one ? layout_.z_top

@@ -183,7 +183,7 @@ TEST(BodyAdvice, TwoNumbersTogetherWhereNoneDoesAlone) {
 TEST(BodyAdvice, AClampScrewWithoutRoomTakesAThickerFlangeOrNone) {
   Mechanism mechanism = forearm();
   mechanism.body.clamp_screw = "M3";
-  mechanism.body.wrap = radians(20);
+  mechanism.print.parts = Parts::two;
   ASSERT_FALSE(obstacles(mechanism).empty());
   const Advice advice = body_advice(mechanism);
   const auto has = [&advice](const char* key) {

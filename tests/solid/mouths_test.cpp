@@ -143,7 +143,8 @@ TEST(Mouths, BeginOnAWallAcrossTheFloor) {
   }
 }
 
-// What prints is the tip between wall and groove edge: from 59° on no layer of it stands out by more than a line bears.
+// What prints is the tip between wall and groove edge: a roof's 0.1833 mm a layer move it by less than PrusaSlicer's
+// 0.1931 mm, however round its corner is.
 TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
   int walls = 0;
   for (const Case& one : cases()) {
@@ -158,7 +159,7 @@ TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
         if (out < 0 || out > one.lip) continue;
         ++walls;
         const double steep = std::asin(std::min(1.0, std::abs((b - a).normalized().dot(normal_at(one, place)))));
-        EXPECT_GE(degrees(steep), 59) << name_of(one) << " " << out << " mm outside the floor";
+        EXPECT_GE(degrees(steep), 73) << name_of(one) << " " << out << " mm outside the floor";
       }
     }
   }

@@ -6,6 +6,7 @@
 #include "fusee/solid/pulley.h"
 #include "solid/broken.h"
 #include "solid/plan.h"
+#include "solid/plane_distance.h"
 #include "solid/wrap.h"
 #include "support/shapes.h"
 
@@ -153,23 +154,53 @@ TEST(TieOffs, ALargePulleyHasNoSlotToTheFace) {
 
 double beyond_pocket(const TailSlot& slot, const BodyLayout& layout) { return (slot.to - slot.from).norm() - layout.pocket_radius; }
 
-// On P1's face, which lies on the bed where the part is one, a slot has a gable over it: that takes a thicker flange.
+// On P1's face, which lies on the bed where the part is one, a slot has a gable over it, which reaches deeper.
 Mechanism thick_flanged() {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.flange_thickness = 2.4;
   return mechanism;
 }
 
-TEST(Tails, OnTheBedTakeAThickerFlangeOrTwoParts) {
+TEST(Tails, OnTheBedHaveAGable) {
   const SynthesisResult shape = pulley_of(circle(20), circle(18));
-  Mechanism thin = plain_mechanism(), apart = thin;
+  Mechanism apart = plain_mechanism();
   apart.print.parts = Parts::two;
-  EXPECT_FALSE(find(make_pulley(thin, shape), Side::left, true).tail.has_value());
   const auto slot_of = [&](const Mechanism& mechanism) { return find(make_pulley(mechanism, shape), Side::left, true).tail; };
-  ASSERT_TRUE(slot_of(thick_flanged()).has_value());
+  for (const Mechanism& mechanism : std::vector<Mechanism>{plain_mechanism(), thick_flanged()}) {
+    ASSERT_TRUE(slot_of(mechanism).has_value());
+    EXPECT_GT(slot_of(mechanism)->roof, 0);
+  }
   ASSERT_TRUE(slot_of(apart).has_value());
-  EXPECT_GT(slot_of(thick_flanged())->roof, 0);
   EXPECT_EQ(slot_of(apart)->roof, 0);
+}
+
+// Where a slot and a channel's ceiling leave less than two layers between them, they lie beside each other: in a shallow
+// groove for a thick tendon they would meet.
+TEST(Tails, LeaveTwoLayersOverChannels) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.tendon.diameter = 2.3;
+  mechanism.body.groove_depth = 3.1;
+  mechanism.body.marks = Marks::none;
+  mechanism.print.parts = Parts::two;
+  int beside = 0;
+  for (const double radius : {26.0, 29.0, 32.0}) {
+    const SynthesisResult shape = pulley_of(circle(radius), circle(1.1 * radius));
+    const Pulley pulley = make_pulley(mechanism, shape);
+    ASSERT_TRUE(pulley.made()) << pulley.brief();
+    EXPECT_EQ(failures(pulley, mechanism, shape), "") << radius;
+    const BodyLayout& layout = pulley.layout;
+    for (const Anchor& anchor : pulley.anchors) {
+      if (!anchor.tail) continue;
+      const TailSlot& slot = *anchor.tail;
+      const double to_plane = anchor.side == Side::left ? layout.z_p1 : layout.z_top - layout.z_p2;
+      if (to_plane - 0.5 * layout.channel_width - layout.channel_roof - slot.depth >= 0.4) continue;
+      ++beside;
+      const Anchor& spare = find(pulley, anchor.side, false);
+      for (const Vec2& corner : spare.channel)
+        EXPECT_GT(gap({slot.from, slot.to, 0.5 * slot.width}, {corner, corner, 0.0}), 0.0) << radius;
+    }
+  }
+  EXPECT_GE(beside, 3);
 }
 
 TEST(Tails, AreCutAsLongAndDeepAsTheySay) {
