@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "calibration/audit.h"
+#include "calibration/empirical.h"
 #include "calibration/explanation.h"
 #include "calibration/next_runs.h"
 #include "calibration/thresholds.h"
@@ -163,6 +164,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   name_held_out(evidence, calibration);
   validate(declared, part(measurement, options.hold_out, true), selection, calibration);
   conclude(evidence, selection, calibration);
+  hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   return calibration;
 }
 

@@ -206,6 +206,8 @@ Described described(const Marginal& marginal, const TangentSums& sums, double si
 
 }  // namespace
 
+bool is_of_place(Factor factor) { return factor == Factor::place || factor == Factor::direction; }
+
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   const Marginal& marginal = *evidence.marginal;
   const Discrepancy& discrepancy = marginal.discrepancy();
@@ -235,6 +237,7 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   find_harmonic(angles, left, evidence.floor, unnamed.parts);
   std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(),
                    [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
+  unnamed.explained = all.explained;
   return unnamed;
 }
 
