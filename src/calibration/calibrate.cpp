@@ -55,12 +55,13 @@ void name_held_out(const Evidence& evidence, Calibration& calibration) {
   }
 }
 
-Calibration not_testable(const std::vector<std::string>& reasons) {
+Calibration not_testable(const Measurement& measurement, const std::vector<std::string>& reasons) {
   Calibration calibration;
   calibration.verdict = CalibrationVerdict::not_testable;
   for (const std::string& reason : reasons) calibration.summary += (calibration.summary.empty() ? "" : " ") + reason;
   calibration.next_runs = {
       "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster"};
+  ask_for_both_sides(measurement, calibration.next_runs);
   return calibration;
 }
 
@@ -139,16 +140,20 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
 
 Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
                       const CalibrationOptions& options) {
-  if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty()) return not_testable(reasons);
+  if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty())
+    return not_testable(measurement, reasons);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from));
-  const Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
+  Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
+  evidence.floor_freedom = noise.degrees_of_freedom;
   if (evidence.blocks.size() < 2)
-    return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
+    return not_testable(measurement,
+                        {"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Workers workers(evidence);
   const Selection selection = select_effects(evidence, workers, options);
   if (!selection.none.usable)
     return not_testable(
+        measurement,
         {"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not "
          "of one joint."});
   Calibration calibration;
@@ -157,6 +162,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);
+  ask_for_both_sides(learnt_from, calibration.next_runs);
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = selection.best.at;

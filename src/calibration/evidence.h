@@ -47,6 +47,7 @@ struct Evidence {
   std::vector<std::string> factors;  ///< by which whole levels are held out
   std::vector<HandReading> readings;
   double floor = 0;                          ///< rms noise, rad
+  double floor_freedom = 1e9;                ///< degrees of freedom that it is known by
   std::shared_ptr<const Marginal> marginal;  ///< by which sets of effects are weighed: weigh()
 
   /// Rows in use, block by block.

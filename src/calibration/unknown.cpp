@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
@@ -206,6 +207,19 @@ Described described(const Marginal& marginal, const TangentSums& sums, double si
 
 }  // namespace
 
+namespace {
+
+/// What noise is more than the floor, rad². A floor that few repeats know is exceeded by chance.
+double noise_beyond_floor(const Evidence& evidence, double noise) {
+  const double ratio = std::pow(noise / evidence.floor, 2);
+  const double rows = evidence.marginal->worth() * static_cast<double>(evidence.rows_used());
+  const bool is_badly_known = evidence.floor_freedom < k_thresholds.noise_freedom;
+  if (is_badly_known && ratio < rarest_ratio(rows, evidence.floor_freedom)) return 0;
+  return std::max(0.0, ratio - 1.0) * evidence.floor * evidence.floor;
+}
+
+}  // namespace
+
 bool is_of_place(Factor factor) { return factor == Factor::place || factor == Factor::direction; }
 
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
@@ -216,7 +230,10 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   const Angles angles = angles_of(evidence);
   const Described all = described(marginal, sums, std::max(evidence.floor, rms_of(tangent.residual)));
   Unnamed unnamed;
-  unnamed.evidence = all.explained.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
+  const double excess = noise_beyond_floor(evidence, all.explained.amplitudes.noise);
+  const Amplitudes nothing = marginal.nothing_unnamed();
+  const Explained as_noise = excess > 0 ? marginal.at(sums, nothing) : marginal.best(sums, nothing);
+  unnamed.evidence = all.explained.log_evidence - as_noise.log_evidence;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const auto& [factor, gain] : all.factors) {
     const Eigen::VectorXd part = part_of(discrepancy, all.explained.unnamed, factor->factor);
@@ -230,8 +247,7 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
     draw(angles, part, unknown);
     unnamed.parts.push_back(std::move(unknown));
   }
-  const double noise = all.explained.amplitudes.noise;
-  unnamed.rms = std::hypot(rms_of(sum), std::sqrt(std::max(0.0, noise * noise - evidence.floor * evidence.floor)));
+  unnamed.rms = std::hypot(rms_of(sum), std::sqrt(excess));
   Eigen::VectorXd left = tangent.residual - sum + part_of(discrepancy, all.explained.unnamed, Factor::place);
   if (tangent.x.size() > 0) left -= tangent.J * all.explained.step;
   find_harmonic(angles, left, evidence.floor, unnamed.parts);
