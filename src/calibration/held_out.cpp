@@ -112,14 +112,13 @@ struct Scaled {
   std::vector<bool> of_place;  ///< of place and direction alone
 };
 
-Scaled scaled(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes) {
+Scaled scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
   const Marginal& marginal = *evidence.marginal;
   const double unit = std::sqrt(wide_prior(evidence.floor) * marginal.worth()) / amplitudes.noise;
-  const double give = tangent_of(evidence, fit).give;
   Scaled used;
   const std::vector<Family>& families = marginal.discrepancy().families;
   for (std::size_t f = 0; f < families.size(); ++f) {
-    const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)] * (families[f].fixed > 0 ? give : 1.0);
+    const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
     for (Eigen::Index k = 0; amplitude > 0 && k < families[f].count; ++k) {
       used.columns.push_back(families[f].first + k);
       used.size.push_back(amplitude * unit);
@@ -171,7 +170,7 @@ HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fol
 
 HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
                               const std::vector<Fold>& folds) {
-  const Scaled used = scaled(evidence, fit, amplitudes);
+  const Scaled used = scaled(evidence, amplitudes);
   const Fitted fitted = effects_beside(evidence, fit, used);
   Mask effects = Mask::Zero(fitted.x.size());
   effects.head(fitted.named).setOnes();

@@ -21,7 +21,7 @@ struct HeldOut {
 /// is left out block by block.
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds);
 
-/// The same of a fit with the discrepancy beside it, which is learnt from the others too.
+/// The same of a fit with the discrepancy beside it, which is learnt from the others too. `amplitudes`: of that fit.
 struct HeldOutBeside {
   HeldOut effects;     ///< what the effects alone leave
   HeldOut with_place;  ///< what they leave with the discrepancy's part of place and direction alone
