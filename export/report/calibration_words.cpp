@@ -157,12 +157,11 @@ std::string curve_words(const CalibrationProduct& product) {
   const EmpiricalCurve& curve = product.calibration.curve;
   if (!curve.used) return curve.why.empty() ? "" : "compensation.csv does not cover what has no name: " + curve.why;
   return "an empirical curve in compensation.csv covers what depends on place and direction alone: it takes " +
-         rounded(degrees(curve.gain), 2) + "° rms off data that it was not made from (" +
-         rounded(degrees(curve.held_out_effects), 2) + "° → " + rounded(degrees(curve.held_out_rms), 2) +
+         rounded(degrees(curve.gain), 3) + "° rms off data that it was not made from (" +
+         rounded(degrees(curve.held_out_effects), 3) + "° → " + rounded(degrees(curve.held_out_rms), 3) +
          "°). It is no cause, and holds for this joint as it was measured (" + where_seen(product) +
-         "): what is wrong in the joint's sensor it would make wrong in the joint, and what is wrong in the pulley "
-         "ends "
-         "with another one";
+         "). If the joint's own sensor is what is wrong, the table makes the joint wrong by as much; if the pulley is, "
+         "another pulley asks for other runs";
 }
 
 std::vector<std::string> slips_words(const CalibrationProduct& product) {

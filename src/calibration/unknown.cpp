@@ -55,9 +55,10 @@ double rms_of(const Eigen::VectorXd& values) {
   return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;
 }
 
-/// Rows in use: the angle of the motor and of the joint.
+/// Rows in use: the angle of the motor and of the joint, and which way the motor moves and the load pulls, ±1.
 struct Angles {
   Eigen::VectorXd motor, joint;
+  Eigen::VectorXd direction, pull;
   double motor_step = 0;  ///< median from row to row, of those between which the motor moved
   double joint_step = 0;
 };
@@ -76,12 +77,17 @@ Angles angles_of(const Evidence& evidence) {
   for (const Run& run : evidence.measurement.runs) {
     for (const Sample& sample : run.samples) all.push_back(&sample);
   }
-  const std::vector<Eigen::Index> rows = evidence.rows();
-  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())),
-                Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    angles.motor[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->alpha;
-    angles.joint[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->theta;
+  const auto rows = static_cast<Eigen::Index>(evidence.rows_used());
+  Angles angles{Eigen::VectorXd(rows), Eigen::VectorXd(rows), Eigen::VectorXd(rows), Eigen::VectorXd(rows)};
+  Eigen::Index i = 0;
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t row : block.rows) {
+      angles.motor[i] = all[row]->alpha;
+      angles.joint[i] = all[row]->theta;
+      angles.direction[i] = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
+      angles.pull[i] = all[row]->load < 0 ? -1.0 : 1.0;
+      ++i;
+    }
   }
   angles.motor_step = median_step(angles.motor, angles.motor);
   angles.joint_step = median_step(angles.joint, angles.motor);
@@ -98,7 +104,24 @@ Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& u
   return part;
 }
 
-/// Means of a part over places: of what turns over with something, of rows where that is positive.
+/// A part as it would be with the motor on its way up and the load positive.
+Eigen::VectorXd turned_over(const Angles& angles, const Eigen::VectorXd& part, Factor factor) {
+  switch (factor) {
+    case Factor::direction:
+    case Factor::load_direction:
+    case Factor::speed_direction:
+      return part.cwiseProduct(angles.direction);
+    case Factor::load:
+      return part.cwiseProduct(angles.pull);
+    default:
+      return part;
+  }
+}
+
+/// Whether a part is a function of place, times something.
+bool has_course(Factor factor) { return factor != Factor::run && factor != Factor::drift && factor != Factor::stroke; }
+
+/// The largest of a part at each place.
 void draw(const Angles& angles, const Eigen::VectorXd& part, Unknown& unknown) {
   SeenSpan span;
   for (const double alpha : angles.motor) span.take(alpha);
@@ -244,7 +267,7 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
     unknown.rms = rms_of(part);
     unknown.evidence = gain;
     if (unknown.rms < k_thresholds.least_seen * evidence.floor) continue;
-    draw(angles, part, unknown);
+    if (has_course(factor->factor)) draw(angles, turned_over(angles, part, factor->factor), unknown);
     unnamed.parts.push_back(std::move(unknown));
   }
   unnamed.rms = std::hypot(rms_of(sum), std::sqrt(excess));

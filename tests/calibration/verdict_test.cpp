@@ -106,6 +106,8 @@ TEST_F(Concluded, ARestIsDescribedByWhatItDependsOn) {
   ASSERT_FALSE(calibration.unknown.empty());
   EXPECT_EQ(calibration.unknown.front().factor, "direction");
   EXPECT_NEAR(calibration.unknown.front().rms, 5 * k_floor, 0.5 * k_floor);
+  // Its picture is that of the way up, and not of whichever row is largest.
+  EXPECT_THAT(calibration.unknown.front().theta, testing::Each(testing::DoubleNear(5 * k_floor, 1.5 * k_floor)));
   EXPECT_THAT(calibration.summary, HasSubstr("depends on direction"));
 }
 

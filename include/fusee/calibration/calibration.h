@@ -63,7 +63,9 @@ struct Unknown {
   double rms = 0;        ///< rad, over all rows in use
   double evidence = 0;   ///< log of how many times less likely the data are without it
   std::string words;     ///< on what it depends, and where in the chain such a thing can sit
-  std::vector<double> alpha;  ///< its course over the seen span, rad: of what is in proportion to something, at its largest
+  /// Its course over the seen span, rad: of what is in proportion to something at its largest, the motor on its way up
+  /// and the load positive; none where place says nothing.
+  std::vector<double> alpha;
   std::vector<double> theta;
 };
 
