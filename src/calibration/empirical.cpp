@@ -25,24 +25,46 @@ constexpr double k_worse = 0.05;
 /// Of the gain, what all rows together must show of it.
 constexpr double k_kept_between = 0.5;
 
-/// Rows in use on their way up or down: the curve there is a function of α.
-struct Way {
-  std::vector<std::pair<double, double>> rows;  ///< α and curve, by growing α
+/// Rows in use on their way up or down, by growing α: α and curve. Behind a reversal the curve may be several at a
+/// place.
+using Way = std::vector<std::pair<double, double>>;
 
-  double widest_gap() const {
-    double gap = 0;
-    for (std::size_t i = 1; i < rows.size(); ++i) gap = std::max(gap, rows[i].first - rows[i - 1].first);
-    return gap;
+double widest_gap(const Way& way) {
+  double gap = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) gap = std::max(gap, way[i].first - way[i - 1].first);
+  return gap;
+}
+
+/// Means of half a piece each: the curve bends over much more.
+Way smoothed(const Way& way, const SeenSpan& seen) {
+  const Bins bins{seen, 2 * k_pieces};
+  Way means;
+  int last = -1;
+  double count = 0;
+  for (const auto& [alpha, value] : way) {
+    if (alpha < seen.least || alpha > seen.most) continue;
+    const int bin = bins.bin(alpha);
+    if (bin != last) {
+      means.emplace_back(0.0, 0.0);
+      count = 0;
+    }
+    last = bin;
+    count += 1;
+    means.back().first += (alpha - means.back().first) / count;
+    means.back().second += (value - means.back().second) / count;
   }
-  double at(double alpha) const {
-    const auto above = std::lower_bound(rows.begin() + 1, rows.end() - 1, alpha,
-                                        [](const auto& row, double value) { return row.first < value; });
-    const auto& low = *(above - 1);
-    const double span = above->first - low.first;
-    const double share = span > 0 ? std::clamp((alpha - low.first) / span, 0.0, 1.0) : 0.0;
-    return low.second + share * (above->second - low.second);
-  }
-};
+  return means;
+}
+
+/// By straight pieces.
+double value_at(const Way& way, double alpha) {
+  const auto above = std::lower_bound(way.begin() + 1, way.end() - 1, alpha,
+                                      [](const auto& row, double value) { return row.first < value; });
+  const auto& low = *(above - 1);
+  const double span = above->first - low.first;
+  const double share = span > 0 ? std::clamp((alpha - low.first) / span, 0.0, 1.0) : 0.0;
+  return low.second + share * (above->second - low.second);
+}
 
 /// What the discrepancy's families of place and direction add, rows in use.
 Eigen::VectorXd of_place(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed) {
@@ -69,29 +91,30 @@ BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
     for (const std::size_t sample : block.rows) {
       const double value = curve[row++];
-      if (direction != 0) (direction > 0 ? ways.up : ways.down).rows.emplace_back(alpha[sample], value);
+      if (direction != 0) (direction > 0 ? ways.up : ways.down).emplace_back(alpha[sample], value);
     }
   }
-  for (Way* way : {&ways.up, &ways.down}) std::sort(way->rows.begin(), way->rows.end());
+  for (Way* way : {&ways.up, &ways.down}) std::sort(way->begin(), way->end());
   return ways;
 }
 
 /// Places that were seen both ways.
 SeenSpan seen_both_ways(const BothWays& ways) {
   SeenSpan span;
-  if (ways.up.rows.size() < 2 || ways.down.rows.size() < 2) return span;
-  span.least = std::max(ways.up.rows.front().first, ways.down.rows.front().first);
-  span.most = std::min(ways.up.rows.back().first, ways.down.rows.back().first);
+  if (ways.up.size() < 2 || ways.down.size() < 2) return span;
+  span.least = std::max(ways.up.front().first, ways.down.front().first);
+  span.most = std::min(ways.up.back().first, ways.down.back().first);
   return span;
 }
 
 void draw(const BothWays& ways, const SeenSpan& seen, EmpiricalCurve& curve) {
   const Bins pieces{seen, k_pieces};
+  const Way up = smoothed(ways.up, seen), down = smoothed(ways.down, seen);
   for (int i = 0; i <= k_pieces; ++i) {
     const double alpha = pieces.edge(i);
     curve.alpha.push_back(alpha);
-    curve.up.push_back(ways.up.at(alpha));
-    curve.down.push_back(ways.down.at(alpha));
+    curve.up.push_back(value_at(up, alpha));
+    curve.down.push_back(value_at(down, alpha));
   }
 }
 
@@ -172,6 +195,12 @@ void add(const Run& run, const std::vector<double>& residuals, const EmpiricalCu
   }
 }
 
+/// Behind a reversal the discrepancy is more than a curve can be: no more than the curve itself takes off.
+void promise(EmpiricalCurve& curve, double gain) {
+  curve.gain = std::sqrt(gain);
+  curve.held_out_rms = std::sqrt(std::max(0.0, curve.held_out_effects * curve.held_out_effects - gain));
+}
+
 void give_up(EmpiricalCurve& curve, const std::string& why) {
   curve.used = false;
   curve.why = why;
@@ -215,7 +244,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const U
   const Eigen::VectorXd at_rows = of_place(discrepancy, unnamed.explained.unnamed);
   const BothWays ways = ways_of(evidence, at_rows);
   const SeenSpan seen = seen_both_ways(ways), all = seen_span(evidence.measurement, &Sample::alpha);
-  if (!seen.any() || std::max(ways.up.widest_gap(), ways.down.widest_gap()) > k_widest_gap * all.size()) {
+  if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
     curve.why = "there are places between which nothing was measured both ways";
     return curve;
   }
@@ -245,6 +274,7 @@ void hold_against(const Measurement& measurement, const std::vector<std::vector<
   // A wave finer than the rows in use looks like a slow one in them.
   if (learnt.gain() < k_kept_between * curve.gain * curve.gain)
     return give_up(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
+  promise(curve, std::min(curve.gain * curve.gain, learnt.gain()));
   if (validated.rows == 0) return;
   curve.held_out_effects = std::sqrt(validated.without / validated.rows);
   curve.held_out_rms = std::sqrt(validated.with / validated.rows);
