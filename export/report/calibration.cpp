@@ -60,6 +60,28 @@ Json unknown_json(const std::vector<Unknown>& unknown) {
   return list;
 }
 
+Json angles_json(const std::vector<double>& angles) {
+  Json list = Json::array();
+  for (const double one : angles) list.push_back(angle(one));
+  return list;
+}
+
+/// Null where nothing is without a name.
+Json covered_json(const CalibrationProduct& product) {
+  const EmpiricalCurve& curve = product.calibration.curve;
+  if (!curve.used && curve.why.empty()) return {};
+  Json json = {{"used", curve.used}, {"words", curve_words(product)}};
+  if (!curve.used) json["why"] = curve.why;
+  if (curve.alpha.empty()) return json;
+  json["gain_rms_deg"] = angle(curve.gain);
+  json["held_out_rms_deg"] = {{"effects_alone", angle(curve.held_out_effects)},
+                              {"with_curve", angle(curve.held_out_rms)}};
+  json["curve"] = {{"alpha_deg", angles_json(curve.alpha)},
+                   {"theta_up_deg", angles_json(curve.up)},
+                   {"theta_down_deg", angles_json(curve.down)}};
+  return json;
+}
+
 Json figures_json(const ErrorFigures& figures) {
   return {{"rms_deg", angle(figures.rms)},
           {"max_deg", angle(figures.max)},
@@ -122,6 +144,7 @@ Json detectable_json(const Calibration& calibration) {
 
 Json correctable_json(const Correction& correction) {
   Json json = {{"by_pulley_rms_deg", angle(correction.by_pulley)}, {"by_table_rms_deg", angle(correction.by_table)}};
+  if (correction.by_curve > 0) json["by_empirical_curve_rms_deg"] = angle(correction.by_curve);
   if (!correction.infeasible.empty()) json["infeasible"] = correction.infeasible;
   if (correction.tied_at != 0) json["tied_at_deg"] = angle(correction.tied_at);
   if (correction.round.r1 > 0) {
@@ -152,6 +175,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["unexplained_rms_deg"] = angle(calibration.unexplained_rms);
   json["unexplained_where"] = calibration.unexplained_where;
   json["unknown"] = unknown_json(calibration.unknown);
+  json["covered"] = covered_json(product);
   json["slips"] = slips_json(product.slips);
   json["detectable"] = detectable_json(calibration);
   json["next_runs"] = calibration.next_runs;
@@ -171,6 +195,7 @@ std::string calibration_manifest_json(const CalibrationProduct& product, const s
   json["runs"] = Json::array();
   for (const Run& run : product.measurement.runs) json["runs"].push_back(run.name);
   json["verdict"] = word(product.calibration.verdict);
+  if (product.correction.by_curve > 0) json["empirical"] = {"compensation.csv"};
   json["outputs"] = output_list(outputs);
   return text_of(json);
 }

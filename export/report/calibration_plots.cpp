@@ -445,6 +445,25 @@ std::string unknown_html(const Unknown& unknown) {
   return single(plot);
 }
 
+std::string curve_html(const CalibrationProduct& product) {
+  const EmpiricalCurve& curve = product.calibration.curve;
+  if (!curve.used) return "";
+  PlotSeries up{"α growing", Ink::p1, {}}, down{"α falling", Ink::p2, {}};
+  for (std::size_t i = 0; i < curve.alpha.size(); ++i) {
+    up.points.emplace_back(degrees(curve.alpha[i]), degrees(curve.up[i]));
+    down.points.emplace_back(degrees(curve.alpha[i]), degrees(curve.down[i]));
+  }
+  Plot plot{"Empirical curve in compensation.csv, without a cause",
+            {"motor angle α", "°", {}, {}, 1e-6},
+            {"measured less model", "°", {}, {}, 1e-3},
+            {up, down},
+            {},
+            {}};
+  plot.width = 560;
+  plot.height = 240;
+  return single(plot);
+}
+
 std::string compensation_html(const CalibrationProduct& product) {
   const std::vector<CompensationRow>& table = product.correction.table;
   const Mechanism& mechanism = product.file.mechanism;

@@ -18,6 +18,8 @@ std::string residual_levels_html(const CalibrationProduct& product);
 std::string rest_html(const CalibrationProduct& product);
 /// A part without a name over α.
 std::string unknown_html(const Unknown& unknown);
+/// The empirical curve over α, both ways; "" where the table has none.
+std::string curve_html(const CalibrationProduct& product);
 /// Where the motor must stand, against where the declared law puts it.
 std::string compensation_html(const CalibrationProduct& product);
 /// θ over α as it was logged: for data that cannot be judged.

@@ -89,7 +89,10 @@ std::string key_numbers(const CalibrationProduct& product) {
   numbers.add("Reversal error (ISO 230-2 B)", degree_words(c.iso_before.B) + " → " + degree_words(c.iso_after.B));
   if (product.correction.has_pulley)
     numbers.add("Taken out by a new pulley, RMS", degree_words(product.correction.by_pulley));
-  numbers.add("Taken out by the table, RMS", degree_words(product.correction.by_table));
+  numbers.add("Taken out by the table, RMS", degree_words(product.correction.by_table),
+              product.correction.by_curve > 0
+                  ? degree_words(product.correction.by_curve) + " of it by an empirical curve, without a cause"
+                  : "");
   return section("numbers", "Key numbers", numbers.html());
 }
 
@@ -116,6 +119,9 @@ std::string figures_section(const CalibrationProduct& product) {
   const std::string rows =
       figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
       figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
+      (c.curve.used ? "<tr>" + cell("The same, with the empirical curve") + number_cell("–") +
+                          number_cell(degree_words(c.curve.held_out_rms)) + "</tr>"
+                    : std::string()) +
       figures_row("ISO 230-2 A, accuracy", c.iso_before.A, c.iso_after.A) +
       figures_row("ISO 230-2 R, repeatability both ways", c.iso_before.R, c.iso_after.R) +
       figures_row("ISO 230-2 B, reversal", c.iso_before.B, c.iso_after.B) +
@@ -130,7 +136,8 @@ std::string figures_section(const CalibrationProduct& product) {
 
 // ---- what to do -----------------------------------------------------------------------------------------------------
 
-std::vector<std::string> correction_items(const Correction& correction) {
+std::vector<std::string> correction_items(const CalibrationProduct& product) {
+  const Correction& correction = product.correction;
   std::vector<std::string> items;
   if (correction.has_pulley) {
     items.push_back("fusee build corrected.toml makes a pulley that takes away " + degree_words(correction.by_pulley) +
@@ -147,19 +154,24 @@ std::vector<std::string> correction_items(const Correction& correction) {
                     std::string(correction.has_pulley ? " with the corrected pulley," : ",") + " takes away " +
                     degree_words(correction.by_table) + (correction.has_pulley ? " rms more." : " rms."));
   }
+  if (const std::string curve = curve_words(product); !curve.empty()) items.push_back(first_upper(curve) + ".");
   return items;
 }
 
 std::string compensation_table(const Correction& correction) {
+  const bool has_curve = correction.by_curve > 0;
   std::string rows;
   for (const CompensationRow& row : correction.table) {
-    rows += "<tr>" + number_cell(readable(degrees(row.theta), 3)) + number_cell(readable(degrees(row.alpha_up), 3)) +
-            number_cell(readable(degrees(row.alpha_down), 3)) +
-            number_cell(readable(degrees(row.alpha_up - row.alpha_down), 3)) + "</tr>";
+    std::vector<double> angles = {row.theta, row.alpha_up, row.alpha_down, row.alpha_up - row.alpha_down};
+    if (has_curve) angles.insert(angles.end(), {row.curve_up, row.curve_down});
+    rows += "<tr>";
+    for (const double angle : angles) rows += number_cell(readable(degrees(angle), 3));
+    rows += "</tr>";
   }
   if (rows.empty()) return "";
-  return "<details><summary>The table: where the motor must stand</summary>" +
-         html_table({"#θ (°)", "#α from below (°)", "#α from above (°)", "#lost motion (°)"}, rows) + "</details>";
+  std::vector<std::string> titles = {"#θ (°)", "#α from below (°)", "#α from above (°)", "#lost motion (°)"};
+  if (has_curve) titles.insert(titles.end(), {"#empirical, from below (°)", "#empirical, from above (°)"});
+  return "<details><summary>The table: where the motor must stand</summary>" + html_table(titles, rows) + "</details>";
 }
 
 std::string action_section(const CalibrationProduct& product) {
@@ -167,7 +179,7 @@ std::string action_section(const CalibrationProduct& product) {
   std::string html;
   if (!calibration.next_runs.empty())
     html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol", "next");
-  html += "<h3>Correction</h3>" + html_list(correction_items(product.correction)) + compensation_html(product) +
+  html += "<h3>Correction</h3>" + html_list(correction_items(product)) + compensation_html(product) +
           compensation_table(product.correction);
   return section("actions", "What to do", html);
 }
@@ -263,6 +275,12 @@ std::string residuals_section(const CalibrationProduct& product) {
                  map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
 }
 
+std::string covered_html(const CalibrationProduct& product) {
+  const std::string words = curve_words(product);
+  if (words.empty()) return "";
+  return "<h3>What of it the table covers</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
+}
+
 std::string rest_section(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   const std::string plot = rest_html(product);
@@ -278,6 +296,7 @@ std::string rest_section(const CalibrationProduct& product) {
   for (const Unknown& part : calibration.unknown)
     unknown += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
   if (!unknown.empty()) unknown = "<h3>What has no name, by what it depends on</h3>" + unknown;
+  unknown += covered_html(product);
   return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
 }
 

@@ -126,6 +126,44 @@ std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const
   return groups;
 }
 
+namespace {
+
+/// "0 … 10 N", or "5 N".
+std::string seen_words(const std::vector<double>& seen, const std::string& unit) {
+  const auto [least, most] = std::minmax_element(seen.begin(), seen.end());
+  const std::string from = rounded(*least, 2), to = rounded(*most, 2);
+  return (from == to ? from : from + " … " + to) + unit;
+}
+
+/// Between which angles, loads and speeds.
+std::string where_seen(const CalibrationProduct& product) {
+  const EmpiricalCurve& curve = product.calibration.curve;
+  std::vector<double> loads, speeds;
+  for (const Run& run : product.measurement.runs) {
+    for (const Sample& sample : run.samples) {
+      if (run.has_load) loads.push_back(sample.load);
+    }
+    if (run.has_time && run.speed > 0) speeds.push_back(degrees(run.speed));
+  }
+  std::string words = "alpha " + seen_words({degrees(curve.alpha.front()), degrees(curve.alpha.back())}, "°");
+  if (!loads.empty()) words += ", load " + seen_words(loads, " " + product.measurement.load_unit);
+  if (!speeds.empty()) words += ", speed " + seen_words(speeds, " °/s");
+  return words;
+}
+
+}  // namespace
+
+std::string curve_words(const CalibrationProduct& product) {
+  const EmpiricalCurve& curve = product.calibration.curve;
+  if (!curve.used) return curve.why.empty() ? "" : "compensation.csv does not cover what has no name: " + curve.why;
+  return "an empirical curve in compensation.csv covers what depends on place and direction alone: it takes " +
+         rounded(degrees(curve.gain), 3) + "° rms off data that it was not made from (" +
+         rounded(degrees(curve.held_out_effects), 3) + "° → " + rounded(degrees(curve.held_out_rms), 3) +
+         "°). It is no cause, and holds for this joint as it was measured (" + where_seen(product) +
+         "). If the joint's own sensor is what is wrong, the table makes the joint wrong by as much; if the pulley is, "
+         "another pulley asks for other runs";
+}
+
 std::vector<std::string> slips_words(const CalibrationProduct& product) {
   std::vector<std::string> all;
   for (const UndoneSlip& slip : product.slips) all.push_back(slip_words(slip));

@@ -28,6 +28,13 @@ std::string open_name(std::string name) {
   return name;
 }
 
+/// Keys of the file keep their names.
+std::vector<std::string> more_items(const std::vector<PlanStep>& steps) {
+  std::vector<std::string> items;
+  for (const PlanStep& step : steps) items.push_back(minute_words(step, open_name(gain_words(step))));
+  return items;
+}
+
 std::string names_of(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + open_name(name);
@@ -63,7 +70,7 @@ std::string step_item(const PlanProduct& product, std::size_t i) {
         "class=\"value\">&#160;</span> <span class=\"value\">&#160;</span></p>";
   }
   html += "<p class=\"tells\">" + safe_text(open_name(gain_words(step))) + "</p>";
-  return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + "<br/>by " +
+  return html + "</div><div class=\"when\">" + safe_text(minutes_words(step.minutes)) + " <br/>by " +
          safe_text(minutes_words(step.by)) + "</div></li>";
 }
 
@@ -140,7 +147,7 @@ std::string plan_html(const PlanProduct& product) {
       safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code></p>\n</header>\n<main>\n";
   html += key_numbers(product) + steps_section(product) + after_section(product);
   if (!product.plan.beyond.empty())
-    html += part("more", "What more minutes would buy", html_list(minute_words(product.plan.beyond)));
+    html += part("more", "What more minutes would buy", html_list(more_items(product.plan.beyond)));
   html += causes_section(product.plan) +
           part("blame", "How often a name would be false", html_list(blame_words(product.plan))) +
           left_out_section(product.plan);

@@ -35,10 +35,13 @@ std::string gain_words(const PlanStep& step) {
   return text.empty() ? "makes surer what is told already" : text;
 }
 
+std::string minute_words(const PlanStep& step, const std::string& gain) {
+  return "by minute " + rounded(step.by, 3) + ": " + step.words + "; " + gain;
+}
+
 std::vector<std::string> minute_words(const std::vector<PlanStep>& steps) {
   std::vector<std::string> words;
-  for (const PlanStep& step : steps)
-    words.push_back("by minute " + rounded(step.by, 3) + ": " + step.words + "; " + gain_words(step));
+  for (const PlanStep& step : steps) words.push_back(minute_words(step, gain_words(step)));
   return words;
 }
 

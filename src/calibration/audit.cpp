@@ -32,6 +32,15 @@ double known_size(const Tangent& tangent, Eigen::Index k) {
   return 1.0 / std::sqrt(1.0 / (tangent.prior[k] * tangent.prior[k]) + tangent.read(k, k));
 }
 
+void count(const Effect* effect, std::vector<std::pair<int, const Effect*>>& counts) {
+  const auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& one) { return one.second == effect; });
+  if (known == counts.end()) {
+    counts.emplace_back(1, effect);
+  } else {
+    ++known->first;
+  }
+}
+
 class Auditor {
  public:
   Auditor(const Evidence& evidence, Workers& workers, const Selection& selection);
@@ -301,26 +310,22 @@ Audited Auditor::of(std::size_t found, Workers& workers) const {
     }
     there[i] = made.there;
   });
-  std::vector<std::pair<int, const Effect*>> mistaken;
   Audited audited;
   audited.counts.worlds = k_thresholds.worlds;
+  std::vector<std::pair<int, const Effect*>> culprits;
   for (std::size_t i = 0; i < worlds; ++i) {
     if (!blamed[i]) continue;
     ++audited.counts.named;
-    if (there[i] == nullptr) continue;
-    const auto known = std::find_if(mistaken.begin(), mistaken.end(), [&](const auto& m) { return m.second == there[i]; });
-    if (known == mistaken.end()) {
-      mistaken.emplace_back(1, there[i]);
-    } else {
-      ++known->first;
-    }
+    if (there[i] != nullptr) count(there[i], culprits);
   }
-  std::stable_sort(mistaken.begin(), mistaken.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  audited.beyond = audited.counts.named;
-  for (const auto& [count, effect] : mistaken) {
-    if (audited.beyond <= k_thresholds.most_mistaken * audited.counts.worlds) break;
+  std::stable_sort(culprits.begin(), culprits.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  int doubtful = audited.counts.named;
+  for (const auto& [joints, effect] : culprits) {
+    if (doubtful <= k_thresholds.most_mistaken * audited.counts.worlds ||
+        audited.mistaken.size() == k_thresholds.most_culprits)
+      break;
     audited.mistaken.push_back(effect);
-    audited.beyond -= count;
+    doubtful -= joints;
   }
   return audited;
 }

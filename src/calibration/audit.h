@@ -11,9 +11,8 @@ namespace fusee {
 /// What simulated joints without an effect say of its name.
 struct Audited {
   Audit counts;
-  EffectSet mistaken;  ///< effects that were there and were read as this one, as many as it takes to be sure
-  int beyond = 0;      ///< joints that bore the name and had none of these
-  bool given_up = false;
+  /// Effects that were there and were read as this one, the most often first, as many as it takes to be sure.
+  EffectSet mistaken;
 };
 
 /// Of each effect of selection.best, in their order.

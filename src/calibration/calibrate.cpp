@@ -2,6 +2,9 @@
 #include <cmath>
 
 #include "calibration/audit.h"
+#include "calibration/catalogue.h"
+#include "calibration/empirical.h"
+#include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
 #include "calibration/next_runs.h"
 #include "calibration/thresholds.h"
@@ -54,12 +57,13 @@ void name_held_out(const Evidence& evidence, Calibration& calibration) {
   }
 }
 
-Calibration not_testable(const std::vector<std::string>& reasons) {
+Calibration not_testable(const Measurement& measurement, const std::vector<std::string>& reasons) {
   Calibration calibration;
   calibration.verdict = CalibrationVerdict::not_testable;
   for (const std::string& reason : reasons) calibration.summary += (calibration.summary.empty() ? "" : " ") + reason;
   calibration.next_runs = {
       "several strokes both ways over the whole range, slowly, at no load and at two loads, and one run faster"};
+  ask_for_both_sides(measurement, calibration.next_runs);
   return calibration;
 }
 
@@ -140,17 +144,22 @@ void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
 
 Calibration calibrate(const DeclaredMechanism& declared, const Measurement& measurement,
                       const CalibrationOptions& options) {
-  if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty()) return not_testable(reasons);
+  if (const auto reasons = why_not_testable(declared, measurement); !reasons.empty())
+    return not_testable(measurement, reasons);
   const Measurement learnt_from = part(measurement, options.hold_out, false);
   const NoiseFloor noise = noise_floor(about_declared(declared, learnt_from));
   Evidence evidence = gather(declared, learnt_from, std::max(noise.rms, 1e-9));
+  evidence.floor_freedom = noise.degrees_of_freedom;
   if (evidence.blocks.size() < 2)
-    return not_testable({"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
+    return not_testable(measurement,
+                        {"There are fewer than two whole strokes of six rows or more: nothing can be held out."});
   Workers workers(evidence);
-  expect_what_is_seen(evidence, workers, options);
+  evidence.sizes =
+      expected_sizes(catalogue(declared, measurement, options.more_effects, options.without), evidence, workers);
   const Selection selection = select_effects(evidence, workers, options);
   if (!selection.none.usable)
     return not_testable(
+        measurement,
         {"The declared joint has no equilibrium at some of the logged angles and loads: the file and the data are not "
          "of one joint."});
   Calibration calibration;
@@ -159,6 +168,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);
+  ask_for_both_sides(learnt_from, calibration.next_runs);
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
   calibration.identified = selection.best.at;
@@ -166,6 +176,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   name_held_out(evidence, calibration);
   validate(declared, part(measurement, options.hold_out, true), selection, calibration);
   conclude(evidence, selection, calibration);
+  hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   return calibration;
 }
 

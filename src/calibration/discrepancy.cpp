@@ -1,6 +1,7 @@
 #include "calibration/discrepancy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -16,7 +17,9 @@
 namespace fusee {
 namespace {
 
-/// Curves over the seen span: of place and direction, of what else they are multiplied by, and those that bend more.
+/// Curves over the seen span: of place and direction, of what else they are multiplied by, those of no more than one
+/// bend, and those that bend most. Each order of bends has an amplitude of its own: what is bent once is no cheaper by
+/// a name than without.
 constexpr Eigen::Index k_smooth = 10;
 constexpr Eigen::Index k_simple = 6;
 constexpr Eigen::Index k_plain = 3;
@@ -24,6 +27,8 @@ constexpr Eigen::Index k_rough = 18;
 /// Share of the span over which the latter bend, and places at which they are known.
 constexpr double k_bend = 0.06;
 constexpr int k_nodes = 41;
+/// Ways over which what a reversal leaves dies away, of the span: from a stiff drive's to a sheathed cable's.
+constexpr std::array k_ways = {0.02, 0.06, 0.2};
 
 /// What a row stands for.
 struct RowFacts {
@@ -144,11 +149,11 @@ Eigen::MatrixXd indicators(const std::vector<RowFacts>& facts, std::size_t RowFa
 
 /// What dies away behind a reversal.
 Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part) {
-  Eigen::MatrixXd all(static_cast<Eigen::Index>(facts.size()), 3);
-  for (Eigen::Index i = 0; i < all.rows(); ++i) {
-    const RowFacts& row = facts[static_cast<std::size_t>(i)];
-    Eigen::Index k = 0;
-    for (const double way : {0.02, 0.06, 0.2}) all(i, k++) = part(row) * std::exp(-row.since / way);
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(facts.size()), static_cast<Eigen::Index>(k_ways.size()));
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    for (std::size_t k = 0; k < k_ways.size(); ++k)
+      all(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          part(facts[i]) * std::exp(-facts[i].since / k_ways[k]);
   }
   return all;
 }
@@ -188,17 +193,17 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
   builder.add(Factor::direction, times(direction, more));
   builder.add(Factor::direction, times(direction, most));
   builder.add(Factor::direction, times(direction, rough));
-  builder.add(Factor::direction, transients(facts, direction));
+  builder.add(Factor::reversal, transients(facts, direction));
   if (varies(facts, &RowFacts::load, 0.05)) {
     builder.add(Factor::load, times([](const RowFacts& r) { return r.load; }, smooth));
     builder.add(Factor::load_size, times([](const RowFacts& r) { return std::abs(r.load); }, smooth));
     builder.add(Factor::load_direction,
                 times([](const RowFacts& r) { return std::abs(r.load) * r.direction; }, smooth));
-    builder.add(Factor::load, times([](const RowFacts& r) { return 2.5 * r.load * r.load * r.load - 1.5 * r.load; }, plain));
+    builder.add(Factor::load,
+                times([](const RowFacts& r) { return 2.5 * r.load * r.load * r.load - 1.5 * r.load; }, plain));
     builder.add(Factor::load_size, times([](const RowFacts& r) { return 1.5 * r.load * r.load - 0.5; }, plain));
     builder.add(Factor::load_direction, times([](const RowFacts& r) { return r.load * r.direction; }, plain));
-    builder.add(Factor::load_direction,
-                transients(facts, [](const RowFacts& r) { return std::abs(r.load) * r.direction; }));
+    builder.add(Factor::reversal, transients(facts, [](const RowFacts& r) { return std::abs(r.load) * r.direction; }));
   }
   if (varies(facts, &RowFacts::speed, 0.1)) {
     builder.add(Factor::speed, times([](const RowFacts& r) { return r.speed; }, smooth));

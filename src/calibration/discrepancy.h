@@ -15,6 +15,7 @@ namespace fusee {
 enum class Factor {
   place,            ///< α alone, whichever way, load and speed
   direction,        ///< odd in the direction of motion
+  reversal,         ///< dies away over some way behind a reversal
   load,             ///< in proportion to the load
   load_size,        ///< with the size of the load, whichever its sign
   load_direction,   ///< a loop that grows with the load

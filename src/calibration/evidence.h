@@ -48,6 +48,7 @@ struct Evidence {
   std::vector<std::string> factors;  ///< by which whole levels are held out
   std::vector<HandReading> readings;
   double floor = 0;                          ///< rms noise, rad
+  double floor_freedom = 1e9;                ///< degrees of freedom that it is known by
   std::shared_ptr<const Marginal> marginal;  ///< by which sets of effects are weighed: weigh()
   std::map<const EffectParameter*, double> sizes;  ///< of numbers that in practice are larger than these data bear
 

@@ -64,7 +64,8 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
     for (const Rival& rival : selection.rivals) {
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
-      if (rival.accepted == effect && !in_group && as_good(evidence, rival.fit, best)) found.group.push_back(rival.rival->name);
+      if (rival.accepted == effect && !in_group && as_good(evidence, rival.fit, best))
+        found.group.push_back(rival.rival->name);
     }
     found.rms_drop = rms_drop(selection, all.size());
     for (const Candidate& candidate : selection.tried)

@@ -90,9 +90,7 @@ double price_of(const Evidence& evidence, const Fit& fit) {
 }  // namespace
 
 /// Whether the slopes promise a better place than this.
-bool is_promising(const Fit& fit) {
-  return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5;
-}
+bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5; }
 
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "calibration/fit.h"
+#include "calibration/unknown.h"
 
 namespace fusee {
 namespace {
@@ -25,66 +27,160 @@ bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
   return shares.eigenvalues().minCoeff() > k_least_known;
 }
 
+/// What is fitted: sums block by block and of what was measured by hand, where the numbers stand.
+struct Fitted {
+  std::vector<NormalEquations> sums;
+  NormalEquations all;
+  Eigen::VectorXd x;
+  Eigen::Index named = 0;  ///< numbers of effects: the first of x
+};
+
+/// Which of the fitted numbers a prediction is made with: 1, or 0.
+using Mask = Eigen::VectorXd;
+
 class Folds {
  public:
-  Folds(const Evidence& evidence, const Fit& fit)
-      : fit_(fit),
-        ridge_(wide_prior(evidence.floor)),
-        all_(fit.readings),
-        error_(fit.sums.size(), 0.0),
-        times_(fit.sums.size(), 0) {
-    for (const NormalEquations& sums : fit.sums) all_ += sums;
-  }
+  /// A prediction for each mask.
+  Folds(const Fitted& fitted, double floor, std::vector<Mask> masks)
+      : fitted_(fitted),
+        ridge_(wide_prior(floor)),
+        masks_(std::move(masks)),
+        error_(masks_.size(), std::vector<double>(fitted.sums.size(), 0.0)),
+        times_(fitted.sums.size(), 0) {}
 
   void leave_out(const Fold& fold) {
     const NormalEquations rest = without(fold);
-    if (can_do_without(rest.JJ, all_.JJ)) return judge(fold, rest);
+    const auto known = [this](const NormalEquations& sums) {
+      return sums.JJ.topLeftCorner(fitted_.named, fitted_.named);
+    };
+    if (can_do_without(known(rest), known(fitted_.all))) return judge(fold, rest);
     for (const std::size_t block : fold) judge({block}, without({block}));
   }
 
-  HeldOut errors() const {
+  /// `else_square`: where nothing is held out.
+  HeldOut errors(std::size_t mask, double else_square) const {
     HeldOut held;
     double rows = 0;
     double squares = 0;
-    for (std::size_t b = 0; b < error_.size(); ++b) {
-      held.by_block.push_back(times_[b] > 0 ? error_[b] / times_[b] : std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t b = 0; b < times_.size(); ++b) {
+      held.by_block.push_back(times_[b] > 0 ? error_[mask][b] / times_[b] : std::numeric_limits<double>::quiet_NaN());
       if (times_[b] == 0) continue;
-      rows += fit_.sums[b].rows;
-      squares += fit_.sums[b].rows * held.by_block[b];
+      rows += fitted_.sums[b].rows;
+      squares += fitted_.sums[b].rows * held.by_block[b];
     }
-    held.mean_square = rows > 0 ? squares / rows : fit_.mean_square;
+    held.mean_square = rows > 0 ? squares / rows : else_square;
     return held;
   }
 
  private:
   NormalEquations without(const Fold& fold) const {
-    NormalEquations rest = all_;
-    for (const std::size_t block : fold) rest -= fit_.sums[block];
+    NormalEquations rest = fitted_.all;
+    for (const std::size_t block : fold) rest -= fitted_.sums[block];
     return rest;
   }
 
   void judge(const Fold& fold, const NormalEquations& rest) {
-    const Eigen::VectorXd step = least_squares_step(rest, fit_.x, ridge_);
+    const Eigen::VectorXd step = least_squares_step(rest, fitted_.x, ridge_);
     for (const std::size_t block : fold) {
-      const NormalEquations& sums = fit_.sums[block];
-      error_[block] += std::max(0.0, sums.squares_after(step)) / sums.rows;
+      const NormalEquations& sums = fitted_.sums[block];
+      for (std::size_t mask = 0; mask < masks_.size(); ++mask)
+        error_[mask][block] += std::max(0.0, sums.squares_after(masks_[mask].cwiseProduct(step))) / sums.rows;
       ++times_[block];
     }
   }
 
-  const Fit& fit_;
+  const Fitted& fitted_;
   double ridge_;
-  NormalEquations all_;
-  std::vector<double> error_;
+  std::vector<Mask> masks_;
+  std::vector<std::vector<double>> error_;  ///< mask by mask, block by block
   std::vector<int> times_;
 };
+
+Fitted effects_alone(const Fit& fit) {
+  Fitted fitted{fit.sums, fit.readings, fit.x, fit.x.size()};
+  for (const NormalEquations& sums : fit.sums) fitted.all += sums;
+  return fitted;
+}
+
+// ---- what has no name beside them -----------------------------------------------------------------------------------
+
+/// Columns of the discrepancy that are used, and what each is multiplied by: in such a unit the wide prior is that of
+/// its amplitude.
+struct Scaled {
+  std::vector<Eigen::Index> columns;
+  std::vector<double> size;
+  std::vector<bool> of_place;  ///< of place and direction alone
+};
+
+Scaled scaled(const Evidence& evidence, const Amplitudes& amplitudes) {
+  const Marginal& marginal = *evidence.marginal;
+  const double unit = std::sqrt(wide_prior(evidence.floor) * marginal.worth()) / amplitudes.noise;
+  Scaled used;
+  const std::vector<Family>& families = marginal.discrepancy().families;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
+    for (Eigen::Index k = 0; amplitude > 0 && k < families[f].count; ++k) {
+      used.columns.push_back(families[f].first + k);
+      used.size.push_back(amplitude * unit);
+      used.of_place.push_back(is_of_place(families[f].factor));
+    }
+  }
+  return used;
+}
+
+/// Effects and columns side by side.
+Fitted effects_beside(const Evidence& evidence, const Fit& fit, const Scaled& used) {
+  const auto more = static_cast<Eigen::Index>(used.columns.size());
+  Fitted fitted;
+  fitted.named = fit.x.size();
+  fitted.x = Eigen::VectorXd::Zero(fitted.named + more);
+  fitted.x.head(fitted.named) = fit.x;
+  fitted.all = NormalEquations::none(fitted.x.size());
+  fitted.all.JJ.topLeftCorner(fitted.named, fitted.named) = fit.readings.JJ;
+  fitted.all.Jr.head(fitted.named) = fit.readings.Jr;
+  const Eigen::MatrixXd& columns = evidence.marginal->discrepancy().columns;
+  const Eigen::Map<const Eigen::VectorXd> size(used.size.data(), more);
+  Eigen::Index first = 0;  // row in use
+  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
+    const std::vector<std::size_t>& rows = evidence.blocks[b].rows;
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd J(count, fitted.x.size());
+    Eigen::VectorXd r(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto row = static_cast<Eigen::Index>(rows[static_cast<std::size_t>(i)]);
+      if (fitted.named > 0) J.row(i).head(fitted.named) = fit.J.row(row);
+      r[i] = fit.residual[row];
+    }
+    J.rightCols(more) = columns.middleRows(first, count)(Eigen::all, used.columns) * size.asDiagonal();
+    first += count;
+    fitted.sums.push_back({J.transpose() * J, J.transpose() * r, r.squaredNorm(), static_cast<double>(count)});
+    fitted.all += fitted.sums.back();
+  }
+  return fitted;
+}
 
 }  // namespace
 
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds) {
-  Folds held(evidence, fit);
+  const Fitted fitted = effects_alone(fit);
+  Folds held(fitted, evidence.floor, {Mask::Ones(fit.x.size())});
   for (const Fold& fold : folds) held.leave_out(fold);
-  return held.errors();
+  return held.errors(0, fit.mean_square);
+}
+
+HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
+                              const std::vector<Fold>& folds) {
+  const Scaled used = scaled(evidence, amplitudes);
+  const Fitted fitted = effects_beside(evidence, fit, used);
+  Mask effects = Mask::Zero(fitted.x.size());
+  effects.head(fitted.named).setOnes();
+  Mask with_place = effects;
+  for (std::size_t k = 0; k < used.of_place.size(); ++k)
+    with_place[fitted.named + static_cast<Eigen::Index>(k)] = used.of_place[k] ? 1.0 : 0.0;
+  Folds held(fitted, evidence.floor, {effects, with_place});
+  for (const Fold& fold : folds) held.leave_out(fold);
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  return {held.errors(0, nothing), held.errors(1, nothing)};
 }
 
 }  // namespace fusee

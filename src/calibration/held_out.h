@@ -8,6 +8,7 @@
 
 namespace fusee {
 
+struct Amplitudes;
 struct Fit;
 
 struct HeldOut {
@@ -19,5 +20,13 @@ struct HeldOut {
 /// One step of the fit from all of the data to those without a fold. A fold whose rest cannot tell what all data know
 /// is left out block by block.
 HeldOut hold_out(const Evidence& evidence, const Fit& fit, const std::vector<Fold>& folds);
+
+/// The same of a fit with the discrepancy beside it, which is learnt from the others too. `amplitudes`: of that fit.
+struct HeldOutBeside {
+  HeldOut effects;     ///< what the effects alone leave
+  HeldOut with_place;  ///< what they leave with the discrepancy's part of place and direction alone
+};
+HeldOutBeside hold_out_beside(const Evidence& evidence, const Fit& fit, const Amplitudes& amplitudes,
+                              const std::vector<Fold>& folds);
 
 }  // namespace fusee

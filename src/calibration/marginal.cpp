@@ -120,7 +120,8 @@ double Marginal::log_prior_of(const Amplitudes& amplitudes) const {
   double sum = 0;
   for (std::size_t f = 0; f < discrepancy_.families.size(); ++f) {
     const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
-    if (!(discrepancy_.families[f].fixed > 0)) sum -= std::log1p(square(amplitude / (k_thresholds.usual_unknown * floor_)));
+    if (!(discrepancy_.families[f].fixed > 0))
+      sum -= std::log1p(square(amplitude / (k_thresholds.usual_unknown * floor_)));
   }
   return sum;
 }
@@ -140,8 +141,7 @@ Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepanc
   const double freedom = k_thresholds.noise_freedom;
   const double excess = floor_ * floor_ / (u.amplitudes.noise * u.amplitudes.noise);
   s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * std::log(u.beta) -
-               u.A.matrixLLT().diagonal().array().log().sum() +
-               0.5 * freedom * (std::log(excess) - excess);
+               u.A.matrixLLT().diagonal().array().log().sum() + 0.5 * freedom * (std::log(excess) - excess);
   return s;
 }
 

@@ -15,6 +15,7 @@ constexpr std::size_t k_most_proposals = 4;
 constexpr double k_lever_load = 0.3;    // of the pretension, as a tip force
 constexpr double k_slow_stroke = 15.0;  // s, where no time was logged
 constexpr int k_rows_a_stroke = 60;
+constexpr double k_same_place = 0.02;  // of the seen span: as of blocks (evidence.cpp)
 /// Of a pace that is clearly another one.
 constexpr double k_faster = 5.0, k_slower = 0.1;
 
@@ -120,6 +121,47 @@ std::string sentence(const RankedMeasurement& ranked, const std::vector<const Ri
 }
 
 }  // namespace
+
+namespace {
+
+/// Of a held point: from where it was come to.
+struct Sides {
+  double alpha = 0;
+  bool rising = false, falling = false;
+};
+
+std::vector<Sides> held_points(const Measurement& measurement) {
+  const SeenSpan seen = seen_span(measurement, &Sample::alpha);
+  std::vector<Sides> points;
+  for (const Run& run : measurement.runs) {
+    if (!is_from_point_to_point(run)) continue;
+    for (const Stretch& stretch : run.stretches) {
+      const bool is_first = &stretch == &run.stretches.front();  // where it came from was not logged
+      if (!stretch.held || is_first) continue;
+      const double alpha = run.samples[stretch.first].alpha;
+      auto point = std::find_if(points.begin(), points.end(), [&](const Sides& known) {
+        return std::abs(known.alpha - alpha) <= k_same_place * seen.size();
+      });
+      if (point == points.end()) point = points.insert(points.end(), {alpha});
+      const int direction = run.strokes[stretch.stroke].direction;
+      point->rising = point->rising || direction > 0;
+      point->falling = point->falling || direction < 0;
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+void ask_for_both_sides(const Measurement& measurement, std::vector<std::string>& next) {
+  const std::vector<Sides> points = held_points(measurement);
+  const auto both = std::count_if(points.begin(), points.end(), [](const Sides& p) { return p.rising && p.falling; });
+  if (2 * static_cast<std::size_t>(both) >= points.size()) return;
+  next.push_back(
+      "come to each held point from both sides, up the range and down again: from one side alone play and friction "
+      "look "
+      "like an error of the place");
+}
 
 std::vector<std::string> next_runs(const Evidence& evidence, const Selection& selection) {
   const std::vector<const Rival*> pairs = as_good_pairs(evidence, selection);

@@ -8,9 +8,11 @@
 #include "calibration/thresholds.h"
 
 // A beam over sets of effects. A set is as good as its evidence, beside a discrepancy that may take any smooth shape,
-// less what each name costs; the best set ever seen is what stands. A wider set is first looked at by the slopes that
-// each effect had alone, and fitted only if that promises something. Once nothing is gained, every member is left out
-// and held against every effect in its place.
+// and as its effects are common; the best set ever seen is what is looked at closely. A wider set is first looked at by
+// the slopes that each effect had alone and by chords beside what is there, and fitted only if either promises
+// something. Once nothing is gained, every member is left out and held against every effect in its place. Then all sets
+// ever seen are weighed together: a member stands if it, or what stands in its place elsewhere, is in nearly all of the
+// weight.
 
 namespace fusee {
 namespace {
@@ -43,7 +45,7 @@ class Selector {
   Key key_of(const EffectSet& effects) const;
   void keep(Fit fit);
   std::vector<const Fit*> ranked() const;
-  double promised(const Fit& base, const std::vector<const Look*>& looks, const EffectSet& added, int rounds) const;
+  double promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks, int rounds) const;
   Look look_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added);
   void try_singles();
@@ -125,12 +127,13 @@ void Selector::try_singles() {
 }
 
 /// Score of `base` with these effects by a linear look.
-double Selector::promised(const Fit& base, const std::vector<const Look*>& looks, const EffectSet& added, int rounds) const {
+double Selector::promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks,
+                          int rounds) const {
   Tangent tangent = tangent_of(evidence_, base);
   double cost = base.log_evidence - score(base);
   for (const Effect* effect : added) cost += rareness_of(*effect);
-  for (const Look* one : looks) {
-    const Look& look = *one;
+  for (const Look* of_one : looks) {
+    const Look& look = *of_one;
     if (look.J.size() == 0) return -std::numeric_limits<double>::infinity();
     const Eigen::Index before = tangent.x.size();
     const Eigen::Index all = before + look.J.cols();
@@ -163,8 +166,8 @@ void Selector::try_pairs() {
   const auto look_at = [&](int rounds) {
     workers_.each(pairs.size(), [&](const Fitter&, std::size_t k) {
       const std::size_t one = pairs[k].one, other = pairs[k].other;
-      pairs[k].promise = promised(selection_.none, {&looks_[one], &looks_[other]},
-                                  {selection_.catalogue[one], selection_.catalogue[other]}, rounds);
+      pairs[k].promise = promised(selection_.none, {selection_.catalogue[one], selection_.catalogue[other]},
+                                  {&looks_[one], &looks_[other]}, rounds);
     });
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.promise > b.promise; });
   };
@@ -197,8 +200,9 @@ std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base,
     if (contains(base.effects, *selection_.catalogue[i])) continue;
     const Effect* effect = selection_.catalogue[i];
     const Look beside = look_beside(fitter, base, *effect);
-    all.push_back({&base, effect, std::max(promised(base, {&looks_[i]}, {effect}, k_look_rounds),
-                                           promised(base, {&beside}, {effect}, k_look_rounds))});
+    all.push_back({&base, effect,
+                   std::max(promised(base, {effect}, {&looks_[i]}, k_look_rounds),
+                            promised(base, {effect}, {&beside}, k_look_rounds))});
   }
   std::stable_sort(all.begin(), all.end(), [](const Addition& a, const Addition& b) { return a.promise > b.promise; });
   all.resize(std::min(all.size(), most));
@@ -278,25 +282,29 @@ bool Selector::challenge() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
+/// All sets that were looked at. Where more than noise is left that nothing describes, the model is wrong by more, and
+/// evidence is worth less.
 std::vector<Weighed> Selector::weighed() const {
   const double misfit = std::max(1.0, selection_.best.explained.amplitudes.noise / evidence_.floor);
+  const double temperature = k_thresholds.temperature * misfit * misfit;
   std::vector<Weighed> sets;
-  for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / (k_thresholds.temperature * misfit * misfit)});
+  for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / temperature});
   return sets;
 }
 
-/// What is not sure enough to be named, with all that could stand in its place, goes, the most doubtful first.
+/// What is not sure enough to be named, with all that could stand in its place, goes, the most doubtful first. Whether
+/// something went.
 bool Selector::drop_doubtful() {
   const std::vector<Weighed> sets = weighed();
   selection_.groups.clear();
   for (const Effect* effect : selection_.best.effects)
     selection_.groups.push_back(credible_group(sets, selection_.best.effects, *effect, k_thresholds.least_of_a_group));
-  const auto worst =
-      std::max_element(selection_.groups.begin(), selection_.groups.end(),
-                       [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });
+  const auto worst = std::max_element(selection_.groups.begin(), selection_.groups.end(),
+                                      [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });
   if (worst == selection_.groups.end() || worst->doubt <= k_thresholds.most_mistaken) return false;
   const Effect& doubtful = *worst->members.front();
-  selection_.best = workers_.one().fit(without(selection_.best.effects, doubtful), without(selection_.best.at, doubtful));
+  selection_.best =
+      workers_.one().fit(without(selection_.best.effects, doubtful), without(selection_.best.at, doubtful));
   return true;
 }
 
@@ -340,11 +348,10 @@ Selection Selector::run() {
     settle_best();
     if (!challenge()) break;
   }
-  bool dropped = false;
-  while (drop_doubtful()) dropped = true;
-  if (dropped) {
+  while (drop_doubtful()) {
+    while (drop_doubtful()) {
+    }
     challenge();
-    drop_doubtful();
   }
   write_down();
   return std::move(selection_);
@@ -366,28 +373,6 @@ double score(const Fit& fit) {
   double score = fit.log_evidence;
   for (const Effect* effect : fit.effects) score -= rareness_of(*effect);
   return score;
-}
-
-void expect_what_is_seen(Evidence& evidence, Workers& workers, const CalibrationOptions& options) {
-  const EffectSet all = catalogue(*evidence.declared, evidence.measurement, options.more_effects, options.without);
-  const Fit none = workers.one().fit({}, {});
-  if (!none.usable) return;
-  const auto rms = [](const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); };
-  const double seen = k_thresholds.most_expected * std::max(rms(tangent_of(evidence, none).residual), 5.0 * evidence.floor);
-  std::vector<Tangent> looks(all.size());
-  std::vector<Parameters> parameters(all.size());
-  workers.each(all.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Fit wider = fitter.with_chords(none, *all[i]);
-    if (!wider.usable) return;
-    looks[i] = tangent_of(evidence, wider);
-    parameters[i] = wider.parameters;
-  });
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (Eigen::Index k = none.x.size(); k < looks[i].x.size(); ++k) {
-      const double moved = rms(looks[i].J.col(k)) * looks[i].prior[k];
-      if (moved > seen) evidence.sizes[parameters[i][static_cast<std::size_t>(k)]] = looks[i].prior[k] * seen / moved;
-    }
-  }
 }
 
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {

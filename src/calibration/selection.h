@@ -20,12 +20,12 @@ struct Rival {
 };
 
 struct Selection {
-  EffectSet catalogue;        ///< what was tried
-  Fit none;                   ///< the declared model
-  Fit best;                   ///< with all accepted effects
-  std::vector<Fit> without;   ///< `best` without each of its effects, in their order
-  std::vector<Rival> rivals;  ///< of every accepted effect, usable ones
-  std::vector<CredibleGroup> groups;  ///< of every accepted effect
+  EffectSet catalogue;                ///< what was tried
+  Fit none;                           ///< the declared model
+  Fit best;                           ///< with all accepted effects
+  std::vector<Fit> without;           ///< `best` without each of its effects, in their order
+  std::vector<Rival> rivals;          ///< of every accepted effect, usable ones
+  std::vector<CredibleGroup> groups;  ///< of every accepted effect, in their order
   std::vector<Candidate> tried;
 };
 
@@ -36,9 +36,6 @@ double cost_of(const Effect& effect);
 
 /// Log of how likely a set is, but for a constant: by the data, and by how common faults are.
 double score(const Fit& fit);
-
-/// Fills `sizes`: no number is expected to move the reading by much more than what is seen.
-void expect_what_is_seen(Evidence& evidence, Workers& workers, const CalibrationOptions& options);
 
 /// An empty catalogue's answer with an unusable `none` where the declared joint has no equilibrium.
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options);

@@ -1,5 +1,6 @@
 #include "calibration/statistics.h"
 
+#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -40,6 +41,11 @@ struct Within {
   double squares = 0;
   double products = 0;  ///< of neighbours
   double rows = 0;
+  double strokes = 0;
+  double inverse_rows = 0;  ///< Σ 1 / rows of a stroke
+
+  /// Each stroke's mean has taken one.
+  double freedom() const { return rows - strokes; }
 };
 
 Within within_strokes(const Evidence& evidence, const Fit& fit) {
@@ -58,6 +64,8 @@ Within within_strokes(const Evidence& evidence, const Fit& fit) {
       last = deviation;
     }
     sums.rows += static_cast<double>(block.rows.size());
+    sums.strokes += 1;
+    sums.inverse_rows += 1.0 / static_cast<double>(block.rows.size());
   }
   return sums;
 }
@@ -81,18 +89,28 @@ VarianceOfMeans variance_of_means(const Within& sums) {
 
 }  // namespace
 
+double rarest_ratio(double upper_freedom, double lower_freedom) {
+  constexpr double k_deviations = 3.0;
+  const double a = 2.0 / (9.0 * std::max(1.0, upper_freedom)), b = 2.0 / (9.0 * std::max(1.0, lower_freedom));
+  const double square = k_deviations * k_deviations;
+  const double leading = (1.0 - b) * (1.0 - b) - square * b;
+  if (leading <= 0) return std::numeric_limits<double>::infinity();
+  const double half = (1.0 - a) * (1.0 - b);
+  const double root = (half + std::sqrt(half * half - leading * ((1.0 - a) * (1.0 - a) - square * a))) / leading;
+  return root * root * root;
+}
+
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   const Within sums = within_strokes(evidence, fit);
   StrokeScatter scatter;
-  scatter.within = sums.rows > 0 ? std::sqrt(sums.squares / sums.rows) : 0.0;
+  if (sums.freedom() <= 0) return scatter;
+  scatter.within = std::sqrt(sums.squares / sums.freedom());
   const double colour = sums.squares > 0 ? std::clamp(sums.products / sums.squares, 0.0, 0.95) : 0.0;
-  const double rows_a_stroke = sums.rows / static_cast<double>(std::max<std::size_t>(1, evidence.blocks.size()));
   const double of_noise =
-      scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) / std::max(1.0, rows_a_stroke);
+      scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) * sums.inverse_rows / sums.strokes;
   const VarianceOfMeans means = variance_of_means(sums);
-  // Few means of few rows differ by more than that now and then: three standard errors of a variance.
-  const double by_chance = of_noise * (1.0 + 3.0 * std::sqrt(2.0 / std::max(1.0, means.freedom)));
-  if (means.variance > by_chance) scatter.between = std::sqrt(means.variance - of_noise);
+  if (means.variance > of_noise * rarest_ratio(means.freedom, sums.freedom()))
+    scatter.between = std::sqrt(means.variance - of_noise);
   return scatter;
 }
 

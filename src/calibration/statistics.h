@@ -12,6 +12,11 @@ bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 /// Of the residual from row to row within blocks, −1 … 1.
 double lag_one_correlation(const Evidence& evidence, const Fit& fit);
 
+/// The ratio of two mean squares of the same noise, of so many degrees of freedom, that chance exceeds as seldom as a
+/// normal number exceeds three standard deviations (Paulson 1942: the cube root of a mean square is nearly normal).
+/// Infinite where the lower one is known too badly to say.
+double rarest_ratio(double upper_freedom, double lower_freedom);
+
 /// Of the residual: rms of the means of strokes about their run and direction, beyond what noise does to means, and rms
 /// within strokes. rad
 struct StrokeScatter {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
@@ -35,6 +36,9 @@ constexpr FactorWords k_words[] = {
     {Factor::direction, "direction",
      "turns over with the direction of motion, whatever load and speed: something gives way before it carries, between "
      "motor shaft and joint"},
+    {Factor::reversal, "way since the reversal",
+     "dies away behind each reversal: something is wound up or taken up before the joint follows, by friction or by "
+     "lost motion"},
     {Factor::load, "load",
      "grows in proportion to the load and turns over with it: something in the loaded chain gives way, from the anchor "
      "of the tendon to the frame that holds the pins"},
@@ -54,9 +58,10 @@ double rms_of(const Eigen::VectorXd& values) {
   return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;
 }
 
-/// Rows in use: the angle of the motor and of the joint.
+/// Rows in use: the angle of the motor and of the joint, and which way the motor moves and the load pulls, ±1.
 struct Angles {
   Eigen::VectorXd motor, joint;
+  Eigen::VectorXd direction, pull;
   double motor_step = 0;  ///< median from row to row, of those between which the motor moved
   double joint_step = 0;
 };
@@ -75,12 +80,17 @@ Angles angles_of(const Evidence& evidence) {
   for (const Run& run : evidence.measurement.runs) {
     for (const Sample& sample : run.samples) all.push_back(&sample);
   }
-  const std::vector<Eigen::Index> rows = evidence.rows();
-  Angles angles{Eigen::VectorXd(static_cast<Eigen::Index>(rows.size())),
-                Eigen::VectorXd(static_cast<Eigen::Index>(rows.size()))};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    angles.motor[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->alpha;
-    angles.joint[static_cast<Eigen::Index>(i)] = all[static_cast<std::size_t>(rows[i])]->theta;
+  const auto rows = static_cast<Eigen::Index>(evidence.rows_used());
+  Angles angles{Eigen::VectorXd(rows), Eigen::VectorXd(rows), Eigen::VectorXd(rows), Eigen::VectorXd(rows)};
+  Eigen::Index i = 0;
+  for (const Block& block : evidence.blocks) {
+    for (const std::size_t row : block.rows) {
+      angles.motor[i] = all[row]->alpha;
+      angles.joint[i] = all[row]->theta;
+      angles.direction[i] = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
+      angles.pull[i] = all[row]->load < 0 ? -1.0 : 1.0;
+      ++i;
+    }
   }
   angles.motor_step = median_step(angles.motor, angles.motor);
   angles.joint_step = median_step(angles.joint, angles.motor);
@@ -97,7 +107,26 @@ Eigen::VectorXd part_of(const Discrepancy& discrepancy, const Eigen::VectorXd& u
   return part;
 }
 
-/// Means of a part over places: of what turns over with something, of rows where that is positive.
+/// A part as it would be with the motor on its way up and the load positive.
+Eigen::VectorXd turned_over(const Angles& angles, const Eigen::VectorXd& part, Factor factor) {
+  switch (factor) {
+    case Factor::direction:
+    case Factor::load_direction:
+    case Factor::speed_direction:
+      return part.cwiseProduct(angles.direction);
+    case Factor::load:
+      return part.cwiseProduct(angles.pull);
+    default:
+      return part;
+  }
+}
+
+/// Whether a part is a function of place, times something.
+bool has_course(Factor factor) {
+  return factor != Factor::reversal && factor != Factor::run && factor != Factor::drift && factor != Factor::stroke;
+}
+
+/// The largest of a part at each place.
 void draw(const Angles& angles, const Eigen::VectorXd& part, Unknown& unknown) {
   SeenSpan span;
   for (const double alpha : angles.motor) span.take(alpha);
@@ -206,6 +235,21 @@ Described described(const Marginal& marginal, const TangentSums& sums, double si
 
 }  // namespace
 
+namespace {
+
+/// What noise is more than the floor, rad². A floor that few repeats know is exceeded by chance.
+double noise_beyond_floor(const Evidence& evidence, double noise) {
+  const double ratio = std::pow(noise / evidence.floor, 2);
+  const double rows = evidence.marginal->worth() * static_cast<double>(evidence.rows_used());
+  const bool is_badly_known = evidence.floor_freedom < k_thresholds.noise_freedom;
+  if (is_badly_known && ratio < rarest_ratio(rows, evidence.floor_freedom)) return 0;
+  return std::max(0.0, ratio - 1.0) * evidence.floor * evidence.floor;
+}
+
+}  // namespace
+
+bool is_of_place(Factor factor) { return factor == Factor::place || factor == Factor::direction; }
+
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   const Marginal& marginal = *evidence.marginal;
   const Discrepancy& discrepancy = marginal.discrepancy();
@@ -214,7 +258,10 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
   const Angles angles = angles_of(evidence);
   const Described all = described(marginal, sums, std::max(evidence.floor, rms_of(tangent.residual)));
   Unnamed unnamed;
-  unnamed.evidence = all.explained.log_evidence - marginal.at(sums, marginal.nothing_unnamed()).log_evidence;
+  const double excess = noise_beyond_floor(evidence, all.explained.amplitudes.noise);
+  const Amplitudes nothing = marginal.nothing_unnamed();
+  const Explained as_noise = excess > 0 ? marginal.at(sums, nothing) : marginal.best(sums, nothing);
+  unnamed.evidence = all.explained.log_evidence - as_noise.log_evidence;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
   for (const auto& [factor, gain] : all.factors) {
     const Eigen::VectorXd part = part_of(discrepancy, all.explained.unnamed, factor->factor);
@@ -225,16 +272,16 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {
     unknown.rms = rms_of(part);
     unknown.evidence = gain;
     if (unknown.rms < k_thresholds.least_seen * evidence.floor) continue;
-    draw(angles, part, unknown);
+    if (has_course(factor->factor)) draw(angles, turned_over(angles, part, factor->factor), unknown);
     unnamed.parts.push_back(std::move(unknown));
   }
-  const double noise = all.explained.amplitudes.noise;
-  unnamed.rms = std::hypot(rms_of(sum), std::sqrt(std::max(0.0, noise * noise - evidence.floor * evidence.floor)));
+  unnamed.rms = std::hypot(rms_of(sum), std::sqrt(excess));
   Eigen::VectorXd left = tangent.residual - sum + part_of(discrepancy, all.explained.unnamed, Factor::place);
   if (tangent.x.size() > 0) left -= tangent.J * all.explained.step;
   find_harmonic(angles, left, evidence.floor, unnamed.parts);
   std::stable_sort(unnamed.parts.begin(), unnamed.parts.end(),
                    [](const Unknown& a, const Unknown& b) { return a.rms > b.rms; });
+  unnamed.explained = all.explained;
   return unnamed;
 }
 

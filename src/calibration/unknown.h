@@ -13,7 +13,11 @@ struct Unnamed {
   double evidence = 0;  ///< nats by which the data are likelier with it than with noise and the model's own error alone
   double rms = 0;       ///< of all of it, rad
   std::vector<Unknown> parts;  ///< the largest first
+  Explained explained;         ///< by the factors that are described, each with its amplitude
 };
+
+/// Whether nothing but where the motor is and which way it came matters.
+bool is_of_place(Factor factor);
 
 /// Parts that the data hardly need are not among them.
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/unknown.h"
+#include "calibration/empirical.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -151,6 +151,8 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     calibration.unknown = unnamed.parts;
   }
   calibration.verdict = verdict_of(is_walking(scatter), unexplained, calibration.effects);
+  if (calibration.verdict == CalibrationVerdict::unexplained)
+    calibration.curve = empirical_curve(evidence, selection.best, unnamed);
   calibration.summary =
       finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
   ask_for_runs(calibration);

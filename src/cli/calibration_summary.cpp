@@ -59,7 +59,8 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   return texts;
 }
 
-std::vector<std::string> correction_texts(const Correction& correction) {
+std::vector<std::string> correction_texts(const CalibrationProduct& product) {
+  const Correction& correction = product.correction;
   std::vector<std::string> texts;
   if (correction.has_pulley) {
     texts.push_back("the pulley of corrected.toml takes away " + deg(correction.by_pulley) + " deg rms");
@@ -73,6 +74,7 @@ std::vector<std::string> correction_texts(const Correction& correction) {
   if (!correction.table.empty())
     texts.push_back("compensation.csv takes away " + deg(correction.by_table) + " deg rms" +
                     (correction.has_pulley ? " beyond that" : ""));
+  if (const std::string curve = curve_words(product); !curve.empty()) texts.push_back(curve);
   return texts;
 }
 
@@ -88,10 +90,7 @@ std::string tried_table(const Calibration& c) {
   for (const Candidate& candidate : c.tried) {
     rows.push_back({"  " + candidate.name, fixed(candidate.evidence, 1), candidate.accepted ? "taken" : ""});
   }
-  return "\n" + table({{"Tried"},
-                       {"evidence (nats)", Align::right},
-                       {""}},
-                      rows);
+  return "\n" + table({{"Tried"}, {"evidence (nats)", Align::right}, {""}}, rows);
 }
 
 }  // namespace
@@ -104,7 +103,7 @@ std::string calibration_summary(const CalibrationProduct& product, bool verbose)
   if (c.verdict == CalibrationVerdict::not_testable) return text + items("Measure next", c.next_runs);
   text += "\n" + figures_table(c) + noise_text(c) + items("Effects", effect_texts(c, product.measurement.load_unit));
   text += items("Cannot be told apart by these data", c.null_combinations) +
-          items("Correction", correction_texts(product.correction)) + items("Measure next", c.next_runs);
+          items("Correction", correction_texts(product)) + items("Measure next", c.next_runs);
   if (verbose || c.verdict == CalibrationVerdict::no_effect)
     text += items("Would have been seen, at the joint, rms", detectable_texts(c));
   return verbose ? text + tried_table(c) : text;

@@ -146,9 +146,7 @@ Reply run_plan(const Arguments& arguments, Console& console) {
   Reply reply;
   reply.diagnostics = result.product.file.warnings;
   if (result.without_law) {
-    reply.exit = Exit::infeasible;
-    add_obstacles(file.path, result.without_law->conditions, reply);
-    add_advice(result.without_law->advice, reply);
+    explain_without_law(file.path, *result.without_law, reply);
     return reply;
   }
   reply.fields = Json::parse(plan_json(result.product));

@@ -100,6 +100,12 @@ void add_advice_together(const std::vector<Change>& advice, Reply& reply) {
   reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + both));
 }
 
+void explain_without_law(const std::string& file, const SynthesisResult& without_law, Reply& reply) {
+  reply.exit = Exit::infeasible;
+  add_obstacles(file, without_law.conditions, reply);
+  add_advice(without_law.advice, reply);
+}
+
 Diagnostic note(Severity severity, std::string message, std::string hint) {
   Diagnostic diagnostic;
   diagnostic.severity = severity;

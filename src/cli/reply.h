@@ -46,6 +46,9 @@ void add_advice(const std::vector<Change>& advice, Reply& reply);
 /// The same for changes that help together and not alone; nothing where there are none.
 void add_advice_together(const std::vector<Change>& advice, Reply& reply);
 
+/// Of a joint without a law θ(α): Exit::infeasible, why, and what would help.
+void explain_without_law(const std::string& file, const SynthesisResult& without_law, Reply& reply);
+
 /// A diagnostic without a place in a file, and one about a whole file.
 Diagnostic note(Severity severity, std::string message, std::string hint = {});
 Diagnostic about_file(Severity severity, std::string file, std::string message);

@@ -175,13 +175,33 @@ double alpha_at(const std::vector<LawRow>& rows, double theta) {
   return span > 0 ? low.alpha + (above->alpha - low.alpha) * (theta - low.theta) / span : low.alpha;
 }
 
+/// What the joint is off by: what effects make of it, and the curve of what has no name.
+struct Off {
+  const BothWays& effects;
+  const EmpiricalCurve* curve;  ///< null: none
+  SeenSpan seen;                ///< where all of it is known
+
+  double at(double alpha, bool rising) const {
+    const double known = (rising ? effects.up : effects.down).at(alpha);
+    return curve != nullptr ? known + curve->at(alpha, rising) : known;
+  }
+};
+
+SeenSpan seen_in(const BothWays& effects, const EmpiricalCurve* curve) {
+  SeenSpan seen = effects.up.seen;
+  if (curve == nullptr) return seen;
+  seen.least = std::max(seen.least, curve->alpha.front());
+  seen.most = std::min(seen.most, curve->alpha.back());
+  return seen;
+}
+
 /// Where the joint is, moving one way, by growing θ.
-std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Curve& beyond) {
+std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Off& off, bool rising) {
   constexpr int places = 800;
   std::vector<LawRow> rows;
   for (int i = 0; i <= places; ++i) {
-    const double alpha = beyond.seen.least + beyond.seen.size() * i / places;
-    rows.push_back({alpha, law.theta(alpha) + beyond.at(alpha)});
+    const double alpha = off.seen.least + off.seen.size() * i / places;
+    rows.push_back({alpha, law.theta(alpha) + off.at(alpha, rising)});
   }
   if (rows.back().theta < rows.front().theta) std::reverse(rows.begin(), rows.end());
   std::vector<LawRow> growing{rows.front()};
@@ -191,16 +211,30 @@ std::vector<LawRow> motion_rows(const DeclaredLaw& law, const Curve& beyond) {
   return growing;
 }
 
-std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const BothWays& off) {
-  const std::vector<LawRow> rising = motion_rows(law, off.up), falling = motion_rows(law, off.down);
-  if (rising.size() < 2 || falling.size() < 2) return {};
-  const double low = std::max(rising.front().theta, falling.front().theta),
-               high = std::min(rising.back().theta, falling.back().theta);
+/// Where the motor must stand with all that is known, and what of it is the curve's.
+struct Motion {
+  std::vector<LawRow> all, effects;
+
+  bool any() const { return all.size() > 1 && effects.size() > 1; }
+  double alpha(double theta) const { return alpha_at(all, theta); }
+  double of_curve(double theta) const { return alpha_at(all, theta) - alpha_at(effects, theta); }
+};
+
+Motion motion_of(const DeclaredLaw& law, const Off& off, bool rising) {
+  return {motion_rows(law, off, rising), motion_rows(law, {off.effects, nullptr, off.effects.up.seen}, rising)};
+}
+
+std::vector<CompensationRow> compensation_rows(const DeclaredLaw& law, const Off& off) {
+  const Motion rising = motion_of(law, off, true), falling = motion_of(law, off, false);
+  if (!rising.any() || !falling.any()) return {};
+  const double low = std::max(rising.all.front().theta, falling.all.front().theta),
+               high = std::min(rising.all.back().theta, falling.all.back().theta);
   std::vector<CompensationRow> table;
   constexpr int rows = 60;
   for (int i = 0; i <= rows && high > low; ++i) {
     const double theta = low + (high - low) * i / rows;
-    table.push_back({theta, alpha_at(rising, theta), alpha_at(falling, theta)});
+    table.push_back(
+        {theta, rising.alpha(theta), falling.alpha(theta), rising.of_curve(theta), falling.of_curve(theta)});
   }
   return table;
 }
@@ -237,7 +271,10 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   correction.error_with_table = rms(measurement, tabled(measurement, then, table));
   correction.by_pulley = gone(correction.error_now, correction.error_with_pulley);
   correction.by_table = gone(correction.error_with_pulley, correction.error_with_table);
-  correction.table = compensation_rows(law, table);
+  const EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;
+  if (curve != nullptr) correction.by_curve = curve->gain;
+  correction.by_table = std::hypot(correction.by_table, correction.by_curve);
+  correction.table = compensation_rows(law, {table, curve, seen_in(table, curve)});
   return correction;
 }
 

@@ -54,6 +54,10 @@ std::string words_of(const Calibration& calibration, const Correction& correctio
   std::string words = std::string(k_title) + "# verdict: " + std::string(word(calibration.verdict)) + "\n";
   for (const FoundEffect& effect : calibration.effects) words += one_line(found_text(effect)) + "\n";
   if (calibration.effects.empty()) words += "# no effect was found that the declared file lacks\n";
+  if (correction.by_curve > 0) {
+    words += "# compensation.csv covers by an empirical curve what has no name and depends on place and direction alone: " +
+             rounded(degrees(correction.by_curve), 2) + " deg rms\n";
+  }
   if (correction.tied_at != 0) {
     words += "# tendons tied with the unloaded joint at home and the motor at " +
              rounded(degrees(correction.tied_at), 4) +
@@ -108,10 +112,17 @@ std::string corrected_toml(std::string_view declared_text, const DeclaredMechani
 }
 
 std::string compensation_csv(const Correction& correction) {
-  std::string text = "theta_deg,alpha_up_deg,alpha_down_deg\n";
+  const bool has_curve = correction.by_curve > 0;
+  std::string text = "theta_deg,alpha_up_deg,alpha_down_deg";
+  text += has_curve ? ",empirical_up_deg,empirical_down_deg\n" : "\n";
+  const auto add = [&](double angle, char after) { text += fixed(degrees(angle), 4) + after; };
   for (const CompensationRow& row : correction.table) {
-    text += fixed(degrees(row.theta), 4) + "," + fixed(degrees(row.alpha_up), 4) + "," +
-            fixed(degrees(row.alpha_down), 4) + "\n";
+    add(row.theta, ',');
+    add(row.alpha_up, ',');
+    add(row.alpha_down, has_curve ? ',' : '\n');
+    if (!has_curve) continue;
+    add(row.curve_up, ',');
+    add(row.curve_down, '\n');
   }
   return text;
 }

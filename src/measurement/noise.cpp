@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "fusee/measurement/measurement.h"
 #include "measurement/seen_span.h"
 #include "measurement/strokes.h"
-#include "fusee/measurement/measurement.h"
 
 // Strokes of one direction, load and speed repeat one another. A row's distance from what its neighbours in that
 // sequence show at the same α is scatter: (2θ − θbefore − θafter)/√6, which a steady drift leaves alone. What else
@@ -317,6 +318,52 @@ Scatter scatter_of_neighbours(const Measurement& measurement) {
   return scatter;
 }
 
+/// A row that lies on the parabola of three others but for their noise: the others' weights.
+std::array<double, 3> parabola_weights(double at, const std::array<double, 3>& places) {
+  std::array<double, 3> weights{1, 1, 1};
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (k != j) weights[j] *= (at - places[k]) / (places[j] - places[k]);
+    }
+  }
+  return weights;
+}
+
+/// Four held points, one after another, a row of each: what the second is off the parabola of the others.
+void add_stands(const std::array<const Sample*, 4>& rows, std::vector<double>& differences) {
+  const std::array<double, 3> weights =
+      parabola_weights(rows[1]->alpha, {rows[0]->alpha, rows[2]->alpha, rows[3]->alpha});
+  const double squares = 1 + weights[0] * weights[0] + weights[1] * weights[1] + weights[2] * weights[2];
+  if (!std::isfinite(squares)) return;
+  const double off =
+      rows[1]->theta - weights[0] * rows[0]->theta - weights[1] * rows[2]->theta - weights[2] * rows[3]->theta;
+  differences.push_back(off / std::sqrt(squares));
+}
+
+/// Held points with a row each have no neighbours but one another: from stand to stand on a stroke, under one load.
+Scatter scatter_of_stands(const Measurement& measurement) {
+  constexpr double worth = 1 / (1 + 2 * (0.75 * 0.75 + 0.3 * 0.3 + 0.05 * 0.05));  // as in add_neighbours()
+  const double tolerance = load_tolerance(measurement);
+  Scatter scatter;
+  for (const Run& run : measurement.runs) {
+    const std::vector<Stretch> stands = stretches_of(run);
+    std::vector<double> differences;
+    for (std::size_t i = 3; i < stands.size(); ++i) {
+      std::array<const Sample*, 4> rows{};
+      bool alike = true;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Stretch& stand = stands[i - 3 + k];
+        rows[k] = &run.samples[stand.first];
+        alike = alike && stand.held && stand.stroke == stands[i].stroke && stand.pull == stands[i].pull &&
+                (!run.has_load || std::abs(rows[k]->load - rows[0]->load) <= tolerance);
+      }
+      if (alike) add_stands(rows, differences);
+    }
+    scatter.add(differences, worth);
+  }
+  return scatter;
+}
+
 Scatter scatter_within_runs(const Measurement& measurement) {
   const Alike alike = alike_in(measurement, false);
   Scatter scatter;
@@ -383,21 +430,32 @@ double step_error(const Measurement& measurement) {
 
 }  // namespace
 
+namespace {
+
+/// Enough differences, and of repeats so few that they are better than rows at different places.
+constexpr std::size_t k_enough = 20;
+constexpr std::size_t k_few = 6;
+
+}  // namespace
+
 NoiseFloor noise_floor(const Measurement& measurement) {
-  constexpr std::size_t enough = 20;
   const double least_limit = 3 * measurement.theta_quantum;
   NoiseFloor floor;
   // Within a run nothing was touched in between; runs that repeat one another do where each is a single cycle.
   Scatter scatter = scatter_within_runs(measurement);
-  if (scatter.count() < enough) {
+  if (scatter.count() < k_enough) {
     BetweenRuns between = scatter_between_runs(measurement, least_limit);
     if (between.smooth_count > 0)
       floor.between_runs = std::sqrt(2 * between.smooth_squares / between.smooth_count);
     else
       scatter = std::move(between.noise);
   }
-  floor.from_repeats = scatter.count() >= enough;
-  if (!floor.from_repeats) scatter = scatter_of_neighbours(measurement);
+  floor.from_repeats = scatter.count() >= k_enough;
+  if (!floor.from_repeats) {
+    Scatter neighbours = scatter_of_neighbours(measurement);
+    floor.from_repeats = neighbours.count() < k_enough && scatter.count() >= k_few;
+    if (!floor.from_repeats) scatter = neighbours.count() < k_enough ? scatter_of_stands(measurement) : neighbours;
+  }
   const Scatter::Result result = scatter.result(least_limit);
   floor.rms = std::max(std::sqrt(result.variance), step_error(measurement));
   floor.degrees_of_freedom = result.degrees_of_freedom;

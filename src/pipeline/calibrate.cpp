@@ -66,6 +66,10 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   product.calibration = calibrate(expected, product.measurement, options);
   bench.step("looking for slips of the file");
   product.slips = slips_that_explain(declared, as_read, product.calibration);
+  if (!product.slips.empty() && product.calibration.curve.used) {
+    product.calibration.curve.used = false;
+    product.calibration.curve.why = "a slip of the file or of the log would explain the data: look there first";
+  }
   bench.step("working out the correction");
   product.correction.identified = declared.identified;
   if (product.calibration.verdict != CalibrationVerdict::not_testable)

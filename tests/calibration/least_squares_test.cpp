@@ -122,6 +122,81 @@ TEST(HeldOut, ALevelThatAloneKnowsANumberIsHeldOutByStrokes) {
   EXPECT_NEAR(fit.by_factor.mean_square, sum, 1e-12);
 }
 
+/// Families of place, load and run, each of some size, beside two numbers.
+Amplitudes some_amplitudes(const Evidence& evidence) {
+  Amplitudes amplitudes = evidence.marginal->nothing_unnamed();
+  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const bool is_used = families[f].factor == Factor::place || families[f].factor == Factor::load;
+    if (is_used) amplitudes.families[static_cast<Eigen::Index>(f)] = 0.2;
+  }
+  amplitudes.noise = 0.1;
+  return amplitudes;
+}
+
+/// A row for each prior below the data: columns and numbers together, by orthogonal factorisation. Errors of a block
+/// that was left out with its fold, by the numbers alone and with the columns of place.
+std::pair<double, double> errors_beside(const Problem& problem, const Amplitudes& amplitudes, const Fold& fold,
+                                        std::size_t of) {
+  const Discrepancy& discrepancy = problem.evidence.marginal->discrepancy();
+  std::vector<Eigen::Index> rest, own, rest_used, own_used;  // of all rows, of rows in use
+  Eigen::Index used = 0;
+  for (std::size_t b = 0; b < problem.evidence.blocks.size(); ++b) {
+    const bool held = std::find(fold.begin(), fold.end(), b) != fold.end();
+    for (const std::size_t row : problem.evidence.blocks[b].rows) {
+      if (!held) rest.push_back(static_cast<Eigen::Index>(row)), rest_used.push_back(used);
+      if (b == of) own.push_back(static_cast<Eigen::Index>(row)), own_used.push_back(used);
+      ++used;
+    }
+  }
+  const double noise = amplitudes.noise / std::sqrt(problem.evidence.marginal->worth());
+  std::vector<Eigen::Index> columns;
+  std::vector<double> prior;
+  std::vector<bool> of_place;
+  for (std::size_t f = 0; f < discrepancy.families.size(); ++f) {
+    const Family& family = discrepancy.families[f];
+    const double amplitude = amplitudes.families[static_cast<Eigen::Index>(f)];
+    for (Eigen::Index k = 0; amplitude > 0 && k < family.count; ++k) {
+      columns.push_back(family.first + k);
+      prior.push_back(noise / amplitude);
+      of_place.push_back(family.factor == Factor::place);
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(rest.size()), m = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, 2 + m);
+  A.topLeftCorner(n, 2) = problem.J(rest, Eigen::all);
+  A.topRightCorner(n, m) = discrepancy.columns(rest_used, columns);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(n + m);
+  y.head(n) = problem.r(rest);
+  for (Eigen::Index k = 0; k < m; ++k) A(n + k, 2 + k) = prior[static_cast<std::size_t>(k)];
+  const Eigen::VectorXd x = by_qr(A, y);
+  Eigen::VectorXd place = x.tail(m);
+  for (Eigen::Index k = 0; k < m; ++k) place[k] *= of_place[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
+  const Eigen::VectorXd left = problem.r(own) - problem.J(own, Eigen::all) * x.head(2);
+  const Eigen::VectorXd less = left - discrepancy.columns(own_used, columns) * place;
+  const auto rows = static_cast<double>(own.size());
+  return {left.squaredNorm() / rows, less.squaredNorm() / rows};
+}
+
+TEST(HeldOut, BesideWhatHasNoNameIsTheErrorOfAFitToTheOthersToo) {
+  Problem problem = some_problem();
+  Eigen::Index used = 0;
+  for (const Block& block : problem.evidence.blocks) {
+    for (const std::size_t row : block.rows)
+      problem.r[static_cast<Eigen::Index>(row)] += std::sin(3.0 * static_cast<double>(used++ % k_rows) / k_rows);
+  }
+  const Fit fit = hand_made(problem.evidence, problem.J, problem.r);
+  const Amplitudes amplitudes = some_amplitudes(problem.evidence);
+  const std::vector<Fold> folds = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+  const HeldOutBeside held = hold_out_beside(problem.evidence, fit, amplitudes, folds);
+  for (std::size_t b = 0; b < 8; ++b) {
+    const auto [effects, with_place] = errors_beside(problem, amplitudes, folds[b / 4], b);
+    EXPECT_NEAR(held.effects.by_block[b], effects, 1e-5 * effects) << b;
+    EXPECT_NEAR(held.with_place.by_block[b], with_place, 1e-5 * with_place) << b;
+    EXPECT_LT(with_place, effects) << b;
+  }
+}
+
 // ---- fits through the simulation ------------------------------------------------------------------------------------
 
 constexpr double k_offset = 0.01;      // rad

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "calibration/linear_joint.h"
+#include "calibration/thresholds.h"
 #include "calibration/unknown.h"
 
 namespace fusee::linear {
@@ -33,15 +34,17 @@ Tangent nothing_varied(const Eigen::VectorXd& residual) {
   return tangent;
 }
 
-/// log N(r; 0, σ² + D λ² Dᵀ) but for the rows' 2π, in full.
-double log_density(const Eigen::VectorXd& r, const Discrepancy& D, const Amplitudes& amplitudes) {
+/// log N(r; 0, σ² + D λ² Dᵀ) but for the rows' 2π, in full, and of Cauchy's density at each λ but for a constant.
+double log_density(const Eigen::VectorXd& r, const Discrepancy& D, const Amplitudes& amplitudes, double floor) {
   Eigen::MatrixXd C = amplitudes.noise * amplitudes.noise * Eigen::MatrixXd::Identity(r.size(), r.size());
   for (std::size_t f = 0; f < D.families.size(); ++f) {
     const Eigen::MatrixXd own = D.columns.middleCols(D.families[f].first, D.families[f].count);
     C += std::pow(amplitudes.families[static_cast<Eigen::Index>(f)], 2) * own * own.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(C);
-  return -0.5 * r.dot(factor.solve(r)) - factor.matrixLLT().diagonal().array().log().sum();
+  const double usual = k_thresholds.usual_unknown * floor;
+  const double prior = -(1.0 + (amplitudes.families / usual).array().square()).log().sum();
+  return prior - 0.5 * r.dot(factor.solve(r)) - factor.matrixLLT().diagonal().array().log().sum();
 }
 
 TEST(Marginal, IsTheDensityWrittenOut) {
@@ -52,7 +55,7 @@ TEST(Marginal, IsTheDensityWrittenOut) {
   const Eigen::VectorXd r = drawn(40, random, 0.2);
   const double found =
       marginal.at(nothing_varied(r), one).log_evidence - marginal.at(nothing_varied(r), other).log_evidence;
-  EXPECT_NEAR(found, log_density(r, D, one) - log_density(r, D, other), 1e-8);
+  EXPECT_NEAR(found, log_density(r, D, one, 0.1) - log_density(r, D, other, 0.1), 1e-8);
 }
 
 TEST(Marginal, IntegratesANumberOverItsPrior) {
@@ -74,10 +77,10 @@ TEST(Marginal, IntegratesANumberOverItsPrior) {
   tangent.residual -= summit * slope;
   const double found = marginal.at(tangent, amplitudes).log_evidence - without;
   double sum = 0;
-  const double step = 1e-4, reference = log_density(r - summit * slope, D, amplitudes);
+  const double step = 1e-4, reference = log_density(r - summit * slope, D, amplitudes, 0.1);
   for (double x = summit - 0.5; x < summit + 0.5; x += step)
-    sum += step * std::exp(log_density(r - x * slope, D, amplitudes) + log_prior(x, 0.5) - reference);
-  EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes), 0.02);
+    sum += step * std::exp(log_density(r - x * slope, D, amplitudes, 0.1) + log_prior(x, 0.5) - reference);
+  EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes, 0.1), 0.02);
 }
 
 TEST(Marginal, FindsAmplitudesAndLeavesOutWhatIsNot) {

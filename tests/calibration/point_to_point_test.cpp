@@ -16,6 +16,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 /// Where the motor is held, under what load, for how many rows.
@@ -60,6 +61,18 @@ Stops steps(int rows) {
   }
   return stops;
 }
+
+/// A few angles again and again, the load of each cycle one of so many.
+Stops cycles_at(int loads, int rows) {
+  Stops stops;
+  for (int cycle = 0; cycle < 6; ++cycle) {
+    for (const double share : {-0.9, -0.45, 0.0, 0.45, 0.9, 0.45, 0.0, -0.45})
+      stops.push_back({share, 3.0 * static_cast<double>(cycle % loads) / (loads - 1), rows});
+  }
+  return stops;
+}
+Stops few_repeats(int rows) { return cycles_at(2, rows); }
+Stops no_repeats(int rows) { return cycles_at(6, rows); }
 
 /// What the bench writes; between stops it moves and loads in small steps that are not logged.
 std::string log_of(const Stops& stops, const rig::Hidden& hidden, std::uint64_t seed, double noise = 0.02) {
@@ -127,7 +140,9 @@ const Protocol k_protocols[] = {{"load staircase", load_staircase, 8},
                                 {"steps", steps, 6},
                                 {"staircase of single rows", load_staircase, 1},
                                 {"ends of single rows", alternating_ends, 1},
-                                {"steps of single rows", steps, 1}};
+                                {"steps of single rows", steps, 1},
+                                {"few repeats of single rows", few_repeats, 1},
+                                {"no repeats of single rows", no_repeats, 1}};
 
 TEST(PointToPoint, a_joint_as_declared_is_blamed_for_nothing) {
   for (const Protocol& protocol : k_protocols) {
@@ -135,8 +150,19 @@ TEST(PointToPoint, a_joint_as_declared_is_blamed_for_nothing) {
     EXPECT_NE(found.verdict, CalibrationVerdict::not_testable) << protocol.name << ": " << found.summary;
     EXPECT_THAT(names_of(found), IsEmpty()) << protocol.name;
     // Single rows repeat too rarely to know it better.
-    EXPECT_NEAR(degrees(found.noise.rms), 0.02, protocol.rows > 1 ? 0.002 : 0.007) << protocol.name;
+    EXPECT_NEAR(degrees(found.noise.rms), 0.02, protocol.rows > 1 ? 0.002 : 0.01) << protocol.name;
     EXPECT_LT(degrees(found.before.rms), 0.023) << protocol.name;
+  }
+}
+
+TEST(PointToPoint, few_rows_are_no_reason_to_doubt_a_joint) {
+  for (const Protocol& protocol : k_protocols) {
+    if (protocol.rows > 1) continue;
+    // Of these seeds the ends in turn were called not_repeatable on 2, and few repeats unexplained on all.
+    for (const std::uint64_t seed : {2, 3}) {
+      const Calibration found = calibrated({log_of(protocol.stops(protocol.rows), {}, seed)});
+      EXPECT_EQ(found.verdict, CalibrationVerdict::no_effect) << protocol.name << ", " << seed << ": " << found.summary;
+    }
   }
 }
 
@@ -180,6 +206,21 @@ TEST(PointToPoint, two_places_name_nothing) {
     EXPECT_GT(tried->evidence, 0) << ends.name;
     EXPECT_EQ(tried->why, "it adds less than a name needs");
   }
+}
+
+const char* const k_both_sides = "come to each held point from both sides";
+
+TEST(PointToPoint, points_from_one_side_are_asked_for_from_both) {
+  EXPECT_THAT(calibrated({log_of(alternating_ends(20), loose(), 5)}).next_runs, Contains(StartsWith(k_both_sides)));
+  EXPECT_THAT(calibrated({log_of(steps(6), {}, 5)}).next_runs, Not(Contains(StartsWith(k_both_sides))));
+  Stops up;
+  for (int i = 0; i < 7; ++i) up.push_back({-0.9 + 0.3 * i, 0.0, 6});
+  EXPECT_THAT(calibrated({log_of(up, {}, 5)}).next_runs, Contains(StartsWith(k_both_sides)));
+  Stops few = alternating_ends(1);
+  few.resize(8);
+  const Calibration too_few = calibrated({log_of(few, {}, 5)});
+  EXPECT_EQ(too_few.verdict, CalibrationVerdict::not_testable) << too_few.summary;
+  EXPECT_THAT(too_few.next_runs, Contains(StartsWith(k_both_sides)));
 }
 
 TEST(PointToPoint, loads_within_a_run_are_held_out) {

@@ -1,6 +1,10 @@
 // What is said of fits, against numbers worked out by hand.
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <random>
+#include <utility>
+
 #include "calibration/linear_joint.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
@@ -38,10 +42,24 @@ TEST(StrokeScatter, TellsMeansOfStrokesFromRowsWithin) {
       fit.residual[static_cast<Eigen::Index>(row)] += b % 4 < 2 ? a : -a;
   }
   const StrokeScatter found = stroke_scatter(evidence, fit);
-  EXPECT_NEAR(found.within, 1, 1e-12);
-  EXPECT_NEAR(found.between, std::sqrt(2 * a * a - 1.0 / k_rows), 1e-12);
+  // Each mean has taken a degree of freedom.
+  EXPECT_NEAR(found.within, std::sqrt(k_rows / (k_rows - 1.0)), 1e-12);
+  EXPECT_NEAR(found.between, std::sqrt(2 * a * a - 1.0 / (k_rows - 1.0)), 1e-12);
   EXPECT_TRUE(is_walking(found));
   EXPECT_FALSE(is_walking(stroke_scatter(evidence, with_errors(evidence, std::vector<double>(8, 1.0)))));
+}
+
+TEST(RarestRatio, IsExceededAsSeldomAsThreeStandardDeviations) {
+  std::mt19937 random(7);
+  for (const auto& [upper, lower] : {std::pair{1.0, 40.0}, {3.0, 20.0}, {5.0, 200.0}, {40.0, 15.0}, {200.0, 8.0}}) {
+    std::chi_squared_distribution<double> above(upper), below(lower);
+    const double ratio = rarest_ratio(upper, lower);
+    constexpr int draws = 200000;
+    int beyond = 0;
+    for (int i = 0; i < draws; ++i) beyond += above(random) / upper > ratio * below(random) / lower ? 1 : 0;
+    EXPECT_NEAR(static_cast<double>(beyond) / draws, 0.00135, 0.0005) << upper << " " << lower;
+  }
+  EXPECT_EQ(rarest_ratio(10, 1), std::numeric_limits<double>::infinity());
 }
 
 TEST(AsGood, WithinSoManyNats) {

@@ -106,6 +106,8 @@ TEST_F(Concluded, ARestIsDescribedByWhatItDependsOn) {
   ASSERT_FALSE(calibration.unknown.empty());
   EXPECT_EQ(calibration.unknown.front().factor, "direction");
   EXPECT_NEAR(calibration.unknown.front().rms, 5 * k_floor, 0.5 * k_floor);
+  // Its picture is that of the way up, and not of whichever row is largest.
+  EXPECT_THAT(calibration.unknown.front().theta, testing::Each(testing::DoubleNear(5 * k_floor, 1.5 * k_floor)));
   EXPECT_THAT(calibration.summary, HasSubstr("depends on direction"));
 }
 
@@ -147,6 +149,7 @@ TEST(RmsDrop, IsNeverBelowNothing) {
   selection.none = workers.one().fit({}, {});
   selection.without = {selection.none};
   selection.best = workers.one().fit({&stretch}, {});
+  selection.groups = {{{&stretch}, 0.0}};
   selection.best.by_factor.mean_square = 2 * selection.none.by_factor.mean_square;  // held out, it does harm
   const std::vector<FoundEffect> found = found_effects(evidence, selection);
   ASSERT_EQ(found.size(), 1u);
@@ -163,6 +166,7 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
   for (const auto& [gain, words] :
        {std::pair(-0.01, "it shows too little"), std::pair(0.01, "it shows too much"), std::pair(0.0, "")}) {
     selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
+    selection.groups = {{{&named("joint_sensor_gain")}, 0.0}};
     selection.best.at.sensor.gain = gain;
     const std::vector<FoundEffect> found = found_effects(evidence, selection);
     ASSERT_EQ(found.size(), 1u);

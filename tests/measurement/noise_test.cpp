@@ -250,6 +250,45 @@ TEST(NoiseFloor, HeldAnglesRepeatThemselves) {
   EXPECT_LT(apart.degrees_of_freedom, 0.5 * noise_floor(held(1e-3, 0, 12)).degrees_of_freedom);
 }
 
+/// Five uneven angles on each stroke, a row at each, each cycle under another load; θ bends with α and the load.
+Measurement stops_that_repeat_nothing(double noise, unsigned seed) {
+  constexpr int cycles = 8;
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Measurement measurement;
+  Run& run = measurement.runs.emplace_back();
+  run.has_load = true;
+  const std::vector<double> places = {0.0, 0.2, 0.5, 0.6, 1.0};
+  for (int stroke = 0; stroke < 2 * cycles; ++stroke) {
+    const std::size_t first = run.samples.size();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      Sample sample;
+      sample.alpha = places[stroke % 2 == 0 ? i : places.size() - 1 - i];
+      sample.load = 10.0 * (stroke / 2);
+      sample.theta =
+          (0.3 + 0.01 * sample.load) * sample.alpha - 0.1 * sample.alpha * sample.alpha + noise * normal(random);
+      run.samples.push_back(sample);
+      run.stretches.push_back(
+          {run.samples.size() - 1, run.samples.size() - 1, static_cast<std::size_t>(stroke), true, 0});
+    }
+    run.strokes.push_back({first, run.samples.size() - 1, stroke % 2 == 0 ? 1 : -1, stroke / 2, false});
+  }
+  return measurement;
+}
+
+TEST(NoiseFloor, StopsThatRepeatNothingAreHeldAgainstOneAnother) {
+  EXPECT_LT(noise_floor(stops_that_repeat_nothing(0, 1)).rms, 1e-12);  // a parabola is no noise, evenly met or not
+  constexpr unsigned logs = 400;
+  double squares = 0;
+  for (unsigned seed = 1; seed <= logs; ++seed) {
+    const NoiseFloor floor = noise_floor(stops_that_repeat_nothing(1e-3, seed));
+    EXPECT_FALSE(floor.from_repeats);
+    EXPECT_LT(floor.degrees_of_freedom, 32);
+    squares += floor.rms * floor.rms / logs;
+  }
+  EXPECT_NEAR(std::sqrt(squares), 1e-3, 3e-5);
+}
+
 TEST(NoiseFloor, WithoutRepeatsItIsOnlyABound) {
   const NoiseFloor floor = floor_of({.noise = 1e-3, .cycles = 1});
   EXPECT_FALSE(floor.from_repeats);

@@ -7,6 +7,12 @@
 
 namespace fusee::rig {
 
+std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists) {
+  std::vector<Fault> all;
+  for (const std::vector<Fault>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 const std::vector<FaultList>& fault_lists() {
   static const std::vector<FaultList> lists = {
       {"named", named_faults()}, {"tuning", tuning_faults()}, {"unseen", unseen_faults()}};

@@ -47,6 +47,9 @@ std::vector<Fault> tuning_faults();
 /// Without a name, and by another hand: kept aside, nothing is tuned on them and they are run once.
 std::vector<Fault> unseen_faults();
 
+/// The faults of several lists as one, in their order.
+std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists);
+
 /// All lists, the named one first.
 const std::vector<FaultList>& fault_lists();
 /// InputError, with the nearest name, where there is none.

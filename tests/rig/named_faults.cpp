@@ -179,11 +179,7 @@ std::vector<Fault> joint_faults() {
 }  // namespace
 
 std::vector<Fault> named_faults() {
-  std::vector<Fault> all;
-  for (const std::vector<Fault>& place :
-       {motor_faults(), pulley_faults(), tendon_faults(), pin_faults(), joint_faults()})
-    all.insert(all.end(), place.begin(), place.end());
-  return all;
+  return joined({motor_faults(), pulley_faults(), tendon_faults(), pin_faults(), joint_faults()});
 }
 
 }  // namespace fusee::rig

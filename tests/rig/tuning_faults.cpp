@@ -193,10 +193,7 @@ std::vector<Fault> sensor_faults() {
 }  // namespace
 
 std::vector<Fault> tuning_faults() {
-  std::vector<Fault> all;
-  for (const std::vector<Fault>& place : {drive_faults(), tendon_faults(), link_faults(), sensor_faults()})
-    all.insert(all.end(), place.begin(), place.end());
-  return all;
+  return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
 }
 
 }  // namespace fusee::rig

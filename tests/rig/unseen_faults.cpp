@@ -345,10 +345,7 @@ std::vector<Fault> link_faults() {
 }  // namespace
 
 std::vector<Fault> unseen_faults() {
-  std::vector<Fault> all;
-  for (const std::vector<Fault>& place : {drive_faults(), tendon_faults(), frame_faults(), link_faults()})
-    all.insert(all.end(), place.begin(), place.end());
-  return all;
+  return joined({drive_faults(), tendon_faults(), frame_faults(), link_faults()});
 }
 
 }  // namespace fusee::rig

@@ -63,8 +63,27 @@ struct Unknown {
   double rms = 0;        ///< rad, over all rows in use
   double evidence = 0;   ///< log of how many times less likely the data are without it
   std::string words;     ///< on what it depends, and where in the chain such a thing can sit
-  std::vector<double> alpha;  ///< its course over the seen span, rad: of what is in proportion to something, at its largest
+  /// Its course over the seen span, rad: of what is in proportion to something at its largest, the motor on its way up
+  /// and the load positive; none where place says nothing.
+  std::vector<double> alpha;
   std::vector<double> theta;
+};
+
+/// What has no name and depends on place and direction alone, as a curve: for a table, and valid only where and as it was
+/// seen. rad
+struct EmpiricalCurve {
+  bool used = false;          ///< data that it was not made from are nearer to the model with it, at every level
+  std::string why;            ///< why not; "" of one that is used, and where nothing is without a name
+  std::vector<double> alpha;  ///< places between which it is straight, over all that was seen both ways; none: no curve
+  std::vector<double> up;     ///< measured − model there, α growing …
+  std::vector<double> down;   ///< … and falling
+  double held_out_effects = 0;  ///< rms of data that neither effects nor curve were made from: with the effects alone …
+  double held_out_rms = 0;      ///< … and with the curve
+  /// What the curve takes away there: its square is that of the one less that of the other.
+  double gain = 0;
+
+  /// Of a curve that is there, flat beyond its ends.
+  double at(double place, bool rising) const;
 };
 
 struct ErrorFigures {
@@ -96,6 +115,7 @@ struct Calibration {
   double rest_autocorrelation = 0;  ///< of the residual after all effects, row to row; 0: white
   double unexplained_rms = 0;
   std::vector<Unknown> unknown;     ///< the largest first
+  EmpiricalCurve curve;             ///< of what of it depends on place and direction alone
   std::string unexplained_where;  ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
   std::vector<std::string> null_combinations;  ///< accepted effects and rivals that do as well, with their numbers

@@ -17,6 +17,8 @@ struct CompensationRow {
   double theta = 0;
   double alpha_up = 0;
   double alpha_down = 0;
+  double curve_up = 0;  ///< part of alpha_up that comes from the empirical curve of what has no name
+  double curve_down = 0;
 };
 
 struct Correction {
@@ -30,7 +32,8 @@ struct Correction {
   double error_with_pulley = 0;  ///< … with the corrected pulley, tendons tied at α = 0
   double error_with_table = 0;   ///< … and the motor where the table says
   double by_pulley = 0;          ///< what the pulley takes away: error_now² − error_with_pulley² is its square
-  double by_table = 0;           ///< what the table takes away beyond that
+  double by_table = 0;           ///< what the table takes away beyond that, the empirical curve in it included …
+  double by_curve = 0;           ///< … which alone takes away so much of data that it was not made from; 0: not in it
   std::vector<CompensationRow> table;  ///< for the corrected pulley where there is one, within the range seen
 };
 
@@ -40,6 +43,8 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
 /// The declared file with the [identified] table, its comments kept; what was found stands above it in words.
 std::string corrected_toml(std::string_view declared_text, const DeclaredMechanism& declared, const Calibration& calibration,
                            const Correction& correction);
+/// CONTRACT §6. With an empirical curve in it two more columns, empirical_up_deg and empirical_down_deg, say which part of
+/// both angles is the curve's.
 std::string compensation_csv(const Correction& correction);
 
 }  // namespace fusee

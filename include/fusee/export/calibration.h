@@ -43,6 +43,9 @@ std::string tied_words(const Correction& correction);
 /// Effects that were not found by the smallest size that would have shown, rad; what is equal to two digits stands
 /// together. Smallest first.
 std::vector<std::pair<double, std::vector<std::string>>> detectable_groups(const Calibration& calibration);
+/// What the table covers of what has no name and where that holds, or why it does not; "" where nothing is without a
+/// name.
+std::string curve_words(const CalibrationProduct& product);
 /// Of every slip that would explain the data, slip_words().
 std::vector<std::string> slips_words(const CalibrationProduct& product);
 /// Of notes that say the same of many files, two and how many more.

@@ -37,6 +37,7 @@ std::vector<std::string> blame_words(const Plan& plan);
 /// "sees creep; tells backlash from sensor_lag": what a step shows that those before it do not.
 std::string gain_words(const PlanStep& step);
 /// "by minute 3: 3 cycles, slow …; tells …", what the first minutes, or more of them, would buy.
+std::string minute_words(const PlanStep& step, const std::string& gain);
 std::vector<std::string> minute_words(const std::vector<PlanStep>& steps);
 
 }  // namespace fusee

@@ -99,7 +99,9 @@ struct Needs {
   bool time = false;
   bool load = false;         ///< declared or logged
   bool temperature = false;  ///< that changes
-  bool full_turn = false;    ///< what comes back once per turn of the motor is seen only when it turns far enough
+  /// What comes back once per turn of the motor is told from any other smooth curve only where it turns far enough: no
+  /// plan is made for it on less. In data it stands beside all that is as smooth.
+  bool full_turn = false;
 };
 
 struct Effect {

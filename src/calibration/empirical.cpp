@@ -1,0 +1,285 @@
+#include "calibration/empirical.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/thresholds.h"
+#include "measurement/seen_span.h"
+
+// The curve is the mean of what the discrepancy can be, given the data, in its families of place and direction, beside
+// all others that a description needs: what grows with a load or walks with time is theirs. Whether it holds is asked
+// of data that it was not made from, run by run and level by level.
+
+namespace fusee {
+namespace {
+
+constexpr int k_pieces = 60;
+/// Share of the seen span in which no row may be missing: twice what the discrepancy bends over.
+constexpr double k_widest_gap = 0.12;
+/// Standard errors by which the gain must be above nothing.
+constexpr double k_sure = 3.0;
+/// Of the mean square that effects leave at a level: by more than that no level may become worse. A stroke of 60 rows
+/// that are noise alone moves its mean square by as much now and then.
+constexpr double k_worse = 0.05;
+
+/// Of the gain, what all rows together must show of it.
+constexpr double k_kept_between = 0.5;
+
+/// Rows in use on their way up or down, by growing α: α and curve. Behind a reversal the curve may be several at a
+/// place.
+using Way = std::vector<std::pair<double, double>>;
+
+double widest_gap(const Way& way) {
+  double gap = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) gap = std::max(gap, way[i].first - way[i - 1].first);
+  return gap;
+}
+
+/// Means of half a piece each: the curve bends over much more.
+Way smoothed(const Way& way, const SeenSpan& seen) {
+  const Bins bins{seen, 2 * k_pieces};
+  Way means;
+  int last = -1;
+  double count = 0;
+  for (const auto& [alpha, value] : way) {
+    if (alpha < seen.least || alpha > seen.most) continue;
+    const int bin = bins.bin(alpha);
+    if (bin != last) {
+      means.emplace_back(0.0, 0.0);
+      count = 0;
+    }
+    last = bin;
+    count += 1;
+    means.back().first += (alpha - means.back().first) / count;
+    means.back().second += (value - means.back().second) / count;
+  }
+  return means;
+}
+
+/// By straight pieces.
+double value_at(const Way& way, double alpha) {
+  const auto above = std::lower_bound(way.begin() + 1, way.end() - 1, alpha,
+                                      [](const auto& row, double value) { return row.first < value; });
+  const auto& low = *(above - 1);
+  const double span = above->first - low.first;
+  const double share = span > 0 ? std::clamp((alpha - low.first) / span, 0.0, 1.0) : 0.0;
+  return low.second + share * (above->second - low.second);
+}
+
+/// What the discrepancy's families of place and direction add, rows in use.
+Eigen::VectorXd of_place(const Discrepancy& discrepancy, const Eigen::VectorXd& unnamed) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(discrepancy.columns.rows());
+  for (const Family& family : discrepancy.families) {
+    if (is_of_place(family.factor))
+      sum += discrepancy.columns.middleCols(family.first, family.count) * unnamed.segment(family.first, family.count);
+  }
+  return sum;
+}
+
+struct BothWays {
+  Way up, down;
+};
+
+BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
+  std::vector<double> alpha;
+  for (const Run& run : evidence.measurement.runs) {
+    for (const Sample& sample : run.samples) alpha.push_back(sample.alpha);
+  }
+  BothWays ways;
+  Eigen::Index row = 0;
+  for (const Block& block : evidence.blocks) {
+    const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
+    for (const std::size_t sample : block.rows) {
+      const double value = curve[row++];
+      if (direction != 0) (direction > 0 ? ways.up : ways.down).emplace_back(alpha[sample], value);
+    }
+  }
+  for (Way* way : {&ways.up, &ways.down}) std::sort(way->begin(), way->end());
+  return ways;
+}
+
+/// Places that were seen both ways.
+SeenSpan seen_both_ways(const BothWays& ways) {
+  SeenSpan span;
+  if (ways.up.size() < 2 || ways.down.size() < 2) return span;
+  span.least = std::max(ways.up.front().first, ways.down.front().first);
+  span.most = std::min(ways.up.back().first, ways.down.back().first);
+  return span;
+}
+
+void draw(const BothWays& ways, const SeenSpan& seen, EmpiricalCurve& curve) {
+  const Bins pieces{seen, k_pieces};
+  const Way up = smoothed(ways.up, seen), down = smoothed(ways.down, seen);
+  for (int i = 0; i <= k_pieces; ++i) {
+    const double alpha = pieces.edge(i);
+    curve.alpha.push_back(alpha);
+    curve.up.push_back(value_at(up, alpha));
+    curve.down.push_back(value_at(down, alpha));
+  }
+}
+
+/// Mean squares of blocks of a fold that neither effects nor curve were made from.
+struct Gain {
+  double before = 0;
+  double mean = 0;  ///< what the curve takes off it
+  double rows = 0;
+};
+
+/// Of a fold of several blocks: of one alone it is a matter of chance.
+Gain gain_in(const Evidence& evidence, const HeldOutBeside& held, const Fold& fold) {
+  Gain gain;
+  for (const std::size_t block : fold) {
+    const double before = held.effects.by_block[block];
+    if (!std::isfinite(before) || fold.size() < 2) continue;
+    const auto count = static_cast<double>(evidence.blocks[block].rows.size());
+    gain.rows += count;
+    gain.before += count * before;
+    gain.mean += count * (before - held.with_place.by_block[block]);
+  }
+  if (gain.rows == 0) return gain;
+  gain.before /= gain.rows;
+  gain.mean /= gain.rows;
+  return gain;
+}
+
+Fold all_blocks(const Evidence& evidence) {
+  Fold all;
+  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) all.push_back(b);
+  return all;
+}
+
+/// Whether it makes something worse that differs from the rest in its run, load or speed.
+bool harms(const Evidence& evidence, const HeldOutBeside& held, const std::vector<Fold>& folds) {
+  return std::any_of(folds.begin(), folds.end(), [&](const Fold& fold) {
+    const Gain gain = gain_in(evidence, held, fold);
+    return gain.mean < -k_worse * gain.before;
+  });
+}
+
+/// Standard error of the gain: what is left, as if it were noise, times twice the curve.
+double error_of(const Evidence& evidence, const Gain& gain, double curve_rms) {
+  const double left = std::sqrt(std::max(0.0, gain.before - gain.mean));
+  return 2.0 * curve_rms * left / std::sqrt(std::max(1.0, gain.rows * evidence.marginal->worth()));
+}
+
+std::string why_not(const Evidence& evidence, const HeldOutBeside& by_run, const HeldOutBeside& by_factor,
+                    const Gain& gain, double curve_rms) {
+  if (gain.mean < std::pow(k_thresholds.least_left * evidence.floor, 2) ||
+      gain.mean < k_sure * error_of(evidence, gain, curve_rms))
+    return "on data that it was not made from it takes away no more than chance would";
+  if (harms(evidence, by_run, evidence.run_folds)) return "it makes a run worse that it was not made from";
+  if (harms(evidence, by_factor, evidence.factor_folds))
+    return "it makes a level of load or speed worse that it was not made from";
+  return "";
+}
+
+/// Mean squares of rows where the curve is known.
+struct Squares {
+  double without = 0;
+  double with = 0;
+  double rows = 0;
+
+  double gain() const { return rows > 0 ? (without - with) / rows : 0.0; }
+};
+
+void add(const Run& run, const std::vector<double>& residuals, const EmpiricalCurve& curve, Squares& squares) {
+  for (const Stroke& stroke : run.strokes) {
+    if (stroke.partial || stroke.direction == 0) continue;
+    for (std::size_t i = stroke.first; i <= stroke.last; ++i) {
+      const double alpha = run.samples[i].alpha;
+      if (!std::isfinite(residuals[i]) || alpha < curve.alpha.front() || alpha > curve.alpha.back()) continue;
+      squares.without += residuals[i] * residuals[i];
+      squares.with += std::pow(residuals[i] - curve.at(alpha, stroke.direction > 0), 2);
+      squares.rows += 1;
+    }
+  }
+}
+
+/// Behind a reversal the discrepancy is more than a curve can be: no more than the curve itself takes off.
+void promise(EmpiricalCurve& curve, double gain) {
+  curve.gain = std::sqrt(gain);
+  curve.held_out_rms = std::sqrt(std::max(0.0, curve.held_out_effects * curve.held_out_effects - gain));
+}
+
+void give_up(EmpiricalCurve& curve, const std::string& why) {
+  curve.used = false;
+  curve.why = why;
+}
+
+/// What the model is trusted to grows with what the fitted joint gives.
+Amplitudes of_fit(const Evidence& evidence, const Fit& fit, Amplitudes amplitudes) {
+  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
+  const double give = tangent_of(evidence, fit).give;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    if (families[f].fixed > 0) amplitudes.families[static_cast<Eigen::Index>(f)] *= give;
+  }
+  return amplitudes;
+}
+
+bool depends_on_place(const Discrepancy& discrepancy, const Amplitudes& amplitudes) {
+  for (std::size_t f = 0; f < discrepancy.families.size(); ++f) {
+    if (is_of_place(discrepancy.families[f].factor) && amplitudes.families[static_cast<Eigen::Index>(f)] > 0)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double EmpiricalCurve::at(double place, bool rising) const {
+  const std::vector<double>& values = rising ? up : down;
+  const Bins pieces{{alpha.front(), alpha.back()}, static_cast<int>(alpha.size()) - 1};
+  const auto i = static_cast<std::size_t>(pieces.bin(place));
+  const double share = pieces.place(place) - static_cast<double>(i);
+  return values[i] + share * (values[i + 1] - values[i]);
+}
+
+EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed) {
+  const Discrepancy& discrepancy = evidence.marginal->discrepancy();
+  EmpiricalCurve curve;
+  if (!depends_on_place(discrepancy, unnamed.explained.amplitudes)) {
+    curve.why = "no part of it depends on place and direction alone";
+    return curve;
+  }
+  const Eigen::VectorXd at_rows = of_place(discrepancy, unnamed.explained.unnamed);
+  const BothWays ways = ways_of(evidence, at_rows);
+  const SeenSpan seen = seen_both_ways(ways), all = seen_span(evidence.measurement, &Sample::alpha);
+  if (!seen.any() || std::max(widest_gap(ways.up), widest_gap(ways.down)) > k_widest_gap * all.size()) {
+    curve.why = "there are places between which nothing was measured both ways";
+    return curve;
+  }
+  const Amplitudes amplitudes = of_fit(evidence, fit, unnamed.explained.amplitudes);
+  const HeldOutBeside by_run = hold_out_beside(evidence, fit, amplitudes, evidence.run_folds);
+  const HeldOutBeside by_factor = hold_out_beside(evidence, fit, amplitudes, evidence.factor_folds);
+  const Gain gain = gain_in(evidence, by_run, all_blocks(evidence));
+  curve.why =
+      why_not(evidence, by_run, by_factor, gain, at_rows.norm() / std::sqrt(static_cast<double>(at_rows.size())));
+  curve.used = curve.why.empty();
+  draw(ways, seen, curve);
+  curve.held_out_effects = std::sqrt(by_run.effects.mean_square);
+  curve.held_out_rms = std::sqrt(by_run.with_place.mean_square);
+  curve.gain = std::sqrt(std::max(0.0, gain.mean));
+  return curve;
+}
+
+void hold_against(const Measurement& measurement, const std::vector<std::vector<double>>& residuals,
+                  const std::vector<std::string>& kept, EmpiricalCurve& curve) {
+  if (!curve.used) return;
+  Squares learnt, validated;
+  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
+    const Run& run = measurement.runs[r];
+    const bool is_kept = std::find(kept.begin(), kept.end(), run.name) != kept.end();
+    add(run, residuals[r], curve, is_kept ? validated : learnt);
+  }
+  // A wave finer than the rows in use looks like a slow one in them.
+  if (learnt.gain() < k_kept_between * curve.gain * curve.gain)
+    return give_up(curve, "it does not hold in the rows between those that it was made from: what is there is finer");
+  promise(curve, std::min(curve.gain * curve.gain, learnt.gain()));
+  if (validated.rows == 0) return;
+  curve.held_out_effects = std::sqrt(validated.without / validated.rows);
+  curve.held_out_rms = std::sqrt(validated.with / validated.rows);
+  curve.gain = std::sqrt(std::max(0.0, validated.gain()));
+  if (!(curve.gain > 0)) give_up(curve, "it makes the runs worse that were kept for validation");
+}
+
+}  // namespace fusee

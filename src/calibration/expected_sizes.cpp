@@ -1,0 +1,49 @@
+#include "calibration/expected_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "calibration/thresholds.h"
+
+// The size in practice alone would charge an effect of four numbers for all the joints on which it is large, and it
+// would lose against one of a single number on a joint where both are small.
+
+namespace fusee {
+namespace {
+
+double rms(const Eigen::VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+/// Chords over the sizes in practice; empty where the joint cannot be simulated.
+struct Chords {
+  Parameters parameters;
+  Tangent tangent;
+};
+
+}  // namespace
+
+std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalogue, const Evidence& evidence,
+                                                        Workers& workers) {
+  std::map<const EffectParameter*, double> sizes;
+  const Fit none = workers.one().fit({}, {});
+  if (!none.usable) return sizes;
+  const double seen = std::max(k_thresholds.most_expected * rms(tangent_of(evidence, none).residual),
+                               k_thresholds.least_expected * evidence.floor);
+  std::vector<Chords> all(catalogue.size());
+  workers.each(catalogue.size(), [&](const Fitter& fitter, std::size_t i) {
+    const Fit wider = fitter.with_chords(none, *catalogue[i]);
+    if (wider.usable) all[i] = {wider.parameters, tangent_of(evidence, wider)};
+  });
+  for (const Chords& of_one : all) {
+    for (Eigen::Index k = none.x.size(); k < of_one.tangent.x.size(); ++k) {
+      const double size = of_one.tangent.prior[k];
+      const double moved = size * rms(of_one.tangent.J.col(k));
+      if (moved > seen) sizes[of_one.parameters[static_cast<std::size_t>(k)]] = size * seen / moved;
+    }
+  }
+  return sizes;
+}
+
+}  // namespace fusee
