@@ -32,8 +32,7 @@ bool has_warming(const Measurement& measurement) {
 
 bool can_be_seen(const Needs& needs, const Mechanism& declared, const Measurement& measurement) {
   return !(needs.time && !all(measurement, &Run::has_time)) && !(needs.load && !has_load(declared, measurement)) &&
-         !(needs.temperature && !has_warming(measurement)) &&
-         !(needs.tendons && declared.transmission);
+         !(needs.temperature && !has_warming(measurement)) && !(needs.tendons && declared.transmission);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@
 
 namespace fusee {
 
-/// Of effects() and of `more`, but for those named in `without`, in the order of the chain. The effects stay where they are: pointers to them hold.
+/// Of effects() and of `more`, but for those named in `without`, in the order of the chain. The effects stay where they
+/// are: pointers to them hold.
 std::vector<const Effect*> catalogue(const Mechanism& declared, const Measurement& measurement,
                                      std::span<const Effect* const> more = {},
                                      std::span<const std::string> without = {});

@@ -221,7 +221,6 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
     const Eigen::MatrixXd odd = column(facts, [](const RowFacts& r) { return r.direction; }).asDiagonal() * even;
     builder.add(Factor::model_error, even, k_thresholds.trusted);
     builder.add(Factor::model_error, odd, k_thresholds.trusted);
-    builder.add(Factor::load, even.leftCols(k_plain));
   }
   return std::move(builder).made();
 }

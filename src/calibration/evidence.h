@@ -47,9 +47,9 @@ struct Evidence {
   std::vector<Fold> factor_folds;    ///< whole levels of load and speed where the data vary them, or as run_folds
   std::vector<std::string> factors;  ///< by which whole levels are held out
   std::vector<HandReading> readings;
-  double floor = 0;                          ///< rms noise, rad
-  double floor_freedom = 1e9;                ///< degrees of freedom that it is known by
-  std::shared_ptr<const Marginal> marginal;  ///< by which sets of effects are weighed: weigh()
+  double floor = 0;                                ///< rms noise, rad
+  double floor_freedom = 1e9;                      ///< degrees of freedom that it is known by
+  std::shared_ptr<const Marginal> marginal;        ///< by which sets of effects are weighed: weigh()
   std::map<const EffectParameter*, double> sizes;  ///< of numbers that in practice are larger than these data bear
 
   /// Rows in use, block by block.

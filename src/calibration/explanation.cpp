@@ -52,7 +52,7 @@ double rms_drop(const Selection& selection, std::size_t place) {
 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection) {
   const Fit& best = selection.best;
-  const std::vector<ConfidenceInterval> ranges = intervals(evidence, best);
+  const std::vector<ConfidenceInterval> ranges = intervals(selection);
   std::vector<FoundEffect> all;
   for (const Effect* effect : best.effects) {
     FoundEffect found;
@@ -95,7 +95,7 @@ std::vector<Detectable> detectable_sizes(const Evidence& evidence, Workers& work
   workers.each(others.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit wider = fitter.with_direction(best, *others[i]);
     if (!wider.usable) return;
-    const std::vector<ConfidenceInterval> ranges = intervals(evidence, wider);
+    const std::vector<ConfidenceInterval> ranges = intervals(wider);
     sizes[i] = 0;
     for (Eigen::Index k = best.x.size(); k < wider.x.size(); ++k) {
       const double sensitivity = wider.J.col(k).norm() / std::sqrt(static_cast<double>(wider.J.rows()));

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "calibration/fit.h"
+#include "calibration/selection.h"
 
 namespace fusee {
 
@@ -17,6 +17,8 @@ struct ConfidenceInterval {
 
 /// Of every fitted x, in their order: beside a discrepancy that may take any shape, and what is known from practice and
 /// from calipers.
-std::vector<ConfidenceInterval> intervals(const Evidence& evidence, const Fit& fit);
+std::vector<ConfidenceInterval> intervals(const Fit& fit);
+/// Of `selection.best`, wider by what is not known of the other effects, and by as much as evidence is overstated.
+std::vector<ConfidenceInterval> intervals(const Selection& selection);
 
 }  // namespace fusee

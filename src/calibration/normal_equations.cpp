@@ -59,7 +59,8 @@ NormalEquations sums_of_readings(const Evidence& evidence, const Fit& fit) {
       const auto i = static_cast<Eigen::Index>(k);
       const double slope = parameter.step / reading.uncertainty * evidence.floor;
       sums.JJ(i, i) += slope * slope;
-      sums.Jr[i] += slope * (reading.value - value_of(fit.at, *reading.parameter)) / reading.uncertainty * evidence.floor;
+      sums.Jr[i] +=
+          slope * (reading.value - value_of(fit.at, *reading.parameter)) / reading.uncertainty * evidence.floor;
     }
   }
   return sums;

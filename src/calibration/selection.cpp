@@ -54,7 +54,8 @@ class Selector {
   void settle_best();
   std::vector<Addition> promising(const Fitter& fitter, const Fit& base, std::size_t most) const;
   bool challenge();
-  std::vector<Weighed> weighed() const;
+  std::vector<Weighed> weighed();
+  void look_at_spread();
   bool drop_doubtful();
   void write_down();
 
@@ -284,11 +285,11 @@ bool Selector::challenge() {
 
 /// All sets that were looked at. Where more than noise is left that nothing describes, the model is wrong by more, and
 /// evidence is worth less.
-std::vector<Weighed> Selector::weighed() const {
+std::vector<Weighed> Selector::weighed() {
   const double misfit = std::max(1.0, selection_.best.explained.amplitudes.noise / evidence_.floor);
-  const double temperature = k_thresholds.temperature * misfit * misfit;
+  selection_.temperature = k_thresholds.temperature * misfit * misfit;
   std::vector<Weighed> sets;
-  for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / temperature});
+  for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
   return sets;
 }
 
@@ -306,6 +307,23 @@ bool Selector::drop_doubtful() {
   selection_.best =
       workers_.one().fit(without(selection_.best.effects, doubtful), without(selection_.best.at, doubtful));
   return true;
+}
+
+/// What a number is depends on what else is there.
+void Selector::look_at_spread() {
+  const Fit& best = selection_.best;
+  for (std::size_t k = 0; k < best.parameters.size(); ++k) {
+    double squares = 0, weights = 0;
+    for (const auto& [key, fit] : seen_) {
+      const auto own = std::find(fit.parameters.begin(), fit.parameters.end(), best.parameters[k]);
+      if (own == fit.parameters.end()) continue;
+      const double weight = std::exp((score(fit) - score(best)) / selection_.temperature);
+      const double apart = fit.x[own - fit.parameters.begin()] - best.x[static_cast<Eigen::Index>(k)];
+      squares += weight * apart * apart;
+      weights += weight;
+    }
+    if (weights > 0) selection_.spread[best.parameters[k]] = squares / weights;
+  }
 }
 
 std::string nats_words(double nats) {
@@ -353,6 +371,7 @@ Selection Selector::run() {
     }
     challenge();
   }
+  look_at_spread();
   write_down();
   return std::move(selection_);
 }

@@ -2,6 +2,7 @@
 /// Which effects the data ask for, which would do as well, and what they would have shown of the others.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct Selection {
   std::vector<Fit> without;           ///< `best` without each of its effects, in their order
   std::vector<Rival> rivals;          ///< of every accepted effect, usable ones
   std::vector<CredibleGroup> groups;  ///< of every accepted effect, in their order
+  double temperature = 1;             ///< by which evidence is overstated: variances are as many times larger
+  /// Of each number of `best`: how far apart the sets that hold it put it, by their weight, in its steps squared.
+  std::map<const EffectParameter*, double> spread;
   std::vector<Candidate> tried;
 };
 

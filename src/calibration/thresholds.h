@@ -42,8 +42,8 @@ struct Thresholds {
   double most_expected = 2.0;
   /// … than so many noise floors where little is seen.
   double least_expected = 10.0;
-  /// Evidence is overstated where the model is a little wrong: logs of ratios are divided by this. Together with the two
-  /// below: 98 % sure is a ratio of 350, beside what rareness says.
+  /// Evidence is overstated where the model is a little wrong: logs of ratios are divided by this. Together with the
+  /// two below: 98 % sure is a ratio of 350, beside what rareness says.
   double temperature = 1.5;
   /// Nats that a name costs: a Bayes factor of 400, "decisive" in the usual scale (Kass and Raftery 1995).
   double price_of_a_name = 6.0;
@@ -95,8 +95,8 @@ struct Thresholds {
   /// sign of OE leaves a tendon slack towards the ends of the range, where rig and model are apart by 1.8.
   double slip_alone = 2.0;
   /// Else a slip undone, with nothing fitted, must leave this many times less than all effects that were found. Right
-  /// files: none of rig data nor of the matrix, seeds 1 and 2, is doubted. Slips of rig joints do 3 to 7 times better (both
-  /// signs of a nearly symmetric joint), 30 to 90 times (sign of OE), 700 times (a range in radians).
+  /// files: none of rig data nor of the matrix, seeds 1 and 2, is doubted. Slips of rig joints do 3 to 7 times better
+  /// (both signs of a nearly symmetric joint), 30 to 90 times (sign of OE), 700 times (a range in radians).
   double slip_gain = 3.0;
   /// Beyond this many times the floor effects beside the slip are not looked for: faults of the matrix are 3 to 15
   /// times the noise, two of them with rig data's thick pin 27, and a joint that is still the wrong one costs half a

@@ -22,9 +22,12 @@ std::string_view word(CalibrationVerdict verdict) {
 
 std::string_view remedy_words(const FoundEffect& effect) {
   switch (effect.correctable_by) {
-    case CorrectableBy::pulley: return "A corrected pulley can take it out.";
-    case CorrectableBy::table: return "The table can take it out.";
-    case CorrectableBy::nothing: return "Neither a pulley nor a table can take it out.";
+    case CorrectableBy::pulley:
+      return "A corrected pulley can take it out.";
+    case CorrectableBy::table:
+      return "The table can take it out.";
+    case CorrectableBy::nothing:
+      return "Neither a pulley nor a table can take it out.";
   }
   return "";
 }

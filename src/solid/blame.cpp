@@ -6,7 +6,6 @@
 
 #include "fusee/solid/print.h"
 #include "solid/hanging.h"
-#include "solid/layers.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {
@@ -48,9 +47,9 @@ Suspect suspect_for(const Vec3& place, const BodyPlan& plan) {
 
 }  // namespace
 
-std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout,
-                                     double overhang) {
-  std::vector<Vec3> places = ledges_in_layers(lying, overhang);
+std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, const BodyLayout& layout, double overhang,
+                                     Corners corners) {
+  std::vector<Vec3> places = ledges_in_layers(lying, overhang, corners);
   const std::vector<Vec3> islands = find_islands(lying, PrintLimits{}.first_layer);
   places.insert(places.end(), islands.begin(), islands.end());
   for (Vec3& place : places) {

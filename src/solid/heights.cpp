@@ -81,9 +81,10 @@ void thicken_middle(BodyLayout& layout, double by) {
 
 }  // namespace
 
-BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts) {
+BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts, double mouth_lean) {
   BodyLayout layout;
   layout.parts = parts;
+  layout.mouth_lean = mouth_lean;
   layout.tendon_diameter = mechanism.tendon.diameter;
   layout.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
   layout.groove_depth = mechanism.groove_depth();
@@ -102,7 +103,8 @@ BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Part
 void roof_pockets(BodyLayout& layout) {
   if (layout.parts == Parts::two || layout.roof_slope <= 0) return;
   layout.pocket_roof = rise_of(layout, 2.0 * layout.pocket_radius);
-  thicken_middle(layout, layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_roof + layout.min_wall - layout.z_mate);
+  thicken_middle(layout,
+                 layout.z_p1 + 0.5 * layout.channel_width + layout.pocket_roof + layout.min_wall - layout.z_mate);
 }
 
 void roof_recess(BodyLayout& layout) {

@@ -6,11 +6,12 @@
 
 namespace fusee {
 
-/// Groove walls, channels, flanges, cones, chamfer and heights of a part that is printed in one piece or in two; no bore, no hub.
-BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts);
+/// Groove walls, channels, flanges, cones, chamfer and heights of a part that is printed in one piece or in two; no
+/// bore, no hub.
+BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Parts parts, double mouth_lean);
 
-/// The roof over P1's knot pockets, which open on the bed where the part is printed in one piece; the middle flange becomes
-/// as thick as it needs.
+/// The roof over P1's knot pockets, which open on the bed where the part is printed in one piece; the middle flange
+/// becomes as thick as it needs.
 void roof_pockets(BodyLayout& layout);
 /// The cone over a horn's recess.
 void roof_recess(BodyLayout& layout);

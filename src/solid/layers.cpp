@@ -25,20 +25,41 @@ bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
          1;
 }
 
-// A layer, widened by `reach`: what the next one may lie on. PrusaSlicer squares the corners of what it widens, but
-// edges of a few µm, which a section may always have, make round ones of them: what only a squared corner holds is
-// supported as chance has it (three blocks under one of 160 parts).
+// A layer, widened by `reach`: what the next one may lie on.
 class WidenedLayer {
  public:
-  WidenedLayer(std::vector<Polygon> loops, double reach) : loops_(std::move(loops)), nearest_(loops_), reach_(reach) {}
+  WidenedLayer(std::vector<Polygon> loops, double reach, Corners corners)
+      : loops_(std::move(loops)), nearest_(loops_), reach_(reach), corners_(corners) {}
 
-  bool holds(const Vec2& point) const { return nearest_.distance(point) <= reach_ || is_inside_of(loops_, point); }
+  bool holds(const Vec2& point) const {
+    return nearest_.distance(point) <= reach_ || is_inside_of(loops_, point) ||
+           (corners_ == Corners::squared && at_squared_corner(point));
+  }
   double distance(const Vec2& point) const { return nearest_.distance(point); }
 
  private:
+  // The solid lies on the left of its outlines.
+  bool at_squared_corner(const Vec2& point) const {
+    for (const Polygon& loop : loops_) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 away = point - loop[i];
+        if (away.squaredNorm() > 2.0 * reach_ * reach_) continue;
+        const Vec2 before = (loop[i] - loop[(i + loop.size() - 1) % loop.size()]).normalized();
+        const Vec2 after = (loop[(i + 1) % loop.size()] - loop[i]).normalized();
+        if (cross(before, after) <= 0) continue;
+        const Vec2 bisector = (before - after).normalized();
+        const double furthest =
+            std::max({-away.dot(turned_left(before)), -away.dot(turned_left(after)), away.dot(bisector)});
+        if (furthest <= reach_ && away.dot(before) >= 0 && away.dot(after) <= 0) return true;
+      }
+    }
+    return false;
+  }
+
   std::vector<Polygon> loops_;
   NearestSegment nearest_;
   double reach_;
+  Corners corners_;
 };
 
 std::optional<Vec2> furthest_out(const Polygon& loop, const WidenedLayer& below) {
@@ -59,7 +80,7 @@ std::optional<Vec2> furthest_out(const Polygon& loop, const WidenedLayer& below)
 
 }  // namespace
 
-std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang) {
+std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, Corners corners) {
   const double reach = k_layer / std::tan(overhang + k_threshold);
   const Bounds box = bounds(lying);
   std::vector<Vec3> ledges;
@@ -67,7 +88,7 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang) {
   std::vector<Polygon> below = section(lying, box.low.z() + 1.5 * k_layer);
   for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) {
     std::vector<Polygon> here = section(lying, z);
-    const WidenedLayer widened(std::move(below), reach);
+    const WidenedLayer widened(std::move(below), reach, corners);
     for (const Polygon& loop : here) {
       if (const auto out = furthest_out(loop, widened)) ledges.emplace_back(out->x(), out->y(), z);
     }

@@ -9,11 +9,6 @@
 namespace fusee {
 namespace {
 
-// The mouth's wall leans over by this against the groove's edge, and by up to 7° more where the edge is curved. The tip
-// between them moves outwards by the edge's step over the sine of its angle: 0.183 mm of a roof at 47.5° and layers of
-// 0.2 mm become 0.1915 mm at 73°, and PrusaSlicer widens a layer by 0.193 mm at 45°. With 20° only its squared corners
-// held the tip, and they hold as chance has it (layers.cpp).
-constexpr double k_lean = radians(10);
 // From where the channel's outer edge lies this far within the floor it is left as it is.
 constexpr double k_depth = 0.1;
 constexpr int k_steps = 12;
@@ -38,30 +33,30 @@ Entry entry_of(const AnchorPath& path, double width, const Polygon& floor) {
     if (depth.value >= k_depth) return entry;
   }
   // Not on the arc: on the straight.
-  entry.straight =
-      std::min((k_depth - depth.value) / std::max(0.1, -path.heading().dot(entry.normal)), path.straight);
+  entry.straight = std::min((k_depth - depth.value) / std::max(0.1, -path.heading().dot(entry.normal)), path.straight);
   entry.place += entry.straight * path.heading();
   return entry;
 }
 
-// How far `direction` runs from `from` to the line through `on` along `along`; negative or huge when it does not meet it.
+// How far `direction` runs from `from` to the line through `on` along `along`; negative or huge when it does not meet
+// it.
 double run_to_line(const Vec2& from, const Vec2& direction, const Vec2& on, const Vec2& along) {
   const double sine = cross(direction, along);
   return std::abs(sine) < 1e-9 ? -1.0 : cross(on - from, along) / sine;
 }
 
-// A mouth between two walls: one stands on the groove's edge where the channel begins, the other where its outer edge has
-// come into the floor. Seen from the middle of the channel's arc every ray meets the inner edge once and the outer boundary
-// once: the ceiling between them is a piece of a cone.
+// A mouth between two walls: one stands on the groove's edge where the channel begins, the other where its outer edge
+// has come into the floor. Seen from the middle of the channel's arc every ray meets the inner edge once and the outer
+// boundary once: the ceiling between them is a piece of a cone.
 class Flare {
  public:
-  Flare(const AnchorPath& path, double width, const Polygon& floor, double beyond)
+  Flare(const AnchorPath& path, double width, const Polygon& floor, double lean, double beyond)
       : path_(path),
         half_(0.5 * width),
         centre_(path.start - path.fillet * path.normal),
         entry_(entry_of(path, width, floor)) {
     const Vec2 radial = (entry_.place - centre_).normalized();
-    out_ = turned(entry_.normal, -path.sense * k_lean);
+    out_ = turned(entry_.normal, -path.sense * lean);
     // A wall that leaned away from the channel's beginning would hide behind the channel's own edge.
     if (path.sense * cross(radial, out_) > 0) out_ = radial;
     const double met = run_to_line(path.start, path.normal, entry_.place, out_);
@@ -102,7 +97,8 @@ class Flare {
     std::vector<double> turns;
     const double step = path_.turn / k_steps;
     for (const double mark : marks) {
-      const bool taken = std::any_of(turns.begin(), turns.end(), [&](double turn) { return std::abs(turn - mark) < 0.1 * step; });
+      const bool taken =
+          std::any_of(turns.begin(), turns.end(), [&](double turn) { return std::abs(turn - mark) < 0.1 * step; });
       if (mark >= 0 && mark <= path_.turn && !taken) turns.push_back(mark);
     }
     const std::size_t fixed = turns.size();
@@ -146,8 +142,8 @@ ChannelEdges plain_edges(const AnchorPath& path, double width) {
   return edges;
 }
 
-ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double beyond) {
-  return Flare(path, width, floor, beyond).edges();
+ChannelEdges flared_edges(const AnchorPath& path, double width, const Polygon& floor, double lean, double beyond) {
+  return Flare(path, width, floor, lean, beyond).edges();
 }
 
 // Of a straight floor: the tangent at the start, moved in by half a tendon.
@@ -162,7 +158,8 @@ double mouth_rise(const BodyLayout& layout) {
   const double d = layout.tendon_diameter, far = 100.0 * layout.channel_width;
   const Polygon floor{{-far, -far}, {far, -far}, {far, -0.5 * d}, {-far, -0.5 * d}};
   const double lip = layout.groove_depth - 0.5 * d;
-  const ChannelEdges edges = flared_edges(path, layout.channel_width, floor, layout.groove_depth + 1.0);
+  const ChannelEdges edges =
+      flared_edges(path, layout.channel_width, floor, layout.mouth_lean, layout.groove_depth + 1.0);
   double top = 0;
   for (std::size_t k = 0; k < edges.inner.size(); ++k) {
     const Vec2 across = edges.outer[k] - edges.inner[k];

@@ -169,25 +169,26 @@ bool BodyPlan::possible() const {
 
 BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes) {
   const FlangeRims rims = rims_of(mechanism, synthesis);
-  const TieOffWishes nearest_wishes{WrapChoice::nearest, wishes.rejected};
+  const TieOffWishes nearest_wishes{WrapChoice::nearest, wishes.rejected, wishes.mouth_lean};
   const auto plan_on = [&](const BodyLayout& base) {
     BodyPlan plan = Planner(mechanism, synthesis, rims, base, wishes).plan();
     if (plan.possible() || wishes.wrap == WrapChoice::nearest) return plan;
     BodyPlan nearest = Planner(mechanism, synthesis, rims, base, nearest_wishes).plan();
     if (!nearest.possible()) return plan;
-    nearest.layout.notes.push_back("the tie-offs have no more wrap than they need: further round, something else had no place");
+    nearest.layout.notes.push_back(
+        "the tie-offs have no more wrap than they need: further round, something else had no place");
     return nearest;
   };
-  const auto base_in = [&](Parts parts) { return axial_layout(mechanism, rims, parts); };
+  const auto base_in = [&](Parts parts) { return axial_layout(mechanism, rims, parts, wishes.mouth_lean); };
   if (mechanism.print.parts != Parts::automatic) return plan_on(base_in(mechanism.print.parts));
   const BodyLayout whole = base_in(Parts::one);
   if (whole.middle_cone <= k_highest_cone) return plan_on(whole);
   BodyPlan two = plan_on(base_in(Parts::two));
   if (two.possible() && is_located(two.layout)) return two;
   BodyPlan one = plan_on(whole);
-  one.layout.notes.push_back(
-      fmt::format("a cone of {:.1f} mm stands under the middle flange: there is no room for pins to print P1 and P2 apart",
-                  one.layout.middle_cone));
+  one.layout.notes.push_back(fmt::format(
+      "a cone of {:.1f} mm stands under the middle flange: there is no room for pins to print P1 and P2 apart",
+      one.layout.middle_cone));
   return one;
 }
 

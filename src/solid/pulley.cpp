@@ -30,6 +30,8 @@ namespace {
 constexpr int k_variants = 8;
 // How often tie-offs that do not print are planned anew.
 constexpr int k_rounds = 8;
+constexpr const char* k_prints = "prints";  // a condition
+
 // Room between two parts on the printer.
 constexpr double k_between_parts = 5.0;
 
@@ -225,10 +227,9 @@ class PieceMaker {
   };
 
   void add(const SynthesisResult& synthesis, Piece piece) {
-    const RingStack stack =
-        scaled_to_float(body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange,
-                                   plan_.layout, piece),
-                        plan_.layout.scale);
+    const RingStack stack = scaled_to_float(
+        body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange, plan_.layout, piece),
+        plan_.layout.scale);
     blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
     demand_solid(blanks_.back().mesh, "body");
   }
@@ -247,7 +248,8 @@ Condition uncut_features() {
   condition.value = 0;
   condition.limit = 1;
   condition.unit = "1";
-  condition.message = fmt::format("tie-offs, screws and marks run into one another: none of {} ways to cut them leaves a solid", k_variants);
+  condition.message = fmt::format(
+      "tie-offs, screws and marks run into one another: none of {} ways to cut them leaves a solid", k_variants);
   return condition;
 }
 
@@ -306,12 +308,12 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
   return pulley;
 }
 
-std::vector<Vec3> unprintable_places(const Pulley& pulley, double overhang) {
-  if (pulley.parts.empty()) return unprintable_places(pulley.mesh, Piece::whole, pulley.layout, overhang);
+std::vector<Vec3> unprintable_places(const Pulley& pulley, double overhang, Corners corners) {
+  if (pulley.parts.empty()) return unprintable_places(pulley.mesh, Piece::whole, pulley.layout, overhang, corners);
   std::vector<Vec3> places;
   for (const PrintedPart& part : pulley.parts) {
     const Piece piece = part.side == Side::left ? Piece::p1 : Piece::p2;
-    const std::vector<Vec3> of_part = unprintable_places(part.mesh, piece, pulley.layout, overhang);
+    const std::vector<Vec3> of_part = unprintable_places(part.mesh, piece, pulley.layout, overhang, corners);
     places.insert(places.end(), of_part.begin(), of_part.end());
   }
   return places;
@@ -327,17 +329,39 @@ std::vector<Rejection> news(std::vector<Rejection> blamed, const std::vector<Rej
 // No way was found to print it without supports.
 Pulley refused(Pulley pulley, const Mechanism& mechanism, const std::vector<Vec3>& places) {
   Condition condition;
-  condition.name = "prints";
+  condition.name = k_prints;
   condition.ok = false;
   condition.value = static_cast<double>(places.size());
   condition.limit = 0;
   condition.unit = "1";
-  condition.message =
-      fmt::format("{} has no form that prints without supports: at {} a layer would stand out too far, wherever its tie-offs lie",
-                  mechanism.name, place_of(places.front()));
+  condition.message = fmt::format(
+      "{} has no form that prints without supports: at {} a layer would stand out too far, wherever its tie-offs lie",
+      mechanism.name, place_of(places.front()));
   pulley.conditions.push_back(std::move(condition));
   pulley.status = PulleyStatus::impossible;
   return pulley;
+}
+
+bool lacks_a_print(const Pulley& pulley) {
+  return std::any_of(pulley.conditions.begin(), pulley.conditions.end(),
+                     [](const Condition& condition) { return condition.name == k_prints && !condition.ok; });
+}
+
+// Tie-offs are planned elsewhere as long as one of them has a layer that stands out too far.
+Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResult& synthesis, double mouth_lean,
+                                Corners corners) {
+  TieOffWishes wishes;
+  wishes.mouth_lean = mouth_lean;
+  for (int round = 0;; ++round) {
+    const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
+    Pulley pulley = pulley_of(mechanism, synthesis, plan);
+    if (!pulley.made() || mechanism.print.supports) return pulley;
+    const std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
+    if (places.empty()) return pulley;
+    const std::vector<Rejection> blamed = news(blamed_for(places, plan), wishes.rejected);
+    if (blamed.empty() || round == k_rounds) return refused(std::move(pulley), mechanism, places);
+    wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
+  }
 }
 
 }  // namespace
@@ -363,19 +387,11 @@ std::string Pulley::brief() const {
   return text;
 }
 
+// Where no steep mouth has room, a wide one whose tip a squared corner holds is better than none.
 Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis) {
   demand(synthesis.made(), "a body of an infeasible profile");
-  TieOffWishes wishes;
-  for (int round = 0;; ++round) {
-    const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
-    Pulley pulley = pulley_of(mechanism, synthesis, plan);
-    if (!pulley.made() || mechanism.print.supports) return pulley;
-    const std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang);
-    if (places.empty()) return pulley;
-    const std::vector<Rejection> blamed = news(blamed_for(places, plan), wishes.rejected);
-    if (blamed.empty() || round == k_rounds) return refused(std::move(pulley), mechanism, places);
-    wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
-  }
+  Pulley pulley = with_tie_offs_that_print(mechanism, synthesis, k_steep_lean, Corners::round);
+  return lacks_a_print(pulley) ? with_tie_offs_that_print(mechanism, synthesis, k_wide_lean, Corners::squared) : pulley;
 }
 
 TriangleMesh plate_of(const Pulley& pulley) {

@@ -72,8 +72,8 @@ TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& hei
   return strip(sections);
 }
 
-// Seen from its middle, x ahead and y to the channel's outer side: a circle, and a tab in which the channel ends in a wall
-// across it. The circle itself would meet the channel's slope at too sharp an angle.
+// Seen from its middle, x ahead and y to the channel's outer side: a circle, and a tab in which the channel ends in a
+// wall across it. The circle itself would meet the channel's slope at too sharp an angle.
 std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int facets) {
   // A little wider than the channel, so that no two of their faces coincide.
   const double half = std::min(0.5 * width + 0.5 * k_deeper, 0.95 * radius), behind = std::asin(half / radius);
@@ -93,8 +93,8 @@ std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int face
   return points;
 }
 
-// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under it,
-// and no keel hangs down between the two.
+// The roof over a pocket that is open to the bed rises across it like the channel's: the channel's lies wholly under
+// it, and no keel hangs down between the two.
 TriangleMesh pocket(const AnchorPath& path, double radius, double width, int facets, const Heights& heights) {
   const bool tab = heights.channel_roof > 0 && path.straight > radius + k_deeper;
   std::vector<Vec3> mouth, end;
@@ -168,7 +168,8 @@ ChannelEdges channel_edges(const BodyPlan& plan, Side side, const AnchorPath& pa
   if (layout.channel_roof <= 0) return plain_edges(path, layout.channel_width);
   const double cones = std::max({layout.lower_cone, layout.middle_cone, layout.upper_cone}) / rise_of(layout, 1.0);
   const double beyond = layout.groove_depth + cones + k_overshoot;
-  return flared_edges(path, layout.channel_width, side == Side::left ? plan.floor1 : plan.floor2, beyond);
+  return flared_edges(path, layout.channel_width, side == Side::left ? plan.floor1 : plan.floor2, layout.mouth_lean,
+                      beyond);
 }
 
 bool on_bed(const BodyLayout& layout, Side side) {
@@ -191,8 +192,8 @@ TriangleMesh tie_off_tool(const BodyPlan& plan, const PlannedAnchor& anchor, int
   return face_hole_tool(plan.layout, anchor.side, std::get<FaceHole>(anchor.way), variant);
 }
 
-// Across the slot a section is a rectangle, or where the face lies on the bed a gable over one: each of its slopes grows
-// out of its own wall all along, so that it prints up to where the slot opens into the pocket.
+// Across the slot a section is a rectangle, or where the face lies on the bed a gable over one: each of its slopes
+// grows out of its own wall all along, so that it prints up to where the slot opens into the pocket.
 TriangleMesh tail_slot_tool(const BodyLayout& layout, Side side, const TailSlot& slot) {
   const double face = side == Side::left ? 0.0 : layout.z_top, in = side == Side::left ? 1.0 : -1.0;
   const Vec2 across = 0.5 * slot.width * turned_left((slot.to - slot.from).normalized());

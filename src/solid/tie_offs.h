@@ -11,6 +11,7 @@
 #include "fusee/solid/pulley.h"
 #include "solid/anchors.h"
 #include "solid/body.h"
+#include "solid/mouths.h"
 
 namespace fusee {
 
@@ -74,6 +75,7 @@ enum class WrapChoice { furthest, nearest };
 struct TieOffWishes {
   WrapChoice wrap = WrapChoice::furthest;
   std::vector<Rejection> rejected = {};  ///< what is not to be planned again
+  double mouth_lean = k_steep_lean;
 };
 
 /// Refers to what it is made from.

@@ -269,7 +269,7 @@ TEST_F(LinearFit, ADirectionIsTheSlopeAndNoFit) {
 
 TEST_F(LinearFit, IntervalsHoldTheTruth) {
   const Fit fit = fitter.fit({&stretch}, {});
-  const std::vector<ConfidenceInterval> found = intervals(evidence, fit);
+  const std::vector<ConfidenceInterval> found = intervals(fit);
   const double step = stretch.parameters.front().step;
   EXPECT_LT(found[1].low * step, k_compliance);
   EXPECT_GT(found[1].high * step, k_compliance);

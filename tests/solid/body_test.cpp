@@ -7,6 +7,7 @@
 #include "solid/broken.h"
 #include "solid/groove.h"
 #include "solid/heights.h"
+#include "solid/mouths.h"
 #include "solid/plane_distance.h"
 #include "support/shapes.h"
 
@@ -29,7 +30,7 @@ FlangeRims rims_of(const Mechanism& mechanism, const SynthesisResult& shape) {
 }
 
 BodyLayout layout_of(const Mechanism& mechanism, const SynthesisResult& shape, Parts parts, double hub_radius = 0) {
-  BodyLayout layout = axial_layout(mechanism, rims_of(mechanism, shape), parts);
+  BodyLayout layout = axial_layout(mechanism, rims_of(mechanism, shape), parts, k_steep_lean);
   layout.bore = bore_layout(mechanism, 5);
   roof_recess(layout);
   layout.hub_radius = hub_radius;

@@ -63,7 +63,9 @@ TriangleMesh leaning_tip(double by, double angle) {
 // Grows by `by` a layer of 0.2 mm.
 std::vector<std::pair<double, double>> growing(double by) { return {{5, 0}, {5, 2}, {5 + 20 * by, 6}}; }
 
-std::size_t ledges(const TriangleMesh& mesh) { return ledges_in_layers(mesh, radians(45)).size(); }
+std::size_t ledges(const TriangleMesh& mesh, Corners corners = Corners::round) {
+  return ledges_in_layers(mesh, radians(45), corners).size();
+}
 
 TEST(Layers, ARoundConeIsHeldAsLongAsItsStepIs) {
   for (const double by : {0.0, 0.1, 0.185, 0.19}) EXPECT_EQ(ledges(tower(growing(by), 256)), 0u) << by;
@@ -78,14 +80,15 @@ TEST(Layers, ASquareCornerNeedsASteeperCone) {
   EXPECT_GE(ledges(tower(growing(1.01 * reach / std::numbers::sqrt2), 4)), 19u);
 }
 
-// A tip between two such sides goes by the step over the sine of its angle. A squared corner would hold it further out,
-// but where the tip has an edge of a few µm there is none.
+// A tip between two such sides goes by the step over the sine of its angle. A squared corner holds it further out, but
+// where the tip has an edge of a few µm there is none.
 TEST(Layers, AnAcuteTipIsHeldAsFarAsItGoes) {
   const double reach = 0.2 / std::tan(radians(46.3));
   for (const double deg : {60.0, 70.0, 80.0}) {
     const double by = reach * std::sin(radians(deg));
     EXPECT_EQ(ledges(leaning_tip(0.995 * by, radians(deg))), 0u) << deg;
     EXPECT_GE(ledges(leaning_tip(1.005 * by, radians(deg))), 19u) << deg;
+    EXPECT_EQ(ledges(leaning_tip(1.005 * by, radians(deg)), Corners::squared), 0u) << deg;
   }
 }
 

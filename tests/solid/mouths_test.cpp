@@ -46,10 +46,15 @@ std::vector<Case> cases() {
             const double angle = 0.7;
             const Vec2 normal = radius > 0 ? unit(angle) : Vec2(0, 1);
             const Vec2 start = radius > 0 ? Vec2((radius + 0.5 * k_d) * normal) : Vec2(0, 0);
-            Case one{path_at(start, normal, sense, fillet, radians(turn), 2.0 * width), width, 4.0, 2.0 - 0.5 * k_d + 0.5,
-                     {}, radius};
+            Case one{path_at(start, normal, sense, fillet, radians(turn), 2.0 * width),
+                     width,
+                     4.0,
+                     2.0 - 0.5 * k_d + 0.5,
+                     {},
+                     radius};
             if (radius > 0) {
-              for (int k = 0; k < 256; ++k) one.floor.push_back(radius / std::cos(k_pi / 256) * unit(k_two_pi * k / 256));
+              for (int k = 0; k < 256; ++k)
+                one.floor.push_back(radius / std::cos(k_pi / 256) * unit(k_two_pi * k / 256));
             } else {
               one.floor = {{-200, -200}, {200, -200}, {200, -0.5 * k_d}, {-200, -0.5 * k_d}};
             }
@@ -76,7 +81,8 @@ Polygon outline_of(const ChannelEdges& edges) {
 
 // Past each other, at neither's end.
 bool cross_each_other(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const double at_c = cross(b - a, c - a), at_d = cross(b - a, d - a), at_a = cross(d - c, a - c), at_b = cross(d - c, b - c);
+  const double at_c = cross(b - a, c - a), at_d = cross(b - a, d - a), at_a = cross(d - c, a - c),
+               at_b = cross(d - c, b - c);
   return at_c * at_d < 0 && at_a * at_b < 0;
 }
 
@@ -106,14 +112,16 @@ bool within(const Polygon& outline, const Vec2& point, double slack) {
   return std::abs(seen) > k_pi;
 }
 
-Vec2 normal_at(const Case& one, const Vec2& point) { return one.floor_radius > 0 ? Vec2(point.normalized()) : Vec2(0, 1); }
+Vec2 normal_at(const Case& one, const Vec2& point) {
+  return one.floor_radius > 0 ? Vec2(point.normalized()) : Vec2(0, 1);
+}
 double outside_floor(const Case& one, const Vec2& point) {
   return one.floor_radius > 0 ? point.norm() - one.floor_radius : point.y() + 0.5 * k_d;
 }
 
 TEST(Mouths, EdgesAreSimpleAndDoNotCross) {
   for (const Case& one : cases()) {
-    const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, one.beyond);
+    const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);
     ASSERT_EQ(edges.inner.size(), edges.outer.size());
     EXPECT_EQ(crossings(outline_of(edges)), 0) << name_of(one);
     // Sections of the channel do not cross either: its ceiling has no fold.
@@ -125,7 +133,7 @@ TEST(Mouths, EdgesAreSimpleAndDoNotCross) {
 
 TEST(Mouths, ContainThePlainChannel) {
   for (const Case& one : cases()) {
-    const Polygon mouth = outline_of(flared_edges(one.path, one.width, one.floor, one.beyond));
+    const Polygon mouth = outline_of(flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond));
     const ChannelEdges plain = plain_edges(one.path, one.width);
     // Chords of both lie within the arcs' sagitta of each other.
     const double sagitta = (one.path.fillet + one.width) * (1 - std::cos(one.path.turn / 24));
@@ -136,7 +144,7 @@ TEST(Mouths, ContainThePlainChannel) {
 
 TEST(Mouths, BeginOnAWallAcrossTheFloor) {
   for (const Case& one : cases()) {
-    const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, one.beyond);
+    const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);
     const Vec2 wall = edges.outer.front() - edges.inner.front();
     EXPECT_NEAR(cross(wall.normalized(), one.path.normal), 0, 1e-9) << name_of(one);
     EXPECT_GT(wall.dot(one.path.normal), one.width - 1e-9);
@@ -148,7 +156,7 @@ TEST(Mouths, BeginOnAWallAcrossTheFloor) {
 TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
   int walls = 0;
   for (const Case& one : cases()) {
-    const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, one.beyond);
+    const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);
     for (std::size_t k = 0; k + 1 < edges.outer.size(); ++k) {
       const Vec2 &a = edges.outer[k], &b = edges.outer[k + 1];
       if ((a - b).norm() < 1e-9) continue;
@@ -170,7 +178,7 @@ TEST(Mouths, WallsStandSteeplyOnTheGroovesEdges) {
 TEST(Mouths, CeilingsAreNoFlatterThanTheirRise) {
   for (const Case& one : cases()) {
     for (const double slope : {30.0, 47.5, 62.5}) {
-      const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, one.beyond);
+      const ChannelEdges edges = flared_edges(one.path, one.width, one.floor, k_steep_lean, one.beyond);
       const auto at = [&](std::size_t k, bool outer) {
         const Vec2 across = edges.outer[k] - edges.inner[k], place = outer ? edges.outer[k] : edges.inner[k];
         return Vec3(place.x(), place.y(), outer ? across.norm() * std::tan(radians(slope)) : 0.0);

@@ -79,6 +79,7 @@ struct SetScrewLayout {
 struct BodyLayout {
   Parts parts = Parts::one;  ///< as it is printed; never automatic
   double roof_slope = 0;     ///< of faces made to look down, above the horizontal, rad; 0: they may be flat
+  double mouth_lean = 0;     ///< of a channel's mouth's walls against the groove's edge, rad
   double tendon_diameter = 0;
   GrooveWalls p1, p2;
   double groove_depth = 0;
