@@ -199,6 +199,9 @@ Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& defl
     builder.add(Factor::load_size, times([](const RowFacts& r) { return std::abs(r.load); }, smooth));
     builder.add(Factor::load_direction,
                 times([](const RowFacts& r) { return std::abs(r.load) * r.direction; }, smooth));
+  }
+  // Tendons go slack and stiffen. What a joint declared by its ratio does under load is all in its effects.
+  if (varies(facts, &RowFacts::load, 0.05) && !evidence.declared->transmission) {
     builder.add(Factor::load,
                 times([](const RowFacts& r) { return 2.5 * r.load * r.load * r.load - 1.5 * r.load; }, plain));
     builder.add(Factor::load_size, times([](const RowFacts& r) { return 1.5 * r.load * r.load - 0.5; }, plain));

@@ -287,7 +287,7 @@ bool Selector::challenge() {
 /// evidence is worth less.
 std::vector<Weighed> Selector::weighed() {
   const double misfit = std::max(1.0, selection_.best.explained.amplitudes.noise / evidence_.floor);
-  selection_.temperature = k_thresholds.temperature * misfit * misfit;
+  selection_.temperature = k_thresholds.temperature * misfit;
   std::vector<Weighed> sets;
   for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
   return sets;
