@@ -9,7 +9,8 @@
 // The joint of the file with all that was found but one effect, logged as these runs were, with this noise. In its
 // place stands nothing, or another effect of the catalogue, known to the search or not, or a shape without a name, as
 // large as the effect was found. Everything is linear about the fit: chords of each effect over its size in practice,
-// so that a joint is a vector of sums and a search costs milliseconds. Search and score are those of select_effects().
+// so that a joint is a vector of sums and a search costs milliseconds. The search is a plain one, the best addition
+// first, and a name costs what it needs to stand; what would stand in its group is no mistake.
 
 namespace fusee {
 namespace {
@@ -62,9 +63,6 @@ class Auditor {
   double score_of(const Explained& explained, const Set& set) const;
   Set search(const World& world, Set set) const;
   bool could_be(const World& world, const Set& found, std::size_t named) const;
-  double rms(const Eigen::VectorXd& values) const {
-    return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
-  }
 
   const Evidence& evidence_;
   const Selection& selection_;
@@ -163,7 +161,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
     if (one.count == 0 || !contains(selection_.best.effects, *one.effect)) continue;
     const Eigen::VectorXd part = all_.middleCols(one.first, one.count) * x_.segment(one.first, one.count);
     if (one.effect == selection_.best.effects[found]) {
-      size = rms(part);
+      size = rms_of(part);
     } else {
       z += part;
     }
@@ -198,14 +196,14 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
     for (Eigen::Index k = 0; k < other.count; ++k)
       part += prior_[other.first + k] * normal(dice) * all_.col(other.first + k);
     z += part;
-    if (rms(part) > k_as_large * found_size) made.there = other.effect;
+    if (rms_of(part) > k_as_large * found_size) made.there = other.effect;
     if (kind == 2) made.unknown = other.effect;
   } else if (kind == 3 && !shapes.empty()) {
     const std::size_t f = shapes[(number / 4) % shapes.size()];
     const Family& family = families[f];
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
     for (Eigen::Index k = 0; k < family.count; ++k) part += normal(dice) * all_.col(own_ + family.first + k);
-    z += part * (size / std::max(1e-12, rms(part)));
+    z += part * (size / std::max(1e-12, rms_of(part)));
     made.start.families[static_cast<Eigen::Index>(f)] = std::max(size, marginal_.floor());
   }
   made.pull = all_.transpose() * z;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "fusee/plan/bench_run.h"
 #include "measurement/seen_span.h"
 
 namespace fusee {

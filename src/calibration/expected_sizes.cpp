@@ -1,9 +1,9 @@
 #include "calibration/expected_sizes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 
 // The size in practice alone would charge an effect of four numbers for all the joints on which it is large, and it
@@ -11,10 +11,6 @@
 
 namespace fusee {
 namespace {
-
-double rms(const Eigen::VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
-}
 
 /// Chords over the sizes in practice; empty where the joint cannot be simulated.
 struct Chords {
@@ -29,7 +25,7 @@ std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalog
   std::map<const EffectParameter*, double> sizes;
   const Fit none = workers.one().fit({}, {});
   if (!none.usable) return sizes;
-  const double seen = std::max(k_thresholds.most_expected * rms(tangent_of(evidence, none).residual),
+  const double seen = std::max(k_thresholds.most_expected * rms_of(tangent_of(evidence, none).residual),
                                k_thresholds.least_expected * evidence.floor);
   std::vector<Chords> all(catalogue.size());
   workers.each(catalogue.size(), [&](const Fitter& fitter, std::size_t i) {
@@ -39,7 +35,7 @@ std::map<const EffectParameter*, double> expected_sizes(const EffectSet& catalog
   for (const Chords& of_one : all) {
     for (Eigen::Index k = none.x.size(); k < of_one.tangent.x.size(); ++k) {
       const double size = of_one.tangent.prior[k];
-      const double moved = size * rms(of_one.tangent.J.col(k));
+      const double moved = size * rms_of(of_one.tangent.J.col(k));
       if (moved > seen) sizes[of_one.parameters[static_cast<std::size_t>(k)]] = size * seen / moved;
     }
   }

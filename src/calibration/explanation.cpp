@@ -60,7 +60,6 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     found.place = effect->place;
     found.correctable_by = effect->correctable_by;
     found.parameters = fitted_parameters(evidence, best, ranges, *effect);
-    found.group.clear();
     for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
     for (const Rival& rival : selection.rivals) {
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;

@@ -197,15 +197,11 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   take_slopes(start, 0);
   start.usable = is_finite(evidence(), start);
   if (!start.usable) return start;
-  Fit fit = start.x.size() > 0
-                ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds)
-                : std::move(start);
-  hold_at_bounds(fit);
-  judge(fit);
+  Fit fit = judged(start.x.size() > 0
+                       ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds)
+                       : std::move(start));
   for (int pass = 0; pass < k_passes && fit.usable && is_promising(fit); ++pass) {
-    Fit further = descended(fit, 0, k_steps, fit.explained.amplitudes, 1);
-    hold_at_bounds(further);
-    judge(further);
+    Fit further = judged(descended(fit, 0, k_steps, fit.explained.amplitudes, 1));
     if (!further.usable || !(further.log_evidence > fit.log_evidence + k_settled)) break;
     fit = std::move(further);
   }
@@ -234,17 +230,20 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
   Amplitudes alone = marginal.nothing_unnamed();
   const Eigen::VectorXd left = tangent_of(evidence(), best).residual;
   alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
-  const auto judged = [&](Fit from) {
-    Fit fit = descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds);
-    hold_at_bounds(fit);
-    judge(fit);
-    return fit;
+  const auto ended = [&](Fit from) {
+    return judged(descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds));
   };
-  Fit first = judged(descended(best, base.x.size(), k_chords, alone, 1));
+  Fit first = ended(descended(best, base.x.size(), k_chords, alone, 1));
   // What the start promised is reached: small steps from there would not find more.
   if (first.usable && first.log_evidence >= promised) return first;
-  Fit beside = judged(std::move(best));
+  Fit beside = ended(std::move(best));
   return beside.usable && (!first.usable || beside.log_evidence > first.log_evidence) ? beside : first;
+}
+
+Fit Fitter::judged(Fit fit) const {
+  hold_at_bounds(fit);
+  judge(fit);
+  return fit;
 }
 
 void Fitter::judge(Fit& fit) const {

@@ -67,6 +67,8 @@ class Fitter {
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
   Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const;
   void judge(Fit& fit) const;
+  /// At the end of its steps.
+  Fit judged(Fit fit) const;
 
   Model model_;
 };

@@ -20,6 +20,10 @@ bool as_good(const Evidence&, const Fit& rival, const Fit& best) {
   return rival.log_evidence > best.log_evidence - k_thresholds.as_good;
 }
 
+double rms_of(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;
+}
+
 double lag_one_correlation(const Evidence& evidence, const Fit& fit) {
   double products = 0;
   double squares = 0;

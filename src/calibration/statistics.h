@@ -9,6 +9,9 @@ namespace fusee {
 /// Whether the evidence of two sets is the same as far as the data can tell.
 bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 
+/// Root of the mean square; 0 of none.
+double rms_of(const Eigen::VectorXd& values);
+
 /// Of the residual from row to row within blocks, −1 … 1.
 double lag_one_correlation(const Evidence& evidence, const Fit& fit);
 

@@ -45,7 +45,8 @@ struct Thresholds {
   /// Evidence is overstated where the model is a little wrong: logs of ratios are divided by this. Together with the
   /// two below: 98 % sure is a ratio of 350, beside what rareness says.
   double temperature = 1.5;
-  /// Nats that a name costs: a Bayes factor of 400, "decisive" in the usual scale (Kass and Raftery 1995).
+  /// Nats that a name needs, where one effect is looked at by itself (audit, detectable sizes): a Bayes factor of 400,
+  /// "decisive" in the usual scale (Kass and Raftery 1995).
   double price_of_a_name = 6.0;
   /// … and one whose numbers are searched for.
   double price_of_a_search = 3.0;

@@ -54,10 +54,6 @@ constexpr FactorWords k_words[] = {
     {Factor::stroke, "stroke", "differs from stroke to stroke: something is loose or walks"},
 };
 
-double rms_of(const Eigen::VectorXd& values) {
-  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;
-}
-
 /// Rows in use: the angle of the motor and of the joint, and which way the motor moves and the load pulls, ±1.
 struct Angles {
   Eigen::VectorXd motor, joint;
