@@ -33,8 +33,8 @@ class Model {
 };
 
 /// By how much the square of a loose row's residual is smaller than noise makes it, for its weight alone, rad²: where
-/// nothing holds a joint it rests where it was last pushed, in friction, and a row there says little; it must neither
-/// decide nor be charged to one set of effects and not to another.
+/// nothing holds a joint it rests where it was last pushed, in friction, and a row there says little. So mean squares
+/// are charged alike, whether a joint is loose or not.
 double price_of_play(double loose, double floor);
 
 /// What a loose row costs in evidence beyond half its weighted residual's square in floors: either the joint rests where
