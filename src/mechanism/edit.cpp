@@ -50,7 +50,10 @@ Replacement new_line(std::string_view text, const toml::table& root, const Field
       const std::size_t at = offset_of(text, table->source().begin) + 1;
       return {at, at, " " + line + (table->empty() ? "" : ",")};
     }
-    const std::size_t at = std::min(text.find('\n', offset_of(text, table->source().begin)), text.size());
+    const std::size_t begin = offset_of(text, table->source().begin);
+    if (text[begin] != '[')
+      return {begin, begin, table_name + "." + line + "\n"};  // of dotted keys: "joint.length_mm = 1"
+    const std::size_t at = std::min(text.find('\n', begin), text.size());
     return {at, at, "\n" + line};
   }
   const bool first = std::find(new_tables.begin(), new_tables.end(), table_name) == new_tables.end();

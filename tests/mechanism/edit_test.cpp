@@ -48,6 +48,19 @@ TEST(Edit, ReachesInlineTables) {
   EXPECT_EQ(mechanism.tendon.diameter, 2.0);
 }
 
+// A new key went to the top of the file, and no key of its table was known there.
+TEST(Edit, ReachesTablesOfDottedKeys) {
+  const std::string text =
+      "schema = 1\njoint.range_deg = [\n  -30,\n  30]\njoint.length_mm = 100\n"
+      "guides = { EB_mm = 50, ED_mm = 50, OE_mm = -40 }\npulley = {EF_mm = 80, r1_mm = 16}\n  tendon.diameter_mm = 1\n";
+  const std::string edited =
+      edit_values(text, {{"load.mass_kg", 0.5}, {"joint.length_mm", 90.0}, {"tendon.bend_ratio", 9.0}});
+  const DeclaredMechanism mechanism = parse_mechanism(edited, "f.toml");
+  EXPECT_EQ(mechanism.joint.R, 90.0);
+  EXPECT_EQ(mechanism.tendon.diameter, 1.0);
+  EXPECT_THAT(edited, ::testing::HasSubstr("  tendon.bend_ratio = 9\ntendon.diameter_mm = 1\n"));
+}
+
 TEST(Edit, SurvivesWindowsLineEnds) {
   std::string text;
   for (const char c : k_good_file) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
