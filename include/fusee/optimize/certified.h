@@ -14,6 +14,7 @@ struct CertifiedOptions {
   long most_tie_boxes = 3000;
   std::vector<Design> first_tries;  ///< designs known to be good
   KeepGoing keep_going;
+  unsigned threads = 0;  ///< 0: as many as there are; the result is the same on any number
 };
 
 struct DesignBox {
