@@ -70,6 +70,12 @@ bool is_finite(const LineBelow& line) {
   return std::isfinite(sum);
 }
 
+std::vector<double> middle_of(const Box& box, int count) {
+  std::vector<double> middle;
+  for (std::size_t i = 0; i < index(count); ++i) middle.push_back(0.5 * (box.lower[i] + box.upper[i]));
+  return middle;
+}
+
 /// By how much of its range the box became narrower, in the variable in which it did most.
 double narrowed(const Box& before, const Box& after, int count) {
   double most = 0;
@@ -169,6 +175,15 @@ Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Dom
   return value_of(asked, numbers_over(box), domain);
 }
 
+/// The same with derivatives where the box is a single design.
+[[gnu::noinline]] Jet Bounder::slopes_at(const Asked& asked, const Box& box, Domain& domain) const {
+  const RoundingUp rounding;
+  const int count = static_cast<int>(problem_.variables.size());
+  std::vector<Jet> variables;
+  for (int i = 0; i < count; ++i) variables.push_back(Jet::variable(box.lower[index(i)], i, count));
+  return value_of(asked, numbers_of(variables), domain);
+}
+
 // ---- lines ------------------------------------------------------------------------------------------------------------
 
 /// Kept to 1e-12 of their largest term: rounding must not cut off a design that constraint_violation() lets pass.
@@ -246,20 +261,25 @@ void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNum
   constexpr int places = 25;
   constexpr std::size_t k_most_asked = 3;
   std::array<double, places> values{};
-  for (int i = 0; i < places; ++i) {
+  const auto value_at_place = [&](double place) {
     Domain domain;
-    const double value = objective_of(objective, middle, stroke_numbers(middle, i / (places - 1.0), domain));
-    values[index(i)] = domain.possible && value == value ? value : k_infinite;
-  }
+    const double value = objective_of(objective, middle, stroke_numbers(middle, place, domain));
+    return domain.possible && value == value ? value : k_infinite;
+  };
+  for (int i = 0; i < places; ++i) values[index(i)] = value_at_place(i / (places - 1.0));
   std::vector<std::pair<double, double>> found;  // −value, place
   for (int i = 0; i < places; ++i) {
     const std::size_t k = index(i);
     const bool left = i == 0 || values[k] >= values[k - 1], right = i == places - 1 || values[k] >= values[k + 1];
     if (!left || !right) continue;
-    double place = i / (places - 1.0);
-    if (i > 0 && i < places - 1 && std::isfinite(values[k - 1] + values[k] + values[k + 1])) {
-      const double bend = values[k - 1] - 2.0 * values[k] + values[k + 1];
-      if (bend < 0) place += 0.5 * (values[k - 1] - values[k + 1]) / bend / (places - 1.0);
+    double place = i / (places - 1.0), step = 1.0 / (places - 1.0);
+    double before = i > 0 ? values[k - 1] : k_infinite, here = values[k], after = i < places - 1 ? values[k + 1] : k_infinite;
+    // Twice through three places, the second time in a tenth of the step.
+    for (int round = 0; round < 2 && std::isfinite(before + here + after); ++round) {
+      const double bend = before - 2.0 * here + after;
+      if (bend < 0) place = std::clamp(place + 0.5 * step * (before - after) / bend, place - step, place + step);
+      step *= 0.1;
+      before = value_at_place(place - step), here = value_at_place(place), after = value_at_place(place + step);
     }
     found.emplace_back(-values[k], place);
   }
@@ -296,10 +316,8 @@ void Bounder::ask_tightest_places(const DesignNumbers<double>& middle, std::vect
   }
 }
 
-std::vector<Bounder::Asked> Bounder::asked_in(const Box& box) const {
-  std::vector<double> centre;
-  for (std::size_t i = 0; i < problem_.variables.size(); ++i) centre.push_back(0.5 * (box.lower[i] + box.upper[i]));
-  const DesignNumbers<double> middle = numbers_of(centre);
+std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& design) const {
+  const DesignNumbers<double> middle = numbers_of(design);
   std::vector<Asked> asked;
   ask_tightest_places(middle, asked);
   if (problem_.cap) ask_worst_places(problem_.cap->objective, true, middle, asked);
@@ -360,7 +378,7 @@ BoxBound Bounder::bound(Box& box, double limit) const {
     if (!cut_by_lines(box, count, lines, limit)) result.possible = false;
     if (!result.possible) return result;
     const Box before = box;
-    const std::vector<Asked> all_asked = asked_in(box);
+    const std::vector<Asked> all_asked = asked_around(middle_of(box, count));
     for (const Asked& asked : all_asked) {
       add_lines(box, asked, lines, result, limit);
       if (!result.possible) return result;
@@ -383,6 +401,70 @@ BoxBound Bounder::bound(Box& box, double limit) const {
   }
   result.possible = result.bound <= limit;
   return result;
+}
+
+// ---- guesses ----------------------------------------------------------------------------------------------------------
+
+/// In plain numbers.
+double Bounder::excess_of(const Asked& asked, const std::vector<double>& design) const {
+  const DesignNumbers<double> numbers = numbers_of(design);
+  Domain domain;
+  if (asked.kind != Asked::Kind::needed)
+    return objective_of(problem_.cap->objective, numbers, stroke_numbers(numbers, asked.place, domain)) -
+           problem_.cap->limit;
+  NeededValues<double> values;
+  const auto which = static_cast<std::size_t>(asked.needed);
+  return needed_at(numbers, asked.place, which + 1, values) ? -values[which].value : k_infinite;
+}
+
+// Lines through the values at the design itself. What bends away from them is found in the outcome, and taken off the
+// limits of the next round: else designs at a border that bulges would never be left.
+Design Bounder::lowest_around(const Design& design, double size) const {
+  constexpr int k_rounds = 4;
+  const std::size_t count = problem_.variables.size();
+  Box at, around;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Variable& variable = problem_.variables[i];
+    const double half = size * (variable.upper - variable.lower);
+    at.lower[i] = at.upper[i] = design[i];
+    around.lower[i] = std::max(variable.lower, design[i] - half);
+    around.upper[i] = std::min(variable.upper, design[i] + half);
+  }
+  Lines lines = lines_of_constraints(around);
+  std::vector<Asked> of_lines(lines.size());
+  for (const Asked& asked : asked_around(design)) {
+    Domain domain;
+    const Jet here = slopes_at(asked, at, domain);
+    LineBelow line;
+    line.of_objective = asked.kind == Asked::Kind::objective;
+    line.constant = here.value.upper();
+    line.corner = at.lower;
+    for (std::size_t i = 0; i < count; ++i) line.slope[i] = here.slope[i].upper();
+    if (!domain.possible || !domain.whole || here.count == 0 || !is_finite(line)) continue;
+    lines.push_back(line);
+    of_lines.push_back(asked);
+  }
+  Design lowest;
+  for (int round = 0; round < k_rounds; ++round) {
+    Box untouched = around;
+    const LeastOfLines least =
+        least_of_lines(untouched, static_cast<int>(count), lines, -k_infinite, k_infinite);
+    if (!least.possible) return lowest;
+    lowest.assign(least.lowest.begin(), least.lowest.begin() + static_cast<std::ptrdiff_t>(count));
+    double most = 0;
+    for (std::size_t r = problem_.constraints.size(); r < lines.size(); ++r) {
+      if (lines[r].of_objective) continue;
+      for (const Asked& asked : asked_around(lowest)) {
+        if (asked.kind != of_lines[r].kind || asked.needed != of_lines[r].needed) continue;
+        const double excess = excess_of(asked, lowest);
+        if (!(excess > 0)) continue;
+        most = std::max(most, excess);
+        lines[r].constant += 1.1 * excess;
+      }
+    }
+    if (most == 0) break;
+  }
+  return lowest;
 }
 
 // ---- a single design --------------------------------------------------------------------------------------------------

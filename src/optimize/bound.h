@@ -27,6 +27,9 @@ class Bounder {
 
   /// What designs of the box with an objective of at most `limit` are worth; cuts off the box what holds none of them.
   BoxBound bound(Box& box, double limit) const;
+  /// Where the objective would be least within `size` of every variable's range around a design, were everything as
+  /// linear as it is there: a guess. Empty where there is none.
+  Design lowest_around(const Design& design, double size) const;
   /// The objective of one design, over the whole range, rounded up; infinite when it cannot be bounded.
   double rounded_up_value(const Design& design) const;
 
@@ -43,9 +46,11 @@ class Bounder {
   DesignNumbers<Jet> numbers_over(const Box& box) const;
   Jet value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Domain& domain) const;
   Jet value_at(const Asked& asked, const Box& box, Domain& domain) const;
+  Jet slopes_at(const Asked& asked, const Box& box, Domain& domain) const;
 
   Lines lines_of_constraints(const Box& box) const;
-  std::vector<Asked> asked_in(const Box& box) const;
+  std::vector<Asked> asked_around(const std::vector<double>& middle) const;
+  double excess_of(const Asked& asked, const std::vector<double>& design) const;
   void ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
                         std::vector<Asked>& asked) const;
   void ask_tightest_places(const DesignNumbers<double>& middle, std::vector<Asked>& asked) const;

@@ -194,27 +194,9 @@ class Search {
     double size = 0.05;
     for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !stopped(-k_none); ++step) {
       const double before = best_value_;
-      Box around = root_;
-      for (std::size_t i = 0; i < count_; ++i) {
-        const double half = size * (root_.upper[i] - root_.lower[i]);
-        around.lower[i] = std::max(root_.lower[i], best_[i] - half);
-        around.upper[i] = std::min(root_.upper[i], best_[i] + half);
-      }
-      const BoxBound bound = bounder_.bound(around, k_none);
-      evaluations_ += bound.evaluations;
-      if (!bound.lowest.empty()) try_towards(bound.lowest);
+      const Design lowest = bounder_.lowest_around(best_, size);
+      if (!lowest.empty()) take(tried(lowest));
       size *= best_value_ < before - 1e-3 * options_.gap * std::abs(before) ? k_larger : k_smaller;
-    }
-  }
-
-  /// The design, or where it is not possible one between it and the best.
-  void try_towards(Design design) {
-    constexpr int k_halvings = 6;
-    for (int i = 0; i < k_halvings; ++i) {
-      const Tried one = tried(design);
-      take(one);
-      if (one.evaluation.possible) return;
-      for (std::size_t k = 0; k < count_; ++k) design[k] = 0.5 * (design[k] + best_[k]);
     }
   }
 

@@ -81,7 +81,7 @@ bool needed_at(const DesignNumbers<S>& d, const S& place, std::size_t count, Nee
   Domain of_B = arms, of_D = arms;
   const S wrap_B = wrap_over_B(d, n, of_B);
   set(Needed::wrap_B, wrap_B, of_B);
-  const S wrap_D = n.upper2.gamma - n.theta.angle - lower_line(n.r2, d.rho, d.to_D, d.angle_D, of_D).normal;
+  const S wrap_D = n.upper2.gamma - n.theta.angle - lower_line_of(d, n.r2, false, of_D).normal;
   set(Needed::wrap_D, wrap_D, of_D);
   if (count <= k_needed_always) return true;
   set(Needed::radius_1, n.r1 - d.half, arms);

@@ -5,6 +5,7 @@
 
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/optimize/objectives.h"
+#include "optimize/sharp.h"
 #include "transmission/equations.h"
 
 namespace fusee {
@@ -64,10 +65,29 @@ struct StrokeNumbers {
   S phi;    ///< wrap over pin D [8]
 };
 
+/// Above the pin, in the frame of the link; below it, from the pulley's axis. Over intervals by sharp.h.
+template <typename S>
+UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
+  return upper_line(from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
+}
+inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, const TurnedBy<Jet>& theta,
+                                    Domain& domain) {
+  const SharpLine line = sharp_upper_line(d.R, e, d.OE, d.rho, theta, domain);
+  return {line.normal, line.reach};
+}
+template <typename S>
+LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, bool of_B, Domain& domain) {
+  return lower_line(p, d.rho, of_B ? d.to_B : d.to_D, of_B ? d.angle_B : d.angle_D, domain);
+}
+inline LowerLine<Jet> lower_line_of(const DesignNumbers<Jet>& d, const Jet& p, bool of_B, Domain& domain) {
+  const SharpLine line = sharp_lower_line(p, d.rho, of_B ? d.EB : d.ED, d.EF, domain);
+  return {line.normal, line.reach};
+}
+
 /// Of a tendon that has a moment arm.
 template <typename S>
 UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
-  const UpperLine<S> line = upper_line(from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
+  const UpperLine<S> line = upper_line_of(d, e, theta, domain);
   return {line.normal, positive_part(sin(line.normal), domain), line.free};
 }
 
@@ -89,7 +109,7 @@ StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, Domain&
 template <typename S>
 StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domain& domain) {
   StrokeNumbers<S> n = upper_stroke(d, place, domain);
-  const LowerLine<S> lower = lower_line(n.r2, d.rho, d.to_D, d.angle_D, domain);
+  const LowerLine<S> lower = lower_line_of(d, n.r2, false, domain);
   n.reach = lower.reach;
   n.phi = n.upper2.gamma - n.theta.angle - lower.normal;
   return n;
@@ -98,7 +118,7 @@ StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domai
 /// Of tendon 1 over pin B.
 template <typename S>
 S wrap_over_B(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, Domain& domain) {
-  return S(n.upper1.gamma + n.theta.angle) - lower_line(n.r1, d.rho, d.to_B, d.angle_B, domain).normal;
+  return S(n.upper1.gamma + n.theta.angle) - lower_line_of(d, n.r1, true, domain).normal;
 }
 
 /// The rectangle around link, pins and pulley in this pose. mm²
