@@ -105,6 +105,7 @@ struct Bounder::Asked {
   enum class Kind { objective, cap, needed } kind = Kind::objective;
   double place = 0;
   Needed needed = Needed::wrap_B;
+  PinAngles least = {};  ///< in the box
 };
 
 Bounder::Bounder(const Problem& problem, Objective objective)
@@ -172,7 +173,30 @@ Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Dom
 
 [[gnu::noinline]] Jet Bounder::value_at(const Asked& asked, const Box& box, Domain& domain) const {
   const RoundingUp rounding;
-  return value_of(asked, numbers_over(box), domain);
+  DesignNumbers<Jet> numbers = numbers_over(box);
+  numbers.least = asked.least;
+  return value_of(asked, numbers, domain);
+}
+
+/// No tendon's γ can be less in a possible design of the box: its wrap would be negative.
+[[gnu::noinline]] PinAngles Bounder::least_angles(const Box& box, double place) const {
+  constexpr double k_between_places = 2e-3;  // rad: what a wrap may dip below 0 between places that are looked at
+  const RoundingUp rounding;
+  DesignNumbers<Jet> d = numbers_over(box);
+  const Interval theta = (d.theta_min + Jet(place) * (d.theta_max - d.theta_min)).value;
+  Domain of_1, upper;
+  if (!d.linear) {
+    const Interval least = lower_line_of(d, d.r1, true, of_1).normal.value - theta - k_between_places;
+    if (of_1.possible) d.least.of_1 = least.lower();
+  }
+  const StrokeNumbers<Jet> n = upper_stroke(d, Jet(place), upper);
+  Domain of_2;
+  const Interval least = lower_line_of(d, Jet(n.r2.value.lower()), false, of_2).normal.value + theta - k_between_places;
+  if (upper.possible && of_2.possible) d.least.of_2 = least.lower();
+  // What cuts nothing off need not be asked twice.
+  if (!(n.upper1.gamma.value.lower() <= d.least.of_1)) d.least.of_1 = PinAngles().of_1;
+  if (!(n.upper2.gamma.value.lower() <= d.least.of_2)) d.least.of_2 = PinAngles().of_2;
+  return d.least;
 }
 
 /// The same with derivatives where the box is a single design.
@@ -226,8 +250,19 @@ LineBelow Bounder::line_from(const Box& box, const Asked& asked, const Jet& over
   return line;
 }
 
-/// The interval value, and lines from the two corners between which the function changes most.
-void Bounder::add_lines(const Box& box, const Asked& asked, Lines& lines, BoxBound& result, double limit) const {
+/// The interval value, and lines from the two corners between which the function changes most. Both of the function
+/// itself, and of what it becomes where tendons are kept on their pins: that exists in larger boxes, and is sharper
+/// there, but bends where the tendon leaves.
+void Bounder::add_lines(const Box& box, Asked asked, Lines& lines, BoxBound& result, double limit) const {
+  const PinAngles least = least_angles(box, asked.place);
+  asked.least = least;
+  add_lines_of(box, asked, lines, result, limit);
+  if (!result.possible || least == PinAngles()) return;
+  asked.least = {};
+  add_lines_of(box, asked, lines, result, limit);
+}
+
+void Bounder::add_lines_of(const Box& box, const Asked& asked, Lines& lines, BoxBound& result, double limit) const {
   Domain domain;
   const Jet over = value_at(asked, box, domain);
   ++result.evaluations;
@@ -285,7 +320,7 @@ void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNum
   }
   std::sort(found.begin(), found.end());
   for (std::size_t i = 0; i < std::min(k_most_asked, found.size()); ++i)
-    asked.push_back({of_cap ? Asked::Kind::cap : Asked::Kind::objective, found[i].second, {}});
+    asked.push_back({of_cap ? Asked::Kind::cap : Asked::Kind::objective, found[i].second});
 }
 
 /// Where each condition is tightest in the middle of the box.

@@ -48,13 +48,16 @@ class Bounder {
   Jet value_at(const Asked& asked, const Box& box, Domain& domain) const;
   Jet slopes_at(const Asked& asked, const Box& box, Domain& domain) const;
 
+  PinAngles least_angles(const Box& box, double place) const;
+
   Lines lines_of_constraints(const Box& box) const;
   std::vector<Asked> asked_around(const std::vector<double>& middle) const;
   double excess_of(const Asked& asked, const std::vector<double>& design) const;
   void ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
                         std::vector<Asked>& asked) const;
   void ask_tightest_places(const DesignNumbers<double>& middle, std::vector<Asked>& asked) const;
-  void add_lines(const Box& box, const Asked& asked, Lines& lines, BoxBound& result, double limit) const;
+  void add_lines(const Box& box, Asked asked, Lines& lines, BoxBound& result, double limit) const;
+  void add_lines_of(const Box& box, const Asked& asked, Lines& lines, BoxBound& result, double limit) const;
   LineBelow line_from(const Box& box, const Asked& asked, const Jet& over, bool from_highest, bool& exists) const;
   double quotient_bound(const Box& box, double place, const Lines& constraints) const;
   Interval value_over_piece(const Design& design, double low, double high) const;

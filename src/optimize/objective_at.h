@@ -10,6 +10,14 @@
 
 namespace fusee {
 
+/// The least γ of both tendons: with less the tendon has left its pin. An angle below is taken to be this, for designs
+/// that are not possible anyway: so that a function over a box exists, and is smooth, also beside the possible ones.
+struct PinAngles {
+  double of_1 = -1e300, of_2 = -1e300;
+
+  bool operator==(const PinAngles&) const = default;
+};
+
 /// The numbers of a mechanism that [1]-[11] use.
 template <typename S>
 struct DesignNumbers {
@@ -21,6 +29,7 @@ struct DesignNumbers {
   S angle_B, angle_D;   ///< their directions in the right-hand image, rad
   bool linear = false;  ///< law = linear: θ = α/ratio; else compensate
   S half;               ///< of the tendon's diameter, mm
+  PinAngles least;      ///< what boxes know of the place that is looked at
 };
 
 /// The same as they stand in the file, but for angles, which are rad.
@@ -35,7 +44,7 @@ template <typename S>
 DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_pins) {
   DesignNumbers<S> d{file.R, file.EB, file.ED,        file.OE,        file.EF, file.r1, file.ratio, file.mu,
                      0.0,    0.0,     file.theta_min, file.theta_max, 0.0,     0.0,     0.0,        0.0,
-                     false,  0.0};
+                     false,  0.0,     {}};
   Domain whole;  // EF > 0
   d.to_B = hypot(d.EB, d.EF);
   d.to_D = hypot(d.ED, d.EF);
@@ -86,9 +95,11 @@ inline LowerLine<Jet> lower_line_of(const DesignNumbers<Jet>& d, const Jet& p, b
 
 /// Of a tendon that has a moment arm.
 template <typename S>
-UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
+UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, double least,
+                              Domain& domain) {
   const UpperLine<S> line = upper_line_of(d, e, theta, domain);
-  return {line.normal, positive_part(sin(line.normal), domain), line.free};
+  const S gamma = larger(line.normal, S(least));
+  return {gamma, positive_part(sin(gamma), domain), line.free};
 }
 
 /// Both tendons above their pins and the radii that follow from their arms: no pulley is looked at yet.
@@ -96,8 +107,8 @@ template <typename S>
 StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, Domain& domain) {
   StrokeNumbers<S> n;
   n.theta = turned_by(d.theta_min + place * (d.theta_max - d.theta_min));
-  n.upper2 = upper_numbers(d, d.ED, n.theta, domain);
-  n.upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), domain);
+  n.upper2 = upper_numbers(d, d.ED, n.theta, d.least.of_2, domain);
+  n.upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), d.least.of_1, domain);
   // Arms in units of R, which cancels: an interval is the sharper the less often a number stands in a formula.
   const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, n.upper1.sine);
   n.r1 = d.linear ? pulley_radius(n.upper1.sine, slope) : d.r1;

@@ -16,6 +16,8 @@ constexpr double k_infinite = std::numeric_limits<double>::infinity();
 constexpr double k_kept = 1e-10;   ///< a violation of this size is none: rows are of size 1
 constexpr double k_pivot = 1e-9;   ///< smaller ones only spread rounding
 constexpr int k_most_steps = 100;
+/// Where t does not say which y is best, each has a tiny cost of its own: among equals the steps would go in circles.
+constexpr double k_cost_of_place = 1e-9;
 
 class Tableau {
  public:
@@ -25,7 +27,7 @@ class Tableau {
         table_(program.rows.size() * columns_),
         value_(program.rows.size()) {
     for (std::size_t j = 0; j < columns_; ++j) nonbasic_.push_back({j, false});
-    cost_.assign(columns_, 0.0);
+    for (std::size_t j = 0; j < columns_; ++j) cost_.push_back(k_cost_of_place * static_cast<double>(j + 1));
     cost_.back() = 1.0;
     for (std::size_t i = 0; i < program.rows.size(); ++i) {
       const LinearProgram::Row& row = program.rows[i];
