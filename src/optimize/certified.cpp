@@ -137,7 +137,7 @@ class Search {
   /// Boxes are bounded side by side, against what is known before; what comes of them is taken in their order.
   std::vector<Outcome> outcomes_of(const std::vector<Box>& boxes) {
     std::vector<Outcome> outcomes(boxes.size());
-    hands_.each(boxes.size(), [&](std::size_t i) { outcomes[i] = bounded(boxes[i]); });
+    hands_.each(boxes.size(), [&](std::size_t i) { outcomes[i] = bounded(boxes[i], i < k_mended); });
     boxes_ += static_cast<long>(boxes.size());
     for (const Outcome& outcome : outcomes) evaluations_ += outcome.evaluations;
     return outcomes;
@@ -159,7 +159,8 @@ class Search {
     }
   }
 
-  Outcome bounded(const Box& given) const {
+  /// `mends`: where the design that it comes to lies beyond a border, one beside it is looked for.
+  Outcome bounded(const Box& given, bool mends) const {
     Outcome outcome;
     outcome.box = given;
     const BoxBound bound = bounder_.bound(outcome.box, tie_limit());
@@ -171,6 +172,10 @@ class Search {
     if (bound.bound > best_value_) return outcome;
     outcome.tried.push_back(tried(bound.lowest.empty() ? middle_of(outcome.box) : bound.lowest));
     if (best_.empty() && !bound.lowest.empty()) outcome.tried.push_back(tried(middle_of(outcome.box)));
+    if (mends && !bound.lowest.empty() && !outcome.tried.front().evaluation.possible) {
+      const Design mended = bounder_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
+      if (!mended.empty()) outcome.tried.push_back(tried(mended));
+    }
     return outcome;
   }
 
@@ -319,6 +324,7 @@ class Search {
   /// Halves that are bounded side by side: enough to keep eight threads busy, few beside those of a search. The search
   /// is the same on any number of threads.
   static constexpr std::size_t k_batch = 32;
+  static constexpr std::size_t k_mended = 4;  ///< of a batch, the most promising
 
   const Problem& problem_;
   std::size_t count_;
