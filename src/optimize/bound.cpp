@@ -32,6 +32,8 @@ constexpr double k_infinite = std::numeric_limits<double>::infinity();
 /// Where those who judge a design look: evaluate() of objectives.cpp, and feasibility.cpp.
 constexpr int k_places = 60;
 constexpr int k_places_of_drawing = 192;
+/// Of a constraint's largest term: rounding must not cut off a design that constraint_violation() lets pass.
+constexpr double k_slack = 2e-12;
 
 struct NumberSlot {
   std::string_view key;
@@ -211,9 +213,7 @@ Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Dom
 
 // ---- lines ------------------------------------------------------------------------------------------------------------
 
-/// Kept to 1e-12 of their largest term: rounding must not cut off a design that constraint_violation() lets pass.
-Bounder::Lines Bounder::lines_of_constraints(const Box& box) const {
-  constexpr double k_slack = 2e-12;
+Bounder::Lines Bounder::lines_of_constraints(const Box& box, double slack) const {
   Lines lines;
   for (const LinearConstraint& constraint : problem_.constraints) {
     LineBelow line;
@@ -225,7 +225,7 @@ Bounder::Lines Bounder::lines_of_constraints(const Box& box) const {
       at_lower += constraint.a[i] * box.lower[i];
       size = std::max(size, std::abs(constraint.a[i]) * std::max(std::abs(box.lower[i]), std::abs(box.upper[i])));
     }
-    line.constant = at_lower - k_slack * size;
+    line.constant = at_lower - slack * size;
     lines.push_back(line);
   }
   return lines;
@@ -404,7 +404,7 @@ BoxBound Bounder::bound(Box& box, double limit) const {
   BoxBound result;
   result.bound = box.bound;
   for (int pass = 0; pass < k_passes; ++pass) {
-    Lines lines = lines_of_constraints(box);
+    Lines lines = lines_of_constraints(box, k_slack);
     const auto constraints = static_cast<std::ptrdiff_t>(lines.size());
     if (!cut_by_lines(box, count, lines, limit)) result.possible = false;
     if (!result.possible) return result;
@@ -461,7 +461,7 @@ Design Bounder::lowest_around(const Design& design, double size) const {
     around.lower[i] = std::max(variable.lower, design[i] - half);
     around.upper[i] = std::min(variable.upper, design[i] + half);
   }
-  Lines lines = lines_of_constraints(around);
+  Lines lines = lines_of_constraints(around, 0.0);
   std::vector<Asked> of_lines(lines.size());
   for (const Asked& asked : asked_around(design)) {
     Domain domain;

@@ -50,7 +50,7 @@ class Bounder {
 
   PinAngles least_angles(const Box& box, double place) const;
 
-  Lines lines_of_constraints(const Box& box) const;
+  Lines lines_of_constraints(const Box& box, double slack) const;
   std::vector<Asked> asked_around(const std::vector<double>& middle) const;
   double excess_of(const Asked& asked, const std::vector<double>& design) const;
   void ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,

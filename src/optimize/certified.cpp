@@ -170,13 +170,33 @@ class Search {
     outcome.box.bound = std::max(outcome.box.bound, bound.bound);
     outcome.box.cut = promising_cut(outcome.box, bound);
     if (bound.bound > best_value_) return outcome;
-    outcome.tried.push_back(tried(bound.lowest.empty() ? middle_of(outcome.box) : bound.lowest));
+    outcome.tried.push_back(tried(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
     if (best_.empty() && !bound.lowest.empty()) outcome.tried.push_back(tried(middle_of(outcome.box)));
     if (mends && !bound.lowest.empty() && !outcome.tried.front().evaluation.possible) {
       const Design mended = bounder_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
-      if (!mended.empty()) outcome.tried.push_back(tried(mended));
+      if (!mended.empty()) outcome.tried.push_back(tried(kept(mended, root_)));
     }
     return outcome;
+  }
+
+  /// Moves one variable as far as the constraints ask, within the box: to the last digit, which no linear program does.
+  Design moved_into_constraints(Design design, std::size_t i, const Box& box) const {
+    for (const LinearConstraint& constraint : problem_.constraints) {
+      double excess = -constraint.b;
+      for (std::size_t k = 0; k < count_; ++k) excess += constraint.a[k] * design[k];
+      if (excess > 0 && constraint.a[i] != 0)
+        design[i] = std::clamp(design[i] - excess / constraint.a[i], box.lower[i], box.upper[i]);
+    }
+    return design;
+  }
+
+  /// Within the constraints, where moving a single variable does it.
+  Design kept(const Design& design, const Box& box) const {
+    for (std::size_t i = 0; i < count_ && !problem_.constraints.empty(); ++i) {
+      const Design moved = moved_into_constraints(design, i, box);
+      if (constraint_violation(problem_, moved) == 0) return moved;
+    }
+    return design;
   }
 
   Tried tried(const Design& design) const { return {design, evaluate_design(problem_, objective_, design)}; }
@@ -200,7 +220,7 @@ class Search {
     for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !stopped(-k_none); ++step) {
       const double before = best_value_;
       const Design lowest = bounder_.lowest_around(best_, size);
-      if (!lowest.empty()) take(tried(lowest));
+      if (!lowest.empty()) take(tried(kept(lowest, root_)));
       size *= best_value_ < before - 1e-3 * options_.gap * std::abs(before) ? k_larger : k_smaller;
     }
   }

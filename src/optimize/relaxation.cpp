@@ -93,7 +93,7 @@ Scaled scaled(const Box& box, int count, const std::vector<LineBelow>& lines, do
   Scaled result;
   result.program.variables = count;
   double objective_size = 0;
-  double least_of_rows = least;
+  double least_of_rows = -k_infinite;
   for (const LineBelow& line : lines) {
     LinearProgram::Row row;
     row.b = line.constant;
@@ -113,6 +113,7 @@ Scaled scaled(const Box& box, int count, const std::vector<LineBelow>& lines, do
     result.program.rows.push_back(row);
   }
   if (!(objective_size > 0)) objective_size = 1;
+  if (least_of_rows == -k_infinite) least_of_rows = std::max(least, -objective_size);
   result.objective_scale = objective_size;
   for (std::size_t r = 0; r < lines.size(); ++r) {
     LinearProgram::Row& row = result.program.rows[r];
@@ -120,7 +121,8 @@ Scaled scaled(const Box& box, int count, const std::vector<LineBelow>& lines, do
     for (double& a : row.a) a /= result.scale[r];
     row.b /= result.scale[r];
   }
-  result.program.least_t = std::max(least_of_rows, -1e6 * objective_size) / objective_size;
+  // Below what any line says alone: what is there from the start has no weights that prove it.
+  result.program.least_t = std::max(least / objective_size, least_of_rows / objective_size - 1.0);
   return result;
 }
 

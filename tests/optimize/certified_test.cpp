@@ -88,8 +88,7 @@ Problem six_numbers(const std::vector<Setting>& settings = {}) {
                               {"optimize.tied", "[]"},
                               {"optimize.constraints", "[]"},
                               {"optimize.variables",
-                               R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm",
-                                   "pulley.r1_mm"])"},
+                               R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.r1_mm"])"},
                               {"optimize.lower", "[60, 20, 20, -40, 60, 8]"},
                               {"optimize.upper", "[120, 60, 60, 20, 120, 20]"}};
   all.insert(all.end(), settings.begin(), settings.end());
@@ -177,8 +176,7 @@ TEST(Bound, IsBelowEveryDesignOfTheBoxAndCutsNoneOff) {
   problems.push_back(six_numbers());
   problems.push_back(six_numbers({{"pulley.method", "paper"}}));
   problems.push_back(six_numbers({{"pulley.law", "linear"}, {"pulley.ratio", "3"}, {"optimize.variables",
-                               R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm",
-                                   "pulley.ratio"])"},
+                               R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.ratio"])"},
                               {"optimize.lower", "[60, 20, 20, -40, 60, 2]"},
                               {"optimize.upper", "[120, 60, 60, 20, 120, 5]"}}));
   Random random(7);
