@@ -30,7 +30,7 @@ void demand_certifiable(const Problem& problem, Objective objective) {
   throw InputError(
       "", obstacle,
       "certified: " + names +
-          ", with law compensate or linear, without feasible = true and of a joint as declared; else --method ga");
+          ", with law compensate or linear, and of a joint as declared; else --method ga");
 }
 
 /// A design and what it is worth.
@@ -371,7 +371,6 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
     return std::string(info(objective).name) + " has no interval form: its optimum cannot be certified";
   if (problem.base.pulley.law == Law::table)
     return "law = \"table\" has no interval form: its optimum cannot be certified";
-  if (problem.feasible) return "feasible = true has no interval form: the optimum cannot be certified";
   if (problem.as_it_is)
     return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
   return "";
