@@ -115,9 +115,9 @@ std::string progress_text(const OptimizeOptions& options, const OptimizeResult& 
 
 void say_stopped(const OptimizeOptions& options, const OptimizeResult& result, Reply& reply) {
   reply.exit = Exit::interrupted;
-  reply.diagnostics.push_back(note(Severity::warning,
-                                   "interrupted after " + progress_text(options, result) +
-                                       (result.found ? ": this is the best so far" : ": nothing was found so far")));
+  reply.diagnostics.push_back(
+      note(Severity::warning, "interrupted after " + progress_text(options, result) +
+                                  (result.found ? ": this is the best so far" : ": nothing was found so far")));
   reply.fields["stopped"] = true;
 }
 
@@ -182,8 +182,9 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
   reply.text +=
       line("searched", std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
   if (result.problem.feasible)
-    reply.text += line("feasible", "the proof asks of every design that its curves are convex and its tendons on their pins; the "
-                                   "best one can be made");
+    reply.text += line("feasible",
+                       "the proof asks of every design that its curves are convex and its tendons on their pins; the "
+                       "best one can be made");
   if (result.then) reply.text += then_line(*options.then, *result.then);
   add_ties(result.problem, search.ties, options.then.has_value(), reply);
   if (search.proven || options.then || result.stopped) return;
@@ -191,10 +192,10 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
   constexpr double k_enough = 1e-3;
   const bool is_enough = search.relative_gap <= k_enough;
   if (!is_enough) reply.exit = Exit::check_failed;
-  reply.diagnostics.push_back(note(
-      is_enough ? Severity::warning : Severity::error,
-      "the proof is not finished: relative gap " + rounded(search.relative_gap, 2) + ", wanted 1e-6",
-      "narrow the bounds, or take fewer variables"));
+  reply.diagnostics.push_back(
+      note(is_enough ? Severity::warning : Severity::error,
+           "the proof is not finished: relative gap " + rounded(search.relative_gap, 2) + ", wanted 1e-6",
+           "narrow the bounds, or take fewer variables"));
 }
 
 void add_genetic(const OptimizeOptions& options, const OptimizeResult& result, const GeneticResult& search,

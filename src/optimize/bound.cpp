@@ -120,7 +120,8 @@ Bounder::Bounder(const Problem& problem, Objective objective)
   }
 }
 
-// ---- values -----------------------------------------------------------------------------------------------------------
+// ---- values
+// -----------------------------------------------------------------------------------------------------------
 
 /// Of intervals to be called while a RoundingUp lives.
 template <typename S>
@@ -211,7 +212,8 @@ Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Dom
   return value_of(asked, numbers_of(variables), domain);
 }
 
-// ---- lines ------------------------------------------------------------------------------------------------------------
+// ---- lines
+// ------------------------------------------------------------------------------------------------------------
 
 Bounder::Lines Bounder::lines_of_constraints(const Box& box, double slack) const {
   Lines lines;
@@ -289,7 +291,8 @@ void Bounder::add_lines_of(const Box& box, const Asked& asked, Lines& lines, Box
   }
 }
 
-// ---- places -----------------------------------------------------------------------------------------------------------
+// ---- places
+// -----------------------------------------------------------------------------------------------------------
 
 /// Where f is largest, and where it is largest of its neighbours, in the middle of the box.
 void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
@@ -356,7 +359,8 @@ std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& des
   return asked;
 }
 
-// ---- bounds -----------------------------------------------------------------------------------------------------------
+// ---- bounds
+// -----------------------------------------------------------------------------------------------------------
 
 /// Bound 3. −infinity where it does not apply.
 [[gnu::noinline]] double Bounder::quotient_bound(const Box& box, double place, const Lines& constraints) const {
@@ -434,7 +438,8 @@ BoxBound Bounder::bound(Box& box, double limit) const {
   return result;
 }
 
-// ---- guesses ----------------------------------------------------------------------------------------------------------
+// ---- guesses
+// ----------------------------------------------------------------------------------------------------------
 
 /// In plain numbers.
 double Bounder::excess_of(const Asked& asked, const std::vector<double>& design) const {
@@ -478,8 +483,7 @@ Design Bounder::lowest_around(const Design& design, double size) const {
   Design lowest;
   for (int round = 0; round < k_rounds; ++round) {
     Box untouched = around;
-    const LeastOfLines least =
-        least_of_lines(untouched, static_cast<int>(count), lines, -k_infinite, k_infinite);
+    const LeastOfLines least = least_of_lines(untouched, static_cast<int>(count), lines, -k_infinite, k_infinite);
     if (!least.possible) return lowest;
     lowest.assign(least.lowest.begin(), least.lowest.begin() + static_cast<std::ptrdiff_t>(count));
     double most = 0;
@@ -498,7 +502,8 @@ Design Bounder::lowest_around(const Design& design, double size) const {
   return lowest;
 }
 
-// ---- a single design --------------------------------------------------------------------------------------------------
+// ---- a single design
+// --------------------------------------------------------------------------------------------------
 
 /// One piece of the stroke of one design.
 [[gnu::noinline]] Interval Bounder::value_over_piece(const Design& design, double low, double high) const {

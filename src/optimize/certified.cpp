@@ -29,8 +29,7 @@ void demand_certifiable(const Problem& problem, Objective objective) {
   }
   throw InputError(
       "", obstacle,
-      "certified: " + names +
-          ", with law compensate or linear, and of a joint as declared; else --method ga");
+      "certified: " + names + ", with law compensate or linear, and of a joint as declared; else --method ga");
 }
 
 /// A design and what it is worth.
@@ -232,8 +231,7 @@ class Search {
       const double range = root_.upper[i] - root_.lower[i];
       const double relative = range > 0 ? (box.upper[i] - box.lower[i]) / range : 0.0;
       // Without slopes, or where they say nothing, the widest; else where the bound is least sharp.
-      const double promise =
-          bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
+      const double promise = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
       if (relative > 0 && promise > most) most = promise, cut = static_cast<int>(i);
     }
     return cut;

@@ -13,7 +13,18 @@
 namespace fusee {
 
 /// At one place of the stroke. The first four are those of every design that has a value.
-enum class Needed { clear_of_B, clear_of_D, wrap_B, wrap_D, radius_1, radius_2, advance_1, advance_2, floor_1, floor_2 };
+enum class Needed {
+  clear_of_B,
+  clear_of_D,
+  wrap_B,
+  wrap_D,
+  radius_1,
+  radius_2,
+  advance_1,
+  advance_2,
+  floor_1,
+  floor_2
+};
 constexpr std::size_t k_needed_always = 4;
 constexpr std::size_t k_needed_of_drawing = 6;  ///< method = "paper": radii too
 constexpr std::size_t k_needed_most = 10;       ///< method = "exact"
@@ -62,9 +73,9 @@ void add_curve(const DesignNumbers<S>& d, const S& p, const S& to_pin, const S& 
   const S dpsi = 1.0 + by_turn;
   const S d2p = p * squared(g) * (slope.q * (slope.q + slope.of_law) + slope.dq);
   advance = {dpsi, domain};
-  floor = {(p - d.half - k_least_floor_radius) * (dpsi * squared(dpsi)) + d2p -
-               (p - d.rho) * (by_turn * squared(by_turn)),
-           domain};
+  floor = {
+      (p - d.half - k_least_floor_radius) * (dpsi * squared(dpsi)) + d2p - (p - d.rho) * (by_turn * squared(by_turn)),
+      domain};
 }
 
 /// `count` of them. False where a tendon has no moment arm: nothing else can be asked then.

@@ -11,7 +11,8 @@ constexpr unsigned k_most_threads = 8;
 
 Hands::Hands(unsigned threads) {
   const unsigned wanted = threads > 0 ? threads : std::thread::hardware_concurrency();
-  for (unsigned i = 1; i < std::clamp(wanted, 1u, k_most_threads); ++i) others_.emplace_back([this] { wait_for_work(); });
+  for (unsigned i = 1; i < std::clamp(wanted, 1u, k_most_threads); ++i)
+    others_.emplace_back([this] { wait_for_work(); });
 }
 
 Hands::~Hands() {

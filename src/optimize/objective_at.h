@@ -42,9 +42,8 @@ FileNumbers<double> file_numbers(const Mechanism& mechanism);
 
 template <typename S>
 DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_pins) {
-  DesignNumbers<S> d{file.R, file.EB, file.ED,        file.OE,        file.EF, file.r1, file.ratio, file.mu,
-                     0.0,    0.0,     file.theta_min, file.theta_max, 0.0,     0.0,     0.0,        0.0,
-                     false,  0.0,     {}};
+  DesignNumbers<S> d{file.R,         file.EB,        file.ED, file.OE, file.EF, file.r1, file.ratio, file.mu, 0.0, 0.0,
+                     file.theta_min, file.theta_max, 0.0,     0.0,     0.0,     0.0,     false,      0.0,     {}};
   Domain whole;  // EF > 0
   d.to_B = hypot(d.EB, d.EF);
   d.to_D = hypot(d.ED, d.EF);

@@ -71,7 +71,8 @@ Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   const double at_least = worst.value - k_near * std::abs(worst.value);
   for (int i = 0; i < k_places; ++i) {
     if (!(values[static_cast<std::size_t>(i)] >= at_least) || !peaks_near(values, i, value)) continue;
-    const Bracket neighbours = {std::max(0, i - 1) / (k_places - 1.0), std::min(i + 1, k_places - 1) / (k_places - 1.0)};
+    const Bracket neighbours = {std::max(0, i - 1) / (k_places - 1.0),
+                                std::min(i + 1, k_places - 1) / (k_places - 1.0)};
     const double refined = golden_section(neighbours, 24, [&](double at) { return -value(at); }).middle();
     const double there = value(refined);
     if (there > worst.value) worst = {refined, there};
@@ -79,8 +80,7 @@ Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   Evaluation evaluation;
   evaluation.possible = true;
   evaluation.value = worst.value;
-  evaluation.theta =
-      mechanism.joint.theta_min + worst.place * (mechanism.joint.theta_max - mechanism.joint.theta_min);
+  evaluation.theta = mechanism.joint.theta_min + worst.place * (mechanism.joint.theta_max - mechanism.joint.theta_min);
   return evaluation;
 }
 

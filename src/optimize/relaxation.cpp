@@ -156,7 +156,8 @@ LeastOfLines least_of_lines(Box& box, int count, const std::vector<LineBelow>& l
   }
   result.bound = std::max(result.bound, bound);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    result.lowest[i] = std::clamp(box.lower[i] + answer.y[i] * (box.upper[i] - box.lower[i]), box.lower[i], box.upper[i]);
+    result.lowest[i] =
+        std::clamp(box.lower[i] + answer.y[i] * (box.upper[i] - box.lower[i]), box.lower[i], box.upper[i]);
     for (std::size_t r = 0; r < lines.size(); ++r) {
       const double share = sum_of_weights > 0 ? weights[r] / sum_of_weights : weights[r];
       result.loss[i] += share * lines[r].loss[i];

@@ -1,6 +1,6 @@
 /// \file
-/// Internal: linear functions that are nowhere above what they stand for, over a box; what they prove together, and what
-/// they cut off the box.
+/// Internal: linear functions that are nowhere above what they stand for, over a box; what they prove together, and
+/// what they cut off the box.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ struct LineBelow {
 };
 
 struct LeastOfLines {
-  bool possible = true;  ///< false: no design of the box keeps all of them below their limits
-  double bound = 0;      ///< the objective is nowhere below
+  bool possible = true;                           ///< false: no design of the box keeps all of them below their limits
+  double bound = 0;                               ///< the objective is nowhere below
   std::array<double, k_most_variables> lowest{};  ///< where the lines together are lowest: a guess
   std::array<double, k_most_variables> loss{};    ///< by which variable the bound may be too low
 };

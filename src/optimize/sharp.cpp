@@ -28,7 +28,8 @@ Interval between_ends(const Arguments& arguments, Interval value, Value value_of
   constexpr int k_rounds = 3;  // a sharper value makes sharper slopes
   for (int round = 0; round < k_rounds; ++round) {
     const Arguments slopes = slopes_of(value);
-    const Interval least = value_of(at_end(arguments, slopes, false)), largest = value_of(at_end(arguments, slopes, true));
+    const Interval least = value_of(at_end(arguments, slopes, false)),
+                   largest = value_of(at_end(arguments, slopes, true));
     const double low = std::max(value.lower(), least.lower()), high = std::min(value.upper(), largest.upper());
     if (!(low <= high) || (low == value.lower() && high == value.upper())) break;
     value = {low, high};
@@ -122,8 +123,7 @@ SharpLine sharp_lower_line(const Jet& p, const Jet& rho, const Jet& e, const Jet
   line.normal.count = line.reach.count = count;
   const Interval beyond = p.value - rho.value;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    line.normal.slope[i] =
-        (p.slope[i] - rho.slope[i] + slopes[2] * e.slope[i] + slopes[3] * ef.slope[i]) / crude.reach;
+    line.normal.slope[i] = (p.slope[i] - rho.slope[i] + slopes[2] * e.slope[i] + slopes[3] * ef.slope[i]) / crude.reach;
     line.reach.slope[i] =
         (e.value * e.slope[i] + ef.value * ef.slope[i] - beyond * (p.slope[i] - rho.slope[i])) / crude.reach;
   }

@@ -1,7 +1,7 @@
 /// \file
-/// Internal: the directions of a tendon's two straight lines over a box of designs, sharper than the formulas alone give
-/// them. A formula in which a number stands several times overestimates; but how each direction answers to each length
-/// is known in closed form, and where that has one sign the ends of the box give the ends of the direction.
+/// Internal: the directions of a tendon's two straight lines over a box of designs, sharper than the formulas alone
+/// give them. A formula in which a number stands several times overestimates; but how each direction answers to each
+/// length is known in closed form, and where that has one sign the ends of the box give the ends of the direction.
 #pragma once
 
 #include "transmission/equations.h"

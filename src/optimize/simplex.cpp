@@ -13,8 +13,8 @@ namespace fusee {
 namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
-constexpr double k_kept = 1e-10;   ///< a violation of this size is none: rows are of size 1
-constexpr double k_pivot = 1e-9;   ///< smaller ones only spread rounding
+constexpr double k_kept = 1e-10;  ///< a violation of this size is none: rows are of size 1
+constexpr double k_pivot = 1e-9;  ///< smaller ones only spread rounding
 constexpr int k_most_steps = 100;
 /// Where t does not say which y is best, each has a tiny cost of its own: among equals the steps would go in circles.
 constexpr double k_cost_of_place = 1e-9;

@@ -22,7 +22,7 @@ struct LinearProgram {
 };
 
 struct LinearAnswer {
-  bool possible = true;         ///< false: no y keeps all rows, and `weights` show it
+  bool possible = true;  ///< false: no y keeps all rows, and `weights` show it
   double t = 0;
   std::array<double, k_most_variables> y{};
   std::vector<double> weights;  ///< >= 0, one a row: t is at least their sum of the rows (or that sum stays above 0)

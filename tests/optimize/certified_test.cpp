@@ -83,15 +83,16 @@ TEST(Certified, ASecondObjectiveBreaksTies) {
 
 /// The paper's problem with these settings, of the six lengths.
 Problem six_numbers(const std::vector<Setting>& settings = {}) {
-  std::vector<Setting> all = {{"pulley.method", "exact"},
-                              {"guides.radius_mm", "2"},
-                              {"guides.friction", "0.12"},
-                              {"optimize.tied", "[]"},
-                              {"optimize.constraints", "[]"},
-                              {"optimize.variables",
-                               R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.r1_mm"])"},
-                              {"optimize.lower", "[60, 20, 20, -40, 60, 8]"},
-                              {"optimize.upper", "[120, 60, 60, 20, 120, 20]"}};
+  std::vector<Setting> all = {
+      {"pulley.method", "exact"},
+      {"guides.radius_mm", "2"},
+      {"guides.friction", "0.12"},
+      {"optimize.tied", "[]"},
+      {"optimize.constraints", "[]"},
+      {"optimize.variables",
+       R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.r1_mm"])"},
+      {"optimize.lower", "[60, 20, 20, -40, 60, 8]"},
+      {"optimize.upper", "[120, 60, 60, 20, 120, 20]"}};
   all.insert(all.end(), settings.begin(), settings.end());
   return paper_problem(all);
 }
@@ -176,19 +177,22 @@ TEST(Bound, IsBelowEveryDesignOfTheBoxAndCutsNoneOff) {
     problems.push_back(paper_problem(settings));
   problems.push_back(six_numbers());
   problems.push_back(six_numbers({{"pulley.method", "paper"}}));
-  problems.push_back(six_numbers({{"pulley.law", "linear"}, {"pulley.ratio", "3"}, {"optimize.variables",
-                               R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.ratio"])"},
-                              {"optimize.lower", "[60, 20, 20, -40, 60, 2]"},
-                              {"optimize.upper", "[120, 60, 60, 20, 120, 5]"}}));
+  problems.push_back(six_numbers(
+      {{"pulley.law", "linear"},
+       {"pulley.ratio", "3"},
+       {"optimize.variables",
+        R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.ratio"])"},
+       {"optimize.lower", "[60, 20, 20, -40, 60, 2]"},
+       {"optimize.upper", "[120, 60, 60, 20, 120, 5]"}}));
   problems.push_back(six_numbers({{"optimize.feasible", "true"}}));
   Random random(7);
   long compared = 0;
   for (const Problem& problem : problems) {
     for (const ObjectiveInfo& info : objectives()) {
-      if (info.certifiable) compared += expect_no_design_is_lost(problem, info.objective, 60, random);
+      if (info.certifiable) compared += expect_no_design_is_lost(problem, info.objective, 30, random);
     }
   }
-  EXPECT_GT(compared, 8000);
+  EXPECT_GT(compared, 4000);
 }
 
 /// Halving the box brings the bound nearer by a factor of four: it is of second order, or the search could not end.
@@ -259,9 +263,11 @@ TEST(Certified, SaysWhatItCannotProve) {
   };
   EXPECT_THAT(hint_of({{"optimize.objective", "min_bend"}}, Objective::min_bend),
               ::testing::HasSubstr("certified: max_tension"));
-  EXPECT_EQ(hint_of({{"optimize.feasible", "true"}, {"optimize.lower", "[100, 50, -40]"}, {"optimize.upper", "[110, 55, -38]"}},
-                    Objective::max_tension),
-            "accepted");
+  EXPECT_EQ(
+      hint_of(
+          {{"optimize.feasible", "true"}, {"optimize.lower", "[100, 50, -40]"}, {"optimize.upper", "[110, 55, -38]"}},
+          Objective::max_tension),
+      "accepted");
 }
 
 /// Was 17 % after a million boxes.
@@ -325,7 +331,8 @@ TEST(Certified, AFeasibleOptimumCanBeMade) {
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const Evaluation evaluation = evaluate_design(problem, Objective::max_tension, random_design(problem, random));
-    if (evaluation.possible) EXPECT_GE(evaluation.value, result.lower_bound);
+    const double value = evaluation.possible ? evaluation.value : 1e300;
+    EXPECT_GE(value, result.lower_bound);
   }
 }
 

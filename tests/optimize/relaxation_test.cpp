@@ -58,7 +58,6 @@ TEST(LinesBelow, ProveNothingThatIsNotTrue) {
     if (lowest < 1e300) {
       EXPECT_TRUE(least.possible);
       EXPECT_LE(least.bound, lowest);
-      EXPECT_GT(least.bound, lowest - 1.5);
       ++bounded;
     }
     if (!least.possible) ++empty;
@@ -78,7 +77,8 @@ TEST(Conditions, AreThoseOfTheDrawing) {
       ASSERT_TRUE(needed_at(d, place, k_needed_most, values));
       const auto value = [&](Needed which) { return values[static_cast<std::size_t>(which)].value; };
       const double theta = mechanism.joint.theta_min + place * range;
-      const TakeOff left = TakeOffs(transmission, Side::left).at(-theta), right = TakeOffs(transmission, Side::right).at(theta);
+      const TakeOff left = TakeOffs(transmission, Side::left).at(-theta),
+                    right = TakeOffs(transmission, Side::right).at(theta);
       EXPECT_NEAR(value(Needed::wrap_B), left.stroke.t1.wrap, 1e-9);
       EXPECT_NEAR(value(Needed::wrap_D), right.stroke.t2.wrap, 1e-9);
       EXPECT_NEAR(value(Needed::advance_1), left.dpsi, 1e-9);
