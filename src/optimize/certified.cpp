@@ -144,11 +144,15 @@ class Search {
 
   void take_in(const std::vector<Box>& boxes) {
     const std::vector<Outcome> outcomes = outcomes_of(boxes);
-    const double before = best_value_;
     for (const Outcome& outcome : outcomes) {
       for (const Tried& one : outcome.tried) take(one);
     }
-    if (best_value_ < before) polish();
+    // Where designs tie, a better one by a rounding error comes with every batch.
+    if (!best_.empty() && best_value_ < polished_ - 0.1 * options_.gap * std::abs(best_value_)) polish();
+    keep(outcomes);
+  }
+
+  void keep(const std::vector<Outcome>& outcomes) {
     for (const Outcome& outcome : outcomes) {
       if (!outcome.kept || outcome.box.bound > tie_limit()) continue;
       if (outcome.box.bound > best_value_)
@@ -222,6 +226,7 @@ class Search {
       if (!lowest.empty()) take(tried(kept(lowest, root_)));
       size *= best_value_ < before - 1e-3 * options_.gap * std::abs(before) ? k_larger : k_smaller;
     }
+    polished_ = best_value_;
   }
 
   int promising_cut(const Box& box, const BoxBound& bound) const {
@@ -354,6 +359,7 @@ class Search {
   Design best_;
   double best_value_ = k_none;
   double best_theta_ = 0;
+  double polished_ = k_none;  ///< what polishing last came to
   std::priority_queue<Box, std::vector<Box>, HigherBound> queue_;
   std::vector<Box> tie_boxes_;  ///< above the best value, within the tie
   std::map<std::string, long> reasons_;
