@@ -26,6 +26,8 @@ Arguments at_end(const Arguments& arguments, const Arguments& slopes, bool large
 template <typename Value, typename Slopes>
 Interval between_ends(const Arguments& arguments, Interval value, Value value_of, Slopes slopes_of) {
   constexpr int k_rounds = 3;  // a sharper value makes sharper slopes
+  const auto is_number = [](const Interval& argument) { return argument.lower() == argument.upper(); };
+  if (std::all_of(arguments.begin(), arguments.end(), is_number)) return value;
   for (int round = 0; round < k_rounds; ++round) {
     const Arguments slopes = slopes_of(value);
     const Interval least = value_of(at_end(arguments, slopes, false)),
@@ -86,10 +88,11 @@ SharpLine sharp_upper_line(const Jet& R, const Jet& e, const Jet& oe, const Jet&
   };
   const Interval gamma = between_ends(
       arguments, crude.normal, [&](const Arguments& a) { return seen_from(a).normal; }, slopes_at);
+  const int count = count_of({&R, &e, &oe, &rho, &theta.angle});
+  if (count == 0) return {Jet(gamma), Jet(crude.reach)};
   const Arguments slopes = slopes_at(gamma);
   const Interval by_angle = e.value * -slopes[2] + oe.value * slopes[1];
   SharpLine line{Jet(gamma), Jet(crude.reach)};
-  const int count = count_of({&R, &e, &oe, &rho, &theta.angle});
   line.normal.count = line.reach.count = count;
   // Where a line's length answers to: C moves along the line, or the tangent point round the pin.
   const Interval along_R = cos(gamma);
@@ -117,9 +120,10 @@ SharpLine sharp_lower_line(const Jet& p, const Jet& rho, const Jet& e, const Jet
   };
   const Interval normal = between_ends(
       arguments, crude.normal, [&](const Arguments& a) { return seen_from(a).normal; }, slopes_at);
+  const int count = count_of({&p, &rho, &e, &ef});
+  if (count == 0) return {Jet(normal), Jet(crude.reach)};
   const Arguments slopes = slopes_at(normal);
   SharpLine line{Jet(normal), Jet(crude.reach)};
-  const int count = count_of({&p, &rho, &e, &ef});
   line.normal.count = line.reach.count = count;
   const Interval beyond = p.value - rho.value;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
