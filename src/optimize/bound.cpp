@@ -1,23 +1,26 @@
 #include "optimize/bound.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 #include <utility>
 
-#include "optimize/objective_at.h"
+#include "base/golden_section.h"
+#include "optimize/conditions_at.h"
 
 // A lower bound of  min over designs x of max over places s of f(x, s)  is  min over x of f(x, s)  at any s: so few,
-// well chosen places do. At one place there are three bounds, each rigorous; the best counts:
+// well chosen places do. Each gives
 //   1. the interval value of f over the box;
-//   2. a linear function that is nowhere above f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i) with g_i the end of
-//   the slope's
-//      interval that is on the safe side of that corner. Its least value over the box and the constraints a·x <= b is
-//      bounded by weighting the constraints: any ν >= 0 gives a valid bound, good ones are found by going through the
-//      breaks of ν one by one;
+//   2. linear functions that are nowhere above f: from a corner v, f(x) >= f(v) + Σ g_i (x_i − v_i) with g_i the end of
+//   the slope's interval that is on the safe side of that corner. So do the conditions that a design must keep, where
+//   they are tightest. All of them together are a linear program, whose multipliers prove its least value
+//   (relaxation.cpp): the bound's error shrinks with the square of the box. What they leave no room for is cut off;
 //   3. over point pins T_b is e^{μφ}/sin γ2, and the torque with a round P1 r1 e^{μφ}/sin γ1. There b/a, the cotangent
-//   of γ, is a quotient of
-//      two linear functions, and is bounded by weights exactly, where 1 and 2 only come near. Without friction whole
-//      surfaces of designs tie, and nothing less sharp could prove it.
+//   of γ, is a quotient of two linear functions, and is bounded by weights exactly, where 1 and 2 only come near.
+//   Without friction whole surfaces of designs tie, and nothing less sharp could prove it.
+//
+// Conditions are looked at only where those who judge a design look too (k_places of the stroke): what a proof leaves
+// out is never accepted as a design.
 //
 // Everything between RoundingUp's construction and its end is computed with directed rounding, in functions the
 // compiler must not merge.
@@ -25,137 +28,65 @@
 namespace fusee {
 namespace {
 
-using JetDesign = FileNumbers<Jet>;
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+/// Where those who judge a design look: evaluate() of objectives.cpp, and feasibility.cpp.
+constexpr int k_places = 60;
+constexpr int k_places_of_drawing = 192;
+/// Of a constraint's largest term: rounding must not cut off a design that constraint_violation() lets pass.
+constexpr double k_slack = 2e-12;
 
 struct NumberSlot {
   std::string_view key;
-  Jet FileNumbers<Jet>::*member;
   bool angle = false;
 };
 
-constexpr std::array<NumberSlot, 13> k_slots{{{"joint.length_mm", &JetDesign::R},
-                                              {"guides.EB_mm", &JetDesign::EB},
-                                              {"guides.ED_mm", &JetDesign::ED},
-                                              {"guides.OE_mm", &JetDesign::OE},
-                                              {"pulley.EF_mm", &JetDesign::EF},
-                                              {"pulley.r1_mm", &JetDesign::r1},
-                                              {"pulley.ratio", &JetDesign::ratio},
-                                              {"guides.friction", &JetDesign::mu},
-                                              {"guides.radius_mm", &JetDesign::radius},
-                                              {"tendon.diameter_mm", &JetDesign::diameter},
-                                              {"tendon.modulus_MPa", &JetDesign::modulus},
-                                              {"joint.range_deg[0]", &JetDesign::theta_min, true},
-                                              {"joint.range_deg[1]", &JetDesign::theta_max, true}}};
+/// In the order of FileNumbers.
+constexpr std::array<NumberSlot, 13> k_slots{{{"joint.length_mm"},
+                                              {"guides.EB_mm"},
+                                              {"guides.ED_mm"},
+                                              {"guides.OE_mm"},
+                                              {"pulley.EF_mm"},
+                                              {"pulley.r1_mm"},
+                                              {"pulley.ratio"},
+                                              {"guides.friction"},
+                                              {"guides.radius_mm"},
+                                              {"tendon.diameter_mm"},
+                                              {"tendon.modulus_MPa"},
+                                              {"joint.range_deg[0]", true},
+                                              {"joint.range_deg[1]", true}}};
 
-FileNumbers<Jet> constants(const Mechanism& mechanism) {
-  const FileNumbers<double> n = file_numbers(mechanism);
-  return {n.R, n.EB, n.ED, n.OE, n.EF, n.r1, n.ratio, n.mu, n.radius, n.diameter, n.modulus, n.theta_min, n.theta_max};
+double radians_of(double value) { return radians(value); }
+Jet radians_of(const Jet& value) { return value * Jet(pi_interval() / 180.0); }
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+Box corner_of(const Box& box, const std::array<bool, k_most_variables>& at_upper) {
+  Box corner = box;
+  for (std::size_t i = 0; i < k_most_variables; ++i)
+    (at_upper[i] ? corner.lower[i] : corner.upper[i]) = at_upper[i] ? box.upper[i] : box.lower[i];
+  return corner;
 }
 
-/// The numbers over a box. To be called while a RoundingUp lives.
-DesignNumbers<Jet> numbers_over(const Problem& problem, const std::vector<Jet>& variables) {
-  FileNumbers<Jet> numbers = constants(problem.base);
-  for (const MovingKey& moving : problem.moving) {
-    const auto slot =
-        std::find_if(k_slots.begin(), k_slots.end(), [&](const NumberSlot& s) { return s.key == moving.key; });
-    if (slot == k_slots.end()) continue;
-    Jet value(moving.constant);
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      if (moving.a[i] == 1.0)
-        value = moving.constant == 0 && value.count == 0 ? variables[i] : value + variables[i];
-      else if (moving.a[i] != 0)
-        value = value + Jet(moving.a[i]) * variables[i];
-    }
-    numbers.*(slot->member) = slot->angle ? value * Jet(pi_interval() / 180.0) : value;
+bool is_finite(const LineBelow& line) {
+  double sum = line.constant;
+  for (std::size_t i = 0; i < k_most_variables; ++i) sum += line.slope[i] + line.loss[i];
+  return std::isfinite(sum);
+}
+
+std::vector<double> middle_of(const Box& box, int count) {
+  std::vector<double> middle;
+  for (std::size_t i = 0; i < index(count); ++i) middle.push_back(0.5 * (box.lower[i] + box.upper[i]));
+  return middle;
+}
+
+/// By how much of its range the box became narrower, in the variable in which it did most.
+double narrowed(const Box& before, const Box& after, int count) {
+  double most = 0;
+  for (std::size_t i = 0; i < index(count); ++i) {
+    const double width = before.upper[i] - before.lower[i];
+    if (width > 0) most = std::max(most, 1.0 - (after.upper[i] - after.lower[i]) / width);
   }
-  return design_numbers(numbers, problem.base.pulley.law, problem.base.has_point_pins());
-}
-
-std::vector<Jet> variables_over(const Problem& problem, const Box& box) {
-  const int count = static_cast<int>(problem.variables.size());
-  std::vector<Jet> variables;
-  for (int i = 0; i < count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    variables.push_back(Jet::variable({box.lower[k], box.upper[k]}, i, count));
-  }
-  return variables;
-}
-
-/// f over a box (all of it, or a single corner) at one place.
-struct PlaceValue {
-  Jet value;
-  Domain domain;
-};
-
-[[gnu::noinline]] PlaceValue value_over(const Problem& problem, Objective objective, const Box& box, double place) {
-  const RoundingUp rounding;
-  PlaceValue result;
-  result.value =
-      objective_at(objective, numbers_over(problem, variables_over(problem, box)), Jet(place), result.domain);
-  return result;
-}
-
-/// constant + slope · x.
-struct Line {
-  std::array<Interval, Jet::k_most> slope{};
-  Interval constant = 0.0;
-};
-
-double least_of(const Interval& slope, double lower, double upper) {
-  const Interval product = slope * Interval(lower, upper);
-  return product.lower();
-}
-
-/// Rigorous: the least of line + Σ ν_j (a_j · x − b_j) over the box.
-double weighted_least(const Problem& problem, const Box& box, const Line& line, const std::vector<double>& weights) {
-  Interval sum = line.constant;
-  for (std::size_t j = 0; j < weights.size(); ++j) sum -= Interval(weights[j]) * problem.constraints[j].b;
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    Interval slope = line.slope[i];
-    for (std::size_t j = 0; j < weights.size(); ++j) slope += Interval(weights[j]) * problem.constraints[j].a[i];
-    sum += least_of(slope, box.lower[i], box.upper[i]);
-  }
-  return sum.lower();
-}
-
-/// Weights by going through the breaks of each in turn: the bound is a concave, piecewise linear function of them.
-double constrained_least(const Problem& problem, const Box& box, const Line& line) {
-  std::vector<double> weights(problem.constraints.size(), 0.0);
-  double best = weighted_least(problem, box, line, weights);
-  for (std::size_t j = 0; j < weights.size(); ++j) {
-    std::array<double, Jet::k_most> breaks{};
-    for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-      double slope = 0.5 * (line.slope[i].lower() + line.slope[i].upper());
-      for (std::size_t k = 0; k < weights.size(); ++k) {
-        if (k != j) slope += weights[k] * problem.constraints[k].a[i];
-      }
-      const double a = problem.constraints[j].a[i];
-      breaks[i] = a != 0 ? -slope / a : 0.0;
-    }
-    const double before = weights[j];
-    double kept = before;
-    for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-      if (!(breaks[i] > 0)) continue;
-      weights[j] = breaks[i];
-      const double here = weighted_least(problem, box, line, weights);
-      if (here > best) best = here, kept = breaks[i];
-    }
-    weights[j] = kept;
-  }
-  return best;
-}
-
-/// Bound 2. `corner_value`: f at that corner.
-[[gnu::noinline]] double linear_bound(const Problem& problem, const Box& box, const Jet& over_box,
-                                      const Interval& corner_value, const std::array<bool, Jet::k_most>& at_upper) {
-  const RoundingUp rounding;
-  Line line;
-  line.constant = corner_value.lower();
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    line.slope[i] = at_upper[i] ? over_box.slope[i].upper() : over_box.slope[i].lower();
-    line.constant -= line.slope[i] * Interval(at_upper[i] ? box.upper[i] : box.lower[i]);
-  }
-  return constrained_least(problem, box, line);
+  return most;
 }
 
 /// In the link's frame the pin lies `a` beside OC and `b` below C: tan γ = a/b over a point pin, and at one joint angle
@@ -170,39 +101,295 @@ Legs legs(const DesignNumbers<Jet>& d, bool of_tendon_1, const StrokeNumbers<Jet
   return {-to_C.x, to_C.y};
 }
 
-/// Least of b − q a over the box and the constraints.
-double least_difference(const Problem& problem, const Box& box, const Legs& over, const Legs& at_lower, double q) {
-  Line line;
-  const Jet difference = over.b - Jet(q) * over.a;
-  line.constant = at_lower.b.value - Interval(q) * at_lower.a.value;
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    line.slope[i] = difference.slope[i];
-    line.constant -= line.slope[i] * Interval(box.lower[i]);
+}  // namespace
+
+/// A function of the designs that is looked at, at one place of the stroke.
+struct Bounder::Asked {
+  enum class Kind { objective, cap, needed } kind = Kind::objective;
+  double place = 0;
+  Needed needed = Needed::wrap_B;
+  PinAngles least = {};  ///< in the box
+};
+
+Bounder::Bounder(const Problem& problem, Objective objective)
+    : problem_(problem), objective_(objective), base_(file_numbers(problem.base)) {
+  for (const MovingKey& moving : problem.moving) {
+    const auto slot =
+        std::find_if(k_slots.begin(), k_slots.end(), [&](const NumberSlot& s) { return s.key == moving.key; });
+    if (slot != k_slots.end()) numbers_.push_back({static_cast<std::size_t>(slot - k_slots.begin()), &moving});
   }
-  return constrained_least(problem, box, line);
 }
 
-/// Bound 3. −infinity where it does not apply.
-[[gnu::noinline]] double quotient_bound(const Problem& problem, Objective objective, const Box& box, double place) {
+// ---- values
+// -----------------------------------------------------------------------------------------------------------
+
+/// Of intervals to be called while a RoundingUp lives.
+template <typename S>
+DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
+  const FileNumbers<double>& b = base_;
+  std::array<S, 13> n{b.R,  b.EB,     b.ED,       b.OE,      b.EF,        b.r1,       b.ratio,
+                      b.mu, b.radius, b.diameter, b.modulus, b.theta_min, b.theta_max};
+  for (const Number& number : numbers_) {
+    const MovingKey& moving = *number.moving;
+    S value(moving.constant);
+    bool is_nothing = moving.constant == 0;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      if (moving.a[i] == 0) continue;
+      const S term = moving.a[i] == 1.0 ? variables[i] : S(S(moving.a[i]) * variables[i]);
+      value = is_nothing ? term : S(value + term);
+      is_nothing = false;
+    }
+    n[number.slot] = k_slots[number.slot].angle ? S(radians_of(value)) : value;
+  }
+  return design_numbers<S>({n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12]},
+                           problem_.base.pulley.law, problem_.base.has_point_pins());
+}
+
+/// To be called while a RoundingUp lives. A corner has no derivatives.
+DesignNumbers<Jet> Bounder::numbers_over(const Box& box) const {
+  const int count = static_cast<int>(problem_.variables.size());
+  const bool is_point = box.lower == box.upper;
+  std::vector<Jet> variables;
+  for (int i = 0; i < count; ++i) {
+    const Interval value(box.lower[index(i)], box.upper[index(i)]);
+    variables.push_back(is_point ? Jet(value) : Jet::variable(value, i, count));
+  }
+  return numbers_of(variables);
+}
+
+/// What may not be positive, or the objective.
+Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Domain& domain) const {
+  if (asked.kind == Asked::Kind::needed) {
+    NeededValues<Jet> values;
+    if (!needed_at(numbers, Jet(asked.place), index(static_cast<int>(asked.needed)) + 1, values)) {
+      domain.possible = false;
+      return 0.0;
+    }
+    const NeededValue<Jet>& needed = values[static_cast<std::size_t>(asked.needed)];
+    domain.whole = domain.whole && needed.domain.whole;
+    domain.possible = domain.possible && needed.domain.possible;
+    return -needed.value;
+  }
+  const StrokeNumbers<Jet> stroke = stroke_numbers(numbers, Jet(asked.place), domain);
+  if (asked.kind == Asked::Kind::objective) return objective_of(objective_, numbers, stroke);
+  return objective_of(problem_.cap->objective, numbers, stroke) - Jet(problem_.cap->limit);
+}
+
+[[gnu::noinline]] Jet Bounder::value_at(const Asked& asked, const Box& box, Domain& domain) const {
   const RoundingUp rounding;
-  const bool torque = objective == Objective::motor_torque;
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  if (!problem.base.has_point_pins() ||
-      !(torque ? problem.base.pulley.law == Law::compensate : objective == Objective::max_tension))
-    return none;
-  const DesignNumbers<Jet> d = numbers_over(problem, variables_over(problem, box));
+  DesignNumbers<Jet> numbers = numbers_over(box);
+  numbers.least = asked.least;
+  return value_of(asked, numbers, domain);
+}
+
+/// No tendon's γ can be less in a possible design of the box: its wrap would be negative.
+[[gnu::noinline]] PinAngles Bounder::least_angles(const Box& box, double place) const {
+  constexpr double k_between_places = 2e-3;  // rad: what a wrap may dip below 0 between places that are looked at
+  const RoundingUp rounding;
+  DesignNumbers<Jet> d = numbers_over(box);
+  const Interval theta = (d.theta_min + Jet(place) * (d.theta_max - d.theta_min)).value;
+  Domain of_1, upper;
+  if (!d.linear) {
+    const Interval least = lower_line_of(d, d.r1, true, of_1).normal.value - theta - k_between_places;
+    if (of_1.possible) d.least.of_1 = least.lower();
+  }
+  const StrokeNumbers<Jet> n = upper_stroke(d, Jet(place), upper);
+  Domain of_2;
+  const Interval least = lower_line_of(d, Jet(n.r2.value.lower()), false, of_2).normal.value + theta - k_between_places;
+  if (upper.possible && of_2.possible) d.least.of_2 = least.lower();
+  // What cuts nothing off need not be asked twice.
+  if (!(n.upper1.gamma.value.lower() <= d.least.of_1)) d.least.of_1 = PinAngles().of_1;
+  if (!(n.upper2.gamma.value.lower() <= d.least.of_2)) d.least.of_2 = PinAngles().of_2;
+  return d.least;
+}
+
+/// The same with derivatives where the box is a single design.
+[[gnu::noinline]] Jet Bounder::slopes_at(const Asked& asked, const Box& box, Domain& domain) const {
+  const RoundingUp rounding;
+  const int count = static_cast<int>(problem_.variables.size());
+  std::vector<Jet> variables;
+  for (int i = 0; i < count; ++i) variables.push_back(Jet::variable(box.lower[index(i)], i, count));
+  return value_of(asked, numbers_of(variables), domain);
+}
+
+// ---- lines
+// ------------------------------------------------------------------------------------------------------------
+
+Bounder::Lines Bounder::lines_of_constraints(const Box& box, double slack) const {
+  Lines lines;
+  for (const LinearConstraint& constraint : problem_.constraints) {
+    LineBelow line;
+    double size = std::abs(constraint.b);
+    line.corner = box.lower;
+    double at_lower = -constraint.b;
+    for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
+      line.slope[i] = constraint.a[i];
+      at_lower += constraint.a[i] * box.lower[i];
+      size = std::max(size, std::abs(constraint.a[i]) * std::max(std::abs(box.lower[i]), std::abs(box.upper[i])));
+    }
+    line.constant = at_lower - slack * size;
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+LineBelow Bounder::line_from(const Box& box, const Asked& asked, const Jet& over, bool from_highest,
+                             bool& exists) const {
+  std::array<bool, k_most_variables> at_upper{};
+  for (std::size_t i = 0; i < problem_.variables.size(); ++i)
+    at_upper[i] = (over.slope[i].lower() + over.slope[i].upper() < 0) != from_highest;
+  const Box corner = corner_of(box, at_upper);
+  Domain domain;
+  const Jet there = value_at(asked, corner, domain);
+  LineBelow line;
+  line.constant = there.value.lower();
+  line.corner = corner.lower;
+  line.of_objective = asked.kind == Asked::Kind::objective;
+  for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
+    line.slope[i] = at_upper[i] ? over.slope[i].upper() : over.slope[i].lower();
+    line.loss[i] = (over.slope[i].upper() - over.slope[i].lower()) * (box.upper[i] - box.lower[i]);
+  }
+  exists = domain.possible && domain.whole && is_finite(line);
+  return line;
+}
+
+/// The interval value, and lines from the two corners between which the function changes most. Both of the function
+/// itself, and of what it becomes where tendons are kept on their pins: that exists in larger boxes, and is sharper
+/// there, but bends where the tendon leaves.
+void Bounder::add_lines(const Box& box, Asked asked, Lines& lines, BoxBound& result, double limit) const {
+  const PinAngles least = least_angles(box, asked.place);
+  asked.least = least;
+  add_lines_of(box, asked, lines, result, limit);
+  if (!result.possible || least == PinAngles()) return;
+  asked.least = {};
+  add_lines_of(box, asked, lines, result, limit);
+}
+
+void Bounder::add_lines_of(const Box& box, const Asked& asked, Lines& lines, BoxBound& result, double limit) const {
+  Domain domain;
+  const Jet over = value_at(asked, box, domain);
+  ++result.evaluations;
+  const bool of_objective = asked.kind == Asked::Kind::objective;
+  if (!domain.possible) {
+    // An objective is asked for at places where nobody else looks: what has no value there proves nothing.
+    if (!of_objective) result.possible = false;
+    return;
+  }
+  const double least = over.value.lower();
+  if (of_objective)
+    result.bound = std::max(result.bound, least);
+  else if (least > 0)
+    result.possible = false;
+  if (result.bound > limit) result.possible = false;
+  if (!result.possible || !domain.whole || over.count == 0) return;
+  if (!of_objective && over.value.upper() <= 0) return;  // kept by all
+  for (const bool from_highest : {false, true}) {
+    bool exists = false;
+    const LineBelow line = line_from(box, asked, over, from_highest, exists);
+    ++result.evaluations;
+    if (exists) lines.push_back(line);
+  }
+}
+
+// ---- places
+// -----------------------------------------------------------------------------------------------------------
+
+/// Where f is largest, and where it is largest of its neighbours, in the middle of the box.
+void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
+                               std::vector<Asked>& asked) const {
+  constexpr int places = 25;
+  constexpr std::size_t k_most_asked = 3;
+  constexpr int k_steps = 16;  // to 4e-5 of the stroke: its square is what the bound misses
+  std::array<double, places> values{};
+  const auto value_at_place = [&](double place) {
+    Domain domain;
+    const double value = objective_of(objective, middle, stroke_numbers(middle, place, domain));
+    return domain.possible && value == value ? value : k_infinite;
+  };
+  for (int i = 0; i < places; ++i) values[index(i)] = value_at_place(i / (places - 1.0));
+  std::vector<std::pair<double, double>> found;  // −value, place
+  for (int i = 0; i < places; ++i) {
+    const std::size_t k = index(i);
+    const bool left = i == 0 || values[k] >= values[k - 1], right = i == places - 1 || values[k] >= values[k + 1];
+    if (!left || !right) continue;
+    const Bracket neighbours{std::max(0, i - 1) / (places - 1.0), std::min(places - 1, i + 1) / (places - 1.0)};
+    const double inside = golden_section(neighbours, k_steps, [&](double at) { return -value_at_place(at); }).middle();
+    const double place = value_at_place(inside) > values[k] ? inside : i / (places - 1.0);
+    found.emplace_back(-values[k], place);
+  }
+  std::sort(found.begin(), found.end());
+  for (std::size_t i = 0; i < std::min(k_most_asked, found.size()); ++i)
+    asked.push_back({of_cap ? Asked::Kind::cap : Asked::Kind::objective, found[i].second});
+}
+
+/// Where each condition is tightest in the middle of the box.
+void Bounder::ask_tightest_places(const DesignNumbers<double>& middle, std::vector<Asked>& asked) const {
+  const std::size_t count = needed_count(problem_.feasible, problem_.base.pulley.method);
+  const auto value = [&](std::size_t which, int place, int places) {
+    NeededValues<double> values;
+    if (!needed_at(middle, static_cast<double>(place) / places, which + 1, values)) return -k_infinite;
+    const double here = values[which].value;
+    return here == here ? here : -k_infinite;
+  };
+  for (std::size_t which = 0; which < count; ++which) {
+    const int places = which < k_needed_always ? k_places : k_places_of_drawing, step = places / 12;
+    int tightest = 0;
+    double least = k_infinite;
+    const auto look = [&](int place) {
+      if (place < 0 || place > places) return;
+      const double here = value(which, place, places);
+      if (here < least) least = here, tightest = place;
+    };
+    for (int place = 0; place <= places; place += step) look(place);
+    for (int by = step / 2; by > 0; by /= 2) {
+      const int around = tightest;
+      look(around - by);
+      look(around + by);
+    }
+    asked.push_back({Asked::Kind::needed, static_cast<double>(tightest) / places, static_cast<Needed>(which)});
+  }
+}
+
+std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& design) const {
+  const DesignNumbers<double> middle = numbers_of(design);
+  std::vector<Asked> asked;
+  ask_tightest_places(middle, asked);
+  if (problem_.cap) ask_worst_places(problem_.cap->objective, true, middle, asked);
+  ask_worst_places(objective_, false, middle, asked);
+  return asked;
+}
+
+// ---- bounds
+// -----------------------------------------------------------------------------------------------------------
+
+/// Bound 3. −infinity where it does not apply.
+[[gnu::noinline]] double Bounder::quotient_bound(const Box& box, double place, const Lines& constraints) const {
+  const bool torque = objective_ == Objective::motor_torque;
+  if (!problem_.base.has_point_pins() ||
+      !(torque ? problem_.base.pulley.law == Law::compensate : objective_ == Objective::max_tension))
+    return -k_infinite;
+  const RoundingUp rounding;
+  const int count = static_cast<int>(problem_.variables.size());
+  const DesignNumbers<Jet> d = numbers_over(box);
   Domain domain;
   const StrokeNumbers<Jet> n = stroke_numbers(d, Jet(place), domain);
   const Legs over = legs(d, torque, n);
   // Linear in the variables only where the angle is a number.
-  if (!domain.possible || n.theta.angle.count != 0 || !(over.a.value.lower() > 0)) return none;
-  Box lower_corner = box;
-  lower_corner.upper = box.lower;
-  const Legs at_lower = legs(numbers_over(problem, variables_over(problem, lower_corner)), torque, n);
+  if (!domain.possible || n.theta.angle.count != 0 || !(over.a.value.lower() > 0)) return -k_infinite;
+  const Legs at_lower = legs(numbers_over(corner_of(box, {})), torque, n);
   // b − q a >= g means b/a >= q + g/a: from any q that is below, one that is nearer.
   double q = (over.b.value / over.a.value).lower();
   for (int step = 0; step < 4; ++step) {
-    const double least = least_difference(problem, box, over, at_lower, q);
+    const Jet difference = over.b - Jet(q) * over.a;
+    LineBelow line;
+    line.of_objective = true;
+    line.constant = (at_lower.b.value - Interval(q) * at_lower.a.value).lower();
+    line.corner = box.lower;
+    for (std::size_t i = 0; i < index(count); ++i) line.slope[i] = difference.slope[i].lower();
+    Lines lines = constraints;
+    lines.push_back(line);
+    Box untouched = box;
+    const double least = least_of_lines(untouched, count, lines, -k_infinite, k_infinite).bound;
     const double better =
         (Interval(q) + Interval(least) / (least >= 0 ? over.a.value.upper() : over.a.value.lower())).lower();
     if (!(better > q)) break;
@@ -213,18 +400,119 @@ double least_difference(const Problem& problem, const Box& box, const Legs& over
   return (lever * Interval(per_sine.lower()) * exp(d.mu.value * n.phi.value)).lower();
 }
 
+/// Again where the box became much narrower: what was known of it has become sharper.
+BoxBound Bounder::bound(Box& box, double limit) const {
+  constexpr int k_passes = 3;
+  constexpr double k_much = 0.3;
+  const int count = static_cast<int>(problem_.variables.size());
+  BoxBound result;
+  result.bound = box.bound;
+  for (int pass = 0; pass < k_passes; ++pass) {
+    Lines lines = lines_of_constraints(box, k_slack);
+    const auto constraints = static_cast<std::ptrdiff_t>(lines.size());
+    if (!cut_by_lines(box, count, lines, limit)) result.possible = false;
+    if (!result.possible) return result;
+    const Box before = box;
+    const std::vector<Asked> all_asked = asked_around(middle_of(box, count));
+    for (const Asked& asked : all_asked) {
+      add_lines(box, asked, lines, result, limit);
+      if (!result.possible) return result;
+    }
+    if (!cut_by_lines(box, count, lines, limit)) result.possible = false;
+    if (!result.possible) return result;
+    const LeastOfLines least = least_of_lines(box, count, lines, result.bound, limit);
+    result.possible = least.possible;
+    if (!result.possible) return result;
+    result.bound = std::max(result.bound, least.bound);
+    result.loss = least.loss;
+    result.lowest.assign(least.lowest.begin(), least.lowest.begin() + count);
+    if (narrowed(before, box, count) > k_much) continue;
+    const Lines alone(lines.begin(), lines.begin() + constraints);
+    for (const Asked& asked : all_asked) {
+      if (asked.kind != Asked::Kind::objective) continue;
+      result.bound = std::max(result.bound, quotient_bound(box, asked.place, alone));
+    }
+    break;
+  }
+  result.possible = result.bound <= limit;
+  return result;
+}
+
+// ---- guesses
+// ----------------------------------------------------------------------------------------------------------
+
+/// In plain numbers.
+double Bounder::excess_of(const Asked& asked, const std::vector<double>& design) const {
+  const DesignNumbers<double> numbers = numbers_of(design);
+  Domain domain;
+  if (asked.kind != Asked::Kind::needed)
+    return objective_of(problem_.cap->objective, numbers, stroke_numbers(numbers, asked.place, domain)) -
+           problem_.cap->limit;
+  NeededValues<double> values;
+  const auto which = static_cast<std::size_t>(asked.needed);
+  return needed_at(numbers, asked.place, which + 1, values) ? -values[which].value : k_infinite;
+}
+
+// Lines through the values at the design itself. What bends away from them is found in the outcome, and taken off the
+// limits of the next round: else designs at a border that bulges would never be left.
+Design Bounder::lowest_around(const Design& design, double size) const {
+  constexpr int k_rounds = 4;
+  const std::size_t count = problem_.variables.size();
+  Box at, around;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Variable& variable = problem_.variables[i];
+    const double half = size * (variable.upper - variable.lower);
+    at.lower[i] = at.upper[i] = design[i];
+    around.lower[i] = std::max(variable.lower, design[i] - half);
+    around.upper[i] = std::min(variable.upper, design[i] + half);
+  }
+  Lines lines = lines_of_constraints(around, 0.0);
+  std::vector<Asked> of_lines(lines.size());
+  for (const Asked& asked : asked_around(design)) {
+    Domain domain;
+    const Jet here = slopes_at(asked, at, domain);
+    LineBelow line;
+    line.of_objective = asked.kind == Asked::Kind::objective;
+    line.constant = here.value.upper();
+    line.corner = at.lower;
+    for (std::size_t i = 0; i < count; ++i) line.slope[i] = here.slope[i].upper();
+    if (!domain.possible || !domain.whole || here.count == 0 || !is_finite(line)) continue;
+    lines.push_back(line);
+    of_lines.push_back(asked);
+  }
+  Design lowest;
+  for (int round = 0; round < k_rounds; ++round) {
+    Box untouched = around;
+    const LeastOfLines least = least_of_lines(untouched, static_cast<int>(count), lines, -k_infinite, k_infinite);
+    if (!least.possible) return lowest;
+    lowest.assign(least.lowest.begin(), least.lowest.begin() + static_cast<std::ptrdiff_t>(count));
+    double most = 0;
+    for (std::size_t r = problem_.constraints.size(); r < lines.size(); ++r) {
+      if (lines[r].of_objective) continue;
+      for (const Asked& asked : asked_around(lowest)) {
+        if (asked.kind != of_lines[r].kind || asked.needed != of_lines[r].needed) continue;
+        const double excess = excess_of(asked, lowest);
+        if (!(excess > 0)) continue;
+        most = std::max(most, excess);
+        lines[r].constant += 1.1 * excess;
+      }
+    }
+    if (most == 0) break;
+  }
+  return lowest;
+}
+
+// ---- a single design
+// --------------------------------------------------------------------------------------------------
+
 /// One piece of the stroke of one design.
-[[gnu::noinline]] Interval value_over_piece(const Problem& problem, Objective objective, const Design& design,
-                                            double low, double high) {
+[[gnu::noinline]] Interval Bounder::value_over_piece(const Design& design, double low, double high) const {
   const RoundingUp rounding;
-  std::vector<Jet> variables;
-  for (const double value : design) variables.emplace_back(value);
-  const auto numbers = numbers_over(problem, variables);
-  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const DesignNumbers<Jet> numbers = numbers_of(std::vector<Jet>(design.begin(), design.end()));
   const auto at = [&](const Jet& place) {
     Domain domain;
-    const Jet value = objective_at(objective, numbers, place, domain);
-    return domain.possible && domain.whole ? value : Jet(Interval(-infinite, infinite));
+    const Jet value = objective_of(objective_, numbers, stroke_numbers(numbers, place, domain));
+    return domain.possible && domain.whole ? value : Jet(Interval(-k_infinite, k_infinite));
   };
   const Jet whole = at(Jet::variable({low, high}, 0, 1));
   Interval value = whole.value;
@@ -237,117 +525,6 @@ double least_difference(const Problem& problem, const Box& box, const Legs& over
   return boost::numeric::empty(sharper) ? value : sharper;
 }
 
-Design centre_of(const Box& box, std::size_t count) {
-  Design centre(count);
-  for (std::size_t i = 0; i < count; ++i) centre[i] = 0.5 * (box.lower[i] + box.upper[i]);
-  return centre;
-}
-
-}  // namespace
-
-Bounder::Bounder(const Problem& problem, Objective objective) : problem_(problem), objective_(objective) {}
-
-bool Bounder::contract(Box& box) const {
-  constexpr double k_slack = 1e-12;  // rounding here must not cut off a design
-  const std::size_t count = problem_.variables.size();
-  for (const LinearConstraint& constraint : problem_.constraints) {
-    double least = 0, size = std::abs(constraint.b);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double term = constraint.a[i] * (constraint.a[i] > 0 ? box.lower[i] : box.upper[i]);
-      least += term;
-      size = std::max(size, std::abs(term));
-    }
-    const double slack = k_slack * size;
-    if (least > constraint.b + slack) return false;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double a = constraint.a[i];
-      if (a == 0) continue;
-      const double others = least - a * (a > 0 ? box.lower[i] : box.upper[i]);
-      const double limit = (constraint.b - others + slack) / a;
-      if (a > 0) box.upper[i] = std::clamp(limit, box.lower[i], box.upper[i]);
-      if (a < 0) box.lower[i] = std::clamp(limit, box.lower[i], box.upper[i]);
-    }
-  }
-  return true;
-}
-
-/// Where f is largest, and where it is largest of its neighbours, in the middle of the box.
-std::vector<double> Bounder::worst_places(const Box& box) const {
-  constexpr int places = 25;
-  const Mechanism middle = mechanism_at(problem_, centre_of(box, problem_.variables.size()));
-  const auto numbers = design_numbers(file_numbers(middle), middle.pulley.law, middle.has_point_pins());
-  std::array<double, places> values{};
-  for (int i = 0; i < places; ++i) {
-    Domain domain;
-    const double value = objective_at(objective_, numbers, i / (places - 1.0), domain);
-    values[static_cast<std::size_t>(i)] =
-        domain.possible && value == value ? value : std::numeric_limits<double>::infinity();
-  }
-  std::vector<std::pair<double, double>> found;  // −value, place
-  for (int i = 0; i < places; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const bool left = i == 0 || values[k] >= values[k - 1], right = i == places - 1 || values[k] >= values[k + 1];
-    if (!left || !right) continue;
-    double place = i / (places - 1.0);
-    if (i > 0 && i < places - 1 && std::isfinite(values[k - 1] + values[k] + values[k + 1])) {
-      const double bend = values[k - 1] - 2.0 * values[k] + values[k + 1];
-      if (bend < 0) place += 0.5 * (values[k - 1] - values[k + 1]) / bend / (places - 1.0);
-    }
-    found.emplace_back(-values[k], place);
-  }
-  std::sort(found.begin(), found.end());
-  std::vector<double> worst;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, found.size()); ++i) worst.push_back(found[i].second);
-  return worst;
-}
-
-void Bounder::bound_at(const Box& box, double place, BoxBound& best, double enough) const {
-  const std::size_t count = problem_.variables.size();
-  const auto raise = [&best](double bound) {
-    if (bound > best.bound) best.bound = bound;
-  };
-  ++evaluations_;
-  const PlaceValue over = value_over(problem_, objective_, box, place);
-  if (!over.domain.possible) {
-    best.possible = false;
-    return;
-  }
-  const bool leads = over.value.value.lower() > best.bound || best.best_corner.empty();
-  raise(over.value.value.lower());
-  if (best.bound > enough || !over.domain.whole || over.value.count == 0) return;
-
-  std::array<bool, Jet::k_most> at_upper{};
-  Box corner = box;
-  for (std::size_t i = 0; i < count; ++i) {
-    at_upper[i] = over.value.slope[i].lower() + over.value.slope[i].upper() < 0;
-    (at_upper[i] ? corner.lower[i] : corner.upper[i]) = at_upper[i] ? box.upper[i] : box.lower[i];
-  }
-  ++evaluations_;
-  const PlaceValue there = value_over(problem_, objective_, corner, place);
-  if (there.domain.possible) {
-    const double before = best.bound;
-    raise(linear_bound(problem_, box, over.value, there.value.value, at_upper));
-    if (leads || best.bound > before) {
-      best.best_corner.assign(corner.lower.begin(), corner.lower.begin() + static_cast<std::ptrdiff_t>(count));
-      for (std::size_t i = 0; i < count; ++i) {
-        const double steepest = std::max(std::abs(over.value.slope[i].lower()), std::abs(over.value.slope[i].upper()));
-        best.influence[i] = steepest * (box.upper[i] - box.lower[i]);
-      }
-    }
-  }
-  if (best.bound <= enough) raise(quotient_bound(problem_, objective_, box, place));
-}
-
-BoxBound Bounder::bound(const Box& box, double enough) const {
-  BoxBound best;
-  best.bound = box.bound;
-  for (const double place : worst_places(box)) {
-    bound_at(box, place, best, enough);
-    if (!best.possible || best.bound > enough) break;
-  }
-  return best;
-}
-
 double Bounder::rounded_up_value(const Design& design) const {
   struct Piece {
     double low, high, upper;
@@ -356,13 +533,12 @@ double Bounder::rounded_up_value(const Design& design) const {
   constexpr int k_most_pieces = 20000;
   constexpr double k_sharp = 1e-10;
   std::priority_queue<Piece> pieces;
-  double least = -std::numeric_limits<double>::infinity();
+  double least = -k_infinite;
   const auto add = [&](double low, double high) {
-    ++evaluations_;
-    const Interval value = value_over_piece(problem_, objective_, design, low, high);
+    const Interval value = value_over_piece(design, low, high);
     pieces.push({low, high, value.upper()});
-    least = std::max(least, value_over_piece(problem_, objective_, design, low, low).lower());
-    least = std::max(least, value_over_piece(problem_, objective_, design, high, high).lower());
+    least = std::max(least, value_over_piece(design, low, low).lower());
+    least = std::max(least, value_over_piece(design, high, high).lower());
   };
   for (int i = 0; i < 16; ++i) add(i / 16.0, (i + 1) / 16.0);
   for (int i = 0; i < k_most_pieces; ++i) {

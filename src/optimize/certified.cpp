@@ -8,6 +8,7 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "optimize/bound.h"
+#include "optimize/hands.h"
 #include "optimize/random.h"
 
 namespace fusee {
@@ -28,9 +29,22 @@ void demand_certifiable(const Problem& problem, Objective objective) {
   }
   throw InputError(
       "", obstacle,
-      "certified: " + names +
-          ", with law compensate or linear, without feasible = true and of a joint as declared; else --method ga");
+      "certified: " + names + ", with law compensate or linear, and of a joint as declared; else --method ga");
 }
+
+/// A design and what it is worth.
+struct Tried {
+  Design design;
+  Evaluation evaluation;
+};
+
+/// What became of a box: found without looking at any other box.
+struct Outcome {
+  bool kept = false;  ///< it may hold the optimum or a tie
+  Box box;
+  std::vector<Tried> tried;
+  long evaluations = 0;
+};
 
 class Search {
  public:
@@ -39,9 +53,8 @@ class Search {
         count_(problem.variables.size()),
         objective_(objective),
         options_(options),
-        bounder_(problem, objective) {
-    if (problem.cap) cap_.emplace(problem, problem.cap->objective);
-  }
+        bounder_(problem, objective),
+        hands_(options.threads) {}
 
   CertifiedResult run() {
     start();
@@ -50,13 +63,13 @@ class Search {
     result.found = !best_.empty();
     if (result.found) {
       finish(result);
-      gather_ties(result.ties);
+      if (!stopped_) gather_ties(result.ties);
     } else {
       result.proven = to_the_end;
       result.reason = commonest_reason();
     }
     result.boxes = boxes_;
-    result.evaluations = bounder_.evaluations() + (cap_ ? cap_->evaluations() : 0);
+    result.evaluations = evaluations_;
     return result;
   }
 
@@ -67,17 +80,17 @@ class Search {
   // ------------------------------------------------------------------------------------------------
 
   void start() {
-    for (const Design& design : options_.first_tries) try_design(design);
+    for (const Design& design : options_.first_tries) take(tried(design));
     constexpr int k_first_tries = 200;
     Random random(1);
-    for (int i = 0; i < k_first_tries; ++i) try_design(random_design(problem_, random));
-    Box root;
+    for (int i = 0; i < k_first_tries && !stopped(-k_none); ++i) take(tried(random_design(problem_, random)));
     for (std::size_t i = 0; i < count_; ++i) {
-      root.lower[i] = problem_.variables[i].lower;
-      root.upper[i] = problem_.variables[i].upper;
+      root_.lower[i] = problem_.variables[i].lower;
+      root_.upper[i] = problem_.variables[i].upper;
     }
-    root.bound = -k_none;
-    add(root);
+    root_.bound = -k_none;
+    polish();
+    take_in({root_});
   }
 
   /// Best first, until the least bound left meets the best design. Then as much work again at most for a hundred times
@@ -90,64 +103,86 @@ class Search {
 
   bool branch_until(double gap, long most_boxes) {
     while (!queue_.empty()) {
-      const Box box = queue_.top();
-      if (!best_.empty() && best_value_ - box.bound <= gap * std::abs(best_value_)) return true;
-      if (boxes_ >= most_boxes || stopped(box.bound)) return false;
-      queue_.pop();
-      for (const Box& half : halves(box)) add(half);
+      const double bound = queue_.top().bound;
+      if (is_met(bound, gap)) return true;
+      if (boxes_ >= most_boxes || stopped(bound)) return false;
+      std::vector<Box> batch;
+      while (!queue_.empty() && batch.size() < k_batch && !is_met(queue_.top().bound, gap)) {
+        for (const Box& half : halves(queue_.top())) batch.push_back(half);
+        queue_.pop();
+      }
+      take_in(batch);
     }
     return true;
   }
 
+  bool is_met(double bound, double gap) const {
+    return !best_.empty() && best_value_ - bound <= gap * std::abs(best_value_);
+  }
+
   bool stopped(double bound) {
-    if (!options_.keep_going || boxes_ < next_report_) return false;
-    next_report_ = boxes_ + 200;
+    if (!options_.keep_going || stopped_) return stopped_;
     SearchProgress progress;
     if (!best_.empty()) progress.best = best_value_;
     progress.lower_bound = bound;
-    progress.evaluations = bounder_.evaluations();
+    progress.evaluations = evaluations_;
     const double gap = (best_value_ - bound) / std::abs(best_value_);
     // The gap closes by powers of ten.
     progress.done = gap > 0 && gap < 1 ? std::min(1.0, std::log(gap) / std::log(options_.gap)) : 0.0;
-    return !options_.keep_going(progress);
+    stopped_ = !options_.keep_going(progress);
+    return stopped_;
   }
 
-  /// Bounds a box, tries designs of it, and keeps it where it may hold the optimum or a tie.
-  void add(Box box) {
-    if (!bounded(box)) return;
-    if (box.bound > best_value_)
-      tie_boxes_.push_back(box);
-    else
-      queue_.push(box);
+  /// Boxes are bounded side by side, against what is known before; what comes of them is taken in their order.
+  std::vector<Outcome> outcomes_of(const std::vector<Box>& boxes) {
+    std::vector<Outcome> outcomes(boxes.size());
+    hands_.each(boxes.size(), [&](std::size_t i) { outcomes[i] = bounded(boxes[i], i < k_mended); });
+    boxes_ += static_cast<long>(boxes.size());
+    for (const Outcome& outcome : outcomes) evaluations_ += outcome.evaluations;
+    return outcomes;
   }
 
-  /// False when the box holds neither the optimum nor a tie.
-  bool bounded(Box& box) {
-    ++boxes_;
-    if (!bounder_.contract(box)) return false;
-    if (cap_) {
-      Box of_cap = box;
-      of_cap.bound = -k_none;  // the box's own bound is of the other objective
-      const BoxBound first = cap_->bound(of_cap, problem_.cap->limit);
-      if (!first.possible || first.bound > problem_.cap->limit) return false;
+  void take_in(const std::vector<Box>& boxes) {
+    const std::vector<Outcome> outcomes = outcomes_of(boxes);
+    for (const Outcome& outcome : outcomes) {
+      for (const Tried& one : outcome.tried) take(one);
     }
-    const BoxBound bound = bounder_.bound(box, tie_limit());
-    if (!bound.possible) return false;
-    box.bound = std::max(box.bound, bound.bound);
-    if (box.bound > tie_limit()) return false;
-    try_designs_of(box, bound);
-    box.cut = promising_cut(box, bound);
-    return box.bound <= tie_limit();
+    // Where designs tie, a better one by a rounding error comes with every batch.
+    if (!best_.empty() && best_value_ < polished_ - 0.1 * options_.gap * std::abs(best_value_)) polish();
+    keep(outcomes);
   }
 
-  void try_designs_of(const Box& box, const BoxBound& bound) {
-    if (bound.best_corner.empty() || boxes_ % 8 == 0) try_design(middle_of(box));
-    if (bound.best_corner.empty()) return;
-    if (constraint_violation(problem_, bound.best_corner) == 0) return try_design(bound.best_corner);
-    for (std::size_t i = 0; i < count_; ++i) try_design(moved_into_constraints(bound.best_corner, i, box));
+  void keep(const std::vector<Outcome>& outcomes) {
+    for (const Outcome& outcome : outcomes) {
+      if (!outcome.kept || outcome.box.bound > tie_limit()) continue;
+      if (outcome.box.bound > best_value_)
+        tie_boxes_.push_back(outcome.box);
+      else
+        queue_.push(outcome.box);
+    }
   }
 
-  /// Moves variable i as far as the constraints ask, within the box.
+  /// `mends`: where the design that it comes to lies beyond a border, one beside it is looked for.
+  Outcome bounded(const Box& given, bool mends) const {
+    Outcome outcome;
+    outcome.box = given;
+    const BoxBound bound = bounder_.bound(outcome.box, tie_limit());
+    outcome.evaluations = bound.evaluations;
+    if (!bound.possible) return outcome;
+    outcome.kept = true;
+    outcome.box.bound = std::max(outcome.box.bound, bound.bound);
+    outcome.box.cut = promising_cut(outcome.box, bound);
+    if (bound.bound > best_value_) return outcome;
+    outcome.tried.push_back(tried(bound.lowest.empty() ? middle_of(outcome.box) : kept(bound.lowest, outcome.box)));
+    if (best_.empty() && !bound.lowest.empty()) outcome.tried.push_back(tried(middle_of(outcome.box)));
+    if (mends && !bound.lowest.empty() && !outcome.tried.front().evaluation.possible) {
+      const Design mended = bounder_.lowest_around(bound.lowest, std::max(1e-3, relative_size(outcome.box)));
+      if (!mended.empty()) outcome.tried.push_back(tried(kept(mended, root_)));
+    }
+    return outcome;
+  }
+
+  /// Moves one variable as far as the constraints ask, within the box: to the last digit, which no linear program does.
   Design moved_into_constraints(Design design, std::size_t i, const Box& box) const {
     for (const LinearConstraint& constraint : problem_.constraints) {
       double excess = -constraint.b;
@@ -158,26 +193,50 @@ class Search {
     return design;
   }
 
-  void try_design(const Design& design) {
-    const Evaluation evaluation = evaluate_design(problem_, objective_, design);
-    if (!evaluation.possible) {
-      ++reasons_[evaluation.reason.substr(0, evaluation.reason.find(" at θ"))];
-    } else if (evaluation.value < best_value_ || best_.empty()) {
-      best_ = design;
-      best_value_ = evaluation.value;
-      best_theta_ = evaluation.theta;
+  /// Within the constraints, where moving a single variable does it.
+  Design kept(const Design& design, const Box& box) const {
+    for (std::size_t i = 0; i < count_ && !problem_.constraints.empty(); ++i) {
+      const Design moved = moved_into_constraints(design, i, box);
+      if (constraint_violation(problem_, moved) == 0) return moved;
     }
+    return design;
+  }
+
+  Tried tried(const Design& design) const { return {design, evaluate_design(problem_, objective_, design)}; }
+
+  void take(const Tried& one) {
+    if (!one.evaluation.possible) {
+      if (best_.empty()) ++reasons_[one.evaluation.reason.substr(0, one.evaluation.reason.find(" at "))];
+    } else if (one.evaluation.value < best_value_ || best_.empty()) {
+      best_ = one.design;
+      best_value_ = one.evaluation.value;
+      best_theta_ = one.evaluation.theta;
+    }
+  }
+
+  /// Makes the best design better by linear programs in ever smaller boxes around it: the sooner it is good, the fewer
+  /// boxes have to be looked at.
+  void polish() {
+    constexpr double k_least = 1e-8, k_smaller = 0.25, k_larger = 2.0;
+    constexpr int k_steps = 40;
+    double size = 0.05;
+    for (int step = 0; step < k_steps && size > k_least && !best_.empty() && !stopped(-k_none); ++step) {
+      const double before = best_value_;
+      const Design lowest = bounder_.lowest_around(best_, size);
+      if (!lowest.empty()) take(tried(kept(lowest, root_)));
+      size *= best_value_ < before - 1e-3 * options_.gap * std::abs(before) ? k_larger : k_smaller;
+    }
+    polished_ = best_value_;
   }
 
   int promising_cut(const Box& box, const BoxBound& bound) const {
     int cut = 0;
     double most = -1;
     for (std::size_t i = 0; i < count_; ++i) {
-      const double range = problem_.variables[i].upper - problem_.variables[i].lower;
+      const double range = root_.upper[i] - root_.lower[i];
       const double relative = range > 0 ? (box.upper[i] - box.lower[i]) / range : 0.0;
-      // Without slopes, or where they say nothing, the widest; else where the objective changes most.
-      const double promise =
-          bound.best_corner.empty() ? relative : bound.influence[i] + 1e-3 * relative * std::abs(bound.bound);
+      // Without slopes, or where they say nothing, the widest; else where the bound is least sharp.
+      const double promise = bound.lowest.empty() ? relative : bound.loss[i] + 1e-3 * relative * std::abs(bound.bound);
       if (relative > 0 && promise > most) most = promise, cut = static_cast<int>(i);
     }
     return cut;
@@ -225,10 +284,7 @@ class Search {
     return size;
   }
 
-  int widest(const Box& box) const {
-    BoxBound no_slopes;
-    return promising_cut(box, no_slopes);
-  }
+  int widest(const Box& box) const { return promising_cut(box, BoxBound()); }
 
   /// Halves the widest boxes that may hold a tie until there are many or all are small.
   void gather_ties(TieSet& ties) {
@@ -239,15 +295,19 @@ class Search {
       if (box.bound <= tie_limit()) by_size.emplace(relative_size(box), box);
     }
     ties.known = {best_, best_};
-    while (!by_size.empty() && by_size.begin()->first > k_small &&
+    while (!by_size.empty() && by_size.begin()->first > k_small && !stopped(best_value_) &&
            static_cast<long>(by_size.size()) < options_.most_tie_boxes) {
-      Box box = by_size.begin()->second;
-      by_size.erase(by_size.begin());
-      box.cut = widest(box);
-      for (Box half : halves(box)) {
-        if (!bounded(half)) continue;
-        widen_known(ties.known, middle_of(half));
-        by_size.emplace(relative_size(half), half);
+      std::vector<Box> batch;
+      for (; !by_size.empty() && by_size.begin()->first > k_small && batch.size() < k_batch;
+           by_size.erase(by_size.begin())) {
+        Box box = by_size.begin()->second;
+        box.cut = widest(box);
+        for (const Box& half : halves(box)) batch.push_back(half);
+      }
+      for (const Outcome& outcome : outcomes_of(batch)) {
+        if (!outcome.kept) continue;
+        widen_known(ties.known, middle_of(outcome.box));
+        by_size.emplace(relative_size(outcome.box), outcome.box);
       }
     }
     describe(ties, by_size);
@@ -284,20 +344,28 @@ class Search {
     }
   }
 
+  /// Halves that are bounded side by side: enough to keep eight threads busy, few beside those of a search. The search
+  /// is the same on any number of threads.
+  static constexpr std::size_t k_batch = 32;
+  static constexpr std::size_t k_mended = 4;  ///< of a batch, the most promising
+
   const Problem& problem_;
   std::size_t count_;
   Objective objective_;
   CertifiedOptions options_;
   Bounder bounder_;
-  std::optional<Bounder> cap_;
+  Hands hands_;
+  Box root_;
   Design best_;
   double best_value_ = k_none;
   double best_theta_ = 0;
+  double polished_ = k_none;  ///< what polishing last came to
   std::priority_queue<Box, std::vector<Box>, HigherBound> queue_;
   std::vector<Box> tie_boxes_;  ///< above the best value, within the tie
   std::map<std::string, long> reasons_;
   long boxes_ = 0;
-  long next_report_ = 0;
+  long evaluations_ = 0;
+  bool stopped_ = false;
 };
 
 }  // namespace
@@ -307,7 +375,6 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
     return std::string(info(objective).name) + " has no interval form: its optimum cannot be certified";
   if (problem.base.pulley.law == Law::table)
     return "law = \"table\" has no interval form: its optimum cannot be certified";
-  if (problem.feasible) return "feasible = true has no interval form: the optimum cannot be certified";
   if (problem.as_it_is)
     return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
   return "";

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <optional>
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
@@ -12,6 +11,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/optimize/genetic.h"
+#include "optimize/hands.h"
 #include "optimize/random.h"
 
 namespace fusee {
@@ -22,56 +22,142 @@ constexpr double k_penalty = 1e12;
 /// The best so far where nothing was possible so far.
 constexpr double k_none = 1e300;
 
-/// What pagmo copies about; the counts are shared.
-struct PagmoProblem {
-  const Problem* problem = nullptr;
-  std::vector<Objective> objectives;
-  std::shared_ptr<std::map<std::string, long>> reasons = std::make_shared<std::map<std::string, long>>();
+/// What designs cost, and why they are not possible.
+struct Costs {
+  pagmo::vector_double costs;
+  std::string reason;
+};
 
-  pagmo::vector_double fitness(const pagmo::vector_double& design) const {
-    const double violation = constraint_violation(*problem, design);
-    pagmo::vector_double costs;
+/// A reason without its numbers: of its kind there are few.
+std::string kind_of(std::string reason) {
+  reason.erase(std::remove_if(reason.begin(), reason.end(), [](char c) { return (c >= '0' && c <= '9') || c == '.'; }),
+               reason.end());
+  return reason;
+}
+
+class Reasons {
+ public:
+  void add(const std::string& reason) {
+    if (reason.empty()) return;
+    Kind& kind = kinds_[kind_of(reason)];
+    if (kind.count++ == 0) kind.example = reason;
+  }
+  std::string commonest() const {
+    const auto most = std::max_element(kinds_.begin(), kinds_.end(),
+                                       [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
+    return most == kinds_.end() ? "no design keeps the constraints" : most->second.example;
+  }
+
+ private:
+  struct Kind {
+    long count = 0;
+    std::string example;
+  };
+  std::map<std::string, Kind> kinds_;
+};
+
+/// Thrown through pagmo, and caught here.
+struct Stopped {};
+
+/// Designs are worth something to pagmo one after the other; here a generation is judged side by side, before pagmo
+/// asks for it. What a generation asks for depends on the one before alone: it is run once on a copy to see the
+/// designs, and once more with what they cost.
+struct Judge {
+  const Problem& problem;
+  std::vector<Objective> objectives;
+  Hands hands;
+  KeepGoing keep_going;
+  SearchProgress progress;
+  bool foreseeing = false;
+  std::vector<pagmo::vector_double> foreseen;
+  std::map<pagmo::vector_double, pagmo::vector_double> known;
+  Reasons reasons;
+
+  Judge(const Problem& of, std::vector<Objective> by, const GeneticOptions& options)
+      : problem(of), objectives(std::move(by)), hands(options.threads), keep_going(options.keep_going) {}
+
+  Costs costs_of(const pagmo::vector_double& design) const {
+    Costs result;
+    const double violation = constraint_violation(problem, design);
     for (const Objective objective : objectives) {
       if (violation > 0) {
-        costs.push_back(k_penalty * (1.0 + violation));
+        result.costs.push_back(k_penalty * (1.0 + violation));
         continue;
       }
-      const Evaluation evaluation = evaluate_design(*problem, objective, design);
-      if (!evaluation.possible) ++(*reasons)[evaluation.reason.substr(0, evaluation.reason.find(" at θ"))];
-      costs.push_back(evaluation.possible ? evaluation.cost(objective) : k_penalty);
+      const Evaluation evaluation = evaluate_design(problem, objective, design);
+      if (!evaluation.possible) result.reason = evaluation.reason.substr(0, evaluation.reason.find(" at θ"));
+      result.costs.push_back(evaluation.possible ? evaluation.cost(objective) : k_penalty);
     }
-    return costs;
+    return result;
   }
+
+  pagmo::vector_double fitness(const pagmo::vector_double& design) {
+    if (foreseeing) {
+      foreseen.push_back(design);
+      return pagmo::vector_double(objectives.size(), 0.0);
+    }
+    const auto found = known.find(design);
+    return found != known.end() ? found->second : costs_of(design).costs;
+  }
+
+  /// A few at a time: in between it is asked whether to go on.
+  void judge(const std::vector<pagmo::vector_double>& designs) {
+    constexpr std::size_t k_at_once = 16;
+    known.clear();
+    for (std::size_t begin = 0; begin < designs.size(); begin += k_at_once) {
+      if (keep_going && !keep_going(progress)) throw Stopped();
+      std::vector<Costs> costs(std::min(k_at_once, designs.size() - begin));
+      hands.each(costs.size(), [&](std::size_t i) { costs[i] = costs_of(designs[begin + i]); });
+      for (std::size_t i = 0; i < costs.size(); ++i) {
+        reasons.add(costs[i].reason);
+        known[designs[begin + i]] = std::move(costs[i].costs);
+      }
+      progress.evaluations += static_cast<long>(costs.size());
+    }
+  }
+
+  /// The next generation, as pagmo alone would make it.
+  pagmo::population evolved(pagmo::algorithm& algorithm, const pagmo::population& population) {
+    foreseen.clear();
+    foreseeing = true;
+    (void)pagmo::algorithm(algorithm).evolve(population);
+    foreseeing = false;
+    judge(foreseen);
+    return algorithm.evolve(population);
+  }
+};
+
+/// What pagmo copies about; the judge is shared.
+struct PagmoProblem {
+  Judge* judge = nullptr;
+
+  pagmo::vector_double fitness(const pagmo::vector_double& design) const { return judge->fitness(design); }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
     std::pair<pagmo::vector_double, pagmo::vector_double> bounds;
-    for (const Variable& variable : problem->variables) {
+    for (const Variable& variable : judge->problem.variables) {
       bounds.first.push_back(variable.lower);
       bounds.second.push_back(variable.upper);
     }
     return bounds;
   }
-  pagmo::vector_double::size_type get_nobj() const { return objectives.size(); }
+  pagmo::vector_double::size_type get_nobj() const { return judge->objectives.size(); }
 };
-
-std::string commonest(const std::map<std::string, long>& reasons) {
-  const auto most = std::max_element(reasons.begin(), reasons.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == reasons.end() ? "no design keeps the constraints" : most->first;
-}
 
 /// Random designs, those outside of a constraint drawn again: a thin set of possible designs must not be missed at the
 /// start.
-pagmo::population first_population(const PagmoProblem& pagmo_problem, const GeneticOptions& options) {
+pagmo::population first_population(Judge& judge, const GeneticOptions& options) {
   constexpr int k_most_draws = 200;
-  pagmo::population population(pagmo::problem(pagmo_problem), 0u, options.seed);
   Random random(options.seed);
+  std::vector<pagmo::vector_double> designs;
   for (unsigned i = 0; i < options.population; ++i) {
-    Design design = random_design(*pagmo_problem.problem, random);
-    for (int draw = 0; draw < k_most_draws && constraint_violation(*pagmo_problem.problem, design) > 0; ++draw) {
-      design = random_design(*pagmo_problem.problem, random);
-    }
-    population.push_back(design);
+    Design design = random_design(judge.problem, random);
+    for (int draw = 0; draw < k_most_draws && constraint_violation(judge.problem, design) > 0; ++draw)
+      design = random_design(judge.problem, random);
+    designs.push_back(std::move(design));
   }
+  judge.judge(designs);
+  pagmo::population population(pagmo::problem(PagmoProblem{&judge}), 0u, options.seed);
+  for (const auto& design : designs) population.push_back(design);
   return population;
 }
 
@@ -92,38 +178,37 @@ Generation described(unsigned number, const pagmo::population& population, Objec
   return generation;
 }
 
-bool goes_on(const GeneticOptions& options, unsigned generation, std::optional<double> best, long evaluations) {
-  if (!options.keep_going) return true;
-  SearchProgress progress;
-  progress.done = static_cast<double>(generation) / options.generations;
-  progress.best = best;
-  progress.evaluations = evaluations;
-  return options.keep_going(progress);
-}
+std::optional<double> found(double best) { return std::abs(best) < k_none ? std::optional(best) : std::nullopt; }
 
 }  // namespace
 
 GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options) {
-  const PagmoProblem pagmo_problem{&problem, {objective}};
-  pagmo::population population = first_population(pagmo_problem, options);
+  Judge judge(problem, {objective}, options);
   // One generation a call, so that each can be looked at.
   pagmo::algorithm algorithm{pagmo::sga(1u, 0.9, 1.0, 0.1, 1.0, 2u, "sbx", "polynomial", "tournament", options.seed)};
   GeneticResult result;
   double best = info(objective).largest ? -k_none : k_none;
-  for (unsigned number = 0; number <= options.generations && !result.stopped; ++number) {
-    if (number > 0) population = algorithm.evolve(population);
-    result.generations.push_back(described(number, population, objective, best));
-    best = result.generations.back().best;
-    result.stopped = !goes_on(options, number, std::abs(best) < k_none ? std::optional(best) : std::nullopt,
-                              static_cast<long>(population.get_problem().get_fevals()));
+  try {
+    pagmo::population population = first_population(judge, options);
+    for (unsigned number = 0; number <= options.generations; ++number) {
+      judge.progress.done = static_cast<double>(number) / options.generations;
+      if (number > 0) population = judge.evolved(algorithm, population);
+      result.generations.push_back(described(number, population, objective, best));
+      best = result.generations.back().best;
+      judge.progress.best = found(best);
+      result.best = population.champion_x();
+    }
+  } catch (const Stopped&) {
+    result.stopped = true;
   }
-  result.evaluations = static_cast<long>(population.get_problem().get_fevals());
-  result.best = population.champion_x();
-  const Evaluation evaluation = evaluate_design(problem, objective, result.best);
-  result.found = evaluation.possible;
-  result.value = evaluation.value;
-  result.theta = evaluation.theta;
-  if (!result.found) result.reason = commonest(*pagmo_problem.reasons);
+  result.evaluations = judge.progress.evaluations;
+  if (!result.best.empty()) {
+    const Evaluation evaluation = evaluate_design(problem, objective, result.best);
+    result.found = evaluation.possible;
+    result.value = evaluation.value;
+    result.theta = evaluation.theta;
+  }
+  if (!result.found) result.reason = judge.reasons.commonest();
   return result;
 }
 
@@ -132,15 +217,23 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
     throw InputError("", "a front needs two or three objectives",
                      "for example optimize.objective = [\"max_tension\", \"footprint\"]");
   }
-  const PagmoProblem pagmo_problem{&problem, problem.objectives};
-  pagmo::population population = first_population(pagmo_problem, options);
+  Judge judge(problem, problem.objectives, options);
   pagmo::algorithm algorithm{pagmo::nsga2(1u, 0.95, 10.0, 0.02, 50.0, options.seed)};
   ParetoResult result;
-  for (unsigned number = 1; number <= options.generations && !result.stopped; ++number) {
-    population = algorithm.evolve(population);
-    result.stopped = !goes_on(options, number, std::nullopt, static_cast<long>(population.get_problem().get_fevals()));
+  std::optional<pagmo::population> last;
+  try {
+    last = first_population(judge, options);
+    for (; result.generations < options.generations; ++result.generations) {
+      judge.progress.done = static_cast<double>(result.generations) / options.generations;
+      last = judge.evolved(algorithm, *last);
+    }
+  } catch (const Stopped&) {
+    result.stopped = true;
   }
-  result.evaluations = static_cast<long>(population.get_problem().get_fevals());
+  result.evaluations = judge.progress.evaluations;
+  result.reason = judge.reasons.commonest();
+  if (!last) return result;
+  const pagmo::population& population = *last;
   const auto costs = population.get_f();
   const auto fronts = std::get<0>(pagmo::fast_non_dominated_sorting(costs));
   for (const auto i : fronts.front()) {
@@ -155,7 +248,7 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
   });
   const auto same = [](const FrontPoint& a, const FrontPoint& b) { return a.values == b.values; };
   result.front.erase(std::unique(result.front.begin(), result.front.end(), same), result.front.end());
-  if (result.front.empty()) result.reason = commonest(*pagmo_problem.reasons);
+  if (!result.front.empty()) result.reason.clear();
   return result;
 }
 

@@ -5,9 +5,18 @@
 
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/optimize/objectives.h"
+#include "optimize/sharp.h"
 #include "transmission/equations.h"
 
 namespace fusee {
+
+/// The least γ of both tendons: with less the tendon has left its pin. An angle below is taken to be this, for designs
+/// that are not possible anyway: so that a function over a box exists, and is smooth, also beside the possible ones.
+struct PinAngles {
+  double of_1 = -1e300, of_2 = -1e300;
+
+  bool operator==(const PinAngles&) const = default;
+};
 
 /// The numbers of a mechanism that [1]-[11] use.
 template <typename S>
@@ -19,6 +28,8 @@ struct DesignNumbers {
   S to_B, to_D;         ///< c: from the pulley's axis to the pins, mm
   S angle_B, angle_D;   ///< their directions in the right-hand image, rad
   bool linear = false;  ///< law = linear: θ = α/ratio; else compensate
+  S half;               ///< of the tendon's diameter, mm
+  PinAngles least;      ///< what boxes know of the place that is looked at
 };
 
 /// The same as they stand in the file, but for angles, which are rad.
@@ -31,8 +42,8 @@ FileNumbers<double> file_numbers(const Mechanism& mechanism);
 
 template <typename S>
 DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_pins) {
-  DesignNumbers<S> d{file.R, file.EB, file.ED,        file.OE,        file.EF, file.r1, file.ratio, file.mu,
-                     0.0,    0.0,     file.theta_min, file.theta_max, 0.0,     0.0,     0.0,        0.0};
+  DesignNumbers<S> d{file.R,         file.EB,        file.ED, file.OE, file.EF, file.r1, file.ratio, file.mu, 0.0, 0.0,
+                     file.theta_min, file.theta_max, 0.0,     0.0,     0.0,     0.0,     false,      0.0,     {}};
   Domain whole;  // EF > 0
   d.to_B = hypot(d.EB, d.EF);
   d.to_D = hypot(d.ED, d.EF);
@@ -41,6 +52,7 @@ DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_
   if (!point_pins) d.rho = file.radius + 0.5 * file.diameter;
   d.stiffness = stiffness_of_section(file.modulus, file.diameter);
   d.linear = law == Law::linear;
+  d.half = 0.5 * file.diameter;
   return d;
 }
 
@@ -55,46 +67,68 @@ struct UpperNumbers {
 template <typename S>
 struct StrokeNumbers {
   TurnedBy<S> theta;
-  UpperNumbers<S> upper;  ///< of tendon 2
+  UpperNumbers<S> upper1, upper2;  ///< of both tendons
   S r1, r2;
   S reach;  ///< pin D to the foot of G's perpendicular, mm
   S phi;    ///< wrap over pin D [8]
 };
 
-/// Tendon 1 is wanted on its pin too, or the law θ(α) ends. No objective uses its wrap: no derivatives.
+/// Above the pin, in the frame of the link; below it, from the pulley's axis. Over intervals by sharp.h.
 template <typename S>
-void demand_on_pin_B(const DesignNumbers<S>& d, const S& normal1, const S& r1, Domain& domain) {
-  Domain its_own;
-  const LowerLine<S> lower1 =
-      lower_line(without_slopes(r1), without_slopes(d.rho), without_slopes(d.to_B), without_slopes(d.angle_B), its_own);
-  domain.possible = domain.possible && its_own.possible;
-  demand_not_negative(without_slopes(normal1) - lower1.normal, domain);
+UpperLine<S> upper_line_of(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
+  return upper_line(from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
+}
+inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, const TurnedBy<Jet>& theta,
+                                    Domain& domain) {
+  const SharpLine line = sharp_upper_line(d.R, e, d.OE, d.rho, theta, domain);
+  return {line.normal, line.reach};
+}
+template <typename S>
+LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, bool of_B, Domain& domain) {
+  return lower_line(p, d.rho, of_B ? d.to_B : d.to_D, of_B ? d.angle_B : d.angle_D, domain);
+}
+inline LowerLine<Jet> lower_line_of(const DesignNumbers<Jet>& d, const Jet& p, bool of_B, Domain& domain) {
+  const SharpLine line = sharp_lower_line(p, d.rho, of_B ? d.EB : d.ED, d.EF, domain);
+  return {line.normal, line.reach};
 }
 
 /// Of a tendon that has a moment arm.
 template <typename S>
-UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, Domain& domain) {
-  const UpperLine<S> line = upper_line(from_pin_in_link(d.R, e, d.OE, theta), d.rho, domain);
-  return {line.normal, positive_part(sin(line.normal), domain), line.free};
+UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, double least,
+                              Domain& domain) {
+  const UpperLine<S> line = upper_line_of(d, e, theta, domain);
+  const S gamma = larger(line.normal, S(least));
+  return {gamma, positive_part(sin(gamma), domain), line.free};
 }
 
-/// `place`: 0 at the lowest, 1 at the highest joint angle.
+/// Both tendons above their pins and the radii that follow from their arms: no pulley is looked at yet.
 template <typename S>
-StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domain& domain) {
+StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, Domain& domain) {
   StrokeNumbers<S> n;
   n.theta = turned_by(d.theta_min + place * (d.theta_max - d.theta_min));
-  n.upper = upper_numbers(d, d.ED, n.theta, domain);
-  const UpperNumbers<S> upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), domain);
+  n.upper2 = upper_numbers(d, d.ED, n.theta, d.least.of_2, domain);
+  n.upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), d.least.of_1, domain);
   // Arms in units of R, which cancels: an interval is the sharper the less often a number stands in a formula.
-  const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, upper1.sine);
-  n.r1 = d.linear ? pulley_radius(upper1.sine, slope) : d.r1;
-  n.r2 = pulley_radius(n.upper.sine, slope);
-  const LowerLine<S> lower = lower_line(n.r2, d.rho, d.to_D, d.angle_D, domain);
-  n.reach = lower.reach;
-  n.phi = n.upper.gamma - n.theta.angle - lower.normal;
-  demand_not_negative(n.phi, domain);
-  demand_on_pin_B(d, S(upper1.gamma + n.theta.angle), n.r1, domain);
+  const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, n.upper1.sine);
+  n.r1 = d.linear ? pulley_radius(n.upper1.sine, slope) : d.r1;
+  n.r2 = pulley_radius(n.upper2.sine, slope);
   return n;
+}
+
+/// `place`: 0 at the lowest, 1 at the highest joint angle. Tendon 2 may have left its pin: phi is negative there.
+template <typename S>
+StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domain& domain) {
+  StrokeNumbers<S> n = upper_stroke(d, place, domain);
+  const LowerLine<S> lower = lower_line_of(d, n.r2, false, domain);
+  n.reach = lower.reach;
+  n.phi = n.upper2.gamma - n.theta.angle - lower.normal;
+  return n;
+}
+
+/// Of tendon 1 over pin B.
+template <typename S>
+S wrap_over_B(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, Domain& domain) {
+  return S(n.upper1.gamma + n.theta.angle) - lower_line_of(d, n.r1, true, domain).normal;
 }
 
 /// The rectangle around link, pins and pulley in this pose. mm²
@@ -110,16 +144,24 @@ S footprint_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n) {
 /// What of the objective this place of the stroke alone would give: the objective is the largest over the range. Per
 /// newton of tip force.
 template <typename S>
-S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, Domain& domain) {
-  const StrokeNumbers<S> n = stroke_numbers(d, place, domain);
+S objective_of(Objective objective, const DesignNumbers<S>& d, const StrokeNumbers<S>& n) {
   if (objective == Objective::footprint) return footprint_at(d, n);
   // A newton across OC turns by R, and the arm is R sin γ: R cancels here too.
-  const S above = tension_above_pin(S(1.0), n.upper.sine);
+  const S above = tension_above_pin(S(1.0), n.upper2.sine);
   const S below = tension_below_pin(above, d.mu, n.phi);
   if (objective == Objective::max_tension) return below;
   if (objective == Objective::motor_torque) return below * n.r2;
-  const S elongation = elongation_of_tendon(above, below, n.upper.free, S(d.rho * n.phi), n.reach, d.stiffness);
-  return (180.0 / k_pi) * angle_of_elongation(elongation, S(d.R * n.upper.sine));  // max_error, in degrees
+  const S elongation = elongation_of_tendon(above, below, n.upper2.free, S(d.rho * n.phi), n.reach, d.stiffness);
+  return (180.0 / k_pi) * angle_of_elongation(elongation, S(d.R * n.upper2.sine));  // max_error, in degrees
+}
+
+/// Both tendons are wanted on their pins too, or the law θ(α) ends.
+template <typename S>
+S objective_at(Objective objective, const DesignNumbers<S>& d, const S& place, Domain& domain) {
+  const StrokeNumbers<S> n = stroke_numbers(d, place, domain);
+  demand_not_negative(n.phi, domain);
+  demand_not_negative(wrap_over_B(d, n, domain), domain);
+  return objective_of(objective, d, n);
 }
 
 }  // namespace fusee

@@ -37,27 +37,50 @@ Evaluation impossible(std::string reason) {
   return evaluation;
 }
 
-/// Largest of `value(place)` over places 0 … 1; not finite where it has none.
+struct PlaceValue {
+  double place = 0;
+  double value = -k_impossible;
+};
+
+double place_of(int i) { return static_cast<double>(i) / (k_places - 1); }
+
+/// Whether there can be a largest value within a step of `i`: it is as large as its neighbours, and at an end of the
+/// range the value grows inward.
+template <typename Value>
+bool peaks_near(const std::array<double, k_places>& values, int i, Value value) {
+  const auto k = static_cast<std::size_t>(i);
+  constexpr double k_inward = 0.25 / (k_places - 1);
+  if (i == 0) return values[k] >= values[k + 1] && value(k_inward) > values[k];
+  if (i == k_places - 1) return values[k] >= values[k - 1] && value(1.0 - k_inward) > values[k];
+  return values[k] >= values[k - 1] && values[k] >= values[k + 1];
+}
+
+/// Largest of `value(place)` over places 0 … 1; not finite where it has none. Of several peaks the highest may lie
+/// further from the places that are looked at than another: all that come near are followed to their tops.
 template <typename Value>
 Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
-  int worst = 0;
-  double largest = -k_impossible;
+  constexpr double k_near = 1e-2;  // a step of a sixtieth misses less of a peak
+  std::array<double, k_places> values{};
+  PlaceValue worst;
   for (int i = 0; i < k_places; ++i) {
-    const double here = value(static_cast<double>(i) / (k_places - 1));
+    const double here = value(place_of(i));
     if (!(std::abs(here) < k_largest)) return impossible("");
-    if (here > largest) largest = here, worst = i;
+    values[static_cast<std::size_t>(i)] = here;
+    if (here > worst.value) worst = {place_of(i), here};
   }
-  double place = static_cast<double>(worst) / (k_places - 1);
-  if (worst > 0 && worst < k_places - 1) {
-    const Bracket neighbours = {(worst - 1.0) / (k_places - 1), (worst + 1.0) / (k_places - 1)};
+  const double at_least = worst.value - k_near * std::abs(worst.value);
+  for (int i = 0; i < k_places; ++i) {
+    if (!(values[static_cast<std::size_t>(i)] >= at_least) || !peaks_near(values, i, value)) continue;
+    const Bracket neighbours = {std::max(0, i - 1) / (k_places - 1.0),
+                                std::min(i + 1, k_places - 1) / (k_places - 1.0)};
     const double refined = golden_section(neighbours, 24, [&](double at) { return -value(at); }).middle();
     const double there = value(refined);
-    if (there > largest) largest = there, place = refined;
+    if (there > worst.value) worst = {refined, there};
   }
   Evaluation evaluation;
   evaluation.possible = true;
-  evaluation.value = largest;
-  evaluation.theta = mechanism.joint.theta_min + place * (mechanism.joint.theta_max - mechanism.joint.theta_min);
+  evaluation.value = worst.value;
+  evaluation.theta = mechanism.joint.theta_min + worst.place * (mechanism.joint.theta_max - mechanism.joint.theta_min);
   return evaluation;
 }
 

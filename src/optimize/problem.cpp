@@ -8,6 +8,7 @@
 #include "fusee/mechanism/fields.h"
 #include "fusee/profile/synthesis.h"
 #include "optimize/random.h"
+#include "profile/feasibility.h"
 
 namespace fusee {
 namespace {
@@ -89,6 +90,14 @@ std::vector<Variable> variables_of(const Optimization& table) {
   return variables;
 }
 
+/// What the making of a pulley is judged by.
+std::vector<double> making(const Mechanism& mechanism) {
+  const Transmission transmission(mechanism);
+  std::vector<double> values;
+  for (const Condition& condition : attempt(mechanism, transmission).conditions) values.push_back(condition.value);
+  return values;
+}
+
 /// Whether turning this variable alone ever changes an objective, its possibility or (when demanded) the making of the
 /// pulley.
 bool has_effect(const Problem& problem, std::size_t variable) {
@@ -105,9 +114,7 @@ bool has_effect(const Problem& problem, std::size_t variable) {
       if (value_a.possible != value_b.possible || value_a.value != value_b.value) return true;
       if (value_a.possible) nothing_is_possible = false;
     }
-    SynthesisOptions options;
-    options.advice = false;
-    if (problem.feasible && synthesise(at_a, options).brief() != synthesise(at_b, options).brief()) return true;
+    if (problem.feasible && making(at_a) != making(at_b)) return true;
   }
   return nothing_is_possible;
 }
@@ -185,11 +192,8 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
   }
   Evaluation evaluation = evaluate(objective, mechanism);
   if (evaluation.possible && problem.feasible) {
-    SynthesisOptions options;
-    options.advice = false;
-    const SynthesisResult synthesis = synthesise(mechanism, options);
-    if (!synthesis.made()) {
-      none.reason = "no pulley can be made: " + synthesis.brief();
+    if (const auto obstacle = obstacle_to(mechanism)) {
+      none.reason = "no pulley can be made: " + obstacle->message;
       return none;
     }
   }

@@ -118,13 +118,21 @@ bool judge(std::vector<Condition>& conditions, const std::vector<Probe>& probes,
   return true;
 }
 
+/// The joint angles of the image at which samples are taken, 0 … k_samples.
+struct StrokeOfImage {
+  double begin = 0, end = 0;
+
+  StrokeOfImage(const Mechanism& mechanism, Side side)
+      : begin(side == Side::right ? mechanism.joint.theta_min : -mechanism.joint.theta_max),
+        end(side == Side::right ? mechanism.joint.theta_max : -mechanism.joint.theta_min) {}
+  double theta(int i) const { return i == k_samples ? end : begin + (end - begin) * i / k_samples; }
+};
+
 std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& take_offs) {
-  const bool right = take_offs.side() == Side::right;
-  const double begin = right ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
-  const double end = right ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
+  const StrokeOfImage stroke(mechanism, take_offs.side());
   std::vector<TakeOff> samples;
   samples.reserve(k_samples + 1);
-  for (int i = 0; i <= k_samples; ++i) samples.push_back(take_offs.at(i == k_samples ? end : begin + (end - begin) * i / k_samples));
+  for (int i = 0; i <= k_samples; ++i) samples.push_back(take_offs.at(stroke.theta(i)));
   return samples;
 }
 
@@ -263,6 +271,47 @@ Attempt attempt(const Mechanism& mechanism, const Transmission& transmission) {
     attempt.sides[side == Side::left ? 0 : 1] = attempt_side(attempt.conditions, mechanism, take_offs);
   }
   return attempt;
+}
+
+namespace {
+
+/// Of a few of the samples that attempt_side() looks at, so that both agree.
+std::optional<Condition> failure_at_few_places(const Mechanism& mechanism, const TakeOffs& take_offs) {
+  std::vector<Probe> probes = path_probes(mechanism, take_offs);
+  if (mechanism.pulley.method == Method::exact) {
+    for (Probe& probe : curve_probes(mechanism, take_offs)) probes.push_back(std::move(probe));
+  }
+  const StrokeOfImage stroke(mechanism, take_offs.side());
+  for (int i = 0; i <= k_samples; i += k_samples / 8) {
+    const TakeOff at = take_offs.at(stroke.theta(i));
+    for (const Probe& probe : probes) {
+      if (!(probe.value(at) > probe.limit)) return judged(probe, at);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Condition> first_of(const std::vector<Condition>& conditions) {
+  const auto failed =
+      std::find_if(conditions.begin(), conditions.end(), [](const Condition& condition) { return !condition.ok; });
+  return failed == conditions.end() ? std::nullopt : std::optional<Condition>(*failed);
+}
+
+}  // namespace
+
+std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission) {
+  std::vector<Condition> conditions{dead_centre(transmission)};
+  if (mechanism.pulley.law == Law::table && conditions.back().ok) conditions.push_back(law_grows(mechanism, transmission));
+  if (auto failed = first_of(conditions)) return failed;
+  for (const Side side : {Side::left, Side::right}) {
+    if (auto failed = failure_at_few_places(mechanism, TakeOffs(transmission, side))) return failed;
+  }
+  for (const Side side : {Side::left, Side::right}) {
+    conditions.clear();
+    attempt_side(conditions, mechanism, TakeOffs(transmission, side));
+    if (auto failed = first_of(conditions)) return failed;
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> bend_warnings(const Mechanism& mechanism, const Attempt& attempt) {

@@ -67,6 +67,10 @@ std::vector<Condition> failed_of(const std::vector<Condition>& conditions) {
   return failed;
 }
 
+std::optional<Condition> obstacle_to(const Mechanism& mechanism) {
+  return first_failure(mechanism, Transmission(mechanism));
+}
+
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options) {
   SynthesisResult result;
   const Transmission transmission(mechanism);

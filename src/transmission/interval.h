@@ -162,7 +162,6 @@ inline Jet unit_part(const Jet& a, Domain& domain) {
   jet.value = unit_part(a.value, domain);
   return jet;
 }
-inline Jet without_slopes(const Jet& a) { return a.value; }
 inline void demand_not_negative(const Jet& a, Domain& domain) { demand_not_negative(a.value, domain); }
 
 inline Jet hypot(const Jet& a, const Jet& b) { return sqrt(squared(a) + squared(b)); }

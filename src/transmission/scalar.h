@@ -31,8 +31,6 @@ inline double unit_part(double x, Domain& domain) {
 inline void demand_not_negative(double x, Domain& domain) {
   if (!(x >= 0)) domain.possible = false;
 }
-/// For what only decides whether there is a value.
-inline double without_slopes(double x) { return x; }
 
 /// The other short side of a right triangle.
 inline double cathetus(double hypotenuse, double other, Domain& domain) {

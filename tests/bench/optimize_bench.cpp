@@ -42,7 +42,6 @@ Lanes unit_part(const Lanes& a, Domain& domain) {
   return a;
 }
 void demand_not_negative(const Lanes& a, Domain& domain) { domain.possible = domain.possible && (a.v >= 0).all(); }
-const Lanes& without_slopes(const Lanes& a) { return a; }
 Lanes hypot(const Lanes& a, const Lanes& b) { return sqrt(squared(a) + squared(b)); }
 Lanes cathetus(const Lanes& hypotenuse, const Lanes& other, Domain& domain) {
   return sqrt(positive_part((hypotenuse - other) * (hypotenuse + other), domain));

@@ -10,10 +10,11 @@ namespace fusee {
 struct CertifiedOptions {
   double gap = 1e-6;          ///< relative, between the best design's value and the proven bound
   double tie = 1e-3;          ///< relative: designs this near to the best tie with it
-  long most_boxes = 4000000;  ///< an end to memory and time
+  long most_boxes = 1000000;  ///< an end to memory (150 MB) and time
   long most_tie_boxes = 3000;
   std::vector<Design> first_tries;  ///< designs known to be good
   KeepGoing keep_going;
+  unsigned threads = 0;  ///< 0: as many as there are; the result is the same on any number
 };
 
 struct DesignBox {
@@ -48,8 +49,10 @@ struct CertifiedResult {
 /// Why no optimum of this can be certified; empty when one can.
 std::string cannot_certify(const Problem& problem, Objective objective);
 
-/// Needs an objective that is certifiable, law compensate or linear, no `feasible`, a joint as declared: else
-/// InputError, naming what can be certified.
+/// Needs an objective that is certifiable, law compensate or linear, a joint as declared: else InputError, naming what
+/// can be certified. `feasible`: no design whose pulley can be drawn is below the bound. Of the conditions of
+/// profile/feasibility.cpp two have no part in the bound, which can only make it lower: one turn is enough, and an arc
+/// closes the curve. The best design keeps all of them.
 CertifiedResult certified_optimum(const Problem& problem, Objective objective, const CertifiedOptions& options = {});
 
 }  // namespace fusee

@@ -12,6 +12,7 @@ struct GeneticOptions {
   unsigned generations = 100;
   unsigned seed = 1;
   KeepGoing keep_going;
+  unsigned threads = 0;  ///< 0: as many as there are; the result is the same on any number
 };
 
 /// One generation of the single-objective algorithm: its Fig. 7.
@@ -41,6 +42,7 @@ struct FrontPoint {
 
 struct ParetoResult {
   bool stopped = false;
+  unsigned generations = 0;  ///< that were finished
   std::vector<FrontPoint> front;  ///< none is better than another in everything; by the first objective
   long evaluations = 0;
   std::string reason;  ///< when the front is empty

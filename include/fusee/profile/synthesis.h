@@ -2,6 +2,7 @@
 /// Mechanism → both pitch curves, or the reasons why there are none and the nearest numbers with which there would be.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct Condition {
 
 /// Those that do not hold.
 std::vector<Condition> failed_of(const std::vector<Condition>& conditions);
+
+/// Why synthesise() would not make it, the condition that is cheapest to see; null when it would. Draws nothing: for
+/// searches that ask of thousands.
+std::optional<Condition> obstacle_to(const Mechanism& mechanism);
 
 enum class SynthesisStatus { made, infeasible };
 

@@ -1,0 +1,160 @@
+#include "optimize/simplex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+// Every row has a slack, s t − a·y − b >= 0. At the start the slacks are basic, y and t stand at their lower ends; the
+// costs are 0 for y and 1 for t, so that the start is dual feasible and every step keeps it so: whenever the steps end,
+// the costs of the slacks are weights that prove a bound.
+
+namespace fusee {
+namespace {
+
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+constexpr double k_kept = 1e-10;  ///< a violation of this size is none: rows are of size 1
+constexpr double k_pivot = 1e-9;  ///< smaller ones only spread rounding
+constexpr int k_most_steps = 100;
+/// Where t does not say which y is best, each has a tiny cost of its own: among equals the steps would go in circles.
+constexpr double k_cost_of_place = 1e-9;
+
+class Tableau {
+ public:
+  explicit Tableau(const LinearProgram& program)
+      : program_(program),
+        columns_(static_cast<std::size_t>(program.variables) + 1),
+        table_(program.rows.size() * columns_),
+        value_(program.rows.size()) {
+    for (std::size_t j = 0; j < columns_; ++j) nonbasic_.push_back({j, false});
+    for (std::size_t j = 0; j < columns_; ++j) cost_.push_back(k_cost_of_place * static_cast<double>(j + 1));
+    cost_.back() = 1.0;
+    for (std::size_t i = 0; i < program.rows.size(); ++i) {
+      const LinearProgram::Row& row = program.rows[i];
+      for (std::size_t j = 0; j + 1 < columns_; ++j) at(i, j) = -row.a[j];
+      at(i, columns_ - 1) = row.s;
+      value_[i] = row.s * program.least_t - row.b;
+      basic_.push_back(columns_ + i);
+    }
+    t_ = program.least_t;
+  }
+
+  LinearAnswer run(double enough) {
+    LinearAnswer answer;
+    for (int step = 0; step < k_most_steps && t_ <= enough; ++step) {
+      const std::size_t row = most_violated();
+      if (row == basic_.size()) break;
+      const std::size_t column = entering(row);
+      if (column == columns_) {
+        answer.possible = false;
+        answer.weights = weights_against(row);
+        return answer;
+      }
+      pivot(row, column);
+    }
+    answer.t = t_;
+    answer.weights.assign(program_.rows.size(), 0.0);
+    for (std::size_t j = 0; j < columns_; ++j) {
+      if (nonbasic_[j].variable >= columns_) answer.weights[nonbasic_[j].variable - columns_] = std::max(0.0, cost_[j]);
+    }
+    answer.y = point();
+    return answer;
+  }
+
+ private:
+  struct Nonbasic {
+    std::size_t variable;
+    bool at_upper;
+  };
+
+  double& at(std::size_t row, std::size_t column) { return table_[row * columns_ + column]; }
+  double lower(std::size_t variable) const { return variable == columns_ - 1 ? program_.least_t : 0.0; }
+  double upper(std::size_t variable) const { return variable < columns_ - 1 ? 1.0 : k_infinite; }
+  /// Below its lower end (< 0) or above its upper (> 0).
+  double excess(std::size_t row) const {
+    const double low = lower(basic_[row]), high = upper(basic_[row]);
+    return value_[row] < low ? value_[row] - low : value_[row] > high ? value_[row] - high : 0.0;
+  }
+
+  std::size_t most_violated() const {
+    std::size_t most = basic_.size();
+    double largest = k_kept;
+    for (std::size_t i = 0; i < basic_.size(); ++i) {
+      if (std::abs(excess(i)) > largest) largest = std::abs(excess(i)), most = i;
+    }
+    return most;
+  }
+
+  /// The column that moves the row's variable towards its bound and whose cost bears it longest; of equals the largest.
+  std::size_t entering(std::size_t row) {
+    const double wanted = excess(row) < 0 ? 1.0 : -1.0;
+    std::size_t best = columns_;
+    double least = k_infinite, pivot = 0;
+    for (std::size_t j = 0; j < columns_; ++j) {
+      const double entry = at(row, j) * wanted * (nonbasic_[j].at_upper ? -1.0 : 1.0);
+      if (!(entry > k_pivot)) continue;
+      const double ratio = std::abs(cost_[j]) / entry;
+      if (ratio < least - 1e-14 || (ratio <= least + 1e-14 && entry > pivot)) least = ratio, pivot = entry, best = j;
+    }
+    return best;
+  }
+
+  void pivot(std::size_t row, std::size_t column) {
+    const double entry = at(row, column), over = excess(row);
+    const double move = -over / entry;
+    const std::size_t leaving = basic_[row], coming = nonbasic_[column].variable;
+    const double start = nonbasic_[column].at_upper ? upper(coming) : lower(coming);
+    t_ += cost_[column] * move;
+    for (std::size_t i = 0; i < basic_.size(); ++i) value_[i] += at(i, column) * move;
+    value_[row] = start + move;
+    basic_[row] = coming;
+    nonbasic_[column] = {leaving, over > 0};
+    for (std::size_t j = 0; j < columns_; ++j) at(row, j) = j == column ? 1.0 / entry : -at(row, j) / entry;
+    for (std::size_t i = 0; i < basic_.size(); ++i) {
+      if (i == row) continue;
+      const double factor = at(i, column);
+      if (factor == 0) continue;
+      for (std::size_t j = 0; j < columns_; ++j) at(i, j) = (j == column ? 0.0 : at(i, j)) + factor * at(row, j);
+    }
+    const double factor = cost_[column];
+    for (std::size_t j = 0; j < columns_; ++j) cost_[j] = (j == column ? 0.0 : cost_[j]) + factor * at(row, j);
+  }
+
+  /// The row says: its variable is a sum of which nothing can be moved towards the bound that it breaks.
+  std::vector<double> weights_against(std::size_t row) {
+    const double sign = excess(row) < 0 ? 1.0 : -1.0;
+    std::vector<double> weights(program_.rows.size(), 0.0);
+    if (basic_[row] >= columns_) weights[basic_[row] - columns_] = 1.0;
+    for (std::size_t j = 0; j < columns_; ++j) {
+      if (nonbasic_[j].variable >= columns_)
+        weights[nonbasic_[j].variable - columns_] = std::max(0.0, -sign * at(row, j));
+    }
+    return weights;
+  }
+
+  std::array<double, k_most_variables> point() const {
+    std::array<double, k_most_variables> y{};
+    for (const Nonbasic& variable : nonbasic_) {
+      if (variable.variable + 1 < columns_) y[variable.variable] = variable.at_upper ? 1.0 : 0.0;
+    }
+    for (std::size_t i = 0; i < basic_.size(); ++i) {
+      if (basic_[i] + 1 < columns_) y[basic_[i]] = std::clamp(value_[i], 0.0, 1.0);
+    }
+    return y;
+  }
+
+  const LinearProgram& program_;
+  std::size_t columns_;  ///< variables and t; the slack of row i is variable columns_ + i
+  std::vector<double> table_;
+  std::vector<double> value_;  ///< of the basic variables
+  std::vector<std::size_t> basic_;
+  std::vector<Nonbasic> nonbasic_;
+  std::vector<double> cost_;
+  double t_ = 0;
+};
+
+}  // namespace
+
+LinearAnswer solve(const LinearProgram& program, double enough) { return Tableau(program).run(enough); }
+
+}  // namespace fusee

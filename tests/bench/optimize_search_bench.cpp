@@ -1,0 +1,88 @@
+// The searches of six lengths, in one run: what a feasible design costs against drawing it whole, as it was judged
+// before, and how long a proof takes on one and on two threads.
+#include <benchmark/benchmark.h>
+
+#include "fusee/optimize/certified.h"
+#include "fusee/optimize/genetic.h"
+#include "fusee/profile/synthesis.h"
+#include "optimize/problem_text.h"
+#include "optimize/random.h"
+
+namespace fusee {
+namespace {
+
+Problem six_lengths(const std::string& feasible) {
+  return testing::paper_problem(
+      {{"pulley.method", "exact"},
+       {"guides.radius_mm", "2"},
+       {"guides.friction", "0.12"},
+       {"optimize.tied", "[]"},
+       {"optimize.constraints", "[]"},
+       {"optimize.feasible", feasible},
+       {"optimize.variables",
+        R"(["joint.length_mm", "guides.ED_mm", "guides.EB_mm", "guides.OE_mm", "pulley.EF_mm", "pulley.r1_mm"])"},
+       {"optimize.lower", "[60, 20, 20, -40, 60, 8]"},
+       {"optimize.upper", "[120, 60, 60, 20, 120, 20]"}});
+}
+
+/// As long as the objective alone allows it, which is what a search goes on with.
+std::vector<Mechanism> designs(const Problem& problem) {
+  Random random(1);
+  std::vector<Mechanism> all;
+  while (all.size() < 40) {
+    const Mechanism mechanism = mechanism_at(problem, random_design(problem, random));
+    if (evaluate(Objective::max_tension, mechanism).possible) all.push_back(mechanism);
+  }
+  return all;
+}
+
+void feasible_by_conditions(benchmark::State& state) {
+  const std::vector<Mechanism> all = designs(six_lengths("true"));
+  for (auto _ : state) {
+    for (const Mechanism& mechanism : all) benchmark::DoNotOptimize(obstacle_to(mechanism));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+BENCHMARK(feasible_by_conditions)->Unit(benchmark::kMillisecond);
+
+void feasible_by_drawing(benchmark::State& state) {
+  const std::vector<Mechanism> all = designs(six_lengths("true"));
+  SynthesisOptions options;
+  options.advice = false;
+  for (auto _ : state) {
+    for (const Mechanism& mechanism : all) {
+      // Nearly straight curves are drawn in gigabytes of points: they are left out, to the advantage of this way.
+      if (obstacle_to(mechanism) || evaluate(Objective::min_bend, mechanism).value > 1e4) continue;
+      benchmark::DoNotOptimize(synthesise(mechanism, options));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+BENCHMARK(feasible_by_drawing)->Unit(benchmark::kMillisecond);
+
+void genetic_of_feasible_designs(benchmark::State& state) {
+  const Problem problem = six_lengths("true");
+  GeneticOptions options;
+  options.generations = 20;
+  options.threads = static_cast<unsigned>(state.range(0));
+  long evaluations = 0;
+  for (auto _ : state) evaluations += genetic_optimum(problem, Objective::max_tension, options).evaluations;
+  state.SetItemsProcessed(evaluations);
+}
+BENCHMARK(genetic_of_feasible_designs)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void proof_of_six_lengths(benchmark::State& state) {
+  const Problem problem = six_lengths("false");
+  CertifiedOptions options;
+  options.gap = 1e-3;
+  options.most_tie_boxes = 1;
+  options.threads = static_cast<unsigned>(state.range(0));
+  CertifiedResult result;
+  for (auto _ : state) result = certified_optimum(problem, Objective::max_tension, options);
+  state.counters["gap"] = result.relative_gap;
+  state.counters["boxes"] = static_cast<double>(result.boxes);
+}
+BENCHMARK(proof_of_six_lengths)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace fusee
