@@ -163,6 +163,12 @@ DxfVersion dxf_version(const Arguments& arguments) {
   throw UsageError("--dxf must be ac1015 or r12; '" + name + "' is not");
 }
 
+/// The stem of "..toml" and "...toml" is no name of a folder, but this one and the one above.
+std::filesystem::path default_folder(const std::filesystem::path& spec) {
+  const std::filesystem::path stem = spec.stem();
+  return "out" / (stem == "." || stem == ".." ? spec.filename() : stem);
+}
+
 BuildOptions options_from(const Arguments& arguments) {
   BuildOptions options;
   options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
@@ -170,8 +176,7 @@ BuildOptions options_from(const Arguments& arguments) {
   options.dxf = dxf_version(arguments);
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  const std::filesystem::path spec = arguments.positionals().front();
-  options.folder = arguments.text("--out").value_or(("out" / spec.stem()).string());
+  options.folder = arguments.text("--out").value_or(default_folder(arguments.positionals().front()).string());
   return options;
 }
 

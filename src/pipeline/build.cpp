@@ -247,9 +247,9 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   const bool may_publish = result.status == BuildStatus::done || !target.has_earlier_run() || options.force;
   if (result.status == BuildStatus::infeasible || !may_publish) return result;
   shop.step("publishing");
-  target.publish();
   // pulley_p1.stl of an earlier run does not belong to a pulley in one piece.
   target.withdraw(output_names());
+  target.publish();
   result.published = true;
   return result;
 }
