@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "base/output_list.h"
@@ -132,7 +133,13 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   add_advice_together(built.advice.together, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
-  reply.fields["advice"] = to_json(built.advice.alone);
+  // Numbers and words apart: who reads "to" as a number finds one.
+  std::vector<Change> numbers = built.advice.alone, words;
+  const auto first_word = std::stable_partition(numbers.begin(), numbers.end(), [](const Change& change) { return change.to_word.empty(); });
+  words.assign(first_word, numbers.end());
+  numbers.erase(first_word, numbers.end());
+  reply.fields["advice"] = to_json(numbers);
+  if (!words.empty()) reply.fields["advice_words"] = to_json(words);
   if (!built.advice.together.empty()) reply.fields["advice_together"] = to_json(built.advice.together);
 }
 

@@ -95,7 +95,7 @@ bool design(Workshop& shop) {
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
   if (!product.pulley.made()) return false;
-  for (const Condition& condition : windable(mechanism, [&] { rewind_part(product.joint, product.pulley.mesh); })) {
+  for (const Condition& condition : windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
     product.pulley.conditions.push_back(condition);
     if (!condition.ok) product.pulley.status = PulleyStatus::impossible;
   }
@@ -138,7 +138,7 @@ void check_parts(Workshop& shop) {
   const auto& mesh = std::get<TriangleMesh>(written);
   shop.add(check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance));
   shop.step("winding tendons on it");
-  product.as_built = rewind_part(product.joint, written);
+  product.as_built = rewind_made(product.joint, product.pulley.layout, mesh);
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
   for (const PrintedPart& part : product.pulley.parts) {
@@ -198,7 +198,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   const Product& product = result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
   shop.add(check_pulley(mesh, product.joint.mechanism, product.synthesis, product.pulley, options.tolerance));
-  shop.add(as_built_checks(product.joint.mechanism, rewind_part(product.joint, mesh), options.limits));
+  shop.add(as_built_checks(product.joint.mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
   if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
   for (const PrintedPart& part : product.pulley.parts) check_print_of(shop, part.mesh, {});
   shop.stage("plates.dxf", plates_dxf(product, options.dxf));
