@@ -7,6 +7,7 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/solid/pulley.h"
+#include "solid/euler.h"
 #include "solid/nearest_float.h"
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "solid/euler.h"
 #include "solid/nearest_float.h"
 
 namespace fusee {

@@ -12,6 +12,7 @@
 #include "solid/body.h"
 #include "solid/boolean.h"
 #include "solid/dowels.h"
+#include "solid/euler.h"
 #include "solid/face_holes.h"
 #include "solid/gate.h"
 #include "solid/marks.h"

@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Repro{"mark_depth_2", "profiles/forearm.toml", {{"body.mark_depth_mm", "2"}}},
                       Repro{"mark_depth_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}}},
                       Repro{"raised_mark_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}, {"body.marks", "raised"}}},
-                      Repro{"no_rim_compensate", "tests/data/repro/exit1_no_rim_compensate.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"no_rim_linear", "tests/data/repro/exit1_no_rim_linear.toml", {}},
+                      Repro{"no_rim_compensate", "tests/data/repro/exit1_no_rim_compensate.toml", {}},
+                      Repro{"no_rim_linear", "tests/data/repro/exit1_no_rim_linear.toml", {}, 0.01, BuildStatus::infeasible},
                       Repro{"no_rim_table", "tests/data/repro/exit1_no_rim_table.toml", {}},
                       Repro{"rewind", "tests/data/repro/exit1_rewind.toml", {}, 0.01, BuildStatus::infeasible},
                       Repro{"paper_floor_deviation", "tests/data/repro/paper_floor_deviation.toml", {}},
@@ -85,6 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Repro{"hollow_cut", "tests/data/repro/hollow_cut.toml", {}, 0.01, BuildStatus::infeasible},
                       Repro{"horn_in_hub", "tests/data/repro/horn_in_hub.toml", {}, 0.01, BuildStatus::infeasible},
                       Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
+                      Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
                       Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}}),
     [](const auto& repro) { return std::string(repro.param.name); });
 

@@ -38,7 +38,4 @@ std::vector<Polygon> section(const TriangleMesh& mesh, double z);
 /// The groove floor in a section: its loop of largest area. InputError when there is none.
 Polygon outer_loop(const std::vector<Polygon>& loops);
 
-/// V − E + F of the welded surface: 2 − 2 × the number of ways through, where it is one closed surface.
-int euler_number(const TriangleMesh& mesh);
-
 }  // namespace fusee
