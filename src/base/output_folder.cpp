@@ -73,6 +73,14 @@ fs::path place_of(const fs::path& folder) {
   return place.has_filename() ? place : place.parent_path();
 }
 
+/// OutputError where no file can be made.
+void demand_ground(const fs::path& folder) {
+  const fs::path ground = standing_ancestor(folder);
+  std::error_code error;
+  if (!fs::is_directory(ground, error)) throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
+  if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
+}
+
 std::vector<fs::path> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
@@ -172,13 +180,14 @@ OutputFolder::OutputFolder(fs::path folder, bool force)
 
 OutputFolder::~OutputFolder() = default;
 
-void OutputFolder::claim(const std::vector<std::string>& names) const {
-  const fs::path ground = standing_ancestor(folder_);
-  std::error_code error;
-  if (!fs::is_directory(ground, error)) {
-    throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
-  }
-  if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
+void OutputFolder::claim(const std::vector<std::string>& names) {
+  const Turn turn(place_.parent_path());
+  if (read_manifest(place_ / k_manifest, ours_)) earlier_run_ = true;  // another run may have published since this one began
+  demand_ours(names);
+}
+
+void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
+  demand_ground(folder_);
   std::string foreign, changed;
   for (const std::string& name : names) {
     const fs::path target = folder_ / name;
@@ -206,6 +215,7 @@ void OutputFolder::claim(const std::vector<std::string>& names) const {
 /// Beside the folder where it can be replaced as a whole, so that what a killed run leaves does not lie in it either.
 void OutputFolder::open_staging() {
   if (staging_) return;
+  demand_ground(folder_);
   const fs::path above = place_.parent_path();
   if (!stands(place_) || is_replaceable(place_)) {
     missing_->make(above);
@@ -222,7 +232,6 @@ void OutputFolder::open_staging() {
 void OutputFolder::stage(const OutputFile& file) {
   const bool plain = !file.name.empty() && file.name.front() != '.' && file.name.find('/') == std::string::npos;
   demand(plain, "output name " + file.name);
-  claim({file.name});
   open_staging();
   demand(std::find(staged_.begin(), staged_.end(), file.name) == staged_.end(), "staged twice: " + file.name);
   staged_.push_back(file.name);
@@ -321,11 +330,10 @@ void OutputFolder::publish_one_by_one(const std::vector<std::string>& gone) {
 void OutputFolder::publish() {
   if (!staging_) return;
   const Turn turn(place_.parent_path());
-  // Another run may have published since this one began.
   if (read_manifest(place_ / k_manifest, ours_)) earlier_run_ = true;
   const auto not_manifest = [](const std::string& name) { return name != k_manifest; };
   std::stable_partition(staged_.begin(), staged_.end(), not_manifest);
-  claim(staged_);
+  demand_ours(staged_);
   std::vector<fs::path> to_flush;
   for (const std::string& name : staged_) to_flush.push_back(staging_->path() / name);
   flush_all(to_flush);
@@ -346,8 +354,7 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   const fs::path name = target.filename();
   if (name.empty() || name == "." || name == "..") throw OutputError(path.string() + " names no file", "add a file name");
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  const fs::path ground = standing_ancestor(folder);
-  if (!fs::is_directory(ground, error)) throw OutputError(ground.string() + " is not a folder", "choose another folder");
+  demand_ground(folder);
   MissingFolders missing;
   missing.make(folder);
   remove_stale_stagings(folder);

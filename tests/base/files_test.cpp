@@ -197,11 +197,11 @@ TEST_F(Files, ClaimNamesAllAtOnceAndWritesNothing) {
   publish(root_ / "out", {{"x.stl", "old"}});
   put(root_ / "out" / "x.stl", "edited");
   put(root_ / "out" / "z.csv", "foreign");
-  const OutputFolder output(root_ / "out", false);
+  OutputFolder output(root_ / "out", false);
   const std::string error = output_error([&] { output.claim({"x.stl", "y.obj", "z.csv", "manifest.json"}); });
   EXPECT_THAT(error, HasSubstr("did not write: z.csv; and files that were changed after fusee wrote them: x.stl |"));
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl", "z.csv"));
-  const OutputFolder elsewhere(root_ / "new", false);
+  OutputFolder elsewhere(root_ / "new", false);
   elsewhere.claim({"x.stl"});
   EXPECT_FALSE(fs::exists(root_ / "new"));
 }

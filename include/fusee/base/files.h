@@ -38,7 +38,7 @@ struct OutputFile {
 /// staged is removed by the next one. Who publishes while another run does waits for it.
 ///
 /// Whose work is it? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim() and
-/// stage() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were changed
+/// publish() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were changed
 /// since, unless `force`. A manifest that cannot be read is somebody else's file.
 class OutputFolder {
  public:
@@ -52,7 +52,7 @@ class OutputFolder {
   bool has_earlier_run() const { return earlier_run_; }
   /// Throws OutputError, naming all of them, when some of `names` may not be overwritten (see above) or the folder
   /// cannot be written. Writes nothing.
-  void claim(const std::vector<std::string>& names) const;
+  void claim(const std::vector<std::string>& names);
   void stage(const OutputFile& file);
   /// Where a staged file can be read back before it is published.
   std::filesystem::path staged_path(const std::string& name) const;
@@ -63,6 +63,7 @@ class OutputFolder {
   void publish();
 
  private:
+  void demand_ours(const std::vector<std::string>& names) const;
   void open_staging();
   std::vector<std::string> obsolete() const;
   bool publish_as_folder(const std::vector<std::string>& gone);
