@@ -1,5 +1,6 @@
 // Random designs through the whole making, of every law and with every choice of the file: each is made, with every check, or refused
-// for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). shared/tools/campaign.py judges the same from outside.
+// for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). And every combination of the choices in [body] and [print]
+// on three mechanisms, with FUSEE_LONG_TESTS (hours); without it FUSEE_LAW_CASES of them (10).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -12,6 +13,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
+#include "fusee/mechanism/fields.h"
 #include "fusee/pipeline.h"
 
 namespace {
@@ -125,15 +127,15 @@ struct NoAdvice {};
 
 enum class End { made, refused, bad_input };
 
-End end_of(const Design& design) {
+/// `read` gives the mechanism: bad input is an end too.
+template <typename Read>
+End end_of(Read read, double tolerance) {
   BuildOptions options;
-  options.tolerance = design.tolerance;
+  options.tolerance = tolerance;
   options.dry_run = true;
   options.between_tries = [] { throw NoAdvice(); };
   try {
-    MechanismFile file;
-    file.mechanism = parse_mechanism(design.text, "random.toml");
-    const BuildResult built = build(file, options);
+    const BuildResult built = build(read(), options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
     return built.status == BuildStatus::infeasible ? End::refused : End::made;
@@ -155,7 +157,12 @@ TEST_P(Campaign, DesignsAreMadeOrRefused) {
     const Design design = draw_design(static_cast<std::uint64_t>(seed) * 1000003 + static_cast<std::uint64_t>(i));
     SCOPED_TRACE(fmt::format("FUSEE_LAW_SEED={}, design {}, --tolerance-mm {}\n{}", seed, i, design.tolerance, design.text));
     try {
-      const End end = end_of(design);
+      const auto read = [&design] {
+        MechanismFile file;
+        file.mechanism = parse_mechanism(design.text, "random.toml");
+        return file;
+      };
+      const End end = end_of(read, design.tolerance);
       ++(end == End::made ? made : end == End::refused ? refused : bad);
     } catch (const std::exception& bug) {
       ADD_FAILURE() << bug.what();
@@ -169,5 +176,64 @@ TEST_P(Campaign, DesignsAreMadeOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, Campaign, ::testing::Range(0, k_shards));
+
+// ---- every choice ----------------------------------------------------------------------------------------------------
+
+struct Choice {
+  std::string key;
+  std::vector<std::string> words;
+};
+
+/// Of every key of [body] and [print] that takes one of a few words; of screws and shafts two or three stand for all.
+std::vector<Choice> all_choices() {
+  const std::map<std::string, std::vector<std::string>> fewer{{"body.set_screw", {"auto", "none", "M3"}},
+                                                              {"body.clamp_screw", {"none", "M2"}},
+                                                              {"body.shaft", {"none", "nema17-d5"}},
+                                                              {"print.parts", {"one", "two"}}};
+  std::vector<Choice> choices;
+  for (const Field& field : fields()) {
+    if (field.table != "body" && field.table != "print") continue;
+    Choice choice{field.name(), {field.choices.begin(), field.choices.end()}};
+    if (field.kind == FieldKind::boolean) choice.words = {"true", "false"};
+    if (fewer.count(choice.key)) choice.words = fewer.at(choice.key);
+    if (choice.words.size() > 1) choices.push_back(choice);
+  }
+  return choices;
+}
+
+class Choices : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Choices, AreMadeOrRefused) {
+  const std::vector<Choice> choices = all_choices();
+  ASSERT_GE(choices.size(), 10u);
+  std::size_t combinations = 1;
+  for (const Choice& choice : choices) combinations *= choice.words.size();
+  const bool all = std::getenv("FUSEE_LONG_TESTS") != nullptr;
+  const auto few = static_cast<std::size_t>(number_from("FUSEE_LAW_CASES", 10));
+  constexpr std::size_t k_stride = 7919;  // a prime: neighbours in the sample differ in most keys
+  int made = 0, refused = 0, bad = 0;
+  for (std::size_t n = 0; n < (all ? combinations : std::min(few, combinations)); ++n) {
+    std::size_t rest = n * k_stride % combinations;
+    std::vector<Setting> settings{{"body.horn", "disc-25T-M3"}};
+    std::string words;
+    for (const Choice& choice : choices) {
+      settings.push_back({choice.key, choice.words[rest % choice.words.size()]});
+      words += " --set " + choice.key + "=" + settings.back().value;
+      rest /= choice.words.size();
+    }
+    SCOPED_TRACE(GetParam() + words);
+    const auto read = [&] { return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / GetParam(), settings); };
+    try {
+      const End end = end_of(read, 0.01);
+      ++(end == End::made ? made : end == End::refused ? refused : bad);
+    } catch (const std::exception& bug) {
+      ADD_FAILURE() << bug.what();
+    }
+  }
+  EXPECT_GT(made, 0);
+  RecordProperty("made", made), RecordProperty("refused", refused), RecordProperty("bad_input", bad);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Choices, ::testing::Values("forearm.toml", "gripper.toml", "wrist_exo.toml"));
 
 }  // namespace
