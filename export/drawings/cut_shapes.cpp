@@ -9,13 +9,13 @@
 namespace fusee {
 namespace {
 
-/// Offset too far, an edge runs backward.
-bool edges_keep_direction(const Polygon& before, const Polygon& after) {
+/// Offset too far, an edge runs backward: the first that does, or the number of all.
+std::size_t turned_edge(const Polygon& before, const Polygon& after) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     const std::size_t j = (i + 1) % before.size();
-    if (!((after[j] - after[i]).dot(before[j] - before[i]) > 0)) return false;
+    if (!((after[j] - after[i]).dot(before[j] - before[i]) > 0)) return i;
   }
-  return true;
+  return before.size();
 }
 
 /// The place nearest to `point`, on the line from there to `neighbour`, that is `radius` from the origin.
@@ -79,9 +79,22 @@ Polygon offset_edges(const Polygon& polygon, double distance) {
   return moved;
 }
 
+// An outline that making was corrected for may be hollow by some µm.
+Polygon cut_round(const Polygon& outline, double distance) {
+  Polygon kept = outline;
+  for (;;) {
+    Polygon path = offset_edges(kept, distance);
+    const std::size_t turned = turned_edge(kept, path);
+    if (turned == kept.size() || kept.size() <= 3) return path;
+    const std::size_t next = (turned + 1) % kept.size();
+    kept[turned] = 0.5 * (kept[turned] + kept[next]);
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(next));
+  }
+}
+
 std::optional<Contour> cut_hole(const Contour& hole, double kerf) {
   Polygon path = offset_edges(hole.points, -0.5 * kerf);
-  if (!edges_keep_direction(hole.points, path) || !is_simple(path)) return std::nullopt;
+  if (turned_edge(hole.points, path) < path.size() || !is_simple(path)) return std::nullopt;
   if (hole.circle) return Contour{std::move(path), RoundHole{hole.circle->centre, hole.circle->diameter - kerf}, 0};
   if (hole.arc_points > 0) put_on_arc(path, hole.arc_points, hole.points.front().norm() - 0.5 * kerf);
   return Contour{std::move(path), std::nullopt, hole.arc_points};

@@ -94,8 +94,7 @@ void place_dowels(Plates& plates, const Stock& stock) {
   const Material2d material = common_material(stock);
   for (const double share : {1.0, 0.85, 0.7, 0.5, 0.35}) {
     const double diameter = share * wanted;
-    if (diameter - stock.mechanism.cut.kerf < k_least_feature && share < 1)
-      break;  // the cutter's path would be narrower than it can cut
+    if (diameter - stock.mechanism.cut.kerf < k_least_feature) break;  // the cutter's path would be narrower than it can cut
     const auto places = dowel_places(stock, material, diameter);
     if (!places) continue;
     plates.dowels = {places->first, places->second};
@@ -105,8 +104,8 @@ void place_dowels(Plates& plates, const Stock& stock) {
           fmt::format("dowels of {} mm: there is no room for {} mm", rounded(diameter), rounded(wanted)));
     return;
   }
-  plates.notes.push_back(
-      fmt::format("no dowels: there is no room for two of {} mm; align the plates on the shaft", rounded(wanted)));
+  const char* why = wanted - stock.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no room";
+  plates.notes.push_back(fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(wanted)));
 }
 
 // Shapes
@@ -127,7 +126,7 @@ class LayerMaker {
     layer.name = name;
     layer.count = count;
     layer.outer = {outline};
-    layer.cut_outer = {offset_edges(outline, 0.5 * kerf_)};
+    layer.cut_outer = {cut_round(outline, 0.5 * kerf_)};
     for (const Anchor* anchor : channels) cut_channel(layer, *anchor);
     add_hole(layer, stock_.bore, "bore");
     for (const Contour& hole : stock_.screw_holes) add_hole(layer, hole, "screw hole");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "base/output_list.h"
@@ -132,7 +133,13 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   add_advice_together(built.advice.together, reply);
   reply.exit = Exit::infeasible;
   reply.fields["conditions"] = to_json(conditions);
-  reply.fields["advice"] = to_json(built.advice.alone);
+  // Numbers and words apart: who reads "to" as a number finds one.
+  std::vector<Change> numbers = built.advice.alone, words;
+  const auto first_word = std::stable_partition(numbers.begin(), numbers.end(), [](const Change& change) { return change.to_word.empty(); });
+  words.assign(first_word, numbers.end());
+  numbers.erase(first_word, numbers.end());
+  reply.fields["advice"] = to_json(numbers);
+  if (!words.empty()) reply.fields["advice_words"] = to_json(words);
   if (!built.advice.together.empty()) reply.fields["advice_together"] = to_json(built.advice.together);
 }
 
@@ -163,6 +170,12 @@ DxfVersion dxf_version(const Arguments& arguments) {
   throw UsageError("--dxf must be ac1015 or r12; '" + name + "' is not");
 }
 
+/// The stem of "..toml" and "...toml" is no name of a folder, but this one and the one above.
+std::filesystem::path default_folder(const std::filesystem::path& spec) {
+  const std::filesystem::path stem = spec.stem();
+  return "out" / (stem == "." || stem == ".." ? spec.filename() : stem);
+}
+
 BuildOptions options_from(const Arguments& arguments) {
   BuildOptions options;
   options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
@@ -170,8 +183,7 @@ BuildOptions options_from(const Arguments& arguments) {
   options.dxf = dxf_version(arguments);
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
-  const std::filesystem::path spec = arguments.positionals().front();
-  options.folder = arguments.text("--out").value_or(("out" / spec.stem()).string());
+  options.folder = arguments.text("--out").value_or(default_folder(arguments.positionals().front()).string());
   return options;
 }
 

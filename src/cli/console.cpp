@@ -91,6 +91,7 @@ bool write_result(std::string_view text) { return write_all(STDOUT_FILENO, text)
 
 void make_streams_safe() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f` fails like any other
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
     // open() takes the lowest free number, which is this one.

@@ -1,5 +1,7 @@
 #include "cli/reply.h"
 
+#include <algorithm>
+
 #include "fusee/base/text.h"
 
 namespace fusee::cli {
@@ -90,7 +92,9 @@ std::string change_and_key(const Change& change) {
 void add_advice(const std::vector<Change>& advice, Reply& reply) {
   for (const Change& change : advice)
     reply.diagnostics.push_back(note(Severity::note, "it would be possible with " + change_and_key(change)));
-  if (advice.empty()) reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
+  const auto is_number = [](const Change& change) { return change.to_word.empty(); };
+  if (std::none_of(advice.begin(), advice.end(), is_number))
+    reply.diagnostics.push_back(note(Severity::note, "no change of a single number makes it possible"));
 }
 
 void add_advice_together(const std::vector<Change>& advice, Reply& reply) {

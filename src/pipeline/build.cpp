@@ -62,6 +62,25 @@ struct Workshop {
   }
 };
 
+/// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound on it at
+/// all: `wind` throws. What the exact method draws always can: there it would be a bug.
+template <typename Wind>
+std::vector<Condition> windable(const Mechanism& mechanism, Wind wind) {
+  if (mechanism.pulley.method != Method::paper) return {};
+  Condition condition;
+  condition.name = "can_be_wound";
+  condition.value = condition.limit = 1;
+  condition.unit = "1";
+  try {
+    wind();
+  } catch (const InputError& error) {
+    condition.ok = false;
+    condition.value = 0;
+    condition.message = "as the paper's equations draw it (pulley.method = \"paper\"), " + error.diagnostics().front().message;
+  }
+  return {condition};
+}
+
 /// False when no such pulley can be made.
 bool design(Workshop& shop) {
   Product& product = shop.result.product;
@@ -75,6 +94,11 @@ bool design(Workshop& shop) {
   draw_for_making(product.synthesis, product.joint.outline);
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
+  if (!product.pulley.made()) return false;
+  for (const Condition& condition : windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
+    product.pulley.conditions.push_back(condition);
+    if (!condition.ok) product.pulley.status = PulleyStatus::impossible;
+  }
   if (!product.pulley.made()) return false;
   shop.step("moving the joint to see what its knots bear");
   product.holding = tendon_holding(mechanism, product.synthesis, product.pulley);
@@ -114,7 +138,7 @@ void check_parts(Workshop& shop) {
   const auto& mesh = std::get<TriangleMesh>(written);
   shop.add(check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance));
   shop.step("winding tendons on it");
-  product.as_built = rewind_part(product.joint, written);
+  product.as_built = rewind_made(product.joint, product.pulley.layout, mesh);
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
   for (const PrintedPart& part : product.pulley.parts) {
@@ -174,7 +198,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   const Product& product = result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
   shop.add(check_pulley(mesh, product.joint.mechanism, product.synthesis, product.pulley, options.tolerance));
-  shop.add(as_built_checks(product.joint.mechanism, rewind_part(product.joint, mesh), options.limits));
+  shop.add(as_built_checks(product.joint.mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
   if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
   for (const PrintedPart& part : product.pulley.parts) check_print_of(shop, part.mesh, {});
   shop.stage("plates.dxf", plates_dxf(product, options.dxf));
@@ -198,7 +222,11 @@ std::vector<Condition> obstacles_of(const MechanismFile& file, const BuildOption
   SynthesisResult synthesis = synthesise(joint.mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
   if (!synthesis.made()) return failed_of(synthesis.conditions);
   draw_for_making(synthesis, joint.outline);
-  return body_obstacles(joint.mechanism, synthesis);
+  std::vector<Condition> obstacles = body_obstacles(joint.mechanism, synthesis);
+  const auto floor = [&joint](const Outline& outline) { return parallel(outline, -0.5 * joint.mechanism.tendon.diameter); };
+  const std::vector<Condition> wound = failed_of(windable(joint.mechanism, [&] { rewind(joint.mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
+  obstacles.insert(obstacles.end(), wound.begin(), wound.end());
+  return obstacles;
 }
 
 Advice advice_for(const MechanismFile& file, const BuildOptions& options) {
@@ -247,9 +275,9 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   const bool may_publish = result.status == BuildStatus::done || !target.has_earlier_run() || options.force;
   if (result.status == BuildStatus::infeasible || !may_publish) return result;
   shop.step("publishing");
-  target.publish();
   // pulley_p1.stl of an earlier run does not belong to a pulley in one piece.
   target.withdraw(output_names());
+  target.publish();
   result.published = true;
   return result;
 }

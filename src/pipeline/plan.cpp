@@ -39,8 +39,8 @@ PlanResult plan(const MechanismFile& file, const PlanFilesOptions& options) {
   result.outputs = outputs_of(result.product);
   if (options.dry_run) return result;
   for (const OutputFile& output : result.outputs) target.stage(output);
-  target.publish();
   target.withdraw(run_names());
+  target.publish();
   result.published = true;
   return result;
 }

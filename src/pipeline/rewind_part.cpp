@@ -226,6 +226,10 @@ RewindResult rewind_part(const JointAsItIs& joint, const Part& part) {
   return rewind_drawing(joint, std::get<Drawing>(part));
 }
 
+RewindResult rewind_made(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh) {
+  return rewind_mesh(joint, layout, mesh);
+}
+
 RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
   return {rewind_drawing(joint, std::get<Drawing>(part)), PartPlace::as_made, {}};

@@ -7,6 +7,7 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/solid/pulley.h"
+#include "solid/euler.h"
 #include "solid/nearest_float.h"
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"
@@ -18,24 +19,6 @@ namespace {
 constexpr double k_volume_tolerance = 1e-6;
 // The groove is measured this far from what was cut into it, mm: a tool's facets lie within it of the plan's outline.
 constexpr double k_beside = 0.1;
-
-int euler_number(const TriangleMesh& mesh) {
-  const TriangleMesh welded = weld(mesh);
-  std::vector<std::uint64_t> edges;
-  std::vector<bool> used(welded.vertices.size(), false);
-  edges.reserve(3 * welded.triangles.size());
-  for (const auto& triangle : welded.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
-      edges.push_back((std::uint64_t{std::min(a, b)} << 32) | std::max(a, b));
-      used[a] = true;
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  const auto distinct = std::unique(edges.begin(), edges.end()) - edges.begin();
-  return static_cast<int>(std::count(used.begin(), used.end(), true) - distinct +
-                          static_cast<std::ptrdiff_t>(welded.triangles.size()));
-}
 
 std::string place_of(const Vec2& point) { return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ") mm"; }
 

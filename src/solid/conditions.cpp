@@ -171,11 +171,14 @@ class Conditions {
 
   void add_hub() {
     if (layout_.hub_radius <= 0) return;
-    const double diameter = 2.0 * layout_.hub_radius, wall = layout_.hub_radius - layout_.bore.radius;
+    // A horn's screws go through the hub as the bore does.
+    double reach = layout_.bore.radius;
+    for (const Polygon& hole : layout_.bore.screw_holes) reach = std::max(reach, circumradius(hole));
+    const double diameter = 2.0 * layout_.hub_radius, wall = layout_.hub_radius - reach;
     add_least("hub_wall", wall, layout_.min_wall,
-              fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves {} about the bore, it takes {} mm "
-                          "(body.min_wall_mm)",
-                          rounded(diameter), wall_words(wall), rounded(layout_.min_wall, 3)));
+              fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves {} about {}, it takes {} mm (body.min_wall_mm)",
+                          rounded(diameter), wall_words(wall),
+                          reach > layout_.bore.radius ? "the horn's holes" : "the bore", rounded(layout_.min_wall, 3)));
     const double limit = 2.0 * (inradius(rims_.upper) - k_hub_margin);
     add_most("hub_on_flange", diameter, limit,
              fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",

@@ -11,7 +11,8 @@ constexpr double k_lap_ratio = 1.6;
 constexpr double k_least_ground = 0.5;
 // The slot's round end keeps this off the floor, so that no face of it lies in the groove's.
 constexpr double k_off_floor = 0.03;
-// The slot ends this far outside of the rim.
+// The slot ends this far outside of the rim, and of its round end where that is wider than the flange is deep: it would be
+// turned inside out.
 constexpr double k_beyond_rim = 0.5;
 
 class FaceHoleSearch {
@@ -41,7 +42,7 @@ class FaceHoleSearch {
                   station.lap,
                   station.wrap,
                   0};
-    hole.length = reach_of(*site_.rim, hole.normal) + k_beyond_rim - hole.hole.dot(hole.normal);
+    hole.length = k_beyond_rim + std::max(0.0, reach_of(*site_.rim, hole.normal) - hole.hole.dot(hole.normal));
     if (!is_free(hole.bars(layout_.channel_width).front())) return std::nullopt;
     for (const double share : {1.0, 0.75, 0.5, 0.25}) {
       FaceHole sunk = hole;

@@ -72,6 +72,16 @@ void stack_up(BodyLayout& layout) {
   layout.z_hub = layout.z_top;
 }
 
+// What is engraved leaves two layers of a flange, or half of a thin one: deeper, it opens the groove and does not print.
+void choose_mark_depth(BodyLayout& layout, const Body& body) {
+  constexpr double k_ground = 0.4;  // mm
+  const double most = std::max(0.5 * layout.flange_thickness, layout.flange_thickness - k_ground);
+  layout.mark_depth = std::min(body.mark_depth, most);
+  if (layout.mark_depth == body.mark_depth || body.marks == Marks::none) return;
+  layout.notes.push_back(fmt::format("marks {} mm deep (body.mark_depth_mm) would cut through a flange of {} mm: engraved {} mm deep",
+                                     rounded(body.mark_depth), rounded(layout.flange_thickness), rounded(most, 3)));
+}
+
 // Moves all that stands on the middle flange up.
 void thicken_middle(BodyLayout& layout, double by) {
   if (by <= 0) return;
@@ -89,7 +99,7 @@ BodyLayout axial_layout(const Mechanism& mechanism, const FlangeRims& rims, Part
   layout.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
   layout.groove_depth = mechanism.groove_depth();
   layout.flange_thickness = mechanism.body.flange_thickness;
-  layout.mark_depth = mechanism.body.mark_depth;
+  choose_mark_depth(layout, mechanism.body);
   layout.scale = 1.0 / (1.0 - mechanism.material.shrinkage);
   choose_walls(layout, mechanism);
   choose_cones(layout, rims);

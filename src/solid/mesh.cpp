@@ -1,9 +1,12 @@
 #include "fusee/solid/mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <unordered_map>
 
+#include "solid/euler.h"
 #include "solid/nearest_float.h"
 
 namespace fusee {
@@ -78,6 +81,24 @@ TriangleMesh weld(const TriangleMesh& mesh) {
 TriangleMesh rounded_to_float(TriangleMesh mesh) {
   for (Vec3& vertex : mesh.vertices) vertex = vertex.unaryExpr(&nearest_float);
   return mesh;
+}
+
+int euler_number(const TriangleMesh& mesh) {
+  const TriangleMesh welded = weld(mesh);
+  std::vector<std::uint64_t> edges;
+  std::vector<bool> used(welded.vertices.size(), false);
+  edges.reserve(3 * welded.triangles.size());
+  for (const auto& triangle : welded.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
+      edges.push_back((std::uint64_t{std::min(a, b)} << 32) | std::max(a, b));
+      used[a] = true;
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto distinct = std::unique(edges.begin(), edges.end()) - edges.begin();
+  return static_cast<int>(std::count(used.begin(), used.end(), true) - distinct +
+                          static_cast<std::ptrdiff_t>(welded.triangles.size()));
 }
 
 }  // namespace fusee

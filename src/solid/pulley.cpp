@@ -12,6 +12,7 @@
 #include "solid/body.h"
 #include "solid/boolean.h"
 #include "solid/dowels.h"
+#include "solid/euler.h"
 #include "solid/face_holes.h"
 #include "solid/gate.h"
 #include "solid/marks.h"
@@ -138,7 +139,7 @@ class FeatureCutter {
     for (const Mark& mark : marks_) {
       if (mark.on_top)
         raised.push_back(
-            prism(mark.loops, layout_.z_top - 0.5 * layout_.flange_thickness, layout_.z_top + layout_.mark_depth));
+            prism(mark.loops, layout_.z_top - 0.5 * layout_.flange_thickness, layout_.z_top + mechanism_.body.mark_depth));
     }
     return raised;
   }
@@ -188,6 +189,12 @@ bool has_needles(const TriangleMesh& mesh) {
 constexpr int k_sound = 2;
 int soundness_of(const TriangleMesh& mesh) { return !stands_rounding(mesh) ? 0 : has_needles(mesh) ? 1 : k_sound; }
 
+// A closed mesh without spare vertices is counted at a glance.
+bool has_euler(const TriangleMesh& mesh, int expected) {
+  const auto at_a_glance = static_cast<std::ptrdiff_t>(mesh.vertices.size()) - static_cast<std::ptrdiff_t>(mesh.triangles.size() / 2);
+  return at_a_glance == expected || euler_number(mesh) == expected;
+}
+
 struct Made {
   TriangleMesh mesh;
   double volume = 0;
@@ -198,8 +205,8 @@ struct Made {
 class PieceMaker {
  public:
   PieceMaker(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
-             const std::vector<Mark>& marks)
-      : mechanism_(mechanism), plan_(plan), marks_(marks) {
+             std::vector<Mark> marks)
+      : mechanism_(mechanism), plan_(plan), marks_(std::move(marks)) {
     add(synthesis, Piece::whole);
     if (plan.layout.parts == Parts::two) {
       add(synthesis, Piece::p1);
@@ -207,12 +214,13 @@ class PieceMaker {
     }
   }
 
-  // All with the same features, so that the parts make the whole; none when one of them is no solid.
+  // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way through that
+  // nobody planned: a mark that opens a channel.
   std::vector<Made> cut(int variant) const {
     std::vector<Made> made;
     for (const Blank& blank : blanks_) {
       auto featured = FeatureCutter(mechanism_, plan_, marks_, blank.piece).cut(blank.mesh, blank.volume, variant);
-      if (!featured) return {};
+      if (!featured || !has_euler(featured->mesh, blank.euler)) return {};
       made.push_back({std::move(featured->mesh), featured->volume, blank.euler});
     }
     return made;
@@ -236,7 +244,7 @@ class PieceMaker {
 
   const Mechanism& mechanism_;
   const BodyPlan& plan_;
-  const std::vector<Mark>& marks_;
+  std::vector<Mark> marks_;
   std::vector<Blank> blanks_;
 };
 
@@ -272,6 +280,26 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
   return anchor;
 }
 
+struct BestCut {
+  std::vector<Made> pieces;  // none where no variant leaves a solid
+  int variant = 0;
+};
+
+BestCut best_cut(const PieceMaker& maker) {
+  BestCut taken;
+  int best = 0;
+  for (int variant = 0; variant < k_variants; ++variant) {
+    std::vector<Made> made = maker.cut(variant);
+    if (made.empty()) continue;
+    const int soundness = soundness_of(made.front().mesh);
+    if (!taken.pieces.empty() && soundness <= best) continue;
+    taken = {std::move(made), variant};
+    best = soundness;
+    if (best == k_sound) break;
+  }
+  return taken;
+}
+
 // Whether it prints is another question.
 Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan) {
   Pulley pulley;
@@ -279,20 +307,13 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
   pulley.layout = plan.layout;
   if (!plan.possible()) return pulley;
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
-  pulley.layout = plan.layout;
-  const PieceMaker maker(mechanism, synthesis, plan, marks);
-  std::vector<Made> pieces;
-  int taken = 0, best = 0;
-  for (int variant = 0; variant < k_variants; ++variant) {
-    std::vector<Made> made = maker.cut(variant);
-    if (made.empty()) continue;
-    const int soundness = soundness_of(made.front().mesh);
-    if (!pieces.empty() && soundness <= best) continue;
-    pieces = std::move(made);
-    taken = variant;
-    best = soundness;
-    if (best == k_sound) break;
+  BestCut cut = best_cut(PieceMaker(mechanism, synthesis, plan, marks));
+  if (cut.pieces.empty() && !marks.empty()) {
+    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}));
+    if (!cut.pieces.empty()) plan.layout.notes.push_back("the marks would run into a tie-off: left out");
   }
+  auto& [pieces, taken] = cut;
+  pulley.layout = plan.layout;
   if (pieces.empty()) {
     pulley.conditions.push_back(uncut_features());
     return pulley;

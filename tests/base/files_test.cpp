@@ -197,11 +197,11 @@ TEST_F(Files, ClaimNamesAllAtOnceAndWritesNothing) {
   publish(root_ / "out", {{"x.stl", "old"}});
   put(root_ / "out" / "x.stl", "edited");
   put(root_ / "out" / "z.csv", "foreign");
-  const OutputFolder output(root_ / "out", false);
+  OutputFolder output(root_ / "out", false);
   const std::string error = output_error([&] { output.claim({"x.stl", "y.obj", "z.csv", "manifest.json"}); });
   EXPECT_THAT(error, HasSubstr("did not write: z.csv; and files that were changed after fusee wrote them: x.stl |"));
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl", "z.csv"));
-  const OutputFolder elsewhere(root_ / "new", false);
+  OutputFolder elsewhere(root_ / "new", false);
   elsewhere.claim({"x.stl"});
   EXPECT_FALSE(fs::exists(root_ / "new"));
 }
@@ -273,6 +273,7 @@ TEST_F(Files, AFullDiskLeavesEarlierFilesWhole) {
 
 TEST_F(Files, ARenameThatFailsPutsEarlierFilesBack) {
   publish(root_ / "out", {{"a.obj", "old a"}, {"b.stl", "old b"}});
+  fs::create_directory(root_ / "out" / "mine");  // so that it cannot be replaced as a whole
   OutputFolder output(root_ / "out", false);
   output.stage(manifest_of({{"a.obj", "new a"}, {"b.stl", "new b"}}));
   output.stage({"a.obj", "new a"});
@@ -305,24 +306,12 @@ TEST_F(Files, WhatAKilledRunStagedIsRemovedByTheNext) {
     OutputFolder* output = new OutputFolder(root_ / "out", false);
     output->stage({"x.stl", "half"});
   });
-  EXPECT_EQ(names_in(root_ / "out").size(), 3u);  // the staging folder is still there
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
+  EXPECT_EQ(names_in(root_).size(), 2u);  // the staging folder is still there, beside it
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "old");
   publish(root_ / "out", {{"x.stl", "new"}});
   EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
-}
-
-TEST_F(Files, ARunKilledWhilePublishingIsStillOurs) {
-  publish(root_ / "out", {{"a.obj", "old"}, {"x.stl", "old"}});
-  kill_after([&] {
-    OutputFolder* output = new OutputFolder(root_ / "out", false);
-    output->stage(manifest_of({{"a.obj", "new"}, {"x.stl", "new"}}));
-    output->stage({"a.obj", "new"});
-    output->stage({"x.stl", "new"});
-    fs::rename(output->staged_path("a.obj"), root_ / "out" / "a.obj");  // killed after the first of three renames
-  });
-  publish(root_ / "out", {{"a.obj", "newer"}, {"x.stl", "newer"}});
-  EXPECT_EQ(bytes_of(root_ / "out" / "a.obj"), "newer");
-  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("a.obj", "manifest.json", "x.stl"));
+  EXPECT_THAT(names_in(root_), ElementsAre("out"));
 }
 
 TEST_F(Files, ALivingRunIsLeftAlone) {
@@ -332,6 +321,80 @@ TEST_F(Files, ALivingRunIsLeftAlone) {
   EXPECT_EQ(bytes_of(living.staged_path("x.stl")), "mine");
   living.publish();
   EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "mine");
+}
+
+TEST_F(Files, WhatElseIsInTheFolderStays) {
+  publish(root_ / "out", {{"x.stl", "old"}});
+  put(root_ / "out" / "notes.txt", "mine");
+  put(root_ / "out" / ".hidden", "mine");
+  fs::create_symlink("nowhere", root_ / "out" / "link");
+  fs::permissions(root_ / "out", fs::perms::owner_all | fs::perms::group_read);
+  const auto inode = [&](const char* name) {
+    struct stat status {};
+    ::lstat((root_ / "out" / name).c_str(), &status);
+    return status.st_ino;
+  };
+  const auto notes = inode("notes.txt");
+  publish(root_ / "out", {{"x.stl", "new"}});
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre(".hidden", "link", "manifest.json", "notes.txt", "x.stl"));
+  EXPECT_EQ(inode("notes.txt"), notes);  // an editor that holds it open still does
+  EXPECT_EQ(fs::status(root_ / "out").permissions(), fs::perms::owner_all | fs::perms::group_read);
+  EXPECT_THAT(names_in(root_), ElementsAre("out"));
+}
+
+TEST_F(Files, TheFolderThatWeStandInStays) {
+  publish(root_ / "out", {{"x.stl", "old"}});
+  const fs::path before = fs::current_path();
+  fs::current_path(root_ / "out");
+  publish(".", {{"x.stl", "new"}});
+  EXPECT_EQ(bytes_of("x.stl"), "new");  // of this folder, which still has its name
+  EXPECT_TRUE(fs::equivalent(".", root_ / "out"));
+  fs::current_path(before);
+  EXPECT_THAT(names_in(root_ / "out"), ElementsAre("manifest.json", "x.stl"));
+}
+
+TEST_F(Files, AFolderBehindALinkStaysBehindIt) {
+  publish(root_ / "out", {{"x.stl", "old"}});
+  fs::create_directory_symlink("out", root_ / "link");
+  publish(root_ / "link", {{"x.stl", "new"}});
+  EXPECT_TRUE(fs::is_symlink(root_ / "link"));
+  EXPECT_EQ(bytes_of(root_ / "out" / "x.stl"), "new");
+}
+
+TEST_F(Files, WithdrawsWhatAnEarlierRunWrote) {
+  for (const bool whole : {true, false}) {
+    const fs::path folder = root_ / (whole ? "whole" : "holds_a_folder");
+    publish(folder, {{"x.stl", "old"}, {"p1.stl", "old"}, {"p2.stl", "old"}});
+    put(folder / "p2.stl", "edited");
+    if (!whole) fs::create_directory(folder / "mine");
+    OutputFolder output(folder, false);
+    output.stage(manifest_of({{"x.stl", "new"}}));
+    output.stage({"x.stl", "new"});
+    output.withdraw({"x.stl", "p1.stl", "p2.stl", "p3.stl"});
+    output.publish();
+    EXPECT_EQ(bytes_of(folder / "x.stl"), "new");
+    EXPECT_FALSE(fs::exists(folder / "p1.stl"));
+    EXPECT_EQ(bytes_of(folder / "p2.stl"), "edited");
+  }
+}
+
+TEST_F(Files, WhoPublishesLastWaitsForItsTurn) {
+  // Both began before either published: neither may take the other's files for somebody's.
+  for (const bool whole : {true, false}) {
+    const fs::path folder = root_ / (whole ? "whole" : "holds_a_folder");
+    publish(folder, {{"x.stl", "old"}});
+    if (!whole) fs::create_directory(folder / "mine");
+    OutputFolder first(folder, false), second(folder, false);
+    for (OutputFolder* output : {&first, &second}) {
+      const std::string bytes = output == &first ? "first" : "second";
+      output->stage(manifest_of({{"x.stl", bytes}}));
+      output->stage({"x.stl", bytes});
+    }
+    first.publish();
+    second.publish();
+    EXPECT_EQ(bytes_of(folder / "x.stl"), "second");
+    EXPECT_EQ(bytes_of(folder / "manifest.json"), manifest_of({{"x.stl", "second"}}).bytes);
+  }
 }
 
 TEST_F(Files, OutputsHaveOrdinaryRights) {
@@ -375,6 +438,21 @@ TEST_F(Files, WritesOverFilesOnly) {
   ASSERT_EQ(mkfifo((root_ / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(output_error([&] { write_file(root_ / "pipe", "x", true); }), HasSubstr("is not a regular file"));
   EXPECT_THAT(output_error([&] { write_file("", "x", true); }), HasSubstr("names no file"));
+  for (const char* name : {".", "..", "missing/.", "missing/.."})
+    EXPECT_THAT(output_error([&] { write_file(root_ / name, "x", true); }), testing::AnyOf(HasSubstr("names no file"), HasSubstr("is not a regular file"))) << name;
+  EXPECT_FALSE(fs::exists(root_ / "missing"));
+}
+
+TEST_F(Files, NamesMayBeginAndEndWithDots) {
+  for (const char* name : {"...", ".hidden.toml", "x..", "..x"}) {
+    write_file(root_ / name, "one", false);
+    EXPECT_EQ(bytes_of(root_ / name), "one") << name;
+  }
+  publish(root_ / "out..", {{"x.stl", "new"}});
+  publish(root_ / "...out", {{"x.stl", "new"}});
+  publish(root_ / "missing" / ".." / "beside", {{"x.stl", "new"}});
+  EXPECT_EQ(bytes_of(root_ / "beside" / "x.stl"), "new");
+  EXPECT_FALSE(fs::exists(root_ / "missing"));
 }
 
 }  // namespace

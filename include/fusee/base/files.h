@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit);
 /// SHA-256 of `bytes`, 64 lower-case hex digits.
 std::string sha256(std::string_view bytes);
 
+class MissingFolders;
+class Staging;
+
 /// One file to be left behind: its name inside the output folder and its bytes.
 struct OutputFile {
   std::string name;
@@ -26,16 +30,19 @@ struct OutputFile {
 
 /// A set of files that appears in `folder` whole or not at all.
 ///
-/// stage() writes the files into a hidden folder inside the target; publish() flushes them to disk and renames each into
-/// place, manifest.json last; the destructor removes what was staged and not published, and the folders made for it. A
-/// kill at any moment leaves the earlier files whole; what a killed run left staged is removed by the next one.
+/// stage() writes the files into a hidden folder, publish() flushes them to disk and puts them in place; the destructor
+/// removes what was staged and not published, and the folders made for it. A kill at any moment leaves the old set or the new
+/// one: publish() makes a folder of the new files and of what else the old one holds, and exchanges both by one rename. Where a
+/// folder cannot be replaced (it holds folders, is the one that the process stands in, a mount point, of another owner) the files
+/// are renamed one by one, manifest.json last, and the next OutputFolder ends what a killed one began. What a killed run left
+/// staged is removed by the next one. Who publishes while another run does waits for it.
 ///
 /// Whose work is it? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim() and
-/// stage() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were changed
+/// publish() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were changed
 /// since, unless `force`. A manifest that cannot be read is somebody else's file.
 class OutputFolder {
  public:
-  /// Touches nothing yet.
+  /// Touches nothing yet, but for what killed runs left.
   OutputFolder(std::filesystem::path folder, bool force);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -45,33 +52,34 @@ class OutputFolder {
   bool has_earlier_run() const { return earlier_run_; }
   /// Throws OutputError, naming all of them, when some of `names` may not be overwritten (see above) or the folder
   /// cannot be written. Writes nothing.
-  void claim(const std::vector<std::string>& names) const;
+  void claim(const std::vector<std::string>& names);
   void stage(const OutputFile& file);
   /// Where a staged file can be read back before it is published.
   std::filesystem::path staged_path(const std::string& name) const;
+  /// Publishing will remove those of `names` that an earlier run wrote, that nobody changed since, and that this run did not
+  /// write: they would be taken for this run's.
+  void withdraw(const std::vector<std::string>& names);
   /// Where a rename fails, what was renamed before it is put back.
   void publish();
-  /// After publishing: removes those of `names` that an earlier run wrote, that nobody changed since, and that this run did
-  /// not write. They would be taken for this run's.
-  void withdraw(const std::vector<std::string>& names) const;
 
  private:
+  void demand_ours(const std::vector<std::string>& names) const;
   void open_staging();
-  void close_staging();
-  void remove_stale() const;
+  std::vector<std::string> obsolete() const;
+  bool publish_as_folder(const std::vector<std::string>& gone);
+  void publish_one_by_one(const std::vector<std::string>& gone);
   void put_back(const std::vector<std::string>& published) const;
 
-  std::filesystem::path folder_;
-  std::filesystem::path staging_;
+  std::filesystem::path folder_;  ///< as it was named
+  std::filesystem::path place_;   ///< the same from the root, without links and dots
   bool force_;
   bool earlier_run_ = false;
-  /// What earlier runs of fusee wrote here: name and SHA-256. A run killed while publishing has its manifest still
-  /// staged.
+  /// What earlier runs of fusee wrote here: name and SHA-256.
   std::set<std::pair<std::string, std::string>> ours_;
   std::vector<std::string> staged_;
-  std::vector<std::string> published_;
-  std::vector<std::filesystem::path> made_folders_;  ///< outermost first
-  int lock_ = -1;                                    ///< held on the staging folder while this run lives
+  std::vector<std::string> withdrawn_;
+  std::unique_ptr<MissingFolders> missing_;  ///< outlives the staging folder
+  std::unique_ptr<Staging> staging_;
 };
 
 /// Writes one file beside its place and renames it there. OutputError when it exists (unless `force`) or cannot be

@@ -1,0 +1,239 @@
+// Random designs through the whole making, of every law and with every choice of the file: each is made, with every check, or refused
+// for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). And every combination of the choices in [body] and [print]
+// on three mechanisms, with FUSEE_LONG_TESTS (hours); without it FUSEE_LAW_CASES of them (10).
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/pipeline.h"
+
+namespace {
+
+using namespace fusee;
+
+/// Numbers of its own, the same on every machine.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : bits_(seed) {}
+  double between(double low, double high) { return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
+  bool happens(double probability) { return between(0, 1) < probability; }
+  template <std::size_t count>
+  const char* one_of(const std::array<const char*, count>& words) {
+    return words[static_cast<std::size_t>(between(0, static_cast<double>(count)))];
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+struct Number {
+  const char* key;
+  double low, high;
+};
+/// What a workshop would write.
+constexpr std::array k_numbers{
+    Number{"guides.friction", 0, 0.5},          Number{"tendon.modulus_MPa", 500, 2e5},    Number{"tendon.pretension_N", 0, 60},
+    Number{"tendon.bend_ratio", 2, 20},         Number{"load.tip_force_N", -40, 40},       Number{"load.mass_kg", 0, 3},
+    Number{"body.groove_angle_deg", 0, 90},     Number{"body.groove_depth_mm", 0.4, 6},    Number{"body.seat_ratio", 0.5, 1},
+    Number{"body.flange_thickness_mm", 0.6, 4}, Number{"body.hub_diameter_mm", 6, 40},     Number{"body.hub_height_mm", 0, 15},
+    Number{"body.bore_diameter_mm", 1.5, 12},   Number{"body.anchor_hole_mm", 0.6, 4},     Number{"body.knot_pocket_mm", 1, 8},
+    Number{"body.mark_depth_mm", 0.1, 5},       Number{"body.min_wall_mm", 0.4, 3},        Number{"material.shrinkage_percent", -1, 3},
+    Number{"material.hole_compensation_mm", -0.2, 0.5}, Number{"material.elephant_foot_mm", 0, 0.8}, Number{"cut.kerf_mm", 0, 0.6},
+    Number{"cut.plate_mm", 1, 8},               Number{"cut.sheet_width_mm", 80, 900},     Number{"cut.sheet_height_mm", 80, 900},
+    Number{"cut.dowel_mm", 0, 5},               Number{"identified.radius_offset_mm", -0.2, 0.2},
+    Number{"identified.pulley_scale_percent", -2, 2}, Number{"identified.runout_x_mm", -0.2, 0.2},
+    Number{"identified.profile_sin_mm", -0.1, 0.1}, Number{"identified.guide1_outward_mm", -0.5, 0.5}};
+
+std::vector<Setting> body_choices(Draw& draw) {
+  std::vector<Setting> settings;
+  const auto choose = [&](double probability, const char* key, const auto& words) {
+    if (draw.happens(probability)) settings.push_back({key, draw.one_of(words)});
+  };
+  choose(0.15, "body.groove", std::array{"u", "v", "flat"});
+  choose(0.15, "body.flange", std::array{"follow", "round"});
+  choose(0.15, "body.nut_trap", std::array{"true", "false"});
+  choose(0.15, "body.marks", std::array{"engraved", "raised", "none"});
+  choose(0.15, "body.set_screw", std::array{"auto", "none", "M2", "M3", "M4", "M6"});
+  choose(0.4, "body.bore", std::array{"round", "d", "hex", "square", "keyway", "horn"});
+  choose(0.15, "print.parts", std::array{"one", "two"});
+  choose(0.1, "print.supports", std::array{"true", "false"});
+  const bool horned = !settings.empty() && std::any_of(settings.begin(), settings.end(), [](const Setting& s) { return s.value == "horn"; });
+  if (horned) settings.push_back({"body.horn", draw.one_of(std::array{"lynxmotion-ses", "actobotics-0.770", "disc-25T-M3"})});
+  return settings;
+}
+
+struct Design {
+  std::string text;
+  double tolerance = 0.01;
+};
+
+Design draw_design(std::uint64_t seed) {
+  Draw draw(seed);
+  const bool nasty = draw.happens(0.2);
+  const double R = nasty ? draw.log_between(2, 1500) : draw.log_between(15, 400);
+  const auto share = [&](double low, double high, double wide_low, double wide_high) {
+    return fmt::format("{}", R * (nasty ? draw.between(wide_low, wide_high) : draw.between(low, high)));
+  };
+  std::map<std::string, std::vector<Setting>> tables;
+  const auto add = [&tables](const std::string& key, const std::string& value) {
+    tables[key.substr(0, key.find('.'))].push_back({key.substr(key.find('.') + 1), value});
+  };
+  add("joint.length_mm", fmt::format("{}", R));
+  const double half = nasty ? draw.log_between(0.5, 80) : draw.between(8, 36);
+  add("joint.range_deg", fmt::format("[{}, {}]", draw.happens(0.6) ? -half : -half * draw.between(0.1, 1), half));
+  const std::string EB = share(0.2, 0.9, 0.05, 2);
+  add("guides.EB_mm", EB);
+  add("guides.ED_mm", draw.happens(0.6) ? EB : share(0.2, 0.9, 0.05, 2));
+  add("guides.OE_mm", share(-0.45, 0.05, -2, 2));
+  add("guides.radius_mm", fmt::format("{}", draw.happens(0.3) ? 0.0 : std::min(10.0, R * draw.log_between(0.004, 0.05))));
+  add("pulley.EF_mm", share(0.75, 1.5, 0.1, 4));
+  if (draw.happens(0.7)) {
+    add("pulley.r1_mm", share(0.1, 0.2, 0.02, 1));
+  } else {
+    add("pulley.law", "\"linear\"");
+    add("pulley.ratio", fmt::format("{}", draw.between(2, 6)));
+  }
+  if (draw.happens(0.2)) add("pulley.method", "\"paper\"");
+  add("tendon.diameter_mm", fmt::format("{}", std::clamp(R * draw.log_between(0.004, 0.03), 0.2, 8.0)));
+  for (const Setting& choice : body_choices(draw)) add(choice.key, choice.value == "true" || choice.value == "false" ? choice.value : "\"" + choice.value + "\"");
+  const double often = 0.25 * draw.between(0, 1);
+  for (const Number& number : k_numbers)
+    if (draw.happens(often)) add(number.key, fmt::format("{:.6g}", draw.between(number.low, number.high)));
+  Design design{"schema = 1\nname = \"random\"\n", draw.happens(0.2) ? draw.log_between(0.002, 0.1) : 0.01};
+  for (const auto& [table, keys] : tables) {
+    design.text += "\n[" + table + "]\n";
+    for (const Setting& key : keys) design.text += key.key + " = " + key.value + "\n";
+  }
+  return design;
+}
+
+int number_from(const char* variable, int otherwise) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::atoi(text);
+}
+
+/// Thrown at the first try: whether advice is right is a matter of its own, and takes longer than all else.
+struct NoAdvice {};
+
+enum class End { made, refused, bad_input };
+
+/// `read` gives the mechanism: bad input is an end too.
+template <typename Read>
+End end_of(Read read, double tolerance) {
+  BuildOptions options;
+  options.tolerance = tolerance;
+  options.dry_run = true;
+  options.between_tries = [] { throw NoAdvice(); };
+  try {
+    const BuildResult built = build(read(), options);
+    for (const Check& check : built.product.checks)
+      EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
+    return built.status == BuildStatus::infeasible ? End::refused : End::made;
+  } catch (const NoAdvice&) {
+    return End::refused;
+  } catch (const InputError&) {
+    return End::bad_input;
+  }
+}
+
+constexpr int k_shards = 8;  // so that ctest may run them side by side
+
+class Campaign : public ::testing::TestWithParam<int> {};
+
+TEST_P(Campaign, DesignsAreMadeOrRefused) {
+  const int cases = number_from("FUSEE_LAW_CASES", 24), seed = number_from("FUSEE_LAW_SEED", 1);
+  int made = 0, refused = 0, bad = 0;
+  for (int i = GetParam(); i < cases; i += k_shards) {
+    const Design design = draw_design(static_cast<std::uint64_t>(seed) * 1000003 + static_cast<std::uint64_t>(i));
+    SCOPED_TRACE(fmt::format("FUSEE_LAW_SEED={}, design {}, --tolerance-mm {}\n{}", seed, i, design.tolerance, design.text));
+    try {
+      const auto read = [&design] {
+        MechanismFile file;
+        file.mechanism = parse_mechanism(design.text, "random.toml");
+        return file;
+      };
+      const End end = end_of(read, design.tolerance);
+      ++(end == End::made ? made : end == End::refused ? refused : bad);
+    } catch (const std::exception& bug) {
+      ADD_FAILURE() << bug.what();
+    }
+  }
+  EXPECT_GT(made + refused, 8 * bad);
+  if (cases >= 64) {
+    EXPECT_GT(made, 0);
+    EXPECT_GT(refused, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, Campaign, ::testing::Range(0, k_shards));
+
+// ---- every choice ----------------------------------------------------------------------------------------------------
+
+struct Choice {
+  std::string key;
+  std::vector<std::string> words;
+};
+
+/// Of every key of [body] and [print] that takes one of a few words; of screws and shafts two or three stand for all.
+std::vector<Choice> all_choices() {
+  const std::map<std::string, std::vector<std::string>> fewer{{"body.set_screw", {"auto", "none", "M3"}},
+                                                              {"body.clamp_screw", {"none", "M2"}},
+                                                              {"body.shaft", {"none", "nema17-d5"}},
+                                                              {"print.parts", {"one", "two"}}};
+  std::vector<Choice> choices;
+  for (const Field& field : fields()) {
+    if (field.table != "body" && field.table != "print") continue;
+    Choice choice{field.name(), {field.choices.begin(), field.choices.end()}};
+    if (field.kind == FieldKind::boolean) choice.words = {"true", "false"};
+    if (fewer.count(choice.key)) choice.words = fewer.at(choice.key);
+    if (choice.words.size() > 1) choices.push_back(choice);
+  }
+  return choices;
+}
+
+class Choices : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Choices, AreMadeOrRefused) {
+  const std::vector<Choice> choices = all_choices();
+  ASSERT_GE(choices.size(), 10u);
+  std::size_t combinations = 1;
+  for (const Choice& choice : choices) combinations *= choice.words.size();
+  const bool all = std::getenv("FUSEE_LONG_TESTS") != nullptr;
+  const auto few = static_cast<std::size_t>(number_from("FUSEE_LAW_CASES", 10));
+  constexpr std::size_t k_stride = 7919;  // a prime: neighbours in the sample differ in most keys
+  int made = 0, refused = 0, bad = 0;
+  for (std::size_t n = 0; n < (all ? combinations : std::min(few, combinations)); ++n) {
+    std::size_t rest = n * k_stride % combinations;
+    std::vector<Setting> settings{{"body.horn", "disc-25T-M3"}};
+    std::string words;
+    for (const Choice& choice : choices) {
+      settings.push_back({choice.key, choice.words[rest % choice.words.size()]});
+      words += " --set " + choice.key + "=" + settings.back().value;
+      rest /= choice.words.size();
+    }
+    SCOPED_TRACE(GetParam() + words);
+    const auto read = [&] { return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / GetParam(), settings); };
+    try {
+      const End end = end_of(read, 0.01);
+      ++(end == End::made ? made : end == End::refused ? refused : bad);
+    } catch (const std::exception& bug) {
+      ADD_FAILURE() << bug.what();
+    }
+  }
+  EXPECT_GT(made, 0);
+  RecordProperty("made", made), RecordProperty("refused", refused), RecordProperty("bad_input", bad);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Choices, ::testing::Values("forearm.toml", "gripper.toml", "wrist_exo.toml"));
+
+}  // namespace

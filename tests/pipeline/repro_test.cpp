@@ -1,0 +1,92 @@
+// Designs that fusee once got wrong: a sound part that failed a check, a refusal that was called a bug, advice that did not help.
+// Each is made, or refused with advice that builds.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "fusee/base/text.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/pipeline.h"
+
+namespace {
+
+using namespace fusee;
+namespace fs = std::filesystem;
+
+struct Repro {
+  const char* name;
+  const char* path;  ///< from the source folder on
+  std::vector<Setting> settings;
+  double tolerance = 0.01;
+  BuildStatus status = BuildStatus::done;
+};
+
+std::string shown(const BuildResult& built) {
+  std::string text;
+  for (const Check& check : built.product.checks)
+    if (!check.ok) text += check.name + " " + rounded(check.value) + " " + check.where + "\n";
+  for (const Condition& condition : failed_of(built.product.synthesis.conditions)) text += condition.message + "\n";
+  for (const Condition& condition : failed_of(built.product.pulley.conditions)) text += condition.message + "\n";
+  return text;
+}
+
+BuildResult dry_run(const Repro& repro, std::vector<Setting> more = {}) {
+  more.insert(more.begin(), repro.settings.begin(), repro.settings.end());
+  BuildOptions options;
+  options.tolerance = repro.tolerance;
+  options.dry_run = true;
+  return build(read_mechanism(fs::path(FUSEE_SOURCE_DIR) / repro.path, more), options);
+}
+
+/// As a person would type it.
+Setting setting_of(const Change& change, const Mechanism& mechanism) {
+  if (!change.to_word.empty()) return {change.key, change.to_word};
+  const std::string number = fmt::format("{}", change.to);
+  const std::string low = fmt::format("{}", degrees(mechanism.joint.theta_min)), high = fmt::format("{}", degrees(mechanism.joint.theta_max));
+  if (change.key == "joint.range_deg") return {change.key, "[-" + number + ", " + number + "]"};
+  if (change.key == "joint.range_deg[0]") return {"joint.range_deg", "[" + number + ", " + high + "]"};
+  if (change.key == "joint.range_deg[1]") return {"joint.range_deg", "[" + low + ", " + number + "]"};
+  return {change.key, number};
+}
+
+class Repros : public ::testing::TestWithParam<Repro> {};
+
+TEST_P(Repros, IsMadeOrRefusedWithAdviceThatBuilds) {
+  const BuildResult built = dry_run(GetParam());
+  ASSERT_EQ(built.status, GetParam().status) << shown(built);
+  if (built.status == BuildStatus::done) return;
+  EXPECT_NE(shown(built), "");
+  if (built.advice.alone.empty()) return;
+  const Change& first = built.advice.alone.front();
+  const BuildResult advised = dry_run(GetParam(), {setting_of(first, built.product.file.mechanism)});
+  EXPECT_EQ(advised.status, BuildStatus::done) << first.text << "\n" << shown(advised);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Designs, Repros,
+    ::testing::Values(Repro{"advice_wrong_body", "tests/data/repro/advice_wrong_body.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"drc_a", "tests/data/repro/drc_a.toml", {}}, Repro{"drc_b", "tests/data/repro/drc_b.toml", {}, 0.0512},
+                      Repro{"mark_depth_2", "profiles/forearm.toml", {{"body.mark_depth_mm", "2"}}},
+                      Repro{"mark_depth_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}}},
+                      Repro{"raised_mark_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}, {"body.marks", "raised"}}},
+                      Repro{"no_rim_compensate", "tests/data/repro/exit1_no_rim_compensate.toml", {}},
+                      Repro{"no_rim_linear", "tests/data/repro/exit1_no_rim_linear.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"no_rim_table", "tests/data/repro/exit1_no_rim_table.toml", {}},
+                      Repro{"rewind", "tests/data/repro/exit1_rewind.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"paper_floor_deviation", "tests/data/repro/paper_floor_deviation.toml", {}},
+                      Repro{"plates_off_sheet", "tests/data/repro/plates_off_sheet.toml", {}},
+                      Repro{"plates_smallest_feature", "tests/data/repro/plates_smallest_feature.toml", {}},
+                      Repro{"thin_tendon", "profiles/forearm.toml", {{"tendon.diameter_mm", "0.3"}}},
+                      Repro{"slow_refusal", "tests/data/repro/slow_refusal.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"slow_refusal_31s", "tests/data/repro/slow_refusal_31s.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"slot_inside_out", "tests/data/repro/slot_inside_out.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"hollow_cut", "tests/data/repro/hollow_cut.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"horn_in_hub", "tests/data/repro/horn_in_hub.toml", {}, 0.01, BuildStatus::infeasible},
+                      Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
+                      Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
+                      Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}}),
+    [](const auto& repro) { return std::string(repro.param.name); });
+
+}  // namespace
