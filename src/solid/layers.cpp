@@ -18,6 +18,10 @@ constexpr double k_layer = 0.2;
 constexpr double k_threshold = radians(1.3);
 // Outlines are looked at in steps of this.
 constexpr double k_stride = 0.02;
+// Far above the rounding of distances, far below all that matters.
+constexpr double k_grain = 1e-9;
+// A line is looked for beside this many of the layer below, from the last one found on.
+constexpr std::size_t k_followed = 3;
 
 bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
   return std::count_if(loops.begin(), loops.end(), [&point](const Polygon& loop) { return is_inside(loop, point); }) %
@@ -31,11 +35,25 @@ class WidenedLayer {
   WidenedLayer(std::vector<Polygon> loops, double reach, Corners corners)
       : loops_(std::move(loops)), nearest_(loops_), reach_(reach), corners_(corners) {}
 
-  bool holds(const Vec2& point) const {
-    return nearest_.distance(point) <= reach_ || is_inside_of(loops_, point) ||
-           (corners_ == Corners::squared && at_squared_corner(point));
+  struct Hold {
+    bool holds;
+    double round;         ///< all is held that is nearer to the point than this
+    double distance;      ///< to the layer's outlines
+    std::size_t segment;  ///< the nearest of them
+  };
+  Hold hold_of(const Vec2& point) const {
+    const auto [distance, segment] = nearest_.nearest(point);
+    if (distance <= reach_) return {true, reach_ - distance, distance, segment};
+    if (is_inside_of(loops_, point)) return {true, reach_ + distance, distance, segment};
+    return {corners_ == Corners::squared && at_squared_corner(point), 0.0, distance, segment};
   }
-  double distance(const Vec2& point) const { return nearest_.distance(point); }
+
+  // Nearness to a segment is convex: where both ends of a line are near to the same one, all of it is.
+  bool is_beside(std::size_t segment, const Vec2& from, const Vec2& to) const {
+    if (segment >= nearest_.segments().size()) return false;
+    const auto& [a, b] = nearest_.segments()[segment];
+    return distance_to_segment(from, a, b) < reach_ - k_grain && distance_to_segment(to, a, b) < reach_ - k_grain;
+  }
 
  private:
   // The solid lies on the left of its outlines.
@@ -62,21 +80,61 @@ class WidenedLayer {
   Corners corners_;
 };
 
-std::optional<Vec2> furthest_out(const Polygon& loop, const WidenedLayer& below) {
-  std::optional<Vec2> furthest;
-  double most = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 &from = loop[i], &to = loop[(i + 1) % loop.size()];
-    const int steps = static_cast<int>(std::ceil((to - from).norm() / k_stride));
-    for (int k = 0; k < steps; ++k) {
-      const Vec2 point = from + (to - from) * k / steps;
-      if (below.holds(point) || below.distance(point) <= most) continue;
-      most = below.distance(point);
-      furthest = point;
-    }
+// Walks a loop in steps of k_stride over the layer below. What is surely held is passed over: a line beside one of that
+// layer's (in a wall the lines of two layers follow each other), and what is near to a point that is held all round.
+class LayerWalk {
+ public:
+  explicit LayerWalk(const WidenedLayer& below) : below_(below) {}
+
+  std::optional<Vec2> furthest_out(const Polygon& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) step_along(loop[i], loop[(i + 1) % loop.size()]);
+    return furthest_;
   }
-  return furthest;
-}
+
+ private:
+  void step_along(const Vec2& from, const Vec2& to) {
+    const double length = (to - from).norm();
+    if (length < held_ || follows(from, to)) {
+      held_ = std::max(0.0, held_ - length);
+      return;
+    }
+    const int steps = static_cast<int>(std::ceil(length / k_stride));
+    double at = 0;
+    for (int k = 0; k < steps; ++k) {
+      const double next = length * k / steps;
+      if (next - at < held_) continue;
+      at = next;
+      held_ = look(from + (to - from) * k / steps);
+    }
+    held_ = std::max(0.0, held_ - (length - at));
+  }
+
+  // How far on all is held.
+  double look(const Vec2& point) {
+    const WidenedLayer::Hold hold = below_.hold_of(point);
+    beside_ = hold.segment;
+    if (!hold.holds && hold.distance > most_) {
+      most_ = hold.distance;
+      furthest_ = point;
+    }
+    return hold.holds ? std::max(0.0, hold.round - k_grain) : 0.0;
+  }
+
+  bool follows(const Vec2& from, const Vec2& to) {
+    for (std::size_t s = beside_; s < beside_ + k_followed; ++s) {
+      if (!below_.is_beside(s, from, to)) continue;
+      beside_ = s;
+      return true;
+    }
+    return false;
+  }
+
+  const WidenedLayer& below_;
+  std::size_t beside_ = 0;  ///< the last line of the layer below that was found near
+  double held_ = 0;         ///< how far on from here all is held
+  std::optional<Vec2> furthest_;
+  double most_ = 0;
+};
 
 }  // namespace
 
@@ -90,7 +148,7 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
     std::vector<Polygon> here = section(lying, z);
     const WidenedLayer widened(std::move(below), reach, corners);
     for (const Polygon& loop : here) {
-      if (const auto out = furthest_out(loop, widened)) ledges.emplace_back(out->x(), out->y(), z);
+      if (const auto out = LayerWalk(widened).furthest_out(loop)) ledges.emplace_back(out->x(), out->y(), z);
     }
     below = std::move(here);
   }

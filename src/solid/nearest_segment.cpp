@@ -7,10 +7,10 @@
 
 namespace fusee {
 
-NearestSegment::NearestSegment(std::vector<Polygon> loops) : loops_(std::move(loops)) {
+NearestSegment::NearestSegment(const std::vector<Polygon>& loops) {
   Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
   low_ = -high;
-  for (const Polygon& loop : loops_) {
+  for (const Polygon& loop : loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       segments_.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
       low_ = low_.cwiseMin(loop[i]);
@@ -41,29 +41,31 @@ NearestSegment::Cell NearestSegment::cell_of(const Vec2& point) const {
   return {clamped(point.x() - low_.x(), columns_), clamped(point.y() - low_.y(), rows_)};
 }
 
-double NearestSegment::nearest_in(long column, long row, const Vec2& point) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return least;
+void NearestSegment::look_in(Nearest& nearest, long column, long row, const Vec2& point) const {
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
   for (const std::uint32_t s : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
-    least = std::min(least, distance_to_segment(point, segments_[s].first, segments_[s].second));
+    const double distance = distance_to_segment(point, segments_[s].first, segments_[s].second);
+    if (distance < nearest.distance) nearest = {distance, s};
   }
-  return least;
 }
 
 // Rings of cells outward from the point's own. A segment beyond ring k is at least k cells away from that cell's
 // border.
-double NearestSegment::distance(const Vec2& point) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (segments_.empty()) return least;
+NearestSegment::Nearest NearestSegment::nearest(const Vec2& point) const {
+  Nearest nearest{std::numeric_limits<double>::infinity(), 0};
+  if (segments_.empty()) return nearest;
   const auto [column, row] = cell_of(point);
-  for (long k = 0; k <= std::max(columns_, rows_) && (k == 0 || least > static_cast<double>(k - 1) * side_); ++k) {
+  for (long k = 0; k <= std::max(columns_, rows_) && (k == 0 || nearest.distance > static_cast<double>(k - 1) * side_);
+       ++k) {
     for (long i = -k; i <= k; ++i) {
-      least = std::min({least, nearest_in(column + i, row - k, point), nearest_in(column + i, row + k, point)});
-      if (std::abs(i) != k)
-        least = std::min({least, nearest_in(column - k, row + i, point), nearest_in(column + k, row + i, point)});
+      look_in(nearest, column + i, row - k, point);
+      if (k > 0) look_in(nearest, column + i, row + k, point);
+      if (std::abs(i) == k) continue;
+      look_in(nearest, column - k, row + i, point);
+      look_in(nearest, column + k, row + i, point);
     }
   }
-  return least;
+  return nearest;
 }
 
 }  // namespace fusee
