@@ -75,10 +75,7 @@ bool design(Workshop& shop) {
   draw_for_making(product.synthesis, product.joint.outline);
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
-  if (!product.pulley.made()) return false;
-  shop.step("moving the joint to see what its knots bear");
-  product.holding = tendon_holding(mechanism, product.synthesis, product.pulley);
-  return true;
+  return product.pulley.made();
 }
 
 void write_parts(Workshop& shop) {
@@ -214,6 +211,9 @@ void work(Workshop& shop) {
     shop.result.advice = advice_for(shop.result.product.file, shop.options);
     return;
   }
+  Product& product = shop.result.product;
+  shop.step("moving the joint to see what its knots bear");
+  product.holding = tendon_holding(product.joint.mechanism, product.synthesis, product.pulley);
   write_parts(shop);
   check_written(shop);
   write_texts(shop);
