@@ -6,6 +6,18 @@
 
 
 namespace fusee {
+namespace {
+
+// The other line's ends lie on one side of this one, by more than rounding.
+bool on_one_side(const Vec2& from, const Vec2& to, const Vec2& a, const Vec2& b) {
+  constexpr double k_margin = 1e-12;
+  const Vec2 along = to - from, to_a = a - from, to_b = b - from;
+  const double size = along.cwiseAbs().maxCoeff() * std::max(to_a.cwiseAbs().maxCoeff(), to_b.cwiseAbs().maxCoeff());
+  const double of_a = cross(along, to_a), of_b = cross(along, to_b);
+  return std::min(of_a, of_b) > k_margin * size || std::max(of_a, of_b) < -k_margin * size;
+}
+
+}  // namespace
 
 NearestSegment::NearestSegment(const std::vector<Polygon>& loops) {
   Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
@@ -66,6 +78,22 @@ NearestSegment::Nearest NearestSegment::nearest(const Vec2& point) const {
     }
   }
   return nearest;
+}
+
+bool NearestSegment::is_clear(const Vec2& from, const Vec2& to) const {
+  if (segments_.empty()) return true;
+  // Cells are found by rounded numbers: what touches lies in a neighbouring one at most.
+  const Vec2 margin = Vec2::Constant(1e-6 * side_);
+  const Cell low = cell_of(from.cwiseMin(to) - margin), high = cell_of(from.cwiseMax(to) + margin);
+  for (long row = low.row; row <= high.row; ++row) {
+    for (long column = low.column; column <= high.column; ++column) {
+      for (const std::uint32_t s : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
+        const auto& [a, b] = segments_[s];
+        if (!on_one_side(from, to, a, b) && !on_one_side(a, b, from, to)) return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace fusee

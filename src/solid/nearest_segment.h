@@ -20,6 +20,8 @@ class NearestSegment {
   double distance(const Vec2& point) const { return nearest(point).distance; }
   /// Infinitely far without segments.
   Nearest nearest(const Vec2& point) const;
+  /// The line surely touches no segment.
+  bool is_clear(const Vec2& from, const Vec2& to) const;
   /// Of all loops, in the order in which each is walked.
   const std::vector<std::pair<Vec2, Vec2>>& segments() const { return segments_; }
 
