@@ -84,8 +84,9 @@ class CrossingTest {
     Triangle a = mesh_.triangles[f], b = mesh_.triangles[g];
     const int shared = put_shared_first(a, b);
     if (shared == 3) return false;
-    const FacetPlanes first(mesh_, a), second(mesh_, b);
-    if (shared == 2) return !clearly_unfolded(first, second) && folded_flat(points(a), points(b));
+    const FacetPlanes first(mesh_, a);
+    if (shared == 2) return !clearly_unfolded(first, mesh_.vertices[b[2]]) && folded_flat(points(a), points(b));
+    const FacetPlanes second(mesh_, b);
     if (clearly_apart(first, second, shared) || clearly_apart(second, first, shared)) return false;
     const std::array<Point, 3> p = points(a), q = points(b);
     const Kernel::Triangle_3 one(p[0], p[1], p[2]), other(q[0], q[1], q[2]);
@@ -103,8 +104,8 @@ class CrossingTest {
     return CGAL::coplanar(p[0], p[1], p[2], q[2]) &&
            CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
   }
-  static bool clearly_unfolded(const FacetPlanes& a, const FacetPlanes& b) {
-    return a.side_of(b.corner(2)) != 0 || a.is_beyond(0, b.corner(2));
+  static bool clearly_unfolded(const FacetPlanes& a, const Vec3& beside) {
+    return a.side_of(beside) != 0 || a.is_beyond(0, beside);
   }
 
   // b's corners, but for a shared one, lie on one side of a's plane, or beyond one of a's edges; where a corner is

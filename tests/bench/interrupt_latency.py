@@ -54,18 +54,16 @@ def interrupted_at(command, moment):
 
 def commands(fusee, folder):
     spec = str(ROOT / "profiles/forearm.toml")
-    refused = ROOT / "tests/data/refused.toml"
-    log = next(iter(sorted(pathlib.Path(folder).glob("plan/run_*.csv"))), None)
+    log = str(min(pathlib.Path(folder).glob("plan/run_*.csv")))
     out = ["-o", f"{folder}/out", "--force"]
-    all_of = {
+    return {
         "build": [fusee, "build", str(ROOT / "profiles/paper_optimum.toml"), *out],
-        "refused": [fusee, "build", str(refused), *out] if refused.exists() else None,
+        "refused": [fusee, "build", str(ROOT / "tests/data/refused.toml"), *out],
         "plan": [fusee, "plan", spec, *out],
-        "simulate": [fusee, "simulate", spec, str(log), "-o", f"{folder}/sim.csv", "--force"] if log else None,
+        "simulate": [fusee, "simulate", spec, log, "-o", f"{folder}/sim.csv", "--force"],
         "calibrate": [fusee, "calibrate", spec, *sorted(map(str, pathlib.Path(folder).glob("sim_*.csv"))), *out],
         "reproduce": [fusee, "reproduce", *out],
     }
-    return {name: command for name, command in all_of.items() if command}
 
 
 def prepare(fusee, folder):
