@@ -27,7 +27,12 @@ double number_of(const Mechanism& mechanism, const std::string& key) {
 // "automatic".
 std::vector<std::string> written_keys(const Mechanism& mechanism) {
   std::vector<std::string> keys;
-  const auto is_written = [&mechanism](const std::string& key) { return number_of(mechanism, key) > 0; };
+  const Body& body = mechanism.body;
+  // What a shaft says, and what a written flat must go with, is not changed alone: the file would contradict itself.
+  const bool bore_is_tied = find_shaft(body.shaft) != nullptr || (body.bore == Bore::d && body.bore_flat > 0);
+  const auto is_written = [&](const std::string& key) {
+    return number_of(mechanism, key) > 0 && !(bore_is_tied && key == "body.bore_diameter_mm");
+  };
   std::copy_if(k_body_keys.begin(), k_body_keys.end(), std::back_inserter(keys), is_written);
   if (mechanism.body.bore == Bore::horn && mechanism.body.horn == k_own_horn)
     std::copy_if(k_horn_keys.begin(), k_horn_keys.end(), std::back_inserter(keys), is_written);
