@@ -87,6 +87,20 @@ double price_of(const Evidence& evidence, const Fit& fit) {
   return 0.5 * evidence.marginal->worth() * squares / (evidence.floor * evidence.floor);
 }
 
+/// What they cost in evidence, nats. The summit is sought without it: between two places that explain a loose row lie
+/// others that do not.
+double cost_of_play(const Evidence& evidence, const Fit& fit) {
+  const Marginal& marginal = *evidence.marginal;
+  const std::vector<Eigen::Index> rows = evidence.rows();
+  const Eigen::VectorXd left = fit.residual(rows) - marginal.discrepancy().columns * fit.explained.unnamed;
+  double nats = 0;
+  for (Eigen::Index i = 0; i < left.size(); ++i) {
+    const double loose = fit.loose[rows[static_cast<std::size_t>(i)]];
+    if (loose > 0) nats += nats_of_play(left[i], loose, evidence.floor);
+  }
+  return marginal.worth() * nats;
+}
+
 }  // namespace
 
 /// Whether the slopes promise a better place than this.
@@ -251,7 +265,7 @@ void Fitter::judge(Fit& fit) const {
   if (!fit.usable) return;
   const Marginal& marginal = *evidence().marginal;
   fit.explained = marginal.best(tangent_of(evidence(), fit), marginal.first_guess());
-  fit.log_evidence = fit.explained.log_evidence_here - price_of(evidence(), fit);
+  fit.log_evidence = fit.explained.log_evidence_here - cost_of_play(evidence(), fit);
   fit.readings = sums_of_readings(evidence(), fit);
   fit.against_readings = against_readings(evidence(), fit.at);
   fit.sums.clear();

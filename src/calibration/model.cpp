@@ -37,6 +37,13 @@ double price_of_play(double loose, double floor) {
   return floor * floor * (1.0 - weight * weight);
 }
 
+double nats_of_play(double residual, double loose, double floor) {
+  const double weight = weight_of(loose, floor);
+  const double squares = residual * residual / (floor * floor);
+  const double anywhere = squares - 2.0 * std::log(weight);
+  return 0.5 * (std::min(anywhere, squares / (weight * weight)) - squares);
+}
+
 double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
   const std::vector<Eigen::Index> rows = evidence.rows();
   double squares = 0;

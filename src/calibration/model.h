@@ -33,9 +33,14 @@ class Model {
 };
 
 /// By how much the square of a loose row's residual is smaller than noise makes it, for its weight alone, rad²: where
-/// nothing holds a joint it rests where it was last pushed, in friction, and a row there says little; it must neither
-/// decide nor be charged to one set of effects and not to another.
+/// nothing holds a joint it rests where it was last pushed, in friction, and a row there says little. So mean squares
+/// are charged alike, whether a joint is loose or not.
 double price_of_play(double loose, double floor);
+
+/// What a loose row costs in evidence beyond half its weighted residual's square in floors: either the joint rests where
+/// it was pushed, and its whole residual counts, or anywhere in the play. So a joint is not made loose to be rid of rows
+/// that nothing explains.
+double nats_of_play(double residual, double loose, double floor);
 
 /// rms over the rows in use, rad.
 double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other);

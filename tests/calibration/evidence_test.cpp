@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "calibration/linear_joint.h"
+#include "calibration/model.h"
 
 namespace fusee::linear {
 namespace {
@@ -175,6 +178,27 @@ TEST(Folds, ALoadThatTurnsWithTheMotionIsOneLevel) {
   measurement.runs.push_back(run_of("run_1", 0, 6));
   for (std::size_t i = 0; i < 6 * k_rows; ++i) measurement.runs[0].samples[i].load = i / k_rows % 2 == 0 ? 5 : -5;
   EXPECT_THAT(gather(joint(), measurement, k_floor).factors, IsEmpty());
+}
+
+/// Half the squares of a weighted row and what its play costs, by its whole residual.
+double cost_of_row(double residual, double loose, double floor) {
+  const double weighted = residual * floor / std::hypot(floor, loose / 3.0);
+  return 0.5 * weighted * weighted / (floor * floor) + nats_of_play(weighted, loose, floor);
+}
+
+TEST(Play, CostsARowWhatItsWholeResidualDoesOrAnywhereInThePlay) {
+  constexpr double floor = 0.01, loose = 0.3;
+  EXPECT_EQ(nats_of_play(0.02, 0, floor), 0);  // no play
+  for (const double residual : {0.0, 0.5 * floor, floor, 2 * floor})
+    EXPECT_NEAR(cost_of_row(residual, loose, floor), 0.5 * residual * residual / (floor * floor), 1e-12);
+  // A density as much lower as the play is wider than noise: ln 10.05, and the squares of one so wide.
+  EXPECT_NEAR(cost_of_row(0.1, loose, floor), 2.3076 + 0.4950, 1e-4);
+  double last = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double cost = cost_of_row(0.001 * i, loose, floor);
+    EXPECT_GE(cost, last);
+    last = cost;
+  }
 }
 
 }  // namespace

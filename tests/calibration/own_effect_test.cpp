@@ -91,7 +91,7 @@ DeclaredMechanism taut_forearm() {
 TEST(EffectOfOnesOwn, IsFoundAndNotWithoutItsFile) {
   const DeclaredMechanism declared = taut_forearm();
   Imperfections truth;
-  truth.pulley.outline.wave_sin = 0.25;
+  truth.pulley.outline.wave_sin = 0.4;
   truth.pulley.outline.wave_order = 7;
   const Measurement measurement = measured(declared, truth);
   EXPECT_EQ(calibrate(declared, measurement).verdict, CalibrationVerdict::unexplained);
@@ -103,8 +103,8 @@ TEST(EffectOfOnesOwn, IsFoundAndNotWithoutItsFile) {
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_EQ(found.effects.front().name, "seven_lobes");
   EXPECT_THAT(found.effects.front().group, ::testing::ElementsAre("seven_lobes"));
-  EXPECT_NEAR(found.effects.front().parameters.at(0).value, 0.25, 0.02);
-  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.25, 0.02);  // beside it any smooth shape may stand
+  EXPECT_NEAR(found.effects.front().parameters.at(0).value, 0.4, 0.02);
+  EXPECT_NEAR(found.identified.pulley.outline.wave_sin, 0.4, 0.02);  // beside it any smooth shape may stand
   EXPECT_EQ(found.identified.pulley.outline.wave_order, 7);
 }
 
