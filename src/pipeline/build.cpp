@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <future>
 
 #include "fusee/analysis/plausibility.h"
 #include "fusee/export/drawings.h"
@@ -50,6 +51,7 @@ struct Workshop {
     if (options.before_step) options.before_step(what);
   }
   void stage(std::string name, std::string bytes) {
+    step("writing " + name);
     result.outputs.push_back({std::move(name), std::move(bytes)});
     folder.stage(result.outputs.back());
   }
@@ -95,14 +97,12 @@ bool design(Workshop& shop) {
   shop.step("making the body");
   product.pulley = make_pulley(mechanism, product.synthesis);
   if (!product.pulley.made()) return false;
-  for (const Condition& condition : windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
+  for (const Condition& condition :
+       windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
     product.pulley.conditions.push_back(condition);
     if (!condition.ok) product.pulley.status = PulleyStatus::impossible;
   }
-  if (!product.pulley.made()) return false;
-  shop.step("moving the joint to see what its knots bear");
-  product.holding = tendon_holding(mechanism, product.synthesis, product.pulley);
-  return true;
+  return product.pulley.made();
 }
 
 void write_parts(Workshop& shop) {
@@ -110,14 +110,17 @@ void write_parts(Workshop& shop) {
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   shop.step("writing meshes and drawings");
+  // The two that take longest, beside the others; all are staged in order.
+  auto draco = std::async(std::launch::async, [&] { return draco_bytes(mesh, shop.options.tolerance); });
+  auto plates = std::async(std::launch::async, [&] { return plates_dxf(product, shop.options.dxf); });
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   shop.stage("pulley.obj", obj_text(mesh, name));
   shop.stage("pulley.3mf", threemf_bytes(plate_of(product.pulley), name));
   for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
-  shop.stage("pulley.drc", draco_bytes(mesh, shop.options.tolerance));
+  shop.stage("pulley.drc", draco.get());
   shop.stage("pulley.scad", scad_text(product));
   shop.stage("profile.dxf", profile_dxf(product, shop.options.dxf));
-  shop.stage("plates.dxf", plates_dxf(product, shop.options.dxf));
+  shop.stage("plates.dxf", plates.get());
 }
 
 /// As it lies on the printer.
@@ -136,12 +139,19 @@ void check_parts(Workshop& shop) {
   shop.step("checking the mesh that was written");
   const Part written = shop.read_back("pulley.stl");
   const auto& mesh = std::get<TriangleMesh>(written);
+  auto of_draco = std::async(std::launch::async, [&] {
+    const Part decoded = shop.read_back("pulley.drc");
+    std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
+    for (Check& check : check_part(decoded)) checks.push_back(std::move(check));
+    return checks;
+  });
   shop.add(check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance));
   shop.step("winding tendons on it");
   product.as_built = rewind_made(product.joint, product.pulley.layout, mesh);
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
   for (const PrintedPart& part : product.pulley.parts) {
+    shop.step("checking " + part_file_name(part.side));
     const Part piece = shop.read_back(part_file_name(part.side));
     const std::string prefix = part.side == Side::left ? "p1_" : "p2_";
     shop.add(check_printed_part(std::get<TriangleMesh>(piece), part), prefix);
@@ -150,10 +160,10 @@ void check_parts(Workshop& shop) {
   if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
   shop.add(same_mesh(mesh, std::get<TriangleMesh>(shop.read_back("pulley.obj"))), "obj_");
   shop.add(same_mesh(plate_of(product.pulley), std::get<TriangleMesh>(shop.read_back("pulley.3mf"))), "3mf_");
-  const Part decoded = shop.read_back("pulley.drc");
-  shop.add(near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance), "drc_");
-  shop.add(check_part(decoded), "drc_");
+  shop.step("checking pulley.drc");
+  shop.add(of_draco.get(), "drc_");
   for (const std::string drawing : {"profile", "plates"}) {
+    shop.step("checking " + drawing + ".dxf");
     shop.add(check_part(shop.read_back(drawing + ".dxf")), drawing + "_dxf_");
   }
 }
@@ -197,8 +207,11 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   if (!design(shop)) return false;
   const Product& product = result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
+  shop.step("checking its mesh");
   shop.add(check_pulley(mesh, product.joint.mechanism, product.synthesis, product.pulley, options.tolerance));
-  shop.add(as_built_checks(product.joint.mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
+  shop.step("winding tendons on it");
+  shop.add(as_built_checks(product.joint.mechanism, rewind_made(product.joint, product.pulley.layout, mesh),
+                           options.limits));
   if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
   for (const PrintedPart& part : product.pulley.parts) check_print_of(shop, part.mesh, {});
   shop.stage("plates.dxf", plates_dxf(product, options.dxf));
@@ -242,6 +255,9 @@ void work(Workshop& shop) {
     shop.result.advice = advice_for(shop.result.product.file, shop.options);
     return;
   }
+  Product& product = shop.result.product;
+  shop.step("moving the joint to see what its knots bear");
+  product.holding = tendon_holding(product.joint.mechanism, product.synthesis, product.pulley);
   write_parts(shop);
   check_written(shop);
   write_texts(shop);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <numeric>
 #include <optional>
 
@@ -116,16 +117,18 @@ struct Turn {
   bool ends_before(double step, double before) const { return at(step) == at(before); }
 };
 
-// A turn by 1 % of the number, and further each time; five times its size is another joint.
-constexpr double k_first_step = 0.01;
-constexpr double k_step_ratio = 1.8;
+// A turn by 2 % of the number, and further each time; five times its size is another joint.
+constexpr double k_first_step = 0.02;
+constexpr double k_step_ratio = 2.4;
 constexpr double k_last_step = 4.0;
 // The border is halved down to this share of the number's size: three digits.
 constexpr double k_border = 5e-4;
-// So many changes are enough to choose from; each takes a whole making.
+// So many changes are enough to choose from where a look tells all, and so many where each takes a whole making.
 constexpr std::size_t k_enough = 3;
-// And no more than these are begun.
+constexpr std::size_t k_enough_made = 2;
+// No more makings are begun than these, and no more looks taken; then what is found is what there is.
 constexpr int k_most_makings = 4;
+constexpr int k_most_looks = 400;
 // Pairs are tried among so many turns that help most.
 constexpr std::size_t k_helpful = 4;
 
@@ -134,6 +137,7 @@ class Adviser {
  public:
   Adviser(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys)
       : mechanism_(mechanism), judge_(judge), dials_(dials(mechanism, more_keys)) {
+    enough_ = judge.made ? k_enough_made : k_enough;
     for (const Dial& dial : dials_) {
       if (!(dial.scale > 0)) continue;
       for (const double direction : {-1.0, 1.0}) turns_.push_back({&dial, direction});
@@ -146,20 +150,18 @@ class Adviser {
     std::vector<Change> found;
     std::vector<const Dial*> done;
     double before = 0;
-    for (double step = k_first_step; step < k_last_step && found.size() < k_enough; before = step, step *= k_step_ratio) {
-      std::vector<Ranked> here;
+    for (double step = k_first_step; step < k_last_step && found.size() < enough_ && may_look(); before = step, step *= k_step_ratio) {
+      std::vector<Candidate> here;
       for (std::size_t t = 0; t < turns_.size(); ++t) {
         const Turn& turn = turns_[t];
         if (turn.ends_before(step, before) || std::count(done.begin(), done.end(), turn.dial) > 0) continue;
-        if (!holds(t, step)) continue;
+        if (!may_look() || !holds(t, step)) continue;
         // A dial that is not proven here is not tried again: each proof is a whole making.
         done.push_back(turn.dial);
-        const auto to = border({turn}, before, step);
-        if (!to) continue;
-        here.push_back({change(*turn.dial, to->front()), std::abs(to->front() - turn.dial->value) / turn.dial->scale});
+        here.push_back(near_border({turn}, before, step));
       }
-      std::stable_sort(here.begin(), here.end(), [](const Ranked& a, const Ranked& b) { return a.distance < b.distance; });
-      for (const Ranked& ranked : here) found.push_back(ranked.change);
+      std::stable_sort(here.begin(), here.end(), [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });
+      for (const Candidate& proven : made_of(here, enough_ - found.size())) found.push_back(proven.changes().front());
     }
     return found;
   }
@@ -171,13 +173,14 @@ class Adviser {
     std::stable_sort(helpful.begin(), helpful.end(), [this](std::size_t a, std::size_t b) { return helps_[a] > helps_[b]; });
     helpful.resize(std::min(helpful.size(), k_helpful));
     double before = 0;
-    for (double step = 4 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {
+    for (double step = 2 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {
       for (std::size_t i = 0; i < helpful.size(); ++i) {
         for (std::size_t j = i + 1; j < helpful.size(); ++j) {
           const std::vector<Turn> both{turns_[helpful[i]], turns_[helpful[j]]};
-          if (both[0].dial == both[1].dial || !judge_.obstacles(turned(both, values(both, step))).empty()) continue;
-          const auto to = border(both, before, step);
-          if (to) return {change(*both[0].dial, to->at(0)), change(*both[1].dial, to->at(1))};
+          if (both[0].dial == both[1].dial || !is_clear(turned(both, values(both, step)))) continue;
+          const std::vector<Candidate> proven = made_of({near_border(both, before, step)}, 1);
+          if (!proven.empty()) return proven.front().changes();
+          if (makings_ >= k_most_makings) return {};
         }
       }
     }
@@ -185,10 +188,27 @@ class Adviser {
   }
 
  private:
-  struct Ranked {
-    Change change;
-    double distance;
+  /// Turns of dials, and the numbers to try: near the border first, then where the search had stood.
+  struct Candidate {
+    std::vector<Turn> turns;
+    std::vector<std::vector<double>> tries;
+
+    double distance() const {
+      return tries.empty() ? 0.0 : std::abs(tries.front().front() - turns.front().dial->value) / turns.front().dial->scale;
+    }
+    std::vector<Change> changes() const {
+      std::vector<Change> all;
+      for (std::size_t i = 0; i < turns.size(); ++i) all.push_back(change(*turns[i].dial, tries.front()[i]));
+      return all;
+    }
   };
+
+  bool may_look() const { return looks_ < k_most_looks; }
+  std::vector<Condition> look_at(const Mechanism& changed) {
+    ++looks_;
+    return judge_.obstacles(changed);
+  }
+  bool is_clear(const Mechanism& changed) { return may_look() && look_at(changed).empty(); }
 
   static std::vector<double> values(const std::vector<Turn>& turns, double step) {
     std::vector<double> all;
@@ -203,7 +223,7 @@ class Adviser {
 
   /// Also learns what the turn is good for where it is not enough.
   bool holds(std::size_t turn, double step) {
-    const std::vector<Condition> left = judge_.obstacles(turned({turns_[turn]}, {turns_[turn].at(step)}));
+    const std::vector<Condition> left = look_at(turned({turns_[turn]}, {turns_[turn].at(step)}));
     if (first_.empty()) first_ = judge_.obstacles(mechanism_);
     helps_[turn] = std::max(helps_[turn], weight(first_) - weight(left));
     return left.empty();
@@ -218,14 +238,14 @@ class Adviser {
     return sum;
   }
 
-  /// Halves its way back from `good` towards `bad`, rounds to the safe side, and tries what is to be given: there, or where
-  /// the search had stood.
-  std::optional<std::vector<double>> border(const std::vector<Turn>& turns, double bad, double good) {
+  /// Halves its way back from `good` towards `bad`, and rounds to the safe side: there, and where the search had stood.
+  Candidate near_border(const std::vector<Turn>& turns, double bad, double good) {
     const double far = good;
-    while (good - bad > k_border) {
+    while (good - bad > k_border && may_look()) {
       const double middle = 0.5 * (bad + good);
-      (judge_.obstacles(turned(turns, values(turns, middle))).empty() ? good : bad) = middle;
+      (is_clear(turned(turns, values(turns, middle))) ? good : bad) = middle;
     }
+    Candidate candidate{turns, {}};
     for (const double step : {good, far}) {
       for (const std::size_t digit : {std::size_t{0}, std::size_t{1}}) {
         std::vector<double> to;
@@ -234,14 +254,50 @@ class Adviser {
           to.push_back(in_three_digits(turn.at(step), turn.direction)[digit]);
           is_new = is_new && to.back() != turn.dial->value && to.back() >= turn.dial->least && to.back() <= turn.dial->most;
         }
-        const Mechanism changed = turned(turns, to);
-        if (!is_new || !judge_.obstacles(changed).empty()) continue;
-        if (!judge_.made) return to;
-        if (++makings_ <= k_most_makings && judge_.made(changed)) return to;
+        if (!is_new || !judge_.obstacles(turned(turns, to)).empty()) continue;
+        if (candidate.tries.empty() || candidate.tries.back() != to) candidate.tries.push_back(to);
         break;  // the other rounding differs by too little to be worth a making
       }
     }
-    return std::nullopt;
+    return candidate;
+  }
+
+  /// The first `wanted` that are made, each with what was made alone in its tries. Two makings at a time; which are begun
+  /// does not depend on how long each takes.
+  std::vector<Candidate> made_of(std::vector<Candidate> candidates, std::size_t wanted) {
+    std::vector<Candidate> proven;
+    std::erase_if(candidates, [](const Candidate& candidate) { return candidate.tries.empty(); });
+    while (!candidates.empty() && proven.size() < wanted) {
+      if (judge_.made && makings_ >= k_most_makings) break;
+      const std::size_t count = std::min({candidates.size(), wanted - proven.size(), std::size_t{2}});
+      const std::vector<bool> made = make_first(candidates, count);
+      std::vector<Candidate> rest;
+      for (std::size_t i = 0; i < candidates.size(); ++i) {
+        Candidate& candidate = candidates[i];
+        if (i < count && made[i]) {
+          candidate.tries.resize(1);
+          proven.push_back(std::move(candidate));
+          continue;
+        }
+        if (i < count) candidate.tries.erase(candidate.tries.begin());
+        if (!candidate.tries.empty()) rest.push_back(std::move(candidate));
+      }
+      candidates = std::move(rest);
+    }
+    return proven;
+  }
+
+  /// Of the first try of each of the first `count` candidates.
+  std::vector<bool> make_first(const std::vector<Candidate>& candidates, std::size_t count) {
+    if (!judge_.made) return std::vector<bool>(count, true);
+    std::vector<std::future<bool>> begun;
+    for (std::size_t i = 0; i < count; ++i, ++makings_) {
+      const auto policy = i + 1 < count ? std::launch::async : std::launch::deferred;
+      begun.push_back(std::async(policy, judge_.made, turned(candidates[i].turns, candidates[i].tries.front())));
+    }
+    std::vector<bool> made(count);
+    for (std::size_t i = count; i-- > 0;) made[i] = begun[i].get();  // the last one in this thread
+    return made;
   }
 
   static Change change(const Dial& dial, double to) { return {dial.key, dial.value, to, dial.unit, change_text(dial, to)}; }
@@ -252,6 +308,8 @@ class Adviser {
   std::vector<Turn> turns_;
   std::vector<double> helps_;  ///< of each turn: by how much it brought what fails down
   std::vector<Condition> first_;
+  std::size_t enough_ = 0;
+  int looks_ = 0;
   int makings_ = 0;
 };
 

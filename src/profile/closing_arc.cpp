@@ -11,22 +11,23 @@ constexpr int k_segments = 192;
 
 /// ∫ ρ t dψ over a segment on which ρ goes linearly from r0 to r1: the way the curve goes there.
 /// With t = n' and ∫ n = −t:  [ρ n] − slope ∫ n = r1 n1 − r0 n0 + slope (t1 − t0).
-Vec2 way(double psi0, double psi1, double r0, double r1) {
-  const Vec2 n0 = unit(psi0);
-  const Vec2 n1 = unit(psi1);
-  const double slope = (r1 - r0) / (psi1 - psi0);
+Vec2 way_between(double turn, const Vec2& n0, const Vec2& n1, double r0, double r1) {
+  const double slope = (r1 - r0) / turn;
   return r1 * n1 - r0 * n0 + slope * (turned_left(n1) - turned_left(n0));
 }
+Vec2 way(double psi0, double psi1, double r0, double r1) { return way_between(psi1 - psi0, unit(psi0), unit(psi1), r0, r1); }
 
 /// A radius of curvature at each knot, and how it answers to the two multipliers of the closure.
 struct Knots {
   std::vector<double> psi;
+  std::vector<Vec2> normal;  ///< unit(psi)
+  std::vector<Vec2> hat;     ///< way of a radius that is 1 at the knot and 0 at its neighbours
   std::vector<double> rest;    ///< radius that the arc would like to have: the ends', then that of a curve about the axis
   std::vector<double> window;  ///< how freely the radius may leave it: nothing at the ends
   std::vector<double> least;
 
   double radius(std::size_t i, const Vec2& multipliers) const {
-    return std::max(least[i], rest[i] + window[i] * multipliers.dot(turned_left(unit(psi[i]))));
+    return std::max(least[i], rest[i] + window[i] * multipliers.dot(turned_left(normal[i])));
   }
 };
 
@@ -47,18 +48,24 @@ Knots make_knots(const CurvePoint& begin, const CurvePoint& end, double least_ra
     const double of_end = share_of(end, whole * (1.0 - u), whole);
     const double about_axis = begin.h + (end.h - begin.h) * u;
     knots.psi.push_back(begin.psi + whole * u);
+    knots.normal.push_back(unit(knots.psi.back()));
     knots.rest.push_back(of_begin * begin.radius + of_end * end.radius + (1.0 - of_begin - of_end) * about_axis);
     knots.window.push_back((1.0 - of_begin) * (1.0 - of_end));
     knots.least.push_back(std::min(least_radius, knots.rest.back()));
   }
+  const double step = knots.psi[1] - knots.psi[0];
+  for (const double psi : knots.psi) knots.hat.push_back(way(psi - step, psi, 0, 1) + way(psi, psi + step, 1, 0));
   return knots;
 }
 
 /// Where the arc ends up with these multipliers, seen from where it should.
 Vec2 closure_gap(const Knots& knots, const Vec2& multipliers, const Vec2& target) {
   Vec2 gap = -target;
+  double radius = knots.radius(0, multipliers);
   for (std::size_t i = 0; i + 1 < knots.psi.size(); ++i) {
-    gap += way(knots.psi[i], knots.psi[i + 1], knots.radius(i, multipliers), knots.radius(i + 1, multipliers));
+    const double next = knots.radius(i + 1, multipliers);
+    gap += way_between(knots.psi[i + 1] - knots.psi[i], knots.normal[i], knots.normal[i + 1], radius, next);
+    radius = next;
   }
   return gap;
 }
@@ -66,12 +73,9 @@ Vec2 closure_gap(const Knots& knots, const Vec2& multipliers, const Vec2& target
 /// d gap / d multipliers over the knots that are free to move.
 Eigen::Matrix2d closure_slope(const Knots& knots, const Vec2& multipliers) {
   Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
-  const double step = knots.psi[1] - knots.psi[0];
   for (std::size_t i = 1; i + 1 < knots.psi.size(); ++i) {
     if (knots.radius(i, multipliers) <= knots.least[i]) continue;
-    const Vec2 t = turned_left(unit(knots.psi[i]));
-    const Vec2 hat = way(knots.psi[i] - step, knots.psi[i], 0, 1) + way(knots.psi[i], knots.psi[i] + step, 1, 0);
-    slope += hat * (knots.window[i] * t).transpose();
+    slope += knots.hat[i] * (knots.window[i] * turned_left(knots.normal[i])).transpose();
   }
   return slope;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 namespace fusee {
 namespace {
@@ -102,12 +103,16 @@ Polygon shrunk(const Polygon& hull, double distance) {
   return convex_hull(rest);
 }
 
-/// How far `points` lie inside the convex `hull` at most.
+/// How far `points` lie inside their convex `hull` at most. Its corners, most of them, need no look.
 double hollow(const Polygon& hull, const std::vector<PolarPoint>& points) {
   double deepest = 0;
   const std::vector<HalfPlane> planes = half_planes(hull);
+  const auto in_order = [](const Vec2& a, const Vec2& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); };
+  Polygon corners = hull;
+  std::sort(corners.begin(), corners.end(), in_order);
   for (const PolarPoint& point : points) {
     const Vec2 position = position_of(point);
+    if (std::binary_search(corners.begin(), corners.end(), position, in_order)) continue;
     double inside = point.r;
     for (const HalfPlane& plane : planes) inside = std::min(inside, -plane.outside(position));
     deepest = std::max(deepest, inside);

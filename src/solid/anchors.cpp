@@ -22,87 +22,15 @@ constexpr double k_near_fillets = 6.0;
 constexpr double k_from_point = 0.15;
 // Between a channel and the floor that a tendon lies on.
 constexpr double k_floor_gap = 0.05;
+// What is skipped because it cannot have room is skipped by this share less than it could be, for rounding.
+constexpr double k_skip_margin = 1e-6;
 // Walls are kept to a floor of about this many points: chords of a circle of 50 mm lie within 4 µm of it.
 constexpr std::size_t k_floor_points = 256;
-
-// Walks the closing arc from one end of the active arc to the other.
-class ClosingArc {
- public:
-  ClosingArc(const Outline& outline, bool wound_end) : outline_(outline) {
-    const bool from_last = (outline.side == Side::left) == wound_end;
-    sense_ = from_last ? 1.0 : -1.0;
-    const std::size_t from = from_last ? outline.active_last : outline.active_first;
-    const std::size_t to = from_last ? outline.active_first : outline.active_last;
-    const std::size_t n = outline.points.size();
-    reach_.push_back(0.0);
-    wrap_.push_back(0.0);
-    index_.push_back(from);
-    while (index_.back() != to) {
-      const std::size_t next = from_last ? (index_.back() + 1) % n : (index_.back() + n - 1) % n;
-      const OutlinePoint &here = outline.points[index_.back()], &there = outline.points[next];
-      reach_.push_back(reach_.back() + (there.position - here.position).norm());
-      wrap_.push_back(wrap_.back() + std::abs(std::remainder(there.psi - here.psi, k_two_pi)));
-      index_.push_back(next);
-    }
-  }
-
-  double sense() const { return sense_; }
-  double length() const { return reach_.back(); }
-
-  // There or just past it, between two points.
-  Station at(double s) const {
-    auto [k, share] = place(reach_, s);
-    if (share > 1.0 - k_from_point && k + 1 < index_.size()) {
-      ++k;
-      share = 0.0;
-    }
-    share = std::clamp(share, k_from_point, 1.0 - k_from_point);
-    const OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
-    const double lap = reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
-    return {lap, wrap_[k - 1] + share * (wrap_[k] - wrap_[k - 1]), a.position + share * (b.position - a.position),
-            (a.normal + share * (b.normal - a.normal)).normalized()};
-  }
-
-  // Infinite where the arc turns by less.
-  double lap_at(double wrap) const {
-    if (wrap > wrap_.back()) return std::numeric_limits<double>::infinity();
-    const auto [k, share] = place(wrap_, wrap);
-    return reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
-  }
-
- private:
-  struct Place {
-    std::size_t above;
-    double share;
-  };
-  static Place place(const std::vector<double>& increasing, double value) {
-    const auto above = std::upper_bound(increasing.begin() + 1, increasing.end() - 1, value);
-    const auto k = static_cast<std::size_t>(above - increasing.begin());
-    return {k, std::clamp((value - increasing[k - 1]) / (increasing[k] - increasing[k - 1]), 0.0, 1.0)};
-  }
-
-  const Outline& outline_;
-  double sense_ = 1;
-  std::vector<double> reach_;
-  std::vector<double> wrap_;
-  std::vector<std::size_t> index_;
-};
 
 class AnchorSearch {
  public:
   AnchorSearch(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach, const LapRange& laps)
-      : site_(site), arc_(site.outline, wound_end), wanted_(wanted), reach_(reach), laps_(laps) {
-    const Outline& outline = site.outline;
-    const Polygon all = parallel(outline, -0.5 * site.tendon_diameter);
-    for (const std::size_t i : coarse_floor(all.size(), {outline.active_first, outline.active_last})) {
-      floor_.push_back(all[i]);
-      if (outline.is_active(i)) active_floor_.push_back(all[i]);
-    }
-    for (std::size_t i = 0; i < floor_.size(); ++i) {
-      const Vec2 inward = turned_left(floor_[(i + 1) % floor_.size()] - floor_[i]).normalized();
-      sides_.push_back({inward, inward.dot(floor_[i])});
-    }
-  }
+      : site_(site), ground_(site.ground), arc_(ground_.arc(wound_end)), wanted_(wanted), reach_(reach), laps_(laps) {}
 
   // From short paths to long ones, so that the first with all the room wanted is the one to take.
   std::optional<AnchorPath> run() {
@@ -123,33 +51,29 @@ class AnchorSearch {
   // True when a path with all the room wanted was found. A longer straight runs through all that a shorter one meets.
   bool try_straights(const Station& station, double turn) {
     const double step = 0.5 * site_.width;
-    const double longest = reach_ == AnchorReach::near ? k_near_fillets * site_.fillet : 2.0 * floor_radius();
+    const double longest = reach_ == AnchorReach::near ? k_near_fillets * site_.fillet : 2.0 * ground_.radius();
+    AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, 0, 0, station.lap, station.wrap};
+    const Vec2 outer = path.outer(), heading = path.heading();
+    double promising = 0;
     for (double straight = 0.6 * site_.width; straight < longest; straight += step) {
-      AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, straight, 0,
-                      station.lap,      station.wrap};
-      const Vec2 pocket = path.pocket();
-      const double depth = depth_of(pocket);
+      if (straight < promising) continue;
+      const Vec2 pocket = path.start - path.fillet * path.normal + path.fillet * outer + straight * heading;
+      const double depth = ground_.depth_of(pocket);
       if (depth < -site_.width) break;
-      if (reach_ == AnchorReach::near && path.heading().dot(pocket) > 0) break;
+      if (reach_ == AnchorReach::near && heading.dot(pocket) > 0) break;
+      path.straight = straight;
       path.room = room_at(pocket, depth, straight);
-      if (!(path.room >= 0.55 * site_.width) || (best_ && path.room <= best_->room)) continue;
+      const double least = best_ ? std::max(best_->room, 0.55 * site_.width) : 0.55 * site_.width;
+      if (!(path.room >= 0.55 * site_.width) || (best_ && path.room <= best_->room)) {
+        // Room grows no faster than the straight, and the depth does not dip on the way: the floor is convex.
+        promising = straight + (1.0 - k_skip_margin) * (least - path.room);
+        continue;
+      }
       if (!channel_fits(path)) break;
       best_ = path;
       if (path.room >= wanted_) return true;
     }
     return false;
-  }
-
-  double depth_of(const Vec2& point) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Side& side : sides_) least = std::min(least, side.inward.dot(point) - side.offset);
-    return least;
-  }
-
-  double floor_radius() const {
-    double radius = 0;
-    for (const Vec2& point : floor_) radius = std::max(radius, point.norm());
-    return radius;
   }
 
   // The pocket's circle must meet the channel's edges on the straight.
@@ -174,27 +98,19 @@ class AnchorSearch {
       low = low.cwiseMin(bar.b);
       high = high.cwiseMax(bar.b);
     }
-    return std::none_of(active_floor_.begin(), active_floor_.end(), [&](const Vec2& point) {
+    return std::none_of(ground_.active_floor().begin(), ground_.active_floor().end(), [&](const Vec2& point) {
       const bool is_far = ((low - point).array() > clear).any() || ((point - high).array() > clear).any();
       return !is_far && std::any_of(bars.begin(), bars.end(),
                          [&](const Bar& bar) { return distance_to_segment(point, bar.a, bar.b) < clear; });
     });
   }
 
-  // A half-plane that the floor lies in.
-  struct Side {
-    Vec2 inward;
-    double offset = 0;
-  };
-
   const AnchorSite& site_;
-  ClosingArc arc_;
+  const AnchorGround& ground_;
+  const ArcWalk& arc_;
   double wanted_;
   AnchorReach reach_;
   LapRange laps_;
-  Polygon floor_;
-  std::vector<Vec2> active_floor_;
-  std::vector<Side> sides_;
   std::optional<AnchorPath> best_;
 };
 
@@ -220,13 +136,77 @@ std::vector<Bar> AnchorPath::bars(double width) const {
   return result;
 }
 
-LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap) {
-  const ClosingArc arc(outline, wound_end);
-  return {arc.lap_at(least_wrap), arc.length()};
+ArcWalk::ArcWalk(const Outline& outline, bool wound_end) : outline_(outline) {
+  const bool from_last = (outline.side == Side::left) == wound_end;
+  sense_ = from_last ? 1.0 : -1.0;
+  const std::size_t from = from_last ? outline.active_last : outline.active_first;
+  const std::size_t to = from_last ? outline.active_first : outline.active_last;
+  const std::size_t n = outline.points.size();
+  reach_.push_back(0.0);
+  wrap_.push_back(0.0);
+  index_.push_back(from);
+  while (index_.back() != to) {
+    const std::size_t next = from_last ? (index_.back() + 1) % n : (index_.back() + n - 1) % n;
+    const OutlinePoint &here = outline.points[index_.back()], &there = outline.points[next];
+    reach_.push_back(reach_.back() + (there.position - here.position).norm());
+    wrap_.push_back(wrap_.back() + std::abs(std::remainder(there.psi - here.psi, k_two_pi)));
+    index_.push_back(next);
+  }
 }
 
-Station closing_station(const Outline& outline, bool wound_end, double lap) {
-  return ClosingArc(outline, wound_end).at(lap);
+Station ArcWalk::at(double s) const {
+  auto [k, share] = place(reach_, s);
+  if (share > 1.0 - k_from_point && k + 1 < index_.size()) {
+    ++k;
+    share = 0.0;
+  }
+  share = std::clamp(share, k_from_point, 1.0 - k_from_point);
+  const OutlinePoint &a = outline_.points[index_[k - 1]], &b = outline_.points[index_[k]];
+  const double lap = reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
+  return {lap, wrap_[k - 1] + share * (wrap_[k] - wrap_[k - 1]), a.position + share * (b.position - a.position),
+          (a.normal + share * (b.normal - a.normal)).normalized()};
+}
+
+double ArcWalk::lap_at(double wrap) const {
+  if (wrap > wrap_.back()) return std::numeric_limits<double>::infinity();
+  const auto [k, share] = place(wrap_, wrap);
+  return reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
+}
+
+ArcWalk::Place ArcWalk::place(const std::vector<double>& increasing, double value) {
+  const auto above = std::upper_bound(increasing.begin() + 1, increasing.end() - 1, value);
+  const auto k = static_cast<std::size_t>(above - increasing.begin());
+  return {k, std::clamp((value - increasing[k - 1]) / (increasing[k] - increasing[k - 1]), 0.0, 1.0)};
+}
+
+AnchorGround::AnchorGround(const Outline& outline, double tendon_diameter)
+    : outline_(outline), from_wound_end_(outline, true), from_spare_end_(outline, false) {
+  const Polygon all = parallel(outline, -0.5 * tendon_diameter);
+  Polygon floor;
+  for (const std::size_t i : coarse_floor(all.size(), {outline.active_first, outline.active_last})) {
+    floor.push_back(all[i]);
+    if (outline.is_active(i)) active_floor_.push_back(all[i]);
+  }
+  const auto sides = static_cast<Eigen::Index>(floor.size());
+  inward_x_.resize(sides);
+  inward_y_.resize(sides);
+  offset_.resize(sides);
+  for (std::size_t i = 0; i < floor.size(); ++i) {
+    const auto side = static_cast<Eigen::Index>(i);
+    const Vec2 inward = turned_left(floor[(i + 1) % floor.size()] - floor[i]).normalized();
+    inward_x_[side] = inward.x();
+    inward_y_[side] = inward.y();
+    offset_[side] = inward.dot(floor[i]);
+    radius_ = std::max(radius_, floor[i].norm());
+  }
+}
+
+double AnchorGround::depth_of(const Vec2& point) const {
+  return (inward_x_ * point.x() + inward_y_ * point.y() - offset_).minCoeff();
+}
+
+LapRange AnchorGround::lap_range(bool wound_end, double least_wrap) const {
+  return {arc(wound_end).lap_at(least_wrap), arc(wound_end).length()};
 }
 
 std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std::size_t>& always) {
@@ -237,8 +217,6 @@ std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std:
   }
   return indices;
 }
-
-double closing_length(const Outline& outline) { return ClosingArc(outline, true).length(); }
 
 std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, double wanted, AnchorReach reach,
                                       const LapRange& laps) {

@@ -22,8 +22,33 @@ struct Station {
   Vec2 position;
   Vec2 normal;
 };
-/// At `lap` from the wound end or from the other one.
-Station closing_station(const Outline& outline, bool wound_end, double lap);
+
+/// Walks an outline's closing arc from one end of the active arc to the other. Refers to the outline.
+class ArcWalk {
+ public:
+  ArcWalk(const Outline& outline, bool wound_end);
+
+  /// +1: counter-clockwise.
+  double sense() const { return sense_; }
+  double length() const { return reach_.back(); }
+  /// There or just past it, between two points.
+  Station at(double lap) const;
+  /// Infinite where the arc turns by less.
+  double lap_at(double wrap) const;
+
+ private:
+  struct Place {
+    std::size_t above;
+    double share;
+  };
+  static Place place(const std::vector<double>& increasing, double value);
+
+  const Outline& outline_;
+  double sense_ = 1;
+  std::vector<double> reach_;
+  std::vector<double> wrap_;
+  std::vector<std::size_t> index_;
+};
 
 /// The channel's centre line: from `start` on the pitch curve along the tangent, an arc that turns inward by `turn`, a
 /// straight to the pocket.
@@ -47,8 +72,39 @@ struct AnchorPath {
   std::vector<Bar> bars(double width) const;
 };
 
+/// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm
+struct LapRange {
+  double least = 0;
+  double most = std::numeric_limits<double>::infinity();
+};
+/// What tie-offs on one outline are looked for by: made once, asked hundreds of times. Refers to the outline.
+class AnchorGround {
+ public:
+  AnchorGround(const Outline& outline, double tendon_diameter);
+
+  const Outline& outline() const { return outline_; }
+  const ArcWalk& arc(bool wound_end) const { return wound_end ? from_wound_end_ : from_spare_end_; }
+  /// All that leaves at least this much wrap past the active arc, rad. Empty (least > most) where the closing arc ends
+  /// before.
+  LapRange lap_range(bool wound_end, double least_wrap) const;
+  /// Below the groove's floor, negative outside.
+  double depth_of(const Vec2& point) const;
+  /// The floor's part that a tendon lies on.
+  const std::vector<Vec2>& active_floor() const { return active_floor_; }
+  /// Of the floor's furthest point.
+  double radius() const { return radius_; }
+
+ private:
+  const Outline& outline_;
+  ArcWalk from_wound_end_, from_spare_end_;
+  std::vector<Vec2> active_floor_;
+  // Half-planes that the floor lies in: x·inward ≥ offset.
+  Eigen::ArrayXd inward_x_, inward_y_, offset_;
+  double radius_ = 0;
+};
+
 struct AnchorSite {
-  const Outline& outline;
+  const AnchorGround& ground;
   double tendon_diameter = 0;
   double width = 0;  ///< of the channel
   double fillet = 0;
@@ -77,19 +133,9 @@ struct FaceHole {
   std::vector<Bar> bars(double) const { return {{hole, open_end(), hole_radius}}; }
 };
 
-/// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm
-struct LapRange {
-  double least = 0;
-  double most = std::numeric_limits<double>::infinity();
-};
-/// All that leaves at least this much wrap past the active arc, rad. Empty (least > most) where the closing arc ends
-/// before.
-LapRange lap_range(const Outline& outline, bool wound_end, double least_wrap);
 /// At most this many points of a floor, evenly spread, and those of `always`: no more are needed to keep a wall to it.
 /// Indices, increasing.
 std::vector<std::size_t> coarse_floor(std::size_t points, const std::vector<std::size_t>& always = {});
-/// Of the closing arc.
-double closing_length(const Outline& outline);
 
 /// The path with the most room for a pocket of radius `wanted`, the shortest of those with all of it; null when no
 /// channel fits at all. `near`: only short channels that do not pass the axis.

@@ -27,7 +27,12 @@ double number_of(const Mechanism& mechanism, const std::string& key) {
 // "automatic".
 std::vector<std::string> written_keys(const Mechanism& mechanism) {
   std::vector<std::string> keys;
-  const auto is_written = [&mechanism](const std::string& key) { return number_of(mechanism, key) > 0; };
+  const Body& body = mechanism.body;
+  // What a shaft says, and what a written flat must go with, is not changed alone: the file would contradict itself.
+  const bool bore_is_tied = find_shaft(body.shaft) != nullptr || (body.bore == Bore::d && body.bore_flat > 0);
+  const auto is_written = [&](const std::string& key) {
+    return number_of(mechanism, key) > 0 && !(bore_is_tied && key == "body.bore_diameter_mm");
+  };
   std::copy_if(k_body_keys.begin(), k_body_keys.end(), std::back_inserter(keys), is_written);
   if (mechanism.body.bore == Bore::horn && mechanism.body.horn == k_own_horn)
     std::copy_if(k_horn_keys.begin(), k_horn_keys.end(), std::back_inserter(keys), is_written);
@@ -67,7 +72,7 @@ class BodyAdviser {
       const auto is_about = [&words](const Condition& condition) { return condition.name.starts_with(words.condition); };
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
-    const std::vector<std::string> keys = written_keys(mechanism_);
+    const std::vector<std::string> keys = curves_are_possible() ? written_keys(mechanism_) : std::vector<std::string>{};
     const Advice numbers = find_advice(mechanism_, judge_, keys);
     advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
     for (const std::string& key : keys) {
@@ -78,6 +83,11 @@ class BodyAdviser {
   }
 
  private:
+  // Where they are not, no number of the body alone would help.
+  bool curves_are_possible() const {
+    return synthesise(mechanism_, {.tolerance = 0.1, .advice = false, .stroke_steps = 2}).made();
+  }
+
   bool helps(const Mechanism& changed) const {
     return judge_.obstacles(changed).empty() && (!judge_.made || judge_.made(changed));
   }

@@ -25,6 +25,7 @@ class DowelChooser {
   DowelChooser(const Mechanism& mechanism, const BodyPlan& plan)
       : layout_(plan.layout),
         compensation_(mechanism.material.hole_compensation),
+        reach_(circumradius(plan.floor1)),
         floor1_(plan.floor1),
         floor2_(plan.floor2) {
     for (auto* bars : {&in_p1_, &in_both_}) {
@@ -59,17 +60,17 @@ class DowelChooser {
   std::optional<std::pair<Vec2, Vec2>> places_for(double pin, const std::vector<Bar>& obstacles) const {
     // To the hole's corners.
     const double radius = circumradius(polyhole(pin + compensation_, Vec2::Zero())), room = radius + layout_.min_wall;
-    return pin_places(circumradius(floor1_), 2.0 * radius, layout_.min_wall, [&](const Vec2& place) {
+    return pin_places(reach_, 2.0 * radius, layout_.min_wall, [&](const Vec2& place) {
       return std::all_of(obstacles.begin(), obstacles.end(),
                          [&](const Bar& bar) { return gap({place, place, room}, bar) >= 0; }) &&
-             depth_inside(floor1_, place) >= room && depth_inside(floor2_, place) >= room;
+             floor1_.depth_of(place) >= room && floor2_.depth_of(place) >= room;
     });
   }
 
   const BodyLayout& layout_;
   double compensation_;
-  const Polygon& floor1_;
-  const Polygon& floor2_;
+  double reach_;
+  ConvexSides floor1_, floor2_;
   std::vector<Bar> in_p1_, in_both_;
 };
 
@@ -86,13 +87,17 @@ std::optional<std::pair<Vec2, Vec2>> pin_places(double reach, double diameter, d
       if (is_free(place)) free.push_back(place);
     }
   }
+  std::vector<double> from_axis;
+  for (const Vec2& place : free) from_axis.push_back(place.norm());
+  const double least_sine = std::sin(radians(20));
   std::optional<std::pair<Vec2, Vec2>> best;
   double widest = diameter + wall;
-  for (const Vec2& a : free) {
-    for (const Vec2& b : free) {
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      if (from_axis[i] < from_axis[j] + 0.5 * diameter) continue;
+      const Vec2 &a = free[i], &b = free[j];
       const double apart = (a - b).norm();
-      const bool in_line = std::abs(cross(a, b)) < std::sin(radians(20)) * a.norm() * b.norm();
-      if (apart <= widest || in_line || a.norm() < b.norm() + 0.5 * diameter) continue;
+      if (apart <= widest || std::abs(cross(a, b)) < least_sine * from_axis[i] * from_axis[j]) continue;
       widest = apart;
       best = {a, b};
     }

@@ -21,7 +21,7 @@ class FaceHoleSearch {
       : site_(site), layout_(layout), wound_end_(wound_end), wanted_(wanted), radius_(0.5 * layout.channel_width) {}
 
   std::optional<FaceHole> run(const LapRange& laps) const {
-    const double last = std::min(laps.most, closing_length(site_.outline) - radius_ - site_.tendon_diameter);
+    const double last = std::min(laps.most, site_.ground.arc(true).length() - radius_ - site_.tendon_diameter);
     double lap = std::max(laps.least, k_lap_ratio * site_.tendon_diameter + radius_);
     if (layout_.flange_thickness < k_least_ground) return std::nullopt;
     for (; lap <= last; lap += radius_) {
@@ -32,7 +32,7 @@ class FaceHoleSearch {
 
  private:
   std::optional<FaceHole> at(double lap) const {
-    const Station station = closing_station(site_.outline, wound_end_, lap);
+    const Station station = site_.ground.arc(wound_end_).at(lap);
     const double above_pitch = k_off_floor + radius_ - 0.5 * site_.tendon_diameter;
     FaceHole hole{station.position,
                   station.normal,

@@ -1,7 +1,9 @@
 #include "solid/layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -18,6 +20,10 @@ constexpr double k_layer = 0.2;
 constexpr double k_threshold = radians(1.3);
 // Outlines are looked at in steps of this.
 constexpr double k_stride = 0.02;
+// Far above the rounding of distances, far below all that matters.
+constexpr double k_grain = 1e-9;
+// A line is looked for beside this many of the layer below, from the last one found on.
+constexpr std::size_t k_followed = 5;
 
 bool is_inside_of(const std::vector<Polygon>& loops, const Vec2& point) {
   return std::count_if(loops.begin(), loops.end(), [&point](const Polygon& loop) { return is_inside(loop, point); }) %
@@ -31,11 +37,27 @@ class WidenedLayer {
   WidenedLayer(std::vector<Polygon> loops, double reach, Corners corners)
       : loops_(std::move(loops)), nearest_(loops_), reach_(reach), corners_(corners) {}
 
-  bool holds(const Vec2& point) const {
-    return nearest_.distance(point) <= reach_ || is_inside_of(loops_, point) ||
-           (corners_ == Corners::squared && at_squared_corner(point));
+  struct Hold {
+    bool holds;
+    double round;         ///< all is held that is nearer to the point than this
+    bool inside;          ///< of the layer itself, further from its outlines than it is widened by
+    double distance;      ///< to the layer's outlines
+    std::size_t segment;  ///< the nearest of them
+  };
+  Hold hold_of(const Vec2& point) const {
+    const auto [distance, segment] = nearest_.nearest(point);
+    if (distance <= reach_) return {true, reach_ - distance, false, distance, segment};
+    if (is_inside_of(loops_, point)) return {true, reach_ + distance, true, distance, segment};
+    return {corners_ == Corners::squared && at_squared_corner(point), 0.0, false, distance, segment};
   }
-  double distance(const Vec2& point) const { return nearest_.distance(point); }
+
+  bool is_near(const Vec2& point, std::size_t segment) const {
+    const auto& [a, b] = nearest_.segments()[segment];
+    return distance_to_segment(point, a, b) < reach_ - k_grain;
+  }
+  const std::vector<std::pair<Vec2, Vec2>>& segments() const { return nearest_.segments(); }
+  // The line surely does not leave the layer where it begins within.
+  bool stays_within(const Vec2& from, const Vec2& to) const { return nearest_.is_clear(from, to); }
 
  private:
   // The solid lies on the left of its outlines.
@@ -62,20 +84,96 @@ class WidenedLayer {
   Corners corners_;
 };
 
-std::optional<Vec2> furthest_out(const Polygon& loop, const WidenedLayer& below) {
-  std::optional<Vec2> furthest;
-  double most = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 &from = loop[i], &to = loop[(i + 1) % loop.size()];
-    const int steps = static_cast<int>(std::ceil((to - from).norm() / k_stride));
-    for (int k = 0; k < steps; ++k) {
-      const Vec2 point = from + (to - from) * k / steps;
-      if (below.holds(point) || below.distance(point) <= most) continue;
-      most = below.distance(point);
-      furthest = point;
+// Walks a loop in steps of k_stride over the layer below. What is surely held is passed over: lines within that layer,
+// lines beside its own (in a wall the lines of two layers follow each other), and what is near to a point that is held
+// all round.
+class LayerWalk {
+ public:
+  explicit LayerWalk(const WidenedLayer& below) : below_(below) {}
+
+  std::optional<Vec2> furthest_out(const Polygon& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) pass_along(loop[i], loop[(i + 1) % loop.size()]);
+    return furthest_;
+  }
+
+ private:
+  void pass_along(const Vec2& from, const Vec2& to) {
+    const double length = (to - from).norm();
+    within_ = within_ && below_.stays_within(from, to);
+    if (within_ || length < held_ || follows(from, to)) {
+      held_ = std::max(0.0, held_ - length);
+    } else {
+      step_along(from, to, length);
     }
   }
-  return furthest;
+
+  void step_along(const Vec2& from, const Vec2& to, double length) {
+    const int steps = static_cast<int>(std::ceil(length / k_stride));
+    double at = 0;
+    for (int k = 0; k < steps; ++k) {
+      const double next = length * k / steps;
+      if (next - at < held_) continue;
+      const Vec2 point = from + (to - from) * k / steps;
+      at = next;
+      held_ = look(point);
+      within_ = within_ && below_.stays_within(point, to);
+      if (within_) break;
+    }
+    held_ = std::max(0.0, held_ - (length - at));
+  }
+
+  // How far on all is held.
+  double look(const Vec2& point) {
+    const WidenedLayer::Hold hold = below_.hold_of(point);
+    beside_ = hold.segment;
+    within_ = hold.inside;
+    if (!hold.holds && hold.distance > most_) {
+      most_ = hold.distance;
+      furthest_ = point;
+    }
+    return hold.holds ? std::max(0.0, hold.round - k_grain) : 0.0;
+  }
+
+  // Nearness to a segment is convex: where both ends of a piece of the line are near to one, all of it is. Where that
+  // segment ends, the next one takes over.
+  bool follows(const Vec2& from, const Vec2& to) {
+    Vec2 here = from;
+    std::size_t s = beside_;
+    const auto& segments = below_.segments();
+    for (const std::size_t last = s + k_followed; s < std::min(last, segments.size()); ++s) {
+      if (!below_.is_near(here, s)) continue;
+      if (below_.is_near(to, s)) {
+        beside_ = s;
+        return true;
+      }
+      const double share = (segments[s].second - here).dot(to - here) / (to - here).squaredNorm();
+      if (!(share > 0 && share < 1)) continue;
+      const Vec2 next = here + share * (to - here);
+      if (below_.is_near(next, s)) here = next;
+    }
+    return false;
+  }
+
+  const WidenedLayer& below_;
+  std::size_t beside_ = 0;  ///< the last line of the layer below that was found near
+  double held_ = 0;         ///< how far on from here all is held
+  bool within_ = false;     ///< here is surely inside of the layer below
+  std::optional<Vec2> furthest_;
+  double most_ = 0;
+};
+
+// Of each layer from the second on: the triangles that its section may cut, in the mesh's order.
+std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles_by_layer(const TriangleMesh& mesh,
+                                                                          const std::vector<double>& heights) {
+  std::vector<std::vector<std::array<std::uint32_t, 3>>> layers(heights.size());
+  for (const auto& triangle : mesh.triangles) {
+    const auto [low, high] = std::minmax({mesh.vertices[triangle[0]].z(), mesh.vertices[triangle[1]].z(),
+                                          mesh.vertices[triangle[2]].z()});
+    const auto first = std::lower_bound(heights.begin(), heights.end(), low) - heights.begin();
+    for (auto k = static_cast<std::size_t>(first); k < heights.size() && heights[k] <= high; ++k)
+      layers[k].push_back(triangle);
+  }
+  return layers;
 }
 
 }  // namespace
@@ -83,14 +181,22 @@ std::optional<Vec2> furthest_out(const Polygon& loop, const WidenedLayer& below)
 std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, Corners corners) {
   const double reach = k_layer / std::tan(overhang + k_threshold);
   const Bounds box = bounds(lying);
-  std::vector<Vec3> ledges;
   // What stands out over the first layer comes down onto the bed: PrusaSlicer puts no support that low.
-  std::vector<Polygon> below = section(lying, box.low.z() + 1.5 * k_layer);
-  for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) {
-    std::vector<Polygon> here = section(lying, z);
+  std::vector<double> heights{box.low.z() + 1.5 * k_layer};
+  for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) heights.push_back(z);
+  std::vector<std::vector<std::array<std::uint32_t, 3>>> layers = triangles_by_layer(lying, heights);
+  TriangleMesh slab{lying.vertices, {}};
+  const auto section_of = [&](std::size_t layer) {
+    slab.triangles = std::move(layers[layer]);
+    return section(slab, heights[layer]);
+  };
+  std::vector<Vec3> ledges;
+  std::vector<Polygon> below = section_of(0);
+  for (std::size_t layer = 1; layer < heights.size(); ++layer) {
+    std::vector<Polygon> here = section_of(layer);
     const WidenedLayer widened(std::move(below), reach, corners);
     for (const Polygon& loop : here) {
-      if (const auto out = furthest_out(loop, widened)) ledges.emplace_back(out->x(), out->y(), z);
+      if (const auto out = LayerWalk(widened).furthest_out(loop)) ledges.emplace_back(out->x(), out->y(), heights[layer]);
     }
     below = std::move(here);
   }

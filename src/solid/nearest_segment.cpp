@@ -6,11 +6,23 @@
 
 
 namespace fusee {
+namespace {
 
-NearestSegment::NearestSegment(std::vector<Polygon> loops) : loops_(std::move(loops)) {
+// The other line's ends lie on one side of this one, by more than rounding.
+bool on_one_side(const Vec2& from, const Vec2& to, const Vec2& a, const Vec2& b) {
+  constexpr double k_margin = 1e-12;
+  const Vec2 along = to - from, to_a = a - from, to_b = b - from;
+  const double size = along.cwiseAbs().maxCoeff() * std::max(to_a.cwiseAbs().maxCoeff(), to_b.cwiseAbs().maxCoeff());
+  const double of_a = cross(along, to_a), of_b = cross(along, to_b);
+  return std::min(of_a, of_b) > k_margin * size || std::max(of_a, of_b) < -k_margin * size;
+}
+
+}  // namespace
+
+NearestSegment::NearestSegment(const std::vector<Polygon>& loops) {
   Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
   low_ = -high;
-  for (const Polygon& loop : loops_) {
+  for (const Polygon& loop : loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       segments_.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
       low_ = low_.cwiseMin(loop[i]);
@@ -41,29 +53,47 @@ NearestSegment::Cell NearestSegment::cell_of(const Vec2& point) const {
   return {clamped(point.x() - low_.x(), columns_), clamped(point.y() - low_.y(), rows_)};
 }
 
-double NearestSegment::nearest_in(long column, long row, const Vec2& point) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return least;
+void NearestSegment::look_in(Nearest& nearest, long column, long row, const Vec2& point) const {
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
   for (const std::uint32_t s : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
-    least = std::min(least, distance_to_segment(point, segments_[s].first, segments_[s].second));
+    const double distance = distance_to_segment(point, segments_[s].first, segments_[s].second);
+    if (distance < nearest.distance) nearest = {distance, s};
   }
-  return least;
 }
 
 // Rings of cells outward from the point's own. A segment beyond ring k is at least k cells away from that cell's
 // border.
-double NearestSegment::distance(const Vec2& point) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (segments_.empty()) return least;
+NearestSegment::Nearest NearestSegment::nearest(const Vec2& point) const {
+  Nearest nearest{std::numeric_limits<double>::infinity(), 0};
+  if (segments_.empty()) return nearest;
   const auto [column, row] = cell_of(point);
-  for (long k = 0; k <= std::max(columns_, rows_) && (k == 0 || least > static_cast<double>(k - 1) * side_); ++k) {
+  for (long k = 0; k <= std::max(columns_, rows_) && (k == 0 || nearest.distance > static_cast<double>(k - 1) * side_);
+       ++k) {
     for (long i = -k; i <= k; ++i) {
-      least = std::min({least, nearest_in(column + i, row - k, point), nearest_in(column + i, row + k, point)});
-      if (std::abs(i) != k)
-        least = std::min({least, nearest_in(column - k, row + i, point), nearest_in(column + k, row + i, point)});
+      look_in(nearest, column + i, row - k, point);
+      if (k > 0) look_in(nearest, column + i, row + k, point);
+      if (std::abs(i) == k) continue;
+      look_in(nearest, column - k, row + i, point);
+      look_in(nearest, column + k, row + i, point);
     }
   }
-  return least;
+  return nearest;
+}
+
+bool NearestSegment::is_clear(const Vec2& from, const Vec2& to) const {
+  if (segments_.empty()) return true;
+  // Cells are found by rounded numbers: what touches lies in a neighbouring one at most.
+  const Vec2 margin = Vec2::Constant(1e-6 * side_);
+  const Cell low = cell_of(from.cwiseMin(to) - margin), high = cell_of(from.cwiseMax(to) + margin);
+  for (long row = low.row; row <= high.row; ++row) {
+    for (long column = low.column; column <= high.column; ++column) {
+      for (const std::uint32_t s : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
+        const auto& [a, b] = segments_[s];
+        if (!on_one_side(from, to, a, b) && !on_one_side(a, b, from, to)) return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace fusee

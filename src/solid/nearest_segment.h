@@ -11,17 +11,27 @@ namespace fusee {
 /// Distances from points to closed loops, by a grid of cells: about constant time a question.
 class NearestSegment {
  public:
-  explicit NearestSegment(std::vector<Polygon> loops);
-  double distance(const Vec2& point) const;
+  struct Nearest {
+    double distance;
+    std::size_t segment;  ///< its place in segments(); 0 without any
+  };
+
+  explicit NearestSegment(const std::vector<Polygon>& loops);
+  double distance(const Vec2& point) const { return nearest(point).distance; }
+  /// Infinitely far without segments.
+  Nearest nearest(const Vec2& point) const;
+  /// The line surely touches no segment.
+  bool is_clear(const Vec2& from, const Vec2& to) const;
+  /// Of all loops, in the order in which each is walked.
+  const std::vector<std::pair<Vec2, Vec2>>& segments() const { return segments_; }
 
  private:
   struct Cell {
     long column, row;
   };
   Cell cell_of(const Vec2& point) const;
-  double nearest_in(long column, long row, const Vec2& point) const;
+  void look_in(Nearest& nearest, long column, long row, const Vec2& point) const;
 
-  std::vector<Polygon> loops_;
   std::vector<std::pair<Vec2, Vec2>> segments_;
   Vec2 low_ = Vec2::Zero();
   double side_ = 1;

@@ -50,4 +50,22 @@ Depth depth_and_normal(const Polygon& convex, const Vec2& point) {
 
 double depth_inside(const Polygon& convex, const Vec2& point) { return depth_and_normal(convex, point).value; }
 
+ConvexSides::ConvexSides(const Polygon& convex) {
+  const auto sides = static_cast<Eigen::Index>(convex.size());
+  for (Eigen::ArrayXd* array : {&from_x_, &from_y_, &along_x_, &along_y_, &length_}) array->resize(sides);
+  for (Eigen::Index i = 0; i < sides; ++i) {
+    const Vec2& a = convex[static_cast<std::size_t>(i)];
+    const Vec2 along = convex[static_cast<std::size_t>(i + 1 == sides ? 0 : i + 1)] - a;
+    from_x_[i] = a.x();
+    from_y_[i] = a.y();
+    along_x_[i] = along.x();
+    along_y_[i] = along.y();
+    length_[i] = along.norm();
+  }
+}
+
+double ConvexSides::depth_of(const Vec2& point) const {
+  return ((along_x_ * (point.y() - from_y_) - along_y_ * (point.x() - from_x_)) / length_).minCoeff();
+}
+
 }  // namespace fusee

@@ -26,4 +26,15 @@ Depth depth_and_normal(const Polygon& convex, const Vec2& point);
 /// The depth alone.
 double depth_inside(const Polygon& convex, const Vec2& point);
 
+/// A convex polygon made ready to be asked for many depths.
+class ConvexSides {
+ public:
+  explicit ConvexSides(const Polygon& convex);
+  /// depth_inside() of the polygon.
+  double depth_of(const Vec2& point) const;
+
+ private:
+  Eigen::ArrayXd from_x_, from_y_, along_x_, along_y_, length_;
+};
+
 }  // namespace fusee

@@ -1,5 +1,4 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "fusee/base/units.h"
+#include "solid/box_tree.h"
 #include "solid/self_intersection.h"
 
 namespace fusee {
@@ -17,7 +17,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t, CGAL::Box_intersection_d::ID_EXPLICIT>;
 using Triangle = std::array<std::uint32_t, 3>;
 
 Point point(const TriangleMesh& mesh, std::uint32_t index) {
@@ -40,6 +39,43 @@ int put_shared_first(Triangle& a, Triangle& b) {
   return shared;
 }
 
+// A facet's plane, and planes through its edges upright on it: most pairs are told apart by one of them in plain
+// arithmetic, whose margin is far above its rounding.
+class FacetPlanes {
+ public:
+  FacetPlanes(const TriangleMesh& mesh, const Triangle& facet)
+      : corners_{mesh.vertices[facet[0]], mesh.vertices[facet[1]], mesh.vertices[facet[2]]} {
+    const Vec3 along = corners_[1] - corners_[0], across = corners_[2] - corners_[0];
+    normal_ = along.cross(across);
+    reach_ = along.cwiseAbs().maxCoeff() * across.cwiseAbs().maxCoeff();
+  }
+
+  const Vec3& corner(std::size_t k) const { return corners_[k]; }
+
+  // +1, −1: surely on that side of the plane; 0: who knows.
+  int side_of(const Vec3& point) const {
+    const Vec3 offset = point - corners_[0];
+    const double height = normal_.dot(offset);
+    const double margin = k_margin * reach_ * offset.cwiseAbs().maxCoeff();
+    return height > margin ? 1 : height < -margin ? -1 : 0;
+  }
+
+  // Surely beyond the edge from corner k to the next.
+  bool is_beyond(std::size_t k, const Vec3& point) const {
+    const Vec3 outward = (corners_[(k + 1) % 3] - corners_[k]).cross(normal_);
+    const Vec3 offset = point - corners_[k];
+    return outward.dot(offset) > k_edge_margin * outward.cwiseAbs().maxCoeff() * offset.cwiseAbs().maxCoeff();
+  }
+
+ private:
+  // The products' rounding is less than a hundredth of these.
+  static constexpr double k_margin = 1e-13, k_edge_margin = 1e-9;
+
+  std::array<Vec3, 3> corners_;
+  Vec3 normal_;
+  double reach_ = 0;
+};
+
 class CrossingTest {
  public:
   explicit CrossingTest(const TriangleMesh& mesh) : mesh_(mesh) {}
@@ -48,42 +84,45 @@ class CrossingTest {
     Triangle a = mesh_.triangles[f], b = mesh_.triangles[g];
     const int shared = put_shared_first(a, b);
     if (shared == 3) return false;
-    if (shared == 0 && clearly_apart(a, b)) return false;
-    const std::array<Point, 3> p{point(mesh_, a[0]), point(mesh_, a[1]), point(mesh_, a[2])};
-    const std::array<Point, 3> q{point(mesh_, b[0]), point(mesh_, b[1]), point(mesh_, b[2])};
-    if (shared == 2) return folded_flat(p, q);
-    const Kernel::Triangle_3 first(p[0], p[1], p[2]), second(q[0], q[1], q[2]);
-    if (shared == 0) return CGAL::do_intersect(first, second);
-    return CGAL::do_intersect(first, Kernel::Segment_3(q[1], q[2])) ||
-           CGAL::do_intersect(second, Kernel::Segment_3(p[1], p[2]));
+    const FacetPlanes first(mesh_, a);
+    if (shared == 2) return !clearly_unfolded(first, mesh_.vertices[b[2]]) && folded_flat(points(a), points(b));
+    const FacetPlanes second(mesh_, b);
+    if (clearly_apart(first, second, shared) || clearly_apart(second, first, shared)) return false;
+    const std::array<Point, 3> p = points(a), q = points(b);
+    const Kernel::Triangle_3 one(p[0], p[1], p[2]), other(q[0], q[1], q[2]);
+    if (shared == 0) return CGAL::do_intersect(one, other);
+    return CGAL::do_intersect(one, Kernel::Segment_3(q[1], q[2])) || CGAL::do_intersect(other, Kernel::Segment_3(p[1], p[2]));
   }
 
  private:
+  std::array<Point, 3> points(const Triangle& facet) const {
+    return {point(mesh_, facet[0]), point(mesh_, facet[1]), point(mesh_, facet[2])};
+  }
+
   // Facets that share an edge overlap only when both lie on one side of it in one plane.
   static bool folded_flat(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
     return CGAL::coplanar(p[0], p[1], p[2], q[2]) &&
            CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
   }
-
-  // Long thin facets side by side have overlapping boxes, thousands of them in a fine part. A plane through an edge,
-  // upright on the facet, tells most of them apart in plain arithmetic; the margin is far above its rounding.
-  bool clearly_apart(const Triangle& a, const Triangle& b) const {
-    return separated_by_edges(a, b) || separated_by_edges(b, a);
+  static bool clearly_unfolded(const FacetPlanes& a, const Vec3& beside) {
+    return a.side_of(beside) != 0 || a.is_beyond(0, beside);
   }
 
-  bool separated_by_edges(const Triangle& a, const Triangle& b) const {
-    const Vec3 &p0 = mesh_.vertices[a[0]], &p1 = mesh_.vertices[a[1]], &p2 = mesh_.vertices[a[2]];
-    const Vec3 normal = (p1 - p0).cross(p2 - p0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& from = mesh_.vertices[a[k]];
-      const Vec3 outward = (mesh_.vertices[a[(k + 1) % 3]] - from).cross(normal);
-      double nearest = std::numeric_limits<double>::infinity(), reach = 0;
-      for (const std::uint32_t index : b) {
-        const Vec3 offset = mesh_.vertices[index] - from;
-        nearest = std::min(nearest, outward.dot(offset));
-        reach = std::max(reach, offset.cwiseAbs().maxCoeff());
+  // b's corners, but for a shared one, lie on one side of a's plane, or beyond one of a's edges; where a corner is
+  // shared, of an edge at that corner. Long thin facets side by side have overlapping boxes, thousands of them in a fine
+  // part.
+  static bool clearly_apart(const FacetPlanes& a, const FacetPlanes& b, int shared) {
+    const auto all_of_b = [&](const auto& holds) {
+      for (auto k = static_cast<std::size_t>(shared); k < 3; ++k) {
+        if (!holds(b.corner(k))) return false;
       }
-      if (nearest > 1e-9 * outward.cwiseAbs().maxCoeff() * reach && nearest > 0) return true;
+      return true;
+    };
+    const int side = a.side_of(b.corner(2));
+    if (side != 0 && all_of_b([&](const Vec3& corner) { return a.side_of(corner) == side; })) return true;
+    for (const std::size_t edge : {std::size_t{0}, std::size_t{2}, std::size_t{1}}) {
+      if (edge == 1 && shared == 1) continue;
+      if (all_of_b([&](const Vec3& corner) { return a.is_beyond(edge, corner); })) return true;
     }
     return false;
   }
@@ -91,16 +130,10 @@ class CrossingTest {
   const TriangleMesh& mesh_;
 };
 
-using Extent = std::array<double, 3>;
+// How much room a box takes of the first two coordinates.
+double area_of(const Box3& box) { return (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]); }
 
-/// What a facet takes up in some coordinates: facets whose boxes are apart in one of them do not meet.
-struct FacetBox {
-  Extent low, high;
-
-  double area() const { return (high[0] - low[0]) * (high[1] - low[1]); }
-};
-
-FacetBox cartesian_box(const std::array<Vec3, 3>& corners) {
+Box3 cartesian_box(const std::array<Vec3, 3>& corners) {
   const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
   return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
@@ -115,9 +148,9 @@ double distance_from_axis(const Vec3& a, const Vec3& b) {
 
 /// Angle about the z axis, distance from it, height: the strips of a fine turned part consist of needles that point at the axis, whose
 /// boxes in x and y overlap by the thousand. The margins are far above the rounding.
-FacetBox polar_box(const std::array<Vec3, 3>& corners) {
+Box3 polar_box(const std::array<Vec3, 3>& corners) {
   constexpr double margin = 1e-9;
-  FacetBox box = cartesian_box(corners);
+  Box3 box = cartesian_box(corners);
   const double start = std::atan2(corners[0].y(), corners[0].x());
   double before = 0, after = 0, farthest = 0;
   double nearest = std::numeric_limits<double>::infinity();
@@ -137,10 +170,16 @@ FacetBox polar_box(const std::array<Vec3, 3>& corners) {
   return box;
 }
 
+/// What facets take up: those whose boxes are apart do not meet.
+struct FacetBoxes {
+  std::vector<std::size_t> facets;  ///< that have an area
+  std::vector<Box3> boxes;
+};
+
 /// In the coordinates in which the facets crowd each other less.
-std::vector<Box> boxes_of(const TriangleMesh& mesh) {
+FacetBoxes boxes_of(const TriangleMesh& mesh) {
   std::vector<std::size_t> facets;
-  std::vector<FacetBox> cartesian, polar;
+  std::vector<Box3> cartesian, polar;
   double cartesian_crowd = 0, polar_crowd = 0, reach = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (is_degenerate(mesh, f)) continue;
@@ -149,25 +188,14 @@ std::vector<Box> boxes_of(const TriangleMesh& mesh) {
     facets.push_back(f);
     cartesian.push_back(cartesian_box(corners));
     polar.push_back(polar_box(corners));
-    cartesian_crowd += cartesian.back().area();
-    polar_crowd += polar.back().area();
+    cartesian_crowd += area_of(cartesian.back());
+    polar_crowd += area_of(polar.back());
     reach = std::max(reach, polar.back().high[1]);
   }
   // Shares of a square about the disc that the mesh fills, and of that disc unrolled.
   const bool unrolled = polar_crowd / (k_two_pi * reach) < cartesian_crowd / (4.0 * reach * reach);
-  std::vector<Box> boxes;
-  boxes.reserve(facets.size());
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    FacetBox& box = unrolled ? polar[i] : cartesian[i];
-    boxes.emplace_back(box.low.data(), box.high.data(), facets[i]);
-  }
-  return boxes;
+  return {std::move(facets), unrolled ? std::move(polar) : std::move(cartesian)};
 }
-
-struct Found {
-  std::pair<std::size_t, std::size_t> facets;
-};
-struct TooMany {};
 
 }  // namespace
 
@@ -176,27 +204,20 @@ bool is_degenerate(const TriangleMesh& mesh, std::size_t facet) {
   return a == b || b == c || c == a || CGAL::collinear(point(mesh, a), point(mesh, b), point(mesh, c));
 }
 
-// The search is left by exceptions: CGAL's box intersection has no other early end.
 CrossingSearch find_crossing(const TriangleMesh& welded) {
-  std::vector<Box> boxes = boxes_of(welded);
-  std::vector<const Box*> pointers;
-  pointers.reserve(boxes.size());
-  for (const Box& box : boxes) pointers.push_back(&box);
+  const FacetBoxes facets = boxes_of(welded);
   const CrossingTest cross(welded);
   // A part whose facets all lie in one heap would take hours; no real one comes near this.
-  std::size_t pairs_left = 100'000'000 + 2000 * boxes.size();
-  const auto look = [&](const Box* a, const Box* b) {
-    if (pairs_left-- == 0) throw TooMany{};
-    if (cross(a->info(), b->info())) throw Found{std::minmax(a->info(), b->info())};
-  };
-  try {
-    CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), look, std::ptrdiff_t{500});
-  } catch (const Found& found) {
-    return {found.facets, false};
-  } catch (const TooMany&) {
-    return {std::nullopt, true};
-  }
-  return {};
+  std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
+  CrossingSearch search;
+  BoxTree(facets.boxes).any_pair([&](std::size_t i, std::size_t j) {
+    search.gave_up = pairs_left-- == 0;
+    if (search.gave_up) return true;
+    const std::size_t f = facets.facets[i], g = facets.facets[j];
+    if (cross(f, g)) search.facets = std::minmax(f, g);
+    return search.facets.has_value();
+  });
+  return search;
 }
 
 }  // namespace fusee

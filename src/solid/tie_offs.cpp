@@ -106,10 +106,10 @@ double TieOffPlanner::least_pocket(const BodyLayout& layout) const {
   return mechanism_.body.knot_pocket > 0 ? wanted_pocket(layout) : k_least_pocket * layout.channel_width;
 }
 
-AnchorSite TieOffPlanner::site(const BodyLayout& layout, const Outline& outline) const {
-  AnchorSite site{outline, mechanism_.tendon.diameter, layout.channel_width, layout.channel_fillet, layout.min_wall, {},
+AnchorSite TieOffPlanner::site(const BodyLayout& layout, const AnchorGround& ground) const {
+  AnchorSite site{ground, mechanism_.tendon.diameter, layout.channel_width, layout.channel_fillet, layout.min_wall, {},
                   {}};
-  site.rim = outline.side == Side::left ? &rims_.lower : &rims_.upper;
+  site.rim = ground.outline().side == Side::left ? &rims_.lower : &rims_.upper;
   site.holes.push_back({Vec2::Zero(), Vec2::Zero(), layout.bore.radius});
   for (const Polygon& hole : layout.bore.screw_holes) {
     Vec2 centre = Vec2::Zero();
@@ -123,7 +123,7 @@ std::optional<AnchorPath> TieOffPlanner::channel(AnchorSite site, const BodyLayo
                                                  double wanted, const LapRange& laps) const {
   // P2's pockets open on the face that the hub stands on. They avoid it where they can, and cut into its side where
   // they cannot.
-  if (site.outline.side == Side::right && layout.hub_radius > 0) {
+  if (site.ground.outline().side == Side::right && layout.hub_radius > 0) {
     site.above_pocket.push_back({Vec2::Zero(), Vec2::Zero(), layout.hub_radius + k_hub_gap - layout.min_wall});
     if (auto path = anchor_at(site, wound_end, wanted, laps); path && path->room >= least_pocket(layout)) return path;
     site.above_pocket.clear();
@@ -141,11 +141,11 @@ std::optional<TieOff> TieOffPlanner::tie_off(const AnchorSite& site, const BodyL
 }
 
 WoundTieOffs TieOffPlanner::wound(const BodyLayout& layout) const {
-  const auto at_wound_end = [&](const Outline& outline) {
-    const LapRange laps = lap_range(outline, true, mechanism_.body.wrap);
-    return tie_off(site(layout, outline), layout, true, wanted_pocket(layout), laps);
+  const auto at_wound_end = [&](const AnchorGround& ground) {
+    const LapRange laps = ground.lap_range(true, mechanism_.body.wrap);
+    return tie_off(site(layout, ground), layout, true, wanted_pocket(layout), laps);
   };
-  return {at_wound_end(synthesis_.p1), at_wound_end(synthesis_.p2)};
+  return {at_wound_end(ground1_), at_wound_end(ground2_)};
 }
 
 bool TieOffPlanner::has_room(const BodyLayout& layout, const WoundTieOffs& wound) const {
@@ -169,25 +169,25 @@ void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound
 std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTieOffs& wound) const {
   std::vector<PlannedAnchor> anchors;
   if (!wound.both()) return anchors;
-  add(anchors, layout, synthesis_.p1, *wound.p1);
-  add(anchors, layout, synthesis_.p2, *wound.p2);
+  add(anchors, layout, ground1_, *wound.p1);
+  add(anchors, layout, ground2_, *wound.p2);
   return anchors;
 }
 
-void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline,
+void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const AnchorGround& ground,
                         const TieOff& first) const {
-  const TieOffPair pair = wrapped_furthest(layout, outline, first);
-  anchors.push_back({outline.side, true, pair.wound, {}});
+  const TieOffPair pair = wrapped_furthest(layout, ground, first);
+  anchors.push_back({ground.outline().side, true, pair.wound, {}});
   if (!is_channel(first)) {
     layout.notes.push_back(
         fmt::format("no room on {} for a tie-off's channel and pocket: the tendon goes through a slot "
                     "to the face",
-                    pulley_name(outline.side)));
+                    pulley_name(ground.outline().side)));
   }
   if (pair.spare) {
-    anchors.push_back({outline.side, false, *pair.spare, {}});
+    anchors.push_back({ground.outline().side, false, *pair.spare, {}});
   } else {
-    layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(outline.side)));
+    layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(ground.outline().side)));
   }
 }
 
@@ -201,36 +201,36 @@ bool TieOffPlanner::is_rejected(Side side, bool wound_end, double wrap) const {
 
 // Wrap takes e^(−μφ) off what the knot bears, so the tie-off goes as far round the closing arc as leaves room for the
 // spare one, but not into the hub, where the set screw is.
-TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const Outline& outline,
+TieOffPair TieOffPlanner::wrapped_furthest(const BodyLayout& layout, const AnchorGround& ground,
                                            const TieOff& first) const {
-  const TieOffPair nearest{first, spare_beside(layout, outline, first)};
+  const TieOffPair nearest{first, spare_beside(layout, ground, first)};
   if (mechanism_.body.wrap > 0 || wishes_.wrap == WrapChoice::nearest) return nearest;
   const double radius = pocket_radius_of(first, layout);
   for (double wrap = k_two_pi; wrap > wrap_of(first); wrap -= k_wrap_step) {
-    LapRange there = lap_range(outline, true, wrap);
+    LapRange there = ground.lap_range(true, wrap);
     there.most = there.least;
-    const auto wound = tie_off(site(layout, outline), layout, true, radius, there);
+    const auto wound = tie_off(site(layout, ground), layout, true, radius, there);
     if (!wound || is_channel(*wound) != is_channel(first) || room_of(*wound) < radius) continue;
-    if (is_rejected(outline.side, true, wrap_of(*wound))) continue;
-    const TieOffPair further{*wound, spare_beside(layout, outline, *wound)};
+    if (is_rejected(ground.outline().side, true, wrap_of(*wound))) continue;
+    const TieOffPair further{*wound, spare_beside(layout, ground, *wound)};
     const bool in_the_way =
-        outline.side == Side::right &&
+        ground.outline().side == Side::right &&
         (cuts_into_hub(layout, further) > cuts_into_hub(layout, nearest) || blocks_set_screw(layout, further));
-    const bool complete = further.spare || is_rejected(outline.side, false, 0.0);
+    const bool complete = further.spare || is_rejected(ground.outline().side, false, 0.0);
     if (complete && !in_the_way) return further;
   }
   return nearest;
 }
 
 // At the other end of the arc, its mouth beyond all that the tendon of the first lies on.
-std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, const Outline& outline,
+std::optional<TieOff> TieOffPlanner::spare_beside(const BodyLayout& layout, const AnchorGround& ground,
                                                   const TieOff& first) const {
-  if (is_rejected(outline.side, false, 0.0)) return std::nullopt;
+  if (is_rejected(ground.outline().side, false, 0.0)) return std::nullopt;
   const double radius = pocket_radius_of(first, layout);
-  AnchorSite beside = site(layout, outline);
+  AnchorSite beside = site(layout, ground);
   const std::vector<Bar> bars = bars_of(first, layout);
   beside.holes.insert(beside.holes.end(), bars.begin(), bars.end());
-  const auto spare = tie_off(beside, layout, false, radius, {0.0, closing_length(outline) - lap_of(first)});
+  const auto spare = tie_off(beside, layout, false, radius, {0.0, ground.arc(true).length() - lap_of(first)});
   const bool as_good = spare && is_channel(*spare) == is_channel(first) && room_of(*spare) >= radius;
   return as_good ? spare : std::nullopt;
 }

@@ -83,7 +83,11 @@ class TieOffPlanner {
  public:
   TieOffPlanner(const Mechanism& mechanism, const SynthesisResult& synthesis, const FlangeRims& rims,
                 const TieOffWishes& wishes)
-      : mechanism_(mechanism), synthesis_(synthesis), rims_(rims), wishes_(wishes) {}
+      : mechanism_(mechanism),
+        ground1_(synthesis.p1, mechanism.tendon.diameter),
+        ground2_(synthesis.p2, mechanism.tendon.diameter),
+        rims_(rims),
+        wishes_(wishes) {}
 
   /// From now on a slot to the face is taken where a channel and its pocket have no room.
   void allow_face_holes() { face_holes_ = true; }
@@ -101,18 +105,18 @@ class TieOffPlanner {
  private:
   double wanted_pocket(const BodyLayout& layout) const;
   double least_pocket(const BodyLayout& layout) const;
-  AnchorSite site(const BodyLayout& layout, const Outline& outline) const;
+  AnchorSite site(const BodyLayout& layout, const AnchorGround& ground) const;
   std::optional<AnchorPath> channel(AnchorSite site, const BodyLayout& layout, bool wound_end, double wanted,
                                     const LapRange& laps) const;
   std::optional<TieOff> tie_off(const AnchorSite& site, const BodyLayout& layout, bool wound_end, double wanted,
                                 const LapRange& laps) const;
-  void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const Outline& outline, const TieOff& first) const;
+  void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
   bool is_rejected(Side side, bool wound_end, double wrap) const;
-  TieOffPair wrapped_furthest(const BodyLayout& layout, const Outline& outline, const TieOff& first) const;
-  std::optional<TieOff> spare_beside(const BodyLayout& layout, const Outline& outline, const TieOff& first) const;
+  TieOffPair wrapped_furthest(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
+  std::optional<TieOff> spare_beside(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
 
   const Mechanism& mechanism_;
-  const SynthesisResult& synthesis_;
+  AnchorGround ground1_, ground2_;
   const FlangeRims& rims_;
   const TieOffWishes& wishes_;
   bool face_holes_ = false;

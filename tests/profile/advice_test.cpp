@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
 
+#include "fusee/profile/synthesis.h"
 #include "support/mechanisms.h"
 
 namespace fusee {
@@ -55,6 +59,52 @@ TEST(NearestChanges, LookAtMoreKeysOnRequest) {
       nearest_changes(mechanism, [](const Mechanism& m) { return m.body.bore_diameter <= 22.22; }, {"body.bore_diameter_mm"});
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_NEAR(changes[0].to, 22.2, 1e-9);
+}
+
+std::vector<Condition> fails_by(double gap) {
+  if (gap <= 0) return {};
+  Condition condition;
+  condition.ok = false;
+  condition.value = gap;
+  return {condition};
+}
+
+TEST(Advice, HowMuchIsTriedIsLimited) {
+  int looks = 0;
+  std::atomic<int> makings = 0;
+  const Judge hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); }, [&](const Mechanism&) { return ++makings, true; }};
+  EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
+  EXPECT_LT(looks, 420);
+  EXPECT_EQ(makings, 0);
+  const Judge unmakeable{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12 + m.pulley.EF - 80); },
+                         [&](const Mechanism&) { return ++makings, false; }};
+  EXPECT_TRUE(find_advice(testing::forearm(), unmakeable).empty());
+  EXPECT_GT(makings, 0);
+  EXPECT_LE(makings, 4);
+}
+
+// Makings run beside each other: however long each takes, the same ones are given.
+TEST(Advice, DoesNotDependOnWhichMakingIsSooner) {
+  const auto texts = [](bool first_is_slow) {
+    const Judge judge{[](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 12, 93 - m.pulley.EF)); },
+                      [first_is_slow](const Mechanism& m) {
+                        const bool is_first = m.pulley.r1 == 16;
+                        std::this_thread::sleep_for(std::chrono::milliseconds(is_first == first_is_slow ? 30 : 0));
+                        return true;
+                      }};
+    return advice_sentence(find_advice(testing::forearm(), judge).alone);
+  };
+  EXPECT_EQ(texts(true), "make EF ≥ 93 mm, or r1 ≤ 12 mm");
+  EXPECT_EQ(texts(true), texts(false));
+}
+
+TEST(Advice, WhatIsNotMadeAtItsBorderIsTriedFurtherOn) {
+  const Judge judge{[](const Mechanism& m) { return fails_by(m.pulley.r1 - 12); },
+                    [](const Mechanism& m) { return m.pulley.r1 <= 11.9; }};
+  const Advice advice = find_advice(testing::forearm(), judge);
+  ASSERT_FALSE(advice.alone.empty());
+  EXPECT_EQ(advice.alone.front().key, "pulley.r1_mm");
+  EXPECT_LE(advice.alone.front().to, 11.9);
 }
 
 }  // namespace

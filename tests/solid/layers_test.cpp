@@ -4,13 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "fusee/base/units.h"
 #include "solid/blame.h"
 #include "solid/broken.h"
 #include "solid/plan.h"
+#include "solid/plane_distance.h"
 #include "support/shapes.h"
 
 namespace fusee {
@@ -65,6 +68,68 @@ std::vector<std::pair<double, double>> growing(double by) { return {{5, 0}, {5, 
 
 std::size_t ledges(const TriangleMesh& mesh, Corners corners = Corners::round) {
   return ledges_in_layers(mesh, radians(45), corners).size();
+}
+
+// The definition, point by point: nothing is passed over.
+std::vector<Vec3> ledges_point_by_point(const TriangleMesh& mesh) {
+  const double reach = 0.2 / std::tan(radians(45 + 1.3));
+  const auto distance_to = [](const std::vector<Polygon>& loops, const Vec2& point) {
+    double least = 1e300;
+    for (const Polygon& loop : loops) least = std::min(least, distance_to_edges(loop, point));
+    return least;
+  };
+  const Bounds box = bounds(mesh);
+  std::vector<Vec3> ledges;
+  std::vector<Polygon> below = section(mesh, box.low.z() + 0.3);
+  for (double z = box.low.z() + 0.5; z < box.high.z(); z += 0.2) {
+    const std::vector<Polygon> here = section(mesh, z);
+    for (const Polygon& loop : here) {
+      double most = 0;
+      Vec3 furthest;
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 &from = loop[i], &to = loop[(i + 1) % loop.size()];
+        const int steps = static_cast<int>(std::ceil((to - from).norm() / 0.02));
+        for (int k = 0; k < steps; ++k) {
+          const Vec2 point = from + (to - from) * k / steps;
+          const double out = distance_to(below, point);
+          const auto holds = [&point](const Polygon& outline) { return is_inside(outline, point); };
+          if (out <= reach || std::count_if(below.begin(), below.end(), holds) % 2 == 1 || out <= most) continue;
+          most = out;
+          furthest = {point.x(), point.y(), z};
+        }
+      }
+      if (most > 0) ledges.push_back(furthest);
+    }
+    below = here;
+  }
+  return ledges;
+}
+
+TEST(Layers, NothingIsPassedOverThatIsNotHeld) {
+  std::mt19937 draw(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  std::size_t found = 0;
+  for (int part = 0; part < 40; ++part) {
+    const auto corners = static_cast<int>(3 + 30 * share(draw));
+    std::vector<std::pair<Polygon, double>> loops;
+    Vec2 middle = Vec2::Zero();
+    double radius = 3 + 3 * share(draw), turn = 0, z = 0;
+    for (int ring = 0; ring < 6; ++ring) {
+      loops.push_back({{}, z});
+      for (int i = 0; i < corners; ++i) loops.back().first.push_back(middle + radius * unit(turn + k_two_pi * i / corners));
+      const double rise = 0.05 + 0.8 * share(draw);
+      if (share(draw) < 0.6) radius = std::max(1.0, radius + rise * 2.5 * (share(draw) - 0.5));
+      if (share(draw) < 0.4) middle += rise * share(draw) * unit(k_two_pi * share(draw));
+      if (share(draw) < 0.3) turn += 0.2 * share(draw);
+      z += rise;
+    }
+    const TriangleMesh mesh = tower(loops);
+    const std::vector<Vec3> expected = ledges_point_by_point(mesh), ledges = ledges_in_layers(mesh, radians(45), Corners::round);
+    ASSERT_EQ(ledges.size(), expected.size()) << "part " << part;
+    for (std::size_t i = 0; i < ledges.size(); ++i) EXPECT_LT((ledges[i] - expected[i]).norm(), 1e-9) << "part " << part;
+    found += ledges.size();
+  }
+  EXPECT_GT(found, 20u);
 }
 
 TEST(Layers, ARoundConeIsHeldAsLongAsItsStepIs) {

@@ -1,0 +1,101 @@
+"""How soon each command ends after one SIGINT, at random moments of its run: on the clock, and in seconds of processor
+used after the signal, which other programs on the machine do not change.
+
+usage: interrupt_latency.py FUSEE [MOMENTS=50] [COMMAND ...]   (build, refused, calibrate, plan, simulate, reproduce)
+
+Runs of too short a command are over before the signal: they are counted as such. Ends with 1 where one took more than
+0.2 s of processor, or ended otherwise than with 130 or done.
+"""
+
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LIMIT = 0.2
+TICK = os.sysconf("SC_CLK_TCK")
+
+
+def processor_of(pid):
+    """Seconds of processor so far of a process, all its threads."""
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / TICK
+
+
+def start(command):
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+
+
+def length_of(command):
+    begun = time.monotonic()
+    start(command).wait()
+    return time.monotonic() - begun
+
+
+def interrupted_at(command, moment):
+    """Seconds on the clock and of processor after the signal, and the exit status; None where it was over before."""
+    child = start(command)
+    time.sleep(moment)
+    if child.poll() is not None:
+        return None
+    before, sent = processor_of(child.pid), time.monotonic()
+    child.send_signal(signal.SIGINT)
+    _, status, usage = os.wait4(child.pid, 0)
+    clock = time.monotonic() - sent
+    child.returncode = os.waitstatus_to_exitcode(status)
+    return clock, usage.ru_utime + usage.ru_stime - before, child.returncode
+
+
+def commands(fusee, folder):
+    spec = str(ROOT / "profiles/forearm.toml")
+    log = str(min(pathlib.Path(folder).glob("plan/run_*.csv")))
+    out = ["-o", f"{folder}/out", "--force"]
+    return {
+        "build": [fusee, "build", str(ROOT / "profiles/paper_optimum.toml"), *out],
+        "refused": [fusee, "build", str(ROOT / "tests/data/refused.toml"), *out],
+        "plan": [fusee, "plan", spec, *out],
+        "simulate": [fusee, "simulate", spec, log, "-o", f"{folder}/sim.csv", "--force"],
+        "calibrate": [fusee, "calibrate", spec, *sorted(map(str, pathlib.Path(folder).glob("sim_*.csv"))), *out],
+        "reproduce": [fusee, "reproduce", *out],
+    }
+
+
+def prepare(fusee, folder):
+    """Run files, and what the joint itself would read on them: something to calibrate."""
+    spec = str(ROOT / "profiles/forearm.toml")
+    subprocess.run([fusee, "plan", spec, "-o", f"{folder}/plan", "-q"], check=True, stdout=subprocess.DEVNULL)
+    for run in sorted(pathlib.Path(folder).glob("plan/run_*.csv"))[:3]:
+        command = [fusee, "simulate", spec, str(run), "-o", f"{folder}/sim_{run.name}", "-q"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+def main():
+    fusee, moments = shutil.which(sys.argv[1]) or sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 50
+    wanted, rng, faults = sys.argv[3:], random.Random(11), 0
+    with tempfile.TemporaryDirectory() as folder:
+        prepare(fusee, folder)
+        print("command      whole run  signals  over before   clock median   largest   processor median   largest  exits")
+        for name, command in commands(fusee, folder).items():
+            if wanted and name not in wanted:
+                continue
+            length = length_of(command)
+            found = [interrupted_at(command, rng.uniform(0.02, length)) for _ in range(moments)]
+            heard = [each for each in found if each]
+            clock, processor = sorted(each[0] for each in heard), sorted(each[1] for each in heard)
+            exits = sorted({each[2] for each in heard})
+            if not heard:
+                continue
+            print(f"{name:12} {length:7.2f} s {len(heard):8} {len(found) - len(heard):12} {clock[len(clock) // 2]:12.3f} s {clock[-1]:7.3f} s"
+                  f" {processor[len(processor) // 2]:16.3f} s {processor[-1]:7.3f} s  {exits}", flush=True)
+            faults += processor[-1] > LIMIT or not set(exits) <= {130, 0, 4}
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
