@@ -62,9 +62,33 @@ Replacement new_line(std::string_view text, const toml::table& root, const Field
   return {text.size(), text.size(), first ? (ended ? "\n[" : "\n\n[") + table_name + "]\n" + line + "\n" : line + "\n"};
 }
 
+/// The file with the two keys that a former one stands for in its place.
+std::string without_former_keys(std::string text) {
+  const toml::table root = toml::parse(text);
+  for (const auto& [table_name, node] : root) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) continue;
+    for (const auto& [key, value] : *table) {
+      const FormerKey* former = find_former_key(std::string(table_name.str()) + "." + std::string(key.str()));
+      if (former == nullptr) continue;
+      const std::size_t begin = offset_of(text, key.source().begin), end = offset_of(text, value.source().end);
+      const std::string written =
+          text.substr(offset_of(text, value.source().begin), end - offset_of(text, value.source().begin));
+      const std::size_t prefix = table_name.str().size() + 1;
+      const bool is_dotted = begin > 0 && text[begin - 1] == '.';
+      const std::string both = std::string(former->now[0].substr(prefix)) + " = " + written +
+                               (table->is_inline() ? ", " : "\n") +
+                               std::string(former->now[1].substr(is_dotted ? 0 : prefix)) + " = " + written;
+      return without_former_keys(text.replace(begin, end - begin, both));
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string edit_values(std::string_view text, const std::vector<ValueEdit>& edits) {
+std::string edit_values(std::string_view as_written, const std::vector<ValueEdit>& edits) {
+  const std::string text = without_former_keys(std::string(as_written));
   const toml::table root = toml::parse(text);
   std::vector<Replacement> replacements;
   std::vector<std::string> new_tables;
@@ -88,11 +112,11 @@ std::string edit_values(std::string_view text, const std::vector<ValueEdit>& edi
   std::string edited;
   std::size_t from = 0;
   for (const Replacement& replacement : replacements) {
-    edited += text.substr(from, replacement.begin - from);
+    edited.append(text, from, replacement.begin - from);
     edited += replacement.text;
     from = replacement.end;
   }
-  edited += text.substr(from);
+  edited.append(text, from);
   return edited;
 }
 

@@ -616,6 +616,13 @@ std::span<const Field> fields() {
   return table;
 }
 
+const FormerKey* find_former_key(std::string_view name) {
+  // Until pins stood apart. [identified] guide_down_mm moved them and the pulley's axis: no two numbers of now are that.
+  static constexpr FormerKey k_former = {"identified.guide_outward_mm",
+                                         {"identified.guide1_outward_mm", "identified.guide2_outward_mm"}};
+  return name == k_former.name ? &k_former : nullptr;
+}
+
 const Field* find_field(std::string_view name) {
   for (const Field& field : fields()) {
     if (field.name() == name) return &field;

@@ -76,6 +76,7 @@ class MechanismReader {
   void parse(std::string_view text);
   void flatten();
   void flatten_table(const std::string& table, const toml::table& node);
+  void take_former(const FormerKey& former, const toml::table& table, const Entry& entry);
   void apply(const Setting& setting);
   toml::table setting_value(const Setting& setting, const std::string& file);
   // Step 3
@@ -185,10 +186,22 @@ void MechanismReader::fail_unknown(const Place& place, const std::string& table,
        table.empty() ? "" : "fusee explain " + table + " lists the keys of [" + table + "]");
 }
 
+void MechanismReader::take_former(const FormerKey& former, const toml::table& table, const Entry& entry) {
+  for (const std::string_view now : former.now) {
+    if (table.contains(now.substr(now.find('.') + 1)))
+      return fail(entry.place, std::string(former.name) + " is " + std::string(former.now[0]) + " and " +
+                                   std::string(former.now[1]) + " by now, one of which is there too",
+                  "delete " + std::string(former.name));
+    entries_[std::string(now)] = entry;
+  }
+}
+
 void MechanismReader::flatten_table(const std::string& table, const toml::table& node) {
   for (const auto& [key, value] : node) {
     const std::string name = table + "." + std::string(key.str());
-    if (find_field(name) == nullptr) {
+    if (const FormerKey* former = find_former_key(name)) {
+      take_former(*former, node, {&value, place_of(value.source(), name_)});
+    } else if (find_field(name) == nullptr) {
       fail_unknown(place_of(key.source(), name_), table, std::string(key.str()));
     } else {
       entries_[name] = {&value, place_of(value.source(), name_)};

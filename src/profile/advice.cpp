@@ -27,7 +27,7 @@ struct Dial {
   std::function<void(Mechanism&, double)> turn;
 };
 
-// A number of the body is changed more readily than one of the joint.
+// A number of the pulley or its body is changed more readily than one of the joint.
 constexpr double k_easier = 3.0;
 
 std::optional<Dial> number_dial(const Mechanism& mechanism, const std::string& key) {
@@ -67,9 +67,14 @@ std::vector<Dial> range_dials(const Mechanism& mechanism) {
 std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::string>& more_keys) {
   std::vector<std::string> keys{"joint.length_mm", "guides.EB_mm",     "guides.ED_mm", "guides.OE_mm",
                                 "guides.radius_mm", "pulley.EF_mm", "tendon.diameter_mm"};
-  if (mechanism.pulley.law == Law::compensate) keys.insert(keys.begin(), "pulley.r1_mm");
-  if (mechanism.pulley.law == Law::linear) keys.insert(keys.begin(), "pulley.ratio");
   std::vector<Dial> all;
+  const auto own = mechanism.pulley.law == Law::compensate ? number_dial(mechanism, "pulley.r1_mm")
+                   : mechanism.pulley.law == Law::linear   ? number_dial(mechanism, "pulley.ratio")
+                                                           : std::nullopt;
+  if (own) {
+    all.push_back(*own);
+    all.back().scale *= k_easier;
+  }
   for (const std::string& key : keys) {
     if (const auto dial = number_dial(mechanism, key)) all.push_back(*dial);
   }

@@ -48,6 +48,19 @@ TEST(Edit, ReachesInlineTables) {
   EXPECT_EQ(mechanism.tendon.diameter, 2.0);
 }
 
+TEST(Edit, PutsTheKeysOfNowInTheFormerOnesPlace) {
+  const std::string text = std::string(k_good_file) + "[identified]\nguide_outward_mm = 0.25 # both\n";
+  EXPECT_EQ(parse_mechanism(text, "f.toml").identified.pins.left.outward, 0.25);
+  EXPECT_EQ(parse_mechanism(text, "f.toml").identified.pins.right.outward, 0.25);
+  const std::string edited = edit_values(text, {{"identified.guide2_outward_mm", 0.5}});
+  EXPECT_EQ(edited,
+            std::string(k_good_file) + "[identified]\nguide1_outward_mm = 0.25\nguide2_outward_mm = 0.5 # both\n");
+  const std::string dotted = "identified.guide_outward_mm = 0.25\n" + std::string(k_good_file);
+  EXPECT_EQ(parse_mechanism(edit_values(dotted, {}), "f.toml").identified.pins.right.outward, 0.25);
+  const std::string both = text + "guide2_outward_mm = 0.5\n";
+  EXPECT_THROW(parse_mechanism(both, "f.toml"), InputError);
+}
+
 // A new key went to the top of the file, and no key of its table was known there.
 TEST(Edit, ReachesTablesOfDottedKeys) {
   const std::string text =

@@ -94,7 +94,7 @@ TEST(Advice, DoesNotDependOnWhichMakingIsSooner) {
                       }};
     return advice_sentence(find_advice(testing::forearm(), judge).alone);
   };
-  EXPECT_EQ(texts(true), "make EF ≥ 93 mm, or r1 ≤ 12 mm");
+  EXPECT_EQ(texts(true), "make r1 ≤ 12 mm, or EF ≥ 93 mm");
   EXPECT_EQ(texts(true), texts(false));
 }
 

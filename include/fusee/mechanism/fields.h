@@ -3,6 +3,7 @@
 /// explain`, `fusee new`, the JSON schema and the searches for advice.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -53,6 +54,14 @@ struct Field {
 std::span<const Field> fields();
 /// By dotted name, or null.
 const Field* find_field(std::string_view name);
+
+/// A key of files that earlier programs wrote: one number that stands for two by now.
+struct FormerKey {
+  std::string_view name;
+  std::array<std::string_view, 2> now;
+};
+/// By dotted name, or null.
+const FormerKey* find_former_key(std::string_view name);
 
 /// The value of a number (or of one end of a range) of a mechanism of which no more is known, in the file's unit.
 double number_of(const Mechanism& mechanism, const Field& field, int end = 0);
