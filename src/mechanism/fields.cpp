@@ -270,7 +270,7 @@ void add_mechanism(std::vector<Field>& table) {
       {"pulley.EF_mm", "EF", "", "from the line of the pins down to the pulley's axis"}, "mm", 1, 10000));
   table.push_back(number<pulley, &PulleyDrive::r1>(
       {"pulley.r1_mm", "r1", "", "radius of the round pulley P1, to the tendon's centre line", "pulley.law=compensate"},
-      "mm", 0.1, 1000));
+      "mm", 0.1, 10000));
   table.push_back(choice<pulley, &PulleyDrive::law>({"pulley.law", "", "\"compensate\"",
                                                      "compensate: P1 round, P2 keeps both tendons taut; linear: theta "
                                                      "= alpha/ratio; table: theta(alpha) from a CSV"}));

@@ -84,7 +84,7 @@ std::vector<Condition> windable(const Mechanism& mechanism, Wind wind) {
 }
 
 /// False when no such pulley can be made.
-bool design(Workshop& shop) {
+bool design(Workshop& shop, TieOffSearch search = TieOffSearch::thorough) {
   Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   shop.step("finding both pitch curves");
@@ -95,7 +95,7 @@ bool design(Workshop& shop) {
   if (!product.synthesis.made()) return false;
   draw_for_making(product.synthesis, product.joint.outline);
   shop.step("making the body");
-  product.pulley = make_pulley(mechanism, product.synthesis);
+  product.pulley = make_pulley(mechanism, product.synthesis, search);
   if (!product.pulley.made()) return false;
   for (const Condition& condition :
        windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
@@ -204,7 +204,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
     if (options.between_tries) options.between_tries();
   };
   Workshop shop{quietly, staging, result};
-  if (!design(shop)) return false;
+  if (!design(shop, TieOffSearch::brief)) return false;
   const Product& product = result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
   shop.step("checking its mesh");
@@ -232,6 +232,7 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
 std::vector<Condition> obstacles_of(const MechanismFile& file, const BuildOptions& options) {
   if (options.between_tries) options.between_tries();
   const JointAsItIs joint = as_it_is(file.mechanism);
+  if (const auto obstacle = obstacle_to(joint.mechanism)) return {*obstacle};  // most fail early, and what is cheap to see comes first
   SynthesisResult synthesis = synthesise(joint.mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
   if (!synthesis.made()) return failed_of(synthesis.conditions);
   draw_for_making(synthesis, joint.outline);

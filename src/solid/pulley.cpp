@@ -29,8 +29,17 @@ namespace {
 
 // A cut whose rounding to float left a fault is tried again with other facets on the tools.
 constexpr int k_variants = 8;
+constexpr int k_brief_variants = 2;
 // How often tie-offs that do not print are planned anew.
 constexpr int k_rounds = 8;
+constexpr int k_brief_rounds = 1;
+
+/// How much is tried before a body is given up.
+struct Effort {
+  int variants = k_variants;
+  int rounds = k_rounds;
+};
+constexpr Effort k_brief{k_brief_variants, k_brief_rounds};
 constexpr const char* k_prints = "prints";  // a condition
 
 // Room between two parts on the printer.
@@ -138,8 +147,8 @@ class FeatureCutter {
     if (mechanism_.body.marks != Marks::raised || !has_p2_) return raised;
     for (const Mark& mark : marks_) {
       if (mark.on_top)
-        raised.push_back(
-            prism(mark.loops, layout_.z_top - 0.5 * layout_.flange_thickness, layout_.z_top + mechanism_.body.mark_depth));
+        raised.push_back(prism(mark.loops, layout_.z_top - 0.5 * layout_.flange_thickness,
+                               layout_.z_top + mechanism_.body.mark_depth));
     }
     return raised;
   }
@@ -186,12 +195,14 @@ bool has_needles(const TriangleMesh& mesh) {
 }
 
 // How well a mesh bears what other programs do to it: the larger, the better.
+constexpr int k_any = 0;
 constexpr int k_sound = 2;
 int soundness_of(const TriangleMesh& mesh) { return !stands_rounding(mesh) ? 0 : has_needles(mesh) ? 1 : k_sound; }
 
 // A closed mesh without spare vertices is counted at a glance.
 bool has_euler(const TriangleMesh& mesh, int expected) {
-  const auto at_a_glance = static_cast<std::ptrdiff_t>(mesh.vertices.size()) - static_cast<std::ptrdiff_t>(mesh.triangles.size() / 2);
+  const auto at_a_glance =
+      static_cast<std::ptrdiff_t>(mesh.vertices.size()) - static_cast<std::ptrdiff_t>(mesh.triangles.size() / 2);
   return at_a_glance == expected || euler_number(mesh) == expected;
 }
 
@@ -214,8 +225,8 @@ class PieceMaker {
     }
   }
 
-  // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way through that
-  // nobody planned: a mark that opens a channel.
+  // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way
+  // through that nobody planned: a mark that opens a channel.
   std::vector<Made> cut(int variant) const {
     std::vector<Made> made;
     for (const Blank& blank : blanks_) {
@@ -285,31 +296,34 @@ struct BestCut {
   int variant = 0;
 };
 
-BestCut best_cut(const PieceMaker& maker) {
+// The first that bears so much, or what bears most.
+BestCut best_cut(const PieceMaker& maker, int variants, int enough) {
   BestCut taken;
-  int best = 0;
-  for (int variant = 0; variant < k_variants; ++variant) {
+  int best = k_any;
+  for (int variant = 0; variant < variants; ++variant) {
     std::vector<Made> made = maker.cut(variant);
     if (made.empty()) continue;
+    if (enough == k_any) return {std::move(made), variant};
     const int soundness = soundness_of(made.front().mesh);
     if (!taken.pieces.empty() && soundness <= best) continue;
     taken = {std::move(made), variant};
     best = soundness;
-    if (best == k_sound) break;
+    if (best >= enough) break;
   }
   return taken;
 }
 
 // Whether it prints is another question.
-Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan) {
+Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, const Effort& effort,
+                 int enough) {
   Pulley pulley;
   pulley.conditions = plan.conditions;
   pulley.layout = plan.layout;
   if (!plan.possible()) return pulley;
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
-  BestCut cut = best_cut(PieceMaker(mechanism, synthesis, plan, marks));
+  BestCut cut = best_cut(PieceMaker(mechanism, synthesis, plan, marks), effort.variants, enough);
   if (cut.pieces.empty() && !marks.empty()) {
-    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}));
+    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}), effort.variants, enough);
     if (!cut.pieces.empty()) plan.layout.notes.push_back("the marks would run into a tie-off: left out");
   }
   auto& [pieces, taken] = cut;
@@ -370,17 +384,23 @@ bool lacks_a_print(const Pulley& pulley) {
 
 // Tie-offs are planned elsewhere as long as one of them has a layer that stands out too far.
 Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResult& synthesis, double mouth_lean,
-                                Corners corners) {
+                                Corners corners, const Effort& effort) {
   TieOffWishes wishes;
   wishes.mouth_lean = mouth_lean;
   for (int round = 0;; ++round) {
     const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
-    Pulley pulley = pulley_of(mechanism, synthesis, plan);
-    if (!pulley.made() || mechanism.print.supports) return pulley;
-    const std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
+    if (mechanism.print.supports) return pulley_of(mechanism, synthesis, plan, effort, k_sound);
+    // Any cut shows whether it prints; the best is looked for where it does.
+    Pulley pulley = pulley_of(mechanism, synthesis, plan, effort, k_any);
+    if (!pulley.made()) return pulley;
+    std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
+    if (places.empty() && soundness_of(pulley.mesh) != k_sound) {
+      pulley = pulley_of(mechanism, synthesis, plan, effort, k_sound);
+      places = unprintable_places(pulley, mechanism.print.overhang, corners);
+    }
     if (places.empty()) return pulley;
     const std::vector<Rejection> blamed = news(blamed_for(places, plan), wishes.rejected);
-    if (blamed.empty() || round == k_rounds) return refused(std::move(pulley), mechanism, places);
+    if (blamed.empty() || round == effort.rounds) return refused(std::move(pulley), mechanism, places);
     wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
   }
 }
@@ -409,10 +429,13 @@ std::string Pulley::brief() const {
 }
 
 // Where no steep mouth has room, a wide one whose tip a squared corner holds is better than none.
-Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis, TieOffSearch search) {
   demand(synthesis.made(), "a body of an infeasible profile");
-  Pulley pulley = with_tie_offs_that_print(mechanism, synthesis, k_steep_lean, Corners::round);
-  return lacks_a_print(pulley) ? with_tie_offs_that_print(mechanism, synthesis, k_wide_lean, Corners::squared) : pulley;
+  const bool is_brief = search == TieOffSearch::brief;
+  Pulley pulley =
+      with_tie_offs_that_print(mechanism, synthesis, k_steep_lean, Corners::round, is_brief ? k_brief : Effort{});
+  if (is_brief || !lacks_a_print(pulley)) return pulley;
+  return with_tie_offs_that_print(mechanism, synthesis, k_wide_lean, Corners::squared, Effort{});
 }
 
 TriangleMesh plate_of(const Pulley& pulley) {

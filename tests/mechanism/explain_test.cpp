@@ -23,7 +23,7 @@ TEST(Explain, OneKeyTellsAll) {
   const std::string text = explain("r1_mm");
   EXPECT_EQ(text, explain("pulley.r1_mm"));
   for (const char* part :
-       {"pulley.r1_mm  (r1)", "a number in mm", "0.1 to 1000 mm", "required with law = \"compensate\""}) {
+       {"pulley.r1_mm  (r1)", "a number in mm", "0.1 to 10000 mm", "required with law = \"compensate\""}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(explain("friction"), HasSubstr("default 0.12"));

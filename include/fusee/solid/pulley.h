@@ -80,7 +80,11 @@ struct Pulley {
 /// What goes to the printer: the whole as it stands, or P1 and P2 side by side.
 TriangleMesh plate_of(const Pulley& pulley);
 
-Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis);
+/// How long tie-offs are sought that print. What a brief search finds a thorough one finds too.
+enum class TieOffSearch { thorough, brief };
+
+Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                   TieOffSearch search = TieOffSearch::thorough);
 
 /// The conditions of a body on these curves that do not hold. Makes no mesh.
 std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis);
