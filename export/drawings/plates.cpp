@@ -132,7 +132,7 @@ class LayerMaker {
     for (const Contour& hole : stock_.screw_holes) add_hole(layer, hole, "screw hole");
     for (const Vec2& dowel : plates_.dowels)
       add_hole(layer, circle_contour({dowel, plates_.dowel_diameter}), "dowel hole");
-    for (const Anchor* anchor : pockets) add_fine_hole(layer, stock_.pocket(*anchor));
+    for (const Anchor* anchor : pockets) add_hole(layer, stock_.pocket(*anchor), "knot pocket");
     plates_.layers.push_back(std::move(layer));
   }
 
@@ -143,16 +143,13 @@ class LayerMaker {
       note_once(plates_, fmt::format("the {} is left out: a kerf of {} mm is wider", what, rounded(kerf_)));
       return;
     }
+    if (bounding_box(path->points).size().minCoeff() < k_least_feature) {
+      note_once(plates_, fmt::format("{}: the {} of {} mm is left out, the cut would be narrower than {} mm: drill it", layer.name, what,
+                                     rounded(bounding_box(hole.points).size().minCoeff(), 3), rounded(k_least_feature)));
+      return;
+    }
     layer.holes.push_back(hole);
     layer.cut_holes.push_back(*path);
-  }
-
-  /// Of a knot or of a tendon: it can be drilled.
-  void add_fine_hole(PlateLayer& layer, const Contour& hole) {
-    const auto path = cut_hole(hole, kerf_);
-    if (path && bounding_box(path->points).size().minCoeff() >= k_least_feature) return add_hole(layer, hole, "knot pocket");
-    note_once(plates_, fmt::format("{}: the knot's hole of {} mm is left out, the cut would be narrower than {} mm: drill it",
-                                   layer.name, rounded(bounding_box(hole.points).size().minCoeff(), 3), rounded(k_least_feature)));
   }
 
   /// Half a kerf is taken off before channel and pocket are cut out of the plate: parallel edges stay parallel, and

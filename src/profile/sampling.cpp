@@ -23,21 +23,34 @@ CurvePoint mirrored(const PitchCurve& image, double psi) {
   return point;
 }
 
-/// The largest turn at ψ that both curves, and their parallels, bear.
-double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, const SamplingOptions& options) {
+/// The largest turn at ψ that both curves, and their parallels, bear. A chord's sagitta is an eighth of chord times turn: however
+/// straight a curve is there, no chord is longer than `longest`, and so the number of chords has a bound.
+double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, double longest, const SamplingOptions& options) {
   const double radius = std::max(mirrored(left, psi).radius, right.at(psi).radius) + options.reach;
-  return std::min(k_largest_turn, std::sqrt(8.0 * options.tolerance / radius));
+  const double of_an_arc = std::sqrt(8.0 * options.tolerance / radius), of_a_straight = 8.0 * options.tolerance / longest;
+  return std::min(k_largest_turn, std::max(of_an_arc, of_a_straight));
+}
+
+/// Of both curves and their parallels, and more.
+double longest_chord(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
+  constexpr int k_looks = 64;
+  double furthest = 0;
+  for (int i = 0; i < k_looks; ++i) {
+    const double psi = k_two_pi * i / k_looks;
+    furthest = std::max({furthest, mirrored(left, psi).position().norm(), right.at(psi).position().norm()});
+  }
+  return 4.0 * furthest + 2.0 * options.reach;
 }
 
 /// Directions from `begin` up to (not with) `end`, as dense as the curves ask.
 void append_directions(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, double begin, double end,
-                       const SamplingOptions& options) {
+                       double longest, const SamplingOptions& options) {
   const int probes = std::max(8, static_cast<int>(std::ceil((end - begin) / k_probe)));
   std::vector<double> count(static_cast<std::size_t>(probes) + 1, 0.0);  // chords needed from `begin` to each probe
-  double previous = 1.0 / allowed_turn(left, right, begin, options);
+  double previous = 1.0 / allowed_turn(left, right, begin, longest, options);
   for (int i = 1; i <= probes; ++i) {
     const double psi = begin + (end - begin) * i / probes;
-    const double density = 1.0 / allowed_turn(left, right, psi, options);
+    const double density = 1.0 / allowed_turn(left, right, psi, longest, options);
     // The denser end of the step rules it: the bound on the sagitta holds inside the step too.
     count[static_cast<std::size_t>(i)] =
         count[static_cast<std::size_t>(i) - 1] + std::max(previous, density) * (end - begin) / probes;
@@ -104,10 +117,11 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
     wanted.insert(wanted.end(), {k_pi - psi - k_smallest_turn, k_pi - psi + k_smallest_turn});
   }
   const std::vector<double> mandatory = kept_apart(std::move(wanted));
+  const double longest = longest_chord(left, right, options);
   std::vector<double> directions;
   for (std::size_t i = 0; i < mandatory.size(); ++i) {
     const double end = i + 1 < mandatory.size() ? mandatory[i + 1] : mandatory.front() + k_two_pi;
-    append_directions(directions, left, right, mandatory[i], end, options);
+    append_directions(directions, left, right, mandatory[i], end, longest, options);
   }
 
   halve_coarse_chords(directions, left, right, options);

@@ -276,6 +276,14 @@ TEST(PlatesDxf, AKerfWiderThanTheHolesIsSaid) {
   EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("the bore is left out: a kerf of 7 mm is wider")));
 }
 
+// A random design with a bore of 1.5 mm and a kerf of 0.55 mm failed its own check.
+TEST(PlatesDxf, AHoleThatWouldBeCutTooNarrowlyIsLeftToADrill) {
+  Product product = egg_with_anchor();
+  product.joint.mechanism.cut.kerf = 5.6;  // the bore is 6.2 mm wide
+  EXPECT_THAT(make_plates(product).notes, Contains(HasSubstr("narrower than 1 mm: drill it")));
+  EXPECT_THAT(failed(check_drawing(drawn(product))), IsEmpty());
+}
+
 TEST(PlatesDxf, EveryPlateCarriesItsNumber) {
   const Plates plates = make_plates(egg());
   for (const PlacedPlate& plate : plates.placed) {
