@@ -155,6 +155,7 @@ ArcWalk::ArcWalk(const Outline& outline, bool wound_end) : outline_(outline) {
 }
 
 Station ArcWalk::at(double s) const {
+  demand(!is_empty(), "a walk along no arc");
   auto [k, share] = place(reach_, s);
   if (share > 1.0 - k_from_point && k + 1 < index_.size()) {
     ++k;
@@ -168,7 +169,7 @@ Station ArcWalk::at(double s) const {
 }
 
 double ArcWalk::lap_at(double wrap) const {
-  if (wrap > wrap_.back()) return std::numeric_limits<double>::infinity();
+  if (is_empty() || wrap > wrap_.back()) return std::numeric_limits<double>::infinity();
   const auto [k, share] = place(wrap_, wrap);
   return reach_[k - 1] + share * (reach_[k] - reach_[k - 1]);
 }
@@ -222,6 +223,7 @@ std::optional<AnchorPath> find_anchor(const AnchorSite& site, bool wound_end, do
                                       const LapRange& laps) {
   demand(site.fillet > 0.5 * site.width,
          "a channel of " + std::to_string(site.width) + " mm with a fillet of " + std::to_string(site.fillet));
+  if (site.ground.arc(wound_end).is_empty()) return std::nullopt;
   return AnchorSearch(site, wound_end, wanted, reach, laps).run();
 }
 

@@ -31,7 +31,9 @@ class ArcWalk {
   /// +1: counter-clockwise.
   double sense() const { return sense_; }
   double length() const { return reach_.back(); }
-  /// There or just past it, between two points.
+  /// The active arc is the whole turn: there is nothing to walk.
+  bool is_empty() const { return index_.size() < 2; }
+  /// There or just past it, between two points. Not of an empty one.
   Station at(double lap) const;
   /// Infinite where the arc turns by less.
   double lap_at(double wrap) const;

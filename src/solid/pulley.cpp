@@ -18,6 +18,7 @@
 #include "solid/marks.h"
 #include "solid/mouths.h"
 #include "solid/place.h"
+#include "solid/plane_distance.h"
 #include "solid/plan.h"
 #include "solid/rings.h"
 #include "solid/self_intersection.h"
@@ -313,6 +314,25 @@ BestCut best_cut(const PieceMaker& maker, int variants, int enough) {
   return taken;
 }
 
+// Where a closing arc is hardly longer than a mouth, the mouth may reach into the arc that the tendon winds on.
+std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const Outline& outline, double tendon_diameter) {
+  const Polygon floor = parallel(outline, -0.5 * tendon_diameter);
+  for (std::size_t i = 0; i < floor.size(); ++i) {
+    if (!outline.is_active(i) || !(is_inside(anchor.mouth, floor[i]) || is_inside(anchor.channel, floor[i])))
+      continue;
+    Condition condition;
+    condition.name = "tie_off_mouth";
+    condition.ok = false;
+    condition.limit = 0;
+    condition.unit = "mm";
+    condition.message = fmt::format(
+        "{}'s tie-off has no room behind the arc that the tendon winds on: its mouth would cut into that arc at {}",
+        anchor.side == Side::left ? "P1" : "P2", place_of(Vec3(floor[i].x(), floor[i].y(), 0)));
+    return condition;
+  }
+  return std::nullopt;
+}
+
 // Whether it prints is another question.
 Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, const Effort& effort,
                  int enough) {
@@ -332,7 +352,14 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
     pulley.conditions.push_back(uncut_features());
     return pulley;
   }
-  for (const PlannedAnchor& planned : plan.anchors) pulley.anchors.push_back(anchor_of(planned, plan, taken));
+  for (const PlannedAnchor& planned : plan.anchors) {
+    pulley.anchors.push_back(anchor_of(planned, plan, taken));
+    const Outline& outline = planned.side == Side::left ? synthesis.p1 : synthesis.p2;
+    if (const auto cut_into = mouth_in_active_arc(pulley.anchors.back(), outline, mechanism.tendon.diameter)) {
+      pulley.conditions.push_back(*cut_into);
+      return pulley;
+    }
+  }
   pulley.mesh = std::move(pieces.front().mesh);
   pulley.expected_volume = pieces.front().volume;
   pulley.expected_euler = pieces.front().euler;
