@@ -23,6 +23,9 @@ CurvePoint mirrored(const PitchCurve& image, double psi) {
   return point;
 }
 
+/// Between two ends, however far a curve runs away: half a metre within a nanometre takes as many.
+constexpr double k_most_chords = 5e4;
+
 /// The largest turn at ψ that both curves, and their parallels, bear. A chord's sagitta is an eighth of chord times turn: however
 /// straight a curve is there, no chord is longer than `longest`, and so the number of chords has a bound.
 double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, double longest, const SamplingOptions& options) {
@@ -56,7 +59,7 @@ void append_directions(std::vector<double>& directions, const PitchCurve& left, 
         count[static_cast<std::size_t>(i) - 1] + std::max(previous, density) * (end - begin) / probes;
     previous = density;
   }
-  const int chords = std::max(1, static_cast<int>(std::ceil(count.back())));
+  const int chords = static_cast<int>(std::clamp(std::ceil(count.back()), 1.0, k_most_chords));
   std::size_t probe = 1;
   for (int i = 0; i < chords; ++i) {
     const double wanted = count.back() * i / chords;
