@@ -22,8 +22,8 @@ Contour bore_contour(const BoreLayout& bore);
 /// area tell.
 Polygon offset_edges(const Polygon& polygon, double distance);
 
-/// Cutter's path round a plate of this outline, `distance` outside of it: offset_edges(), without the edges that would turn
-/// round in a hollow that is shorter than the cutter is wide.
+/// Cutter's path round a plate of this outline, `distance` outside of it: offset_edges(), without the edges that would
+/// turn round in a hollow that is shorter than the cutter is wide.
 Polygon cut_round(const Polygon& outline, double distance);
 
 /// Cutter's path for a hole of this outline: half a kerf inside it, a circle for a circle and an arc for an arc. Null

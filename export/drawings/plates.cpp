@@ -94,7 +94,8 @@ void place_dowels(Plates& plates, const Stock& stock) {
   const Material2d material = common_material(stock);
   for (const double share : {1.0, 0.85, 0.7, 0.5, 0.35}) {
     const double diameter = share * wanted;
-    if (diameter - stock.mechanism.cut.kerf < k_least_feature) break;  // the cutter's path would be narrower than it can cut
+    if (diameter - stock.mechanism.cut.kerf < k_least_feature)
+      break;  // the cutter's path would be narrower than it can cut
     const auto places = dowel_places(stock, material, diameter);
     if (!places) continue;
     plates.dowels = {places->first, places->second};
@@ -104,8 +105,10 @@ void place_dowels(Plates& plates, const Stock& stock) {
           fmt::format("dowels of {} mm: there is no room for {} mm", rounded(diameter), rounded(wanted)));
     return;
   }
-  const char* why = wanted - stock.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no room";
-  plates.notes.push_back(fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(wanted)));
+  const char* why =
+      wanted - stock.mechanism.cut.kerf < k_least_feature ? "the cut would be too narrow" : "there is no room";
+  plates.notes.push_back(
+      fmt::format("no dowels: {} for two of {} mm; align the plates on the shaft", why, rounded(wanted)));
 }
 
 // Shapes
@@ -144,8 +147,9 @@ class LayerMaker {
       return;
     }
     if (bounding_box(path->points).size().minCoeff() < k_least_feature) {
-      note_once(plates_, fmt::format("{}: the {} of {} mm is left out, the cut would be narrower than {} mm: drill it", layer.name, what,
-                                     rounded(bounding_box(hole.points).size().minCoeff(), 3), rounded(k_least_feature)));
+      note_once(plates_, fmt::format("{}: the {} of {} mm is left out, the cut would be narrower than {} mm: drill it",
+                                     layer.name, what, rounded(bounding_box(hole.points).size().minCoeff(), 3),
+                                     rounded(k_least_feature)));
       return;
     }
     layer.holes.push_back(hole);

@@ -188,20 +188,33 @@ void decode(const Source& source, draco::Mesh& mesh) {
                fmt::format("Draco cannot decode this: {}", reason));
 }
 
-TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
-  const draco::PointAttribute* position = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
-  if (position == nullptr || position->num_components() != 3)
-    fail_at_byte(source, 0, "expected positions of three coordinates");
-  TriangleMesh soup;
-  soup.vertices.reserve(mesh.num_points());
+/// Not by ConvertValue(): it looks at a flag that Draco takes from the file as it stands there.
+template <class Number>
+std::vector<Vec3> positions_of(const Source& source, const draco::Mesh& mesh, const draco::PointAttribute& position) {
+  std::vector<Vec3> positions;
+  positions.reserve(mesh.num_points());
   for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
-    std::array<float, 3> v{};
-    const draco::AttributeValueIndex value = position->mapped_index(draco::PointIndex(i));
-    if (value.value() >= position->size() || !position->ConvertValue<float, 3>(value, v.data())) {
+    std::array<Number, 3> v{};
+    const draco::AttributeValueIndex value = position.mapped_index(draco::PointIndex(i));
+    if (value.value() >= position.size() || !position.GetValue<Number, 3>(value, &v))
       fail_at_byte(source, 0, fmt::format("point {} has no position", i));
-    }
-    soup.vertices.emplace_back(v[0], v[1], v[2]);
+    positions.emplace_back(v[0], v[1], v[2]);
   }
+  return positions;
+}
+
+std::vector<Vec3> positions_of(const Source& source, const draco::Mesh& mesh) {
+  const draco::PointAttribute* position = mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  if (position != nullptr && position->num_components() == 3) {
+    if (position->data_type() == draco::DT_FLOAT32) return positions_of<float>(source, mesh, *position);
+    if (position->data_type() == draco::DT_FLOAT64) return positions_of<double>(source, mesh, *position);
+  }
+  fail_at_byte(source, 0, "expected positions of three coordinates, floats or doubles");
+}
+
+TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
+  TriangleMesh soup;
+  soup.vertices = positions_of(source, mesh);
   soup.triangles.reserve(mesh.num_faces());
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));
@@ -213,10 +226,6 @@ TriangleMesh from_draco(const Source& source, const draco::Mesh& mesh) {
   }
   return soup;
 }
-
-}  // namespace
-
-namespace {
 
 std::string encoded(const TriangleMesh& mesh, const std::optional<Grid>& grid) {
   draco::Mesh to;

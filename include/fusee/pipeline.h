@@ -107,8 +107,8 @@ PartSize size_of(const Part& part, const std::vector<Check>& checks);
 /// Winds tendons on the grooves found in a mesh at the heights the mechanism gives them, or on a drawing's P1_FLOOR and
 /// P2_FLOOR (without them on the P*_PITCH curves). InputError when there is no such groove.
 RewindResult rewind_part(const JointAsItIs& joint, const Part& part);
-/// The same on a mesh of which it is known to what sizes it was made: where tie-offs had to be planned anew, its grooves lie
-/// elsewhere than the mechanism alone says.
+/// The same on a mesh of which it is known to what sizes it was made: where tie-offs had to be planned anew, its
+/// grooves lie elsewhere than the mechanism alone says.
 RewindResult rewind_made(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh);
 
 enum class PartPlace {

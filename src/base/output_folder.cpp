@@ -12,11 +12,11 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/files.h"
 
-// How a set of files appears all at once. No call of the system replaces several files, but one replaces a folder: the new
-// folder is made beside the old one, with second names (hard links) for whatever else the old one holds, and both change
-// names in one call. Where that cannot be - the folder holds folders, is the one that we stand in, a mount point,
-// somebody else's, on a file system without such calls - the files are renamed one by one, after a journal was written with
-// which the next run ends what a killed one began, before it reads anything.
+// How a set of files appears all at once. No call of the system replaces several files, but one replaces a folder: the
+// new folder is made beside the old one, with second names (hard links) for whatever else the old one holds, and both
+// change names in one call. Where that cannot be - the folder holds folders, is the one that we stand in, a mount
+// point, somebody else's, on a file system without such calls - the files are renamed one by one, after a journal was
+// written with which the next run ends what a killed one began, before it reads anything.
 
 namespace fusee {
 namespace {
@@ -77,7 +77,8 @@ fs::path place_of(const fs::path& folder) {
 void demand_ground(const fs::path& folder) {
   const fs::path ground = standing_ancestor(folder);
   std::error_code error;
-  if (!fs::is_directory(ground, error)) throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
+  if (!fs::is_directory(ground, error))
+    throw OutputError(ground.string() + " is not a folder", "choose another folder with -o");
   if (::access(ground.c_str(), W_OK | X_OK) != 0) fail_output("cannot write in", ground, errno);
 }
 
@@ -103,20 +104,23 @@ bool has_attributes(const fs::path& folder) {
 
 /// May another folder take the place of this one, with nobody the worse?
 bool is_replaceable(const fs::path& folder) {
-  struct stat status {}, above {};
+  struct stat status {};
+  struct stat above {};
   if (::lstat(folder.c_str(), &status) != 0 || ::lstat(folder.parent_path().c_str(), &above) != 0) return false;
   if (!S_ISDIR(status.st_mode) || status.st_dev != above.st_dev || status.st_uid != ::geteuid()) return false;
   std::error_code error;
   const fs::path here = fs::current_path(error);
   if (error || is_within(here, folder) || has_attributes(folder)) return false;
   const std::vector<fs::path> entries = entries_of(folder);
-  return std::none_of(entries.begin(), entries.end(), [](const fs::path& entry) { return fs::is_directory(fs::symlink_status(entry)); });
+  return std::none_of(entries.begin(), entries.end(),
+                      [](const fs::path& entry) { return fs::is_directory(fs::symlink_status(entry)); });
 }
 
 bool set_rights(const fs::path& folder, const fs::path& like) {
   struct stat status {};
   if (::lstat(like.c_str(), &status) != 0) return false;
-  return ::chown(folder.c_str(), static_cast<uid_t>(-1), status.st_gid) == 0 && ::chmod(folder.c_str(), status.st_mode & 07777) == 0;
+  return ::chown(folder.c_str(), static_cast<uid_t>(-1), status.st_gid) == 0 &&
+         ::chmod(folder.c_str(), status.st_mode & 07777) == 0;
 }
 
 void set_ordinary_rights(const fs::path& folder) {
@@ -130,7 +134,8 @@ bool rename_as(const fs::path& from, const fs::path& to, unsigned how) {
 }
 
 /// The journal is a manifest of what is about to go.
-std::string journal_of(const fs::path& folder, const std::vector<std::string>& replaced, const std::vector<std::string>& withdrawn) {
+std::string journal_of(const fs::path& folder, const std::vector<std::string>& replaced,
+                       const std::vector<std::string>& withdrawn) {
   nlohmann::json journal = {{"tool", "fusee"}, {"outputs", nlohmann::json::array()}, {"withdrawn", withdrawn}};
   for (const auto* names : {&replaced, &withdrawn}) {
     for (const std::string& name : *names) {
@@ -169,7 +174,10 @@ void end_publishing(const fs::path& staging, const fs::path& folder) {
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, bool force)
-    : folder_(folder.empty() ? "." : std::move(folder)), place_(place_of(folder_)), force_(force), missing_(std::make_unique<MissingFolders>()) {
+    : folder_(folder.empty() ? "." : std::move(folder)),
+      place_(place_of(folder_)),
+      force_(force),
+      missing_(std::make_unique<MissingFolders>()) {
   if (!stale_stagings(place_).empty()) {
     const Turn turn(place_.parent_path());
     for (const fs::path& staging : stale_stagings(place_)) end_publishing(staging, place_);
@@ -182,7 +190,8 @@ OutputFolder::~OutputFolder() = default;
 
 void OutputFolder::claim(const std::vector<std::string>& names) {
   const Turn turn(place_.parent_path());
-  if (read_manifest(place_ / k_manifest, ours_)) earlier_run_ = true;  // another run may have published since this one began
+  if (read_manifest(place_ / k_manifest, ours_))
+    earlier_run_ = true;  // another run may have published since this one began
   demand_ours(names);
 }
 
@@ -305,7 +314,8 @@ void OutputFolder::put_back(const std::vector<std::string>& published) const {
 /// One rename a file, the manifest last.
 void OutputFolder::publish_one_by_one(const std::vector<std::string>& gone) {
   missing_->make(place_);
-  if (staging_->path().parent_path() != place_ && !staging_->move_into(place_)) fail_output("cannot write in", place_, errno);
+  if (staging_->path().parent_path() != place_ && !staging_->move_into(place_))
+    fail_output("cannot write in", place_, errno);
   const fs::path& from = staging_->path();
   if (staged_.size() + gone.size() > 1) {
     write_whole(from / k_journal, journal_of(place_, staged_, gone));
@@ -352,7 +362,8 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   if (stands(target) && !force)
     throw OutputError(path.string() + " exists", "choose another name, or overwrite it with --force");
   const fs::path name = target.filename();
-  if (name.empty() || name == "." || name == "..") throw OutputError(path.string() + " names no file", "add a file name");
+  if (name.empty() || name == "." || name == "..")
+    throw OutputError(path.string() + " names no file", "add a file name");
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   demand_ground(folder);
   MissingFolders missing;

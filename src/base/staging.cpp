@@ -30,8 +30,8 @@ void flush(const fs::path& path) {
   if (::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP) fail_output("cannot write", path, errno);
 }
 
-/// Stale when its process is gone and nobody holds its lock (a process of another container may carry a number that is not
-/// seen here).
+/// Stale when its process is gone and nobody holds its lock (a process of another container may carry a number that is
+/// not seen here).
 bool is_stale(const fs::path& staging) {
   const std::string name = staging.filename().string();
   if (name.rfind(k_prefix, 0) != 0) return false;

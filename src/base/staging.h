@@ -1,5 +1,6 @@
 /// \file
-/// Internal: the hidden folder in which outputs are written before they are renamed into place, and what a killed run left of one.
+/// Internal: the hidden folder in which outputs are written before they are renamed into place, and what a killed run
+/// left of one.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +19,8 @@ bool stands(const std::filesystem::path& path);
 /// Makes a new file. OutputError when it exists or its bytes do not get there; a short write is no success.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 
-/// Flushes files and folders to the disk, together: it takes few turns for all of them where one after another would take one each.
+/// Flushes files and folders to the disk, together: it takes few turns for all of them where one after another would
+/// take one each.
 void flush_all(const std::vector<std::filesystem::path>& paths);
 
 /// Folders that are made because they are missing; the destructor removes those that are still empty.
@@ -34,7 +36,8 @@ class MissingFolders {
   std::vector<std::filesystem::path> made_;  ///< outermost first
 };
 
-/// A folder named .fusee-<process>-XXXXXX in `within`, locked while this run lives, removed with all it holds at the end.
+/// A folder named .fusee-<process>-XXXXXX in `within`, locked while this run lives, removed with all it holds at the
+/// end.
 class Staging {
  public:
   /// Throws OutputError.

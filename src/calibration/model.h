@@ -37,9 +37,9 @@ class Model {
 /// are charged alike, whether a joint is loose or not.
 double price_of_play(double loose, double floor);
 
-/// What a loose row costs in evidence beyond half its weighted residual's square in floors: either the joint rests where
-/// it was pushed, and its whole residual counts, or anywhere in the play. So a joint is not made loose to be rid of rows
-/// that nothing explains.
+/// What a loose row costs in evidence beyond half its weighted residual's square in floors: either the joint rests
+/// where it was pushed, and its whole residual counts, or anywhere in the play. So a joint is not made loose to be rid
+/// of rows that nothing explains.
 double nats_of_play(double residual, double loose, double floor);
 
 /// rms over the rows in use, rad.

@@ -44,9 +44,10 @@ struct Thresholds {
   double least_expected = 10.0;
   /// Evidence is overstated where the model is a little wrong: logs of ratios are divided by this. 98 % sure is a ratio
   /// of 900, beside what rareness says. Matrix, 296 joints of all kinds but "nothing" from seeds 3000 and 5000: at 1.0,
-  /// 1.5, 2.2 and 3.2 falsely blamed are 54, 46, 39 and 31 of 160 joints with a fault without a name and 12, 12, 9 and 8
-  /// of the others, and 229, 229, 228 and 235 of their faults are held; at 2.2 a sixth of the groups of one member are of
-  /// several, at 2.0 stretch is no longer named from seven held angles, and at 3.2 nor play beside it from a plain log.
+  /// 1.5, 2.2 and 3.2 falsely blamed are 54, 46, 39 and 31 of 160 joints with a fault without a name and 12, 12, 9 and
+  /// 8 of the others, and 229, 229, 228 and 235 of their faults are held; at 2.2 a sixth of the groups of one member
+  /// are of several, at 2.0 stretch is no longer named from seven held angles, and at 3.2 nor play beside it from a
+  /// plain log.
   double temperature = 1.75;
   /// Nats that a name needs, where one effect is looked at by itself (audit, detectable sizes): a Bayes factor of 400,
   /// "decisive" in the usual scale (Kass and Raftery 1995).

@@ -135,7 +135,8 @@ void explain_infeasible(const BuildResult& built, Reply& reply) {
   reply.fields["conditions"] = to_json(conditions);
   // Numbers and words apart: who reads "to" as a number finds one.
   std::vector<Change> numbers = built.advice.alone, words;
-  const auto first_word = std::stable_partition(numbers.begin(), numbers.end(), [](const Change& change) { return change.to_word.empty(); });
+  const auto first_word = std::stable_partition(numbers.begin(), numbers.end(),
+                                                [](const Change& change) { return change.to_word.empty(); });
   words.assign(first_word, numbers.end());
   numbers.erase(first_word, numbers.end());
   reply.fields["advice"] = to_json(numbers);

@@ -617,7 +617,8 @@ std::span<const Field> fields() {
 }
 
 const FormerKey* find_former_key(std::string_view name) {
-  // Until pins stood apart. [identified] guide_down_mm moved them and the pulley's axis: no two numbers of now are that.
+  // Until pins stood apart. [identified] guide_down_mm moved them and the pulley's axis: no two numbers of now are
+  // that.
   static constexpr FormerKey k_former = {"identified.guide_outward_mm",
                                          {"identified.guide1_outward_mm", "identified.guide2_outward_mm"}};
   return name == k_former.name ? &k_former : nullptr;

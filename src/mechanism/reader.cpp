@@ -189,8 +189,9 @@ void MechanismReader::fail_unknown(const Place& place, const std::string& table,
 void MechanismReader::take_former(const FormerKey& former, const toml::table& table, const Entry& entry) {
   for (const std::string_view now : former.now) {
     if (table.contains(now.substr(now.find('.') + 1)))
-      return fail(entry.place, std::string(former.name) + " is " + std::string(former.now[0]) + " and " +
-                                   std::string(former.now[1]) + " by now, one of which is there too",
+      return fail(entry.place,
+                  std::string(former.name) + " is " + std::string(former.now[0]) + " and " +
+                      std::string(former.now[1]) + " by now, one of which is there too",
                   "delete " + std::string(former.name));
     entries_[std::string(now)] = entry;
   }

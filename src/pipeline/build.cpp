@@ -64,8 +64,8 @@ struct Workshop {
   }
 };
 
-/// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound on it at
-/// all: `wind` throws. What the exact method draws always can: there it would be a bug.
+/// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound
+/// on it at all: `wind` throws. What the exact method draws always can: there it would be a bug.
 template <typename Wind>
 std::vector<Condition> windable(const Mechanism& mechanism, Wind wind) {
   if (mechanism.pulley.method != Method::paper) return {};
@@ -78,7 +78,8 @@ std::vector<Condition> windable(const Mechanism& mechanism, Wind wind) {
   } catch (const InputError& error) {
     condition.ok = false;
     condition.value = 0;
-    condition.message = "as the paper's equations draw it (pulley.method = \"paper\"), " + error.diagnostics().front().message;
+    condition.message =
+        "as the paper's equations draw it (pulley.method = \"paper\"), " + error.diagnostics().front().message;
   }
   return {condition};
 }
@@ -232,13 +233,17 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
 std::vector<Condition> obstacles_of(const MechanismFile& file, const BuildOptions& options) {
   if (options.between_tries) options.between_tries();
   const JointAsItIs joint = as_it_is(file.mechanism);
-  if (const auto obstacle = obstacle_to(joint.mechanism)) return {*obstacle};  // most fail early, and what is cheap to see comes first
+  if (const auto obstacle = obstacle_to(joint.mechanism))
+    return {*obstacle};  // most fail early, and what is cheap to see comes first
   SynthesisResult synthesis = synthesise(joint.mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
   if (!synthesis.made()) return failed_of(synthesis.conditions);
   draw_for_making(synthesis, joint.outline);
   std::vector<Condition> obstacles = body_obstacles(joint.mechanism, synthesis);
-  const auto floor = [&joint](const Outline& outline) { return parallel(outline, -0.5 * joint.mechanism.tendon.diameter); };
-  const std::vector<Condition> wound = failed_of(windable(joint.mechanism, [&] { rewind(joint.mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
+  const auto floor = [&joint](const Outline& outline) {
+    return parallel(outline, -0.5 * joint.mechanism.tendon.diameter);
+  };
+  const std::vector<Condition> wound =
+      failed_of(windable(joint.mechanism, [&] { rewind(joint.mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
   obstacles.insert(obstacles.end(), wound.begin(), wound.end());
   return obstacles;
 }

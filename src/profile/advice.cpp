@@ -65,7 +65,7 @@ std::vector<Dial> range_dials(const Mechanism& mechanism) {
 }
 
 std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::string>& more_keys) {
-  std::vector<std::string> keys{"joint.length_mm", "guides.EB_mm",     "guides.ED_mm", "guides.OE_mm",
+  std::vector<std::string> keys{"joint.length_mm",  "guides.EB_mm", "guides.ED_mm",      "guides.OE_mm",
                                 "guides.radius_mm", "pulley.EF_mm", "tendon.diameter_mm"};
   std::vector<Dial> all;
   const auto own = mechanism.pulley.law == Law::compensate ? number_dial(mechanism, "pulley.r1_mm")
@@ -155,7 +155,8 @@ class Adviser {
     std::vector<Change> found;
     std::vector<const Dial*> done;
     double before = 0;
-    for (double step = k_first_step; step < k_last_step && found.size() < enough_ && may_look(); before = step, step *= k_step_ratio) {
+    for (double step = k_first_step; step < k_last_step && found.size() < enough_ && may_look();
+         before = step, step *= k_step_ratio) {
       std::vector<Candidate> here;
       for (std::size_t t = 0; t < turns_.size(); ++t) {
         const Turn& turn = turns_[t];
@@ -165,7 +166,8 @@ class Adviser {
         done.push_back(turn.dial);
         here.push_back(near_border({turn}, before, step));
       }
-      std::stable_sort(here.begin(), here.end(), [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });
+      std::stable_sort(here.begin(), here.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });
       for (const Candidate& proven : made_of(here, enough_ - found.size())) found.push_back(proven.changes().front());
     }
     return found;
@@ -199,7 +201,8 @@ class Adviser {
     std::vector<std::vector<double>> tries;
 
     double distance() const {
-      return tries.empty() ? 0.0 : std::abs(tries.front().front() - turns.front().dial->value) / turns.front().dial->scale;
+      return tries.empty() ? 0.0
+                           : std::abs(tries.front().front() - turns.front().dial->value) / turns.front().dial->scale;
     }
     std::vector<Change> changes() const {
       std::vector<Change> all;
@@ -267,8 +270,8 @@ class Adviser {
     return candidate;
   }
 
-  /// The first `wanted` that are made, each with what was made alone in its tries. Two makings at a time; which are begun
-  /// does not depend on how long each takes.
+  /// The first `wanted` that are made, each with what was made alone in its tries. Two makings at a time; which are
+  /// begun does not depend on how long each takes.
   std::vector<Candidate> made_of(std::vector<Candidate> candidates, std::size_t wanted) {
     std::vector<Candidate> proven;
     std::erase_if(candidates, [](const Candidate& candidate) { return candidate.tries.empty(); });

@@ -15,13 +15,15 @@ Vec2 way_between(double turn, const Vec2& n0, const Vec2& n1, double r0, double 
   const double slope = (r1 - r0) / turn;
   return r1 * n1 - r0 * n0 + slope * (turned_left(n1) - turned_left(n0));
 }
-Vec2 way(double psi0, double psi1, double r0, double r1) { return way_between(psi1 - psi0, unit(psi0), unit(psi1), r0, r1); }
+Vec2 way(double psi0, double psi1, double r0, double r1) {
+  return way_between(psi1 - psi0, unit(psi0), unit(psi1), r0, r1);
+}
 
 /// A radius of curvature at each knot, and how it answers to the two multipliers of the closure.
 struct Knots {
   std::vector<double> psi;
-  std::vector<Vec2> normal;  ///< unit(psi)
-  std::vector<Vec2> hat;     ///< way of a radius that is 1 at the knot and 0 at its neighbours
+  std::vector<Vec2> normal;    ///< unit(psi)
+  std::vector<Vec2> hat;       ///< way of a radius that is 1 at the knot and 0 at its neighbours
   std::vector<double> rest;    ///< radius that the arc would like to have: the ends', then that of a curve about the axis
   std::vector<double> window;  ///< how freely the radius may leave it: nothing at the ends
   std::vector<double> least;

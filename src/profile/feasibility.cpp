@@ -301,7 +301,8 @@ std::optional<Condition> first_of(const std::vector<Condition>& conditions) {
 
 std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission) {
   std::vector<Condition> conditions{dead_centre(transmission)};
-  if (mechanism.pulley.law == Law::table && conditions.back().ok) conditions.push_back(law_grows(mechanism, transmission));
+  if (mechanism.pulley.law == Law::table && conditions.back().ok)
+    conditions.push_back(law_grows(mechanism, transmission));
   if (auto failed = first_of(conditions)) return failed;
   for (const Side side : {Side::left, Side::right}) {
     if (auto failed = failure_at_few_places(mechanism, TakeOffs(transmission, side))) return failed;

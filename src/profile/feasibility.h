@@ -29,8 +29,8 @@ struct Attempt {
 /// Looks at everything. Conditions that an earlier failure makes meaningless are left out. The attempt refers to `transmission`.
 Attempt attempt(const Mechanism& mechanism, const Transmission& transmission);
 
-/// The first condition found that does not hold; null where all do. What costs least to see is looked at first: the law,
-/// then a few places of both curves, all of them only then, and the closing arcs last.
+/// The first condition found that does not hold; null where all do. What costs least to see is looked at first: the
+/// law, then a few places of both curves, all of them only then, and the closing arcs last.
 std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission);
 
 /// What no condition forbids but a person should know: bends tighter than the tendon likes.

@@ -26,11 +26,13 @@ CurvePoint mirrored(const PitchCurve& image, double psi) {
 /// Between two ends, however far a curve runs away: half a metre within a nanometre takes as many.
 constexpr double k_most_chords = 5e4;
 
-/// The largest turn at ψ that both curves, and their parallels, bear. A chord's sagitta is an eighth of chord times turn: however
-/// straight a curve is there, no chord is longer than `longest`, and so the number of chords has a bound.
-double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, double longest, const SamplingOptions& options) {
+/// The largest turn at ψ that both curves, and their parallels, bear. A chord's sagitta is an eighth of chord times
+/// turn: however straight a curve is there, no chord is longer than `longest`, and so the number of chords has a bound.
+double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, double longest,
+                    const SamplingOptions& options) {
   const double radius = std::max(mirrored(left, psi).radius, right.at(psi).radius) + options.reach;
-  const double of_an_arc = std::sqrt(8.0 * options.tolerance / radius), of_a_straight = 8.0 * options.tolerance / longest;
+  const double of_an_arc = std::sqrt(8.0 * options.tolerance / radius),
+               of_a_straight = 8.0 * options.tolerance / longest;
   return std::min(k_largest_turn, std::max(of_an_arc, of_a_straight));
 }
 
@@ -46,8 +48,8 @@ double longest_chord(const PitchCurve& left, const PitchCurve& right, const Samp
 }
 
 /// Directions from `begin` up to (not with) `end`, as dense as the curves ask.
-void append_directions(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, double begin, double end,
-                       double longest, const SamplingOptions& options) {
+void append_directions(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, double begin,
+                       double end, double longest, const SamplingOptions& options) {
   const int probes = std::max(8, static_cast<int>(std::ceil((end - begin) / k_probe)));
   std::vector<double> count(static_cast<std::size_t>(probes) + 1, 0.0);  // chords needed from `begin` to each probe
   double previous = 1.0 / allowed_turn(left, right, begin, longest, options);

@@ -52,7 +52,8 @@ class AnchorSearch {
   bool try_straights(const Station& station, double turn) {
     const double step = 0.5 * site_.width;
     const double longest = reach_ == AnchorReach::near ? k_near_fillets * site_.fillet : 2.0 * ground_.radius();
-    AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, 0, 0, station.lap, station.wrap};
+    AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, 0, 0,
+                    station.lap,      station.wrap};
     const Vec2 outer = path.outer(), heading = path.heading();
     double promising = 0;
     for (double straight = 0.6 * site_.width; straight < longest; straight += step) {

@@ -69,10 +69,14 @@ class BodyAdviser {
       return advice;
     }
     for (const Words& words : words_of_screws()) {
-      const auto is_about = [&words](const Condition& condition) { return condition.name.starts_with(words.condition); };
+      const auto is_about = [&words](const Condition& condition) {
+        return condition.name.starts_with(words.condition);
+      };
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
-    const std::vector<std::string> keys = curves_are_possible() ? written_keys(mechanism_) : std::vector<std::string>{};
+    // Where there are no curves, no number of the body alone would help.
+    const std::vector<std::string> keys =
+        obstacle_to(mechanism_) ? std::vector<std::string>{} : written_keys(mechanism_);
     const Advice numbers = find_advice(mechanism_, judge_, keys);
     advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
     for (const std::string& key : keys) {
@@ -83,11 +87,6 @@ class BodyAdviser {
   }
 
  private:
-  // Where they are not, no number of the body alone would help.
-  bool curves_are_possible() const {
-    return synthesise(mechanism_, {.tolerance = 0.1, .advice = false, .stroke_steps = 2}).made();
-  }
-
   bool helps(const Mechanism& changed) const {
     return judge_.obstacles(changed).empty() && (!judge_.made || judge_.made(changed));
   }

@@ -56,8 +56,7 @@ void BoxTree::add_node(std::uint32_t first, std::uint32_t last) {
 
 bool BoxTree::within(std::uint32_t node, const Look& look) const {
   const Node& here = nodes_[node];
-  if (here.right != 0)
-    return within(node + 1, look) || within(here.right, look) || between(node + 1, here.right, look);
+  if (here.right != 0) return within(node + 1, look) || within(here.right, look) || between(node + 1, here.right, look);
   for (std::uint32_t i = here.first; i < here.last; ++i) {
     for (std::uint32_t j = i + 1; j < here.last; ++j) {
       if (overlap(boxes_[items_[i]], boxes_[items_[j]]) && look(items_[i], items_[j])) return true;

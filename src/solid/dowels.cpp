@@ -62,7 +62,9 @@ class DowelChooser {
     const double radius = circumradius(polyhole(pin + compensation_, Vec2::Zero())), room = radius + layout_.min_wall;
     return pin_places(reach_, 2.0 * radius, layout_.min_wall, [&](const Vec2& place) {
       return std::all_of(obstacles.begin(), obstacles.end(),
-                         [&](const Bar& bar) { return gap({place, place, room}, bar) >= 0; }) &&
+                         [&](const Bar& bar) {
+                           return gap({place, place, room}, bar) >= 0;
+                         }) &&
              floor1_.depth_of(place) >= room && floor2_.depth_of(place) >= room;
     });
   }

@@ -11,8 +11,8 @@ constexpr double k_lap_ratio = 1.6;
 constexpr double k_least_ground = 0.5;
 // The slot's round end keeps this off the floor, so that no face of it lies in the groove's.
 constexpr double k_off_floor = 0.03;
-// The slot ends this far outside of the rim, and of its round end where that is wider than the flange is deep: it would be
-// turned inside out.
+// The slot ends this far outside of the rim, and of its round end where that is wider than the flange is deep: it would
+// be turned inside out.
 constexpr double k_beyond_rim = 0.5;
 
 class FaceHoleSearch {

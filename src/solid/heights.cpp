@@ -72,14 +72,16 @@ void stack_up(BodyLayout& layout) {
   layout.z_hub = layout.z_top;
 }
 
-// What is engraved leaves two layers of a flange, or half of a thin one: deeper, it opens the groove and does not print.
+// What is engraved leaves two layers of a flange, or half of a thin one: deeper, it opens the groove and does not
+// print.
 void choose_mark_depth(BodyLayout& layout, const Body& body) {
   constexpr double k_ground = 0.4;  // mm
   const double most = std::max(0.5 * layout.flange_thickness, layout.flange_thickness - k_ground);
   layout.mark_depth = std::min(body.mark_depth, most);
   if (layout.mark_depth == body.mark_depth || body.marks == Marks::none) return;
-  layout.notes.push_back(fmt::format("marks {} mm deep (body.mark_depth_mm) would cut through a flange of {} mm: engraved {} mm deep",
-                                     rounded(body.mark_depth), rounded(layout.flange_thickness), rounded(most, 3)));
+  layout.notes.push_back(
+      fmt::format("marks {} mm deep (body.mark_depth_mm) would cut through a flange of {} mm: engraved {} mm deep",
+                  rounded(body.mark_depth), rounded(layout.flange_thickness), rounded(most, 3)));
 }
 
 // Moves all that stands on the middle flange up.

@@ -167,8 +167,8 @@ std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles_by_layer(const 
                                                                           const std::vector<double>& heights) {
   std::vector<std::vector<std::array<std::uint32_t, 3>>> layers(heights.size());
   for (const auto& triangle : mesh.triangles) {
-    const auto [low, high] = std::minmax({mesh.vertices[triangle[0]].z(), mesh.vertices[triangle[1]].z(),
-                                          mesh.vertices[triangle[2]].z()});
+    const auto [low, high] =
+        std::minmax({mesh.vertices[triangle[0]].z(), mesh.vertices[triangle[1]].z(), mesh.vertices[triangle[2]].z()});
     const auto first = std::lower_bound(heights.begin(), heights.end(), low) - heights.begin();
     for (auto k = static_cast<std::size_t>(first); k < heights.size() && heights[k] <= high; ++k)
       layers[k].push_back(triangle);
@@ -196,7 +196,8 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
     std::vector<Polygon> here = section_of(layer);
     const WidenedLayer widened(std::move(below), reach, corners);
     for (const Polygon& loop : here) {
-      if (const auto out = LayerWalk(widened).furthest_out(loop)) ledges.emplace_back(out->x(), out->y(), heights[layer]);
+      if (const auto out = LayerWalk(widened).furthest_out(loop))
+        ledges.emplace_back(out->x(), out->y(), heights[layer]);
     }
     below = std::move(here);
   }

@@ -18,8 +18,8 @@
 #include "solid/marks.h"
 #include "solid/mouths.h"
 #include "solid/place.h"
-#include "solid/plane_distance.h"
 #include "solid/plan.h"
+#include "solid/plane_distance.h"
 #include "solid/rings.h"
 #include "solid/self_intersection.h"
 #include "solid/tie_off_tools.h"
@@ -318,8 +318,7 @@ BestCut best_cut(const PieceMaker& maker, int variants, int enough) {
 std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const Outline& outline, double tendon_diameter) {
   const Polygon floor = parallel(outline, -0.5 * tendon_diameter);
   for (std::size_t i = 0; i < floor.size(); ++i) {
-    if (!outline.is_active(i) || !(is_inside(anchor.mouth, floor[i]) || is_inside(anchor.channel, floor[i])))
-      continue;
+    if (!outline.is_active(i) || !(is_inside(anchor.mouth, floor[i]) || is_inside(anchor.channel, floor[i]))) continue;
     Condition condition;
     condition.name = "tie_off_mouth";
     condition.ok = false;

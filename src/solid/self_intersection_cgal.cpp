@@ -91,7 +91,8 @@ class CrossingTest {
     const std::array<Point, 3> p = points(a), q = points(b);
     const Kernel::Triangle_3 one(p[0], p[1], p[2]), other(q[0], q[1], q[2]);
     if (shared == 0) return CGAL::do_intersect(one, other);
-    return CGAL::do_intersect(one, Kernel::Segment_3(q[1], q[2])) || CGAL::do_intersect(other, Kernel::Segment_3(p[1], p[2]));
+    return CGAL::do_intersect(one, Kernel::Segment_3(q[1], q[2])) ||
+           CGAL::do_intersect(other, Kernel::Segment_3(p[1], p[2]));
   }
 
  private:
@@ -109,8 +110,8 @@ class CrossingTest {
   }
 
   // b's corners, but for a shared one, lie on one side of a's plane, or beyond one of a's edges; where a corner is
-  // shared, of an edge at that corner. Long thin facets side by side have overlapping boxes, thousands of them in a fine
-  // part.
+  // shared, of an edge at that corner. Long thin facets side by side have overlapping boxes, thousands of them in a
+  // fine part.
   static bool clearly_apart(const FacetPlanes& a, const FacetPlanes& b, int shared) {
     const auto all_of_b = [&](const auto& holds) {
       for (auto k = static_cast<std::size_t>(shared); k < 3; ++k) {

@@ -187,7 +187,8 @@ void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout,
   if (pair.spare) {
     anchors.push_back({ground.outline().side, false, *pair.spare, {}});
   } else {
-    layout.notes.push_back(fmt::format("no room for a spare tie-off on {}: left out", pulley_name(ground.outline().side)));
+    layout.notes.push_back(
+        fmt::format("no room for a spare tie-off on {}: left out", pulley_name(ground.outline().side)));
   }
 }
 

@@ -439,7 +439,9 @@ TEST_F(Files, WritesOverFilesOnly) {
   EXPECT_THAT(output_error([&] { write_file(root_ / "pipe", "x", true); }), HasSubstr("is not a regular file"));
   EXPECT_THAT(output_error([&] { write_file("", "x", true); }), HasSubstr("names no file"));
   for (const char* name : {".", "..", "missing/.", "missing/.."})
-    EXPECT_THAT(output_error([&] { write_file(root_ / name, "x", true); }), testing::AnyOf(HasSubstr("names no file"), HasSubstr("is not a regular file"))) << name;
+    EXPECT_THAT(output_error([&] { write_file(root_ / name, "x", true); }),
+                testing::AnyOf(HasSubstr("names no file"), HasSubstr("is not a regular file")))
+        << name;
   EXPECT_FALSE(fs::exists(root_ / "missing"));
 }
 

@@ -1,5 +1,5 @@
-// A run that publishes is killed before each of its calls that change a file system, one after another. This program's own rename(),
-// link() … stand in front of the system's, count, and kill.
+// A run that publishes is killed before each of its calls that change a file system, one after another. This program's
+// own rename(), link() … stand in front of the system's, count, and kill.
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -36,8 +36,12 @@ int changed(long number, Words... words) {
 }  // namespace
 
 extern "C" {
-int rename(const char* from, const char* to) noexcept { return changed(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0U); }
-int renameat2(int a, const char* from, int b, const char* to, unsigned how) noexcept { return changed(SYS_renameat2, a, from, b, to, how); }
+int rename(const char* from, const char* to) noexcept {
+  return changed(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0U);
+}
+int renameat2(int a, const char* from, int b, const char* to, unsigned how) noexcept {
+  return changed(SYS_renameat2, a, from, b, to, how);
+}
 int link(const char* from, const char* to) noexcept { return changed(SYS_linkat, AT_FDCWD, from, AT_FDCWD, to, 0); }
 int unlink(const char* path) noexcept { return changed(SYS_unlinkat, AT_FDCWD, path, 0); }
 int unlinkat(int folder, const char* path, int flags) noexcept { return changed(SYS_unlinkat, folder, path, flags); }
@@ -152,21 +156,25 @@ TEST_P(Kill, LeavesTheOldSetOrTheNewOne) {
     killed = killed_before(call, [&] { publish(folder, newer_); });
     if (GetParam().subfolder) OutputFolder(folder, false);  // the next start, which is here a run that does nothing
     const Folder left = files_in(folder);
-    ASSERT_TRUE(left == before || left == after) << "killed before call " << call << ": " << testing::PrintToString(left);
+    ASSERT_TRUE(left == before || left == after)
+        << "killed before call " << call << ": " << testing::PrintToString(left);
     ++(left == after ? new_sets : old_sets);
     ASSERT_TRUE(killed || left == after);
     publish(folder, older_);  // the next run finds its way, and cleans up
     EXPECT_EQ(files_in(folder), with_the_rest(older_));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.parent_path()), {}), 1);
-    EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})), with_the_rest(older_).size());
+    EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})),
+              with_the_rest(older_).size());
   }
   EXPECT_GT(old_sets, 4);
   EXPECT_GT(new_sets, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Grounds, Kill,
-                         testing::Values(Ground{"Nothing", false, false, false}, Ground{"AnEarlierRun", true, false, false},
-                                         Ground{"AnEarlierRunAndNotes", true, true, false}, Ground{"AnEarlierRunAndAFolder", true, true, true}),
+                         testing::Values(Ground{"Nothing", false, false, false},
+                                         Ground{"AnEarlierRun", true, false, false},
+                                         Ground{"AnEarlierRunAndNotes", true, true, false},
+                                         Ground{"AnEarlierRunAndAFolder", true, true, true}),
                          [](const auto& ground) { return std::string(ground.param.name); });
 
 }  // namespace

@@ -1,12 +1,13 @@
-// Random designs through the whole making, of every law and with every choice of the file: each is made, with every check, or refused
-// for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). And every combination of the choices in [body] and [print]
-// on three mechanisms, with FUSEE_LONG_TESTS (hours); without it FUSEE_LAW_CASES of them (10).
+// Random designs through the whole making, of every law and with every choice of the file: each is made, with every
+// check, or refused for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). And every combination of
+// the choices in [body] and [print] on three mechanisms, with FUSEE_LONG_TESTS (hours); without it FUSEE_LAW_CASES of
+// them (10).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <random>
@@ -41,18 +42,36 @@ struct Number {
   double low, high;
 };
 /// What a workshop would write.
-constexpr std::array k_numbers{
-    Number{"guides.friction", 0, 0.5},          Number{"tendon.modulus_MPa", 500, 2e5},    Number{"tendon.pretension_N", 0, 60},
-    Number{"tendon.bend_ratio", 2, 20},         Number{"load.tip_force_N", -40, 40},       Number{"load.mass_kg", 0, 3},
-    Number{"body.groove_angle_deg", 0, 90},     Number{"body.groove_depth_mm", 0.4, 6},    Number{"body.seat_ratio", 0.5, 1},
-    Number{"body.flange_thickness_mm", 0.6, 4}, Number{"body.hub_diameter_mm", 6, 40},     Number{"body.hub_height_mm", 0, 15},
-    Number{"body.bore_diameter_mm", 1.5, 12},   Number{"body.anchor_hole_mm", 0.6, 4},     Number{"body.knot_pocket_mm", 1, 8},
-    Number{"body.mark_depth_mm", 0.1, 5},       Number{"body.min_wall_mm", 0.4, 3},        Number{"material.shrinkage_percent", -1, 3},
-    Number{"material.hole_compensation_mm", -0.2, 0.5}, Number{"material.elephant_foot_mm", 0, 0.8}, Number{"cut.kerf_mm", 0, 0.6},
-    Number{"cut.plate_mm", 1, 8},               Number{"cut.sheet_width_mm", 80, 900},     Number{"cut.sheet_height_mm", 80, 900},
-    Number{"cut.dowel_mm", 0, 5},               Number{"identified.radius_offset_mm", -0.2, 0.2},
-    Number{"identified.pulley_scale_percent", -2, 2}, Number{"identified.runout_x_mm", -0.2, 0.2},
-    Number{"identified.profile_sin_mm", -0.1, 0.1}, Number{"identified.guide1_outward_mm", -0.5, 0.5}};
+constexpr std::array k_numbers{Number{"guides.friction", 0, 0.5},
+                               Number{"tendon.modulus_MPa", 500, 2e5},
+                               Number{"tendon.pretension_N", 0, 60},
+                               Number{"tendon.bend_ratio", 2, 20},
+                               Number{"load.tip_force_N", -40, 40},
+                               Number{"load.mass_kg", 0, 3},
+                               Number{"body.groove_angle_deg", 0, 90},
+                               Number{"body.groove_depth_mm", 0.4, 6},
+                               Number{"body.seat_ratio", 0.5, 1},
+                               Number{"body.flange_thickness_mm", 0.6, 4},
+                               Number{"body.hub_diameter_mm", 6, 40},
+                               Number{"body.hub_height_mm", 0, 15},
+                               Number{"body.bore_diameter_mm", 1.5, 12},
+                               Number{"body.anchor_hole_mm", 0.6, 4},
+                               Number{"body.knot_pocket_mm", 1, 8},
+                               Number{"body.mark_depth_mm", 0.1, 5},
+                               Number{"body.min_wall_mm", 0.4, 3},
+                               Number{"material.shrinkage_percent", -1, 3},
+                               Number{"material.hole_compensation_mm", -0.2, 0.5},
+                               Number{"material.elephant_foot_mm", 0, 0.8},
+                               Number{"cut.kerf_mm", 0, 0.6},
+                               Number{"cut.plate_mm", 1, 8},
+                               Number{"cut.sheet_width_mm", 80, 900},
+                               Number{"cut.sheet_height_mm", 80, 900},
+                               Number{"cut.dowel_mm", 0, 5},
+                               Number{"identified.radius_offset_mm", -0.2, 0.2},
+                               Number{"identified.pulley_scale_percent", -2, 2},
+                               Number{"identified.runout_x_mm", -0.2, 0.2},
+                               Number{"identified.profile_sin_mm", -0.1, 0.1},
+                               Number{"identified.guide1_outward_mm", -0.5, 0.5}};
 
 std::vector<Setting> body_choices(Draw& draw) {
   std::vector<Setting> settings;
@@ -67,8 +86,10 @@ std::vector<Setting> body_choices(Draw& draw) {
   choose(0.4, "body.bore", std::array{"round", "d", "hex", "square", "keyway", "horn"});
   choose(0.15, "print.parts", std::array{"one", "two"});
   choose(0.1, "print.supports", std::array{"true", "false"});
-  const bool horned = !settings.empty() && std::any_of(settings.begin(), settings.end(), [](const Setting& s) { return s.value == "horn"; });
-  if (horned) settings.push_back({"body.horn", draw.one_of(std::array{"lynxmotion-ses", "actobotics-0.770", "disc-25T-M3"})});
+  const bool horned = !settings.empty() &&
+                      std::any_of(settings.begin(), settings.end(), [](const Setting& s) { return s.value == "horn"; });
+  if (horned)
+    settings.push_back({"body.horn", draw.one_of(std::array{"lynxmotion-ses", "actobotics-0.770", "disc-25T-M3"})});
   return settings;
 }
 
@@ -95,7 +116,8 @@ Design draw_design(std::uint64_t seed) {
   add("guides.EB_mm", EB);
   add("guides.ED_mm", draw.happens(0.6) ? EB : share(0.2, 0.9, 0.05, 2));
   add("guides.OE_mm", share(-0.45, 0.05, -2, 2));
-  add("guides.radius_mm", fmt::format("{}", draw.happens(0.3) ? 0.0 : std::min(10.0, R * draw.log_between(0.004, 0.05))));
+  add("guides.radius_mm",
+      fmt::format("{}", draw.happens(0.3) ? 0.0 : std::min(10.0, R * draw.log_between(0.004, 0.05))));
   add("pulley.EF_mm", share(0.75, 1.5, 0.1, 4));
   if (draw.happens(0.7)) {
     add("pulley.r1_mm", share(0.1, 0.2, 0.02, 1));
@@ -105,7 +127,8 @@ Design draw_design(std::uint64_t seed) {
   }
   if (draw.happens(0.2)) add("pulley.method", "\"paper\"");
   add("tendon.diameter_mm", fmt::format("{}", std::clamp(R * draw.log_between(0.004, 0.03), 0.2, 8.0)));
-  for (const Setting& choice : body_choices(draw)) add(choice.key, choice.value == "true" || choice.value == "false" ? choice.value : "\"" + choice.value + "\"");
+  for (const Setting& choice : body_choices(draw))
+    add(choice.key, choice.value == "true" || choice.value == "false" ? choice.value : "\"" + choice.value + "\"");
   const double often = 0.25 * draw.between(0, 1);
   for (const Number& number : k_numbers)
     if (draw.happens(often)) add(number.key, fmt::format("{:.6g}", draw.between(number.low, number.high)));
@@ -155,7 +178,8 @@ TEST_P(Campaign, DesignsAreMadeOrRefused) {
   int made = 0, refused = 0, bad = 0;
   for (int i = GetParam(); i < cases; i += k_shards) {
     const Design design = draw_design(static_cast<std::uint64_t>(seed) * 1000003 + static_cast<std::uint64_t>(i));
-    SCOPED_TRACE(fmt::format("FUSEE_LAW_SEED={}, design {}, --tolerance-mm {}\n{}", seed, i, design.tolerance, design.text));
+    SCOPED_TRACE(
+        fmt::format("FUSEE_LAW_SEED={}, design {}, --tolerance-mm {}\n{}", seed, i, design.tolerance, design.text));
     try {
       const auto read = [&design] {
         MechanismFile file;
@@ -177,7 +201,8 @@ TEST_P(Campaign, DesignsAreMadeOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Random, Campaign, ::testing::Range(0, k_shards));
 
-// ---- every choice ----------------------------------------------------------------------------------------------------
+// ---- every choice
+// ----------------------------------------------------------------------------------------------------
 
 struct Choice {
   std::string key;
@@ -222,7 +247,9 @@ TEST_P(Choices, AreMadeOrRefused) {
       rest /= choice.words.size();
     }
     SCOPED_TRACE(GetParam() + words);
-    const auto read = [&] { return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / GetParam(), settings); };
+    const auto read = [&] {
+      return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / GetParam(), settings);
+    };
     try {
       const End end = end_of(read, 0.01);
       ++(end == End::made ? made : end == End::refused ? refused : bad);

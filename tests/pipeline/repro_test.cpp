@@ -1,5 +1,5 @@
-// Designs that fusee once got wrong: a sound part that failed a check, a refusal that was called a bug, advice that did not help.
-// Each is made, or refused with advice that builds.
+// Designs that fusee once got wrong: a sound part that failed a check, a refusal that was called a bug, advice that did
+// not help. Each is made, or refused with advice that builds.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -44,7 +44,8 @@ BuildResult dry_run(const Repro& repro, std::vector<Setting> more = {}) {
 Setting setting_of(const Change& change, const Mechanism& mechanism) {
   if (!change.to_word.empty()) return {change.key, change.to_word};
   const std::string number = fmt::format("{}", change.to);
-  const std::string low = fmt::format("{}", degrees(mechanism.joint.theta_min)), high = fmt::format("{}", degrees(mechanism.joint.theta_max));
+  const std::string low = fmt::format("{}", degrees(mechanism.joint.theta_min)),
+                    high = fmt::format("{}", degrees(mechanism.joint.theta_max));
   if (change.key == "joint.range_deg") return {change.key, "[-" + number + ", " + number + "]"};
   if (change.key == "joint.range_deg[0]") return {"joint.range_deg", "[" + number + ", " + high + "]"};
   if (change.key == "joint.range_deg[1]") return {"joint.range_deg", "[" + low + ", " + number + "]"};
@@ -66,27 +67,28 @@ TEST_P(Repros, IsMadeOrRefusedWithAdviceThatBuilds) {
 
 INSTANTIATE_TEST_SUITE_P(
     Designs, Repros,
-    ::testing::Values(Repro{"advice_wrong_body", "tests/data/repro/advice_wrong_body.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"drc_a", "tests/data/repro/drc_a.toml", {}}, Repro{"drc_b", "tests/data/repro/drc_b.toml", {}, 0.0512},
-                      Repro{"mark_depth_2", "profiles/forearm.toml", {{"body.mark_depth_mm", "2"}}},
-                      Repro{"mark_depth_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}}},
-                      Repro{"raised_mark_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}, {"body.marks", "raised"}}},
-                      Repro{"no_rim_compensate", "tests/data/repro/exit1_no_rim_compensate.toml", {}},
-                      Repro{"no_rim_linear", "tests/data/repro/exit1_no_rim_linear.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"no_rim_table", "tests/data/repro/exit1_no_rim_table.toml", {}},
-                      Repro{"rewind", "tests/data/repro/exit1_rewind.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"paper_floor_deviation", "tests/data/repro/paper_floor_deviation.toml", {}},
-                      Repro{"plates_off_sheet", "tests/data/repro/plates_off_sheet.toml", {}},
-                      Repro{"plates_smallest_feature", "tests/data/repro/plates_smallest_feature.toml", {}},
-                      Repro{"thin_tendon", "profiles/forearm.toml", {{"tendon.diameter_mm", "0.3"}}},
-                      Repro{"slow_refusal", "tests/data/repro/slow_refusal.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"slow_refusal_31s", "tests/data/repro/slow_refusal_31s.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"slot_inside_out", "tests/data/repro/slot_inside_out.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"hollow_cut", "tests/data/repro/hollow_cut.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"horn_in_hub", "tests/data/repro/horn_in_hub.toml", {}, 0.01, BuildStatus::infeasible},
-                      Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
-                      Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
-                      Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}}),
+    ::testing::Values(
+        Repro{"advice_wrong_body", "tests/data/repro/advice_wrong_body.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"drc_a", "tests/data/repro/drc_a.toml", {}}, Repro{"drc_b", "tests/data/repro/drc_b.toml", {}, 0.0512},
+        Repro{"mark_depth_2", "profiles/forearm.toml", {{"body.mark_depth_mm", "2"}}},
+        Repro{"mark_depth_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}}},
+        Repro{"raised_mark_5", "profiles/forearm.toml", {{"body.mark_depth_mm", "5"}, {"body.marks", "raised"}}},
+        Repro{"no_rim_compensate", "tests/data/repro/exit1_no_rim_compensate.toml", {}},
+        Repro{"no_rim_linear", "tests/data/repro/exit1_no_rim_linear.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"no_rim_table", "tests/data/repro/exit1_no_rim_table.toml", {}},
+        Repro{"rewind", "tests/data/repro/exit1_rewind.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"paper_floor_deviation", "tests/data/repro/paper_floor_deviation.toml", {}},
+        Repro{"plates_off_sheet", "tests/data/repro/plates_off_sheet.toml", {}},
+        Repro{"plates_smallest_feature", "tests/data/repro/plates_smallest_feature.toml", {}},
+        Repro{"thin_tendon", "profiles/forearm.toml", {{"tendon.diameter_mm", "0.3"}}},
+        Repro{"slow_refusal", "tests/data/repro/slow_refusal.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"slow_refusal_31s", "tests/data/repro/slow_refusal_31s.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"slot_inside_out", "tests/data/repro/slot_inside_out.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"hollow_cut", "tests/data/repro/hollow_cut.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"horn_in_hub", "tests/data/repro/horn_in_hub.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
+        Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
+        Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}}),
     [](const auto& repro) { return std::string(repro.param.name); });
 
 }  // namespace

@@ -72,7 +72,8 @@ std::vector<Condition> fails_by(double gap) {
 TEST(Advice, HowMuchIsTriedIsLimited) {
   int looks = 0;
   std::atomic<int> makings = 0;
-  const Judge hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); }, [&](const Mechanism&) { return ++makings, true; }};
+  const Judge hopeless{[&](const Mechanism&) { return ++looks, fails_by(1.0); },
+                       [&](const Mechanism&) { return ++makings, true; }};
   EXPECT_TRUE(find_advice(testing::forearm(), hopeless).empty());
   EXPECT_LT(looks, 420);
   EXPECT_EQ(makings, 0);

@@ -116,7 +116,8 @@ TEST(Layers, NothingIsPassedOverThatIsNotHeld) {
     double radius = 3 + 3 * share(draw), turn = 0, z = 0;
     for (int ring = 0; ring < 6; ++ring) {
       loops.push_back({{}, z});
-      for (int i = 0; i < corners; ++i) loops.back().first.push_back(middle + radius * unit(turn + k_two_pi * i / corners));
+      for (int i = 0; i < corners; ++i)
+        loops.back().first.push_back(middle + radius * unit(turn + k_two_pi * i / corners));
       const double rise = 0.05 + 0.8 * share(draw);
       if (share(draw) < 0.6) radius = std::max(1.0, radius + rise * 2.5 * (share(draw) - 0.5));
       if (share(draw) < 0.4) middle += rise * share(draw) * unit(k_two_pi * share(draw));
@@ -124,9 +125,11 @@ TEST(Layers, NothingIsPassedOverThatIsNotHeld) {
       z += rise;
     }
     const TriangleMesh mesh = tower(loops);
-    const std::vector<Vec3> expected = ledges_point_by_point(mesh), ledges = ledges_in_layers(mesh, radians(45), Corners::round);
+    const std::vector<Vec3> expected = ledges_point_by_point(mesh),
+                            ledges = ledges_in_layers(mesh, radians(45), Corners::round);
     ASSERT_EQ(ledges.size(), expected.size()) << "part " << part;
-    for (std::size_t i = 0; i < ledges.size(); ++i) EXPECT_LT((ledges[i] - expected[i]).norm(), 1e-9) << "part " << part;
+    for (std::size_t i = 0; i < ledges.size(); ++i)
+      EXPECT_LT((ledges[i] - expected[i]).norm(), 1e-9) << "part " << part;
     found += ledges.size();
   }
   EXPECT_GT(found, 20u);

@@ -31,15 +31,16 @@ struct OutputFile {
 /// A set of files that appears in `folder` whole or not at all.
 ///
 /// stage() writes the files into a hidden folder, publish() flushes them to disk and puts them in place; the destructor
-/// removes what was staged and not published, and the folders made for it. A kill at any moment leaves the old set or the new
-/// one: publish() makes a folder of the new files and of what else the old one holds, and exchanges both by one rename. Where a
-/// folder cannot be replaced (it holds folders, is the one that the process stands in, a mount point, of another owner) the files
-/// are renamed one by one, manifest.json last, and the next OutputFolder ends what a killed one began. What a killed run left
-/// staged is removed by the next one. Who publishes while another run does waits for it.
+/// removes what was staged and not published, and the folders made for it. A kill at any moment leaves the old set or
+/// the new one: publish() makes a folder of the new files and of what else the old one holds, and exchanges both by one
+/// rename. Where a folder cannot be replaced (it holds folders, is the one that the process stands in, a mount point,
+/// of another owner) the files are renamed one by one, manifest.json last, and the next OutputFolder ends what a killed
+/// one began. What a killed run left staged is removed by the next one. Who publishes while another run does waits for
+/// it.
 ///
 /// Whose work is it? A folder that fusee wrote holds a manifest.json naming its outputs with their SHA-256. claim() and
-/// publish() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were changed
-/// since, unless `force`. A manifest that cannot be read is somebody else's file.
+/// publish() throw OutputError when publishing would overwrite a file that is not named there, or whose bytes were
+/// changed since, unless `force`. A manifest that cannot be read is somebody else's file.
 class OutputFolder {
  public:
   /// Touches nothing yet, but for what killed runs left.
@@ -56,8 +57,8 @@ class OutputFolder {
   void stage(const OutputFile& file);
   /// Where a staged file can be read back before it is published.
   std::filesystem::path staged_path(const std::string& name) const;
-  /// Publishing will remove those of `names` that an earlier run wrote, that nobody changed since, and that this run did not
-  /// write: they would be taken for this run's.
+  /// Publishing will remove those of `names` that an earlier run wrote, that nobody changed since, and that this run
+  /// did not write: they would be taken for this run's.
   void withdraw(const std::vector<std::string>& names);
   /// Where a rename fails, what was renamed before it is put back.
   void publish();

@@ -42,7 +42,7 @@ struct FrontPoint {
 
 struct ParetoResult {
   bool stopped = false;
-  unsigned generations = 0;  ///< that were finished
+  unsigned generations = 0;       ///< that were finished
   std::vector<FrontPoint> front;  ///< none is better than another in everything; by the first objective
   long evaluations = 0;
   std::string reason;  ///< when the front is empty

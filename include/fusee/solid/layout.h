@@ -104,7 +104,7 @@ struct BodyLayout {
   double min_wall = 0;              ///< no wall is thinner
   double elephant_foot = 0;         ///< width of the chamfer at the bed
   DowelLayout dowels;               ///< of a part in two
-  double mark_depth = 0;  ///< of what is engraved; what is raised is as high as the file says
+  double mark_depth = 0;            ///< of what is engraved; what is raised is as high as the file says
   double scale = 1;                 ///< all x, y, z of the mesh are times this: 1/(1 − shrinkage)
   std::vector<std::string> notes;   ///< what "automatic" had to leave out or make small, and why
 };
