@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "analysis/rigid_joint.h"
-#include "analysis/stroke.h"
+#include "fusee/analysis/stroke.h"
 #include "base/normal_numbers.h"
 #include "fusee/analysis/analysis.h"
 #include "transmission/alpha_range.h"
