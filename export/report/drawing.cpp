@@ -135,7 +135,8 @@ std::string tendon_group(const TendonTrace& trace, const View& view, const Mecha
   // Dashes as long as the line is wide: where tendon 2 covers tendon 1, both are seen.
   const std::string dashes =
       side == Side::right ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width) : "";
-  std::string svg = "<g class=\"tendon " + tendon_name(side) + "\" style=\"stroke-width:" + svg_number(width) + dashes + "\">";
+  std::string svg =
+      "<g class=\"tendon " + tendon_name(side) + "\" style=\"stroke-width:" + svg_number(width) + dashes + "\">";
   svg += curve(ink(side), view, trace.free_path) + curve(ink(side), view, trace.wound_path);
   return svg + "</g>" + svg_circle("take-off off-" + tendon_name(side), view(trace.take_off), 3);
 }
@@ -159,7 +160,8 @@ std::string point_names(const Mechanism& mechanism, const View& view, double the
   const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
   const Vec2 c = view(attachment(mechanism, theta));
   const Vec2 away(std::sin(theta), -std::cos(theta));
-  return svg_words("halo middle name-c", c + 15 * away + Vec2(0, 4), "C") + svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
+  return svg_words("halo middle name-c", c + 15 * away + Vec2(0, 4), "C") +
+         svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
          svg_words("halo middle", view(pin_centre(mechanism, Side::left)) + Vec2(gap, 5), "B") +
          svg_words("halo middle", view(pin_centre(mechanism, Side::right)) + Vec2(-gap, 5), "D") +
          svg_words("halo", view(pulley_axis(mechanism)) + Vec2(7, 15), "G");
@@ -312,9 +314,8 @@ std::vector<PolarPlace> polar_drawing(const std::vector<TransmissionPoint>& stro
   const auto tendon = [side](const TransmissionPoint& point) -> const TendonPoint& {
     return side == Side::left ? point.t1 : point.t2;
   };
-  const auto home = std::min_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.alpha) < std::abs(b.alpha);
-  });
+  const auto home = std::min_element(
+      stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
   std::vector<PolarPlace> places;
   for (const TransmissionPoint& point : stroke)
     places.push_back({point.alpha, tendon(*home).lower_normal + point.alpha, tendon(point).p});
@@ -436,11 +437,12 @@ std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side) 
                         {"third", "difference × " + readable_rounded(factor)}});
   figure.body += svg_circle("metal", view({0, 0}), 3);
   figure.body += curve("closing " + ink(side), view, arc_points(outline, outline.active_last, outline.active_first));
-  figure.body += curve("curve whole " + ink(side), view, arc_points(outline, outline.active_first, outline.active_last));
+  figure.body +=
+      curve("curve whole " + ink(side), view, arc_points(outline, outline.active_first, outline.active_last));
   figure.body += curve("thin main", view, drawn) + curve("third", view, magnified);
-  figure.body += svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
-                           "furthest apart: " + readable(most.r, 3) + " mm, where α = " +
-                               readable(degrees(most.alpha), 1) + "°");
+  figure.body +=
+      svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
+                "furthest apart: " + readable(most.r, 3) + " mm, where α = " + readable(degrees(most.alpha), 1) + "°");
   return figure;
 }
 

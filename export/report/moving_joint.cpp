@@ -14,7 +14,9 @@ namespace {
 // What the page computes with --------------------------------------------------------------------------------------
 
 /// JSON knows no NaN.
-std::string json_number(double value, int decimals) { return std::isfinite(value) ? trimmed_fixed(value, decimals) : "null"; }
+std::string json_number(double value, int decimals) {
+  return std::isfinite(value) ? trimmed_fixed(value, decimals) : "null";
+}
 
 std::string json_point(const Vec2& point) {
   constexpr int k_decimals = 4;
@@ -30,9 +32,10 @@ std::string json_numbers(const std::string& name, const Items& items, int decima
 }
 
 std::string json_outline(const Outline& outline) {
-  std::string text = "{\"sign\":" + json_number(mirror_sign(outline.side), 0) + ",\"end\":" +
-                     std::to_string(outline.anchor_end()) + ",\"points\":[";
-  for (std::size_t i = 0; i < outline.points.size(); ++i) text += (i ? "," : "") + json_point(outline.points[i].position);
+  std::string text = "{\"sign\":" + json_number(mirror_sign(outline.side), 0) +
+                     ",\"end\":" + std::to_string(outline.anchor_end()) + ",\"points\":[";
+  for (std::size_t i = 0; i < outline.points.size(); ++i)
+    text += (i ? "," : "") + json_point(outline.points[i].position);
   return text + "]}";
 }
 
@@ -85,17 +88,18 @@ std::string number_row(const std::string& words, const std::string& name) {
 
 std::string slider(const SynthesisResult& synthesis) {
   const double low = degrees(synthesis.stroke.front().alpha), high = degrees(synthesis.stroke.back().alpha);
-  return "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" class=\"play\" aria-pressed=\"false\">Play</button>"
+  return "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" class=\"play\" "
+         "aria-pressed=\"false\">Play</button>"
          "<label for=\"alpha\">Pulley angle α</label><input id=\"alpha\" type=\"range\" min=\"" +
          fixed(low, 3) + "\" max=\"" + fixed(high, 3) +
          "\" step=\"any\" value=\"0\"/><output for=\"alpha\" data-show=\"alpha\">0.0°</output></div>";
 }
 
 std::string numbers_list() {
-  return "<dl class=\"numbers\" hidden=\"hidden\">" + number_row("Joint angle θ", "theta") + number_row("θ under the load", "loaded") +
-         number_row("dθ/dα", "slope") + number_row("r1, r2", "radii") + number_row("Tendon 1, at C / at P1", "tendon1") +
-         number_row("Tendon 2, at C / at P2", "tendon2") + number_row("Motor torque", "torque") +
-         number_row("Turning", "way") + "</dl>";
+  return "<dl class=\"numbers\" hidden=\"hidden\">" + number_row("Joint angle θ", "theta") +
+         number_row("θ under the load", "loaded") + number_row("dθ/dα", "slope") + number_row("r1, r2", "radii") +
+         number_row("Tendon 1, at C / at P1", "tendon1") + number_row("Tendon 2, at C / at P2", "tendon2") +
+         number_row("Motor torque", "torque") + number_row("Turning", "way") + "</dl>";
 }
 
 }  // namespace
@@ -103,8 +107,9 @@ std::string numbers_list() {
 std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synthesis,
                          const std::vector<StrokePoint>& loaded) {
   if (synthesis.stroke.empty() || loaded.size() != synthesis.stroke.size() || synthesis.p1.points.size() < 3) return "";
-  const auto home = std::min_element(synthesis.stroke.begin(), synthesis.stroke.end(),
-                                     [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
+  const auto home =
+      std::min_element(synthesis.stroke.begin(), synthesis.stroke.end(),
+                       [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
   std::string html = "<div class=\"moving\">" + slider(synthesis) + "<div class=\"scenes\">";
   for (const Figure& figure : moving_figures(mechanism, synthesis, {home->alpha, home->theta}))
     html += "<div>" + inline_svg(figure) + "</div>";
