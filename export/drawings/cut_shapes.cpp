@@ -52,6 +52,9 @@ bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin)
 
 BodyLayout layout_to_cut(const Product& product) {
   Mechanism mechanism = product.joint.mechanism;
+  const Material& material = mechanism.material;
+  if (material.shrinkage == 0 && material.hole_compensation == 0 && material.elephant_foot == 0)
+    return product.pulley.layout;
   mechanism.material.shrinkage = 0;
   mechanism.material.hole_compensation = 0;
   mechanism.material.elephant_foot = 0;
