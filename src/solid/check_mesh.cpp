@@ -9,6 +9,7 @@
 #include "solid/disjoint_sets.h"
 #include "solid/place.h"
 #include "solid/self_intersection.h"
+#include "solid/solid_angle.h"
 
 namespace fusee {
 namespace {
@@ -183,10 +184,8 @@ std::vector<Part> parts_of(const TriangleMesh& mesh, const std::vector<EdgeSide>
 double winding_number(const TriangleMesh& mesh, const Part& part, const Vec3& point) {
   double angle = 0;
   for (const std::size_t f : part.facets) {
-    const auto& [ia, ib, ic] = mesh.triangles[f];
-    const Vec3 a = mesh.vertices[ia] - point, b = mesh.vertices[ib] - point, c = mesh.vertices[ic] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    const auto& [a, b, c] = mesh.triangles[f];
+    angle += solid_angle(mesh.vertices[a] - point, mesh.vertices[b] - point, mesh.vertices[c] - point);
   }
   return angle / (2.0 * k_two_pi);
 }
