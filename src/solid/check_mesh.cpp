@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <optional>
 
 #include "fusee/base/text.h"
@@ -213,6 +214,9 @@ Check outward_check(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides
   return none_of(mesh, "inverted_parts", inverted);
 }
 
+// Of fewer facets a search for crossings is over before a thread has begun.
+constexpr std::size_t k_worth_a_thread = 2000;
+
 Check crossing_check(const TriangleMesh& mesh) {
   const CrossingSearch search = find_crossing(mesh);
   if (search.gave_up) return not_looked_at("self_intersections", "too many facets lie on top of one another");
@@ -263,6 +267,8 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
     return checks;
   }
   const TriangleMesh welded = weld(mesh);
+  const auto where = welded.triangles.size() > k_worth_a_thread ? std::launch::async : std::launch::deferred;
+  std::future<Check> crossings = std::async(where, [&welded] { return crossing_check(welded); });
   const std::vector<EdgeSide> sides = edge_sides(welded);
   const Topology topology = topology_of(welded, sides);
   checks.push_back(none_of(welded, "degenerate_facets", degenerate_facets(welded)));
@@ -274,7 +280,7 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
   const bool closed = topology.open.count == 0 && topology.crowded.count == 0 && topology.turned.count == 0;
   checks.push_back(closed ? outward_check(welded, sides)
                           : not_looked_at("inverted_parts", "the surface has no inside: see the checks above"));
-  checks.push_back(crossing_check(welded));
+  checks.push_back(crossings.get());
   return checks;
 }
 
