@@ -58,6 +58,10 @@ bool read_manifest(const fs::path& path, Owned& owned) {
   return true;
 }
 
+void tell_in_the_way(const fs::path& path) {
+  if (FileAccess* access = FileAccess::current()) access->in_the_way(path);
+}
+
 /// The deepest part of `path` that exists.
 fs::path standing_ancestor(fs::path path) {
   while (!stands(path) && path.has_parent_path() && path != path.parent_path()) path = path.parent_path();
@@ -222,6 +226,7 @@ void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
     const fs::path target = folder_ / name;
     if (!stands(target)) continue;
     if (!fs::is_regular_file(fs::symlink_status(target))) {
+      tell_in_the_way(target);
       throw OutputError(target.string() + " is in the way and is not a regular file",
                         "move it away, or choose another folder with -o");
     }
@@ -229,6 +234,7 @@ void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
     const auto by_name = [&name](const auto& entry) { return entry.first == name; };
     if (std::none_of(ours_.begin(), ours_.end(), by_name)) {
       foreign += (foreign.empty() ? "" : ", ") + name;
+      tell_in_the_way(target);
     } else if (ours_.count({name, sha256(read_output(target, k_largest_output))}) == 0) {
       changed += (changed.empty() ? "" : ", ") + name;
     }
@@ -382,6 +388,7 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   if (access != nullptr) access->will_write(path);
   std::error_code error;
   const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path, error) : path;
+  if (stands(target) && (!force || !fs::is_regular_file(fs::symlink_status(target)))) tell_in_the_way(path);
   if (stands(target) && !fs::is_regular_file(fs::symlink_status(target))) {
     throw OutputError(path.string() + " exists and is not a regular file", "choose another name");
   }

@@ -4,12 +4,18 @@
 
 #include "cli/command.h"
 #include "fusee/base/files.h"
-#include "pipeline/bundle.h"
+#include "base/bundle.h"
 
 namespace fusee::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// From the root, without dots and a slash at its end.
+fs::path whole_of(const fs::path& here, const fs::path& path) {
+  fs::path whole = (here / path).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
 
 bool leads_out(const fs::path& path) {
   return path.is_absolute() || path.empty() || *path.begin() == "..";
@@ -69,15 +75,23 @@ void replace_name(std::string& text, const std::string& from, const std::string&
 }  // namespace
 
 fs::path seen_from(const fs::path& here, const fs::path& path) {
-  fs::path whole = (here / path).lexically_normal();
-  if (!whole.has_filename()) whole = whole.parent_path();
-  return whole.lexically_relative(here);
+  return whole_of(here, path).lexically_relative(here);
 }
 
 std::string hidden_path(const fs::path& path) { return "sha256:" + sha256(path.lexically_normal().string()); }
 
 void BundleNames::add(const std::string& from, const std::string& to) {
-  if (from != to && from.size() > 1) renamed_.emplace(from, to);
+  if (from != to) renamed_.emplace(from, to);
+}
+
+/// In a folder that was named: where outputs go.
+std::optional<std::string> BundleNames::home_of(const fs::path& whole) const {
+  for (fs::path folder = whole; folder.has_relative_path(); folder = folder.parent_path()) {
+    const auto home = named_.find(folder);
+    if (home != named_.end() && folder == whole) return home->second;
+    if (home != named_.end()) return (fs::path(home->second) / whole.lexically_relative(folder)).lexically_normal().string();
+  }
+  return std::nullopt;
 }
 
 std::string BundleNames::inner(const fs::path& path) {
@@ -87,15 +101,17 @@ std::string BundleNames::inner(const fs::path& path) {
   if (!leads_out(near)) {
     name = tame(near.generic_string());
   } else {
-    const fs::path whole = (here_ / path).lexically_normal(), folder = whole.parent_path();
+    const fs::path whole = whole_of(here_, path), folder = whole.parent_path();
+    if (const auto home = home_of(whole)) return *home;
     const std::string next = outside_.empty() ? "outside" : "outside_" + std::to_string(outside_.size() + 1);
     const std::string home = outside_.emplace(folder, next).first->second;
     name = home + "/" + tame(whole.filename().string());
-    add(folder.string(), home);
+    if (folder != whole) add(folder.string(), home);
     if (path.has_parent_path()) add(path.parent_path().string(), home);
   }
+  named_[whole_of(here_, path)] = name;
   add(path.string(), name);
-  add((here_ / path).lexically_normal().string(), name);
+  add(whole_of(here_, path).string(), name);
   std::error_code error;
   if (const fs::path real = fs::weakly_canonical(here_ / path, error); !error) add(real.string(), name);
   return name;
@@ -149,12 +165,13 @@ std::vector<std::string> BundleNames::asked(const fs::path& path) const {
 }
 
 std::string BundleNames::text(std::string words) const {
+  if (const auto exact = renamed_.find(words); exact != renamed_.end()) return exact->second;
   std::vector<std::pair<std::string, std::string>> longest_first(renamed_.begin(), renamed_.end());
   longest_first.emplace_back(here_.string(), ".");
   std::stable_sort(longest_first.begin(), longest_first.end(),
                    [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
   for (const auto& [from, to] : longest_first)
-    if (from.find_first_not_of('.') != std::string::npos) replace_name(words, from, to);
+    if (from.find_first_not_of("./") != std::string::npos) replace_name(words, from, to);
   return words;
 }
 

@@ -91,21 +91,14 @@ Recording::Recording(fs::path file, const std::vector<std::string>& words, bool 
   bundle_.words = names_.inner_words(words);
 }
 
-/// What is read twice stands once.
-BundledFile& Recording::entry_of(const fs::path& path) {
-  BundledFile file;
-  file.path = names_.inner(path);
-  file.asked = names_.asked(path);
-  file.asked.erase(std::remove(file.asked.begin(), file.asked.end(), file.path), file.asked.end());
-  return bundle_.files.emplace_back(std::move(file));
-}
-
 void Recording::read(const ReadRequest& request, const TakeBlock& take) {
+  std::vector<std::string> asked = names_.asked(request.path);  // before it has a name itself
   const std::string name = names_.inner(request.path);
+  asked.erase(std::remove(asked.begin(), asked.end(), name), asked.end());
   const bool known = std::any_of(bundle_.files.begin(), bundle_.files.end(),
                                  [&name](const BundledFile& file) { return file.path == name; });
-  if (known) return read_from_disk(request, take);
-  BundledFile& entry = entry_of(request.path);
+  if (known) return read_from_disk(request, take);  // what is read twice stands once
+  BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, std::move(asked), {}, {}});
   bool taking = false;
   try {
     read_from_disk(request, [&](std::string_view block) {
@@ -120,6 +113,12 @@ void Recording::read(const ReadRequest& request, const TakeBlock& take) {
     if (entry.failure) entry.failure->place.file.clear();
     throw;
   }
+}
+
+void Recording::in_the_way(const fs::path& path) {
+  const std::string name = names_.inner(path);
+  // What cannot stand again in a folder of its own is only in the message.
+  if (is_inner_path(name)) bundle_.in_the_way.push_back(name + (fs::is_directory(path) ? "/" : ""));
 }
 
 void Recording::wrote(const fs::path& name, std::string_view bytes) {

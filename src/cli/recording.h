@@ -9,7 +9,7 @@
 #include "cli/bundle_names.h"
 #include "cli/run.h"
 #include "fusee/base/file_access.h"
-#include "pipeline/bundle.h"
+#include "base/bundle.h"
 
 namespace fusee::cli {
 
@@ -24,14 +24,13 @@ class Recording : public FileAccess {
 
   void read(const ReadRequest& request, const TakeBlock& take) override;
   void will_write(const std::filesystem::path&) override {}
+  void in_the_way(const std::filesystem::path& path) override;
   void wrote(const std::filesystem::path& name, std::string_view bytes) override;
 
   /// Writes the bundle; what it says is for the person. Throws OutputError.
   Diagnostic pack(const Ending& ending);
 
  private:
-  BundledFile& entry_of(const std::filesystem::path& path);
-
   std::filesystem::path file_;
   bool force_;
   BundleNames names_;

@@ -12,7 +12,7 @@
 #include "cli/run.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
-#include "pipeline/bundle.h"
+#include "base/bundle.h"
 
 // A bundle runs again in a folder of its own and in this process. What it reads comes from the bundle and from nowhere
 // else, whatever its command line says; what it writes stays in that folder. A hostile bundle can do no more than fusee
@@ -119,6 +119,16 @@ void unpack(const Bundle& bundle, const fs::path& folder) {
     if (!file.failure) write_file(folder / file.path, file.bytes, /*force=*/false);
 }
 
+/// What was refused then because something stood there is refused again.
+void put_in_the_way(const Bundle& bundle, const fs::path& folder) {
+  std::error_code ignored;
+  for (const std::string& path : bundle.in_the_way) {
+    const fs::path place = folder / path;
+    fs::create_directories(path.ends_with('/') ? place : place.parent_path(), ignored);
+    if (!path.ends_with('/') && !stands(place)) write_file(place, "", /*force=*/false);
+  }
+}
+
 void demand_free(const fs::path& folder) {
   std::error_code error;
   if (!stands(folder) || (fs::is_directory(fs::symlink_status(folder)) && fs::is_empty(folder, error))) return;
@@ -139,6 +149,7 @@ BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<
   const fs::path folder = staging.path() / "run";
   if (!fs::create_directory(folder, error)) fail_output("cannot make the folder", folder, error.value());
   if (kept) unpack(bundle, folder);
+  put_in_the_way(bundle, folder);
   BundledOutcome outcome = replayed(bundle, folder);
   if (!kept) return outcome;
   demand_free(*kept);

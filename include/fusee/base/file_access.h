@@ -32,6 +32,8 @@ class FileAccess {
   virtual void read(const ReadRequest& request, const TakeBlock& take) = 0;
   /// Before anything is written at `place`, a file or a folder. What it throws stops that.
   virtual void will_write(const std::filesystem::path& place) = 0;
+  /// What stands where something should be written, and is not ours to replace: the run ends with OutputError.
+  virtual void in_the_way(const std::filesystem::path&) {}
   /// A file that is left there, once all of its set are whole.
   virtual void wrote(const std::filesystem::path& name, std::string_view bytes) = 0;
 

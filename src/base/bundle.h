@@ -45,6 +45,8 @@ struct Bundle {
   std::string runs_on;             ///< "x86_64, glibc 2.36"
   std::vector<std::string> words;  ///< the command line, files named as in the bundle
   std::vector<BundledFile> files;
+  /// Names alone, of files (and folders, "name/") that stood where outputs should go: refused with exit code 6.
+  std::vector<std::string> in_the_way;
   BundledOutcome outcome;
 };
 

@@ -1,4 +1,4 @@
-#include "pipeline/bundle.h"
+#include "base/bundle.h"
 
 #include <fmt/format.h>
 
@@ -56,6 +56,7 @@ Json index_of(const Bundle& bundle) {
                {"exit", bundle.outcome.exit},
                {"messages", Json::array()},
                {"files", Json::array()},
+               {"in_the_way", bundle.in_the_way},
                {"outputs", Json::array()}};
   for (const Diagnostic& message : bundle.outcome.messages) json["messages"].push_back(to_json(message));
   for (const BundledFile& file : bundle.files) json["files"].push_back(to_json(file));
@@ -230,6 +231,10 @@ Bundle read_bundle(std::string_view bytes, const std::string& name) {
   bundle.outcome.exit = static_cast<int>(index.integer("exit"));
   index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
   index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
+  bundle.in_the_way = index.texts("in_the_way");
+  for (const std::string& path : bundle.in_the_way)
+    if (!is_inner_path(path.ends_with('/') ? path.substr(0, path.size() - 1) : path))
+      index.wrong("in_the_way", "a list of paths within the bundle");
   index.for_each("outputs", [&](const Index& each) {
     bundle.outcome.outputs.push_back(
         {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});
