@@ -30,8 +30,10 @@ Bundle example() {
   bundle.files.push_back({"none.csv", {}, "", failure});
   bundle.in_the_way = {"made/pulley.stl", "made/"};
   bundle.outcome.exit = 4;
-  bundle.outcome.messages = {{Severity::warning, {"arm.toml", 3, 7}, "too large", "make it smaller"},
-                             {Severity::note, {}, "so", ""}};
+  Diagnostic warning = failure;
+  warning.severity = Severity::warning;
+  warning.place = {"arm.toml", 3, 7};
+  bundle.outcome.messages = {warning, failure};
   bundle.outcome.result = "a line\n";
   bundle.outcome.outputs = {{"made/pulley.stl", 12, std::string(64, 'f')}};
   return bundle;
