@@ -182,9 +182,21 @@ void end_killed_publishing_in(const fs::path& place) {
   remove_stale_stagings(place);
 }
 
-/// Of a set that is half in place: the first part of it was renamed, the rest waits in the staging folder.
+/// Some of its set were renamed already, and some wait in the staging folder.
 bool is_half_published(const fs::path& staging, const fs::path& file) {
-  return stands(staging / k_journal) && (stands(staging / file.filename()) || stands(staging / (std::string(k_backup_prefix) + file.filename().string())));
+  if (!stands(staging / k_journal)) return false;
+  Owned set;
+  read_manifest(staging / k_manifest, set);
+  std::set<std::string> names;
+  for (const auto& [name, hash] : set) names.insert(name);
+  for (const fs::path& entry : entries_of(staging)) {
+    const std::string name = entry.filename().string();
+    if (name.rfind(k_backup_prefix, 0) == 0) names.insert(name.substr(k_backup_prefix.size()));
+    if (name.front() != '.') names.insert(name);
+  }
+  const auto waits = [&staging](const std::string& name) { return stands(staging / name); };
+  const auto waiting = static_cast<std::size_t>(std::count_if(names.begin(), names.end(), waits));
+  return waiting > 0 && waiting < names.size() && names.count(file.filename().string()) != 0;
 }
 
 }  // namespace
