@@ -151,9 +151,9 @@ ThreemfReader::ThreemfReader(const Source& source)
 std::string ThreemfReader::unpacked(const std::string& path) {
   const std::optional<std::size_t> entry = archive_.find(path);
   if (!entry) fail_in_entry(source_.name, path, -1, "expected this part in the archive");
-  return archive_.unpacked(*entry, unpacked_left_,
-                           fmt::format("parts may have {} MiB and {} times the file's bytes", k_largest_part >> 20,
-                                       k_most_unpacking));
+  return archive_.unpacked(
+      *entry, unpacked_left_,
+      fmt::format("parts may have {} MiB and {} times the file's bytes", k_largest_part >> 20, k_most_unpacking));
 }
 
 void ThreemfReader::parse(const std::string& path, std::string& text, pugi::xml_document& xml) const {
@@ -315,7 +315,8 @@ TriangleMesh ThreemfReader::read() {
 
 std::string threemf_bytes(const TriangleMesh& mesh, const std::string& name) {
   const std::string model = model_xml(mesh, name);
-  return zip_bytes({{"[Content_Types].xml", k_content_types}, {"_rels/.rels", k_relationships}, {"3D/3dmodel.model", model}});
+  return zip_bytes(
+      {{"[Content_Types].xml", k_content_types}, {"_rels/.rels", k_relationships}, {"3D/3dmodel.model", model}});
 }
 
 TriangleMesh read_threemf(const Source& source) { return ThreemfReader(source).read(); }

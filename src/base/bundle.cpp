@@ -29,9 +29,8 @@ std::string_view word(Severity severity) {
 }
 
 Json to_json(const Diagnostic& diagnostic) {
-  return {{"severity", word(diagnostic.severity)}, {"file", diagnostic.place.file},
-          {"line", diagnostic.place.line},         {"column", diagnostic.place.column},
-          {"message", diagnostic.message},         {"hint", diagnostic.hint}};
+  return {{"severity", word(diagnostic.severity)}, {"file", diagnostic.place.file}, {"line", diagnostic.place.line},
+          {"column", diagnostic.place.column},     {"message", diagnostic.message}, {"hint", diagnostic.hint}};
 }
 
 Json to_json(const BundledFile& file) {
@@ -47,16 +46,11 @@ Json to_json(const BundledFile& file) {
 }
 
 Json index_of(const Bundle& bundle) {
-  Json json = {{"schema", k_schema},
-               {"tool", "fusee bundle"},
-               {"version", bundle.version},
-               {"built_with", bundle.built_with},
-               {"runs_on", bundle.runs_on},
-               {"command", bundle.words},
-               {"exit", bundle.outcome.exit},
-               {"messages", Json::array()},
-               {"files", Json::array()},
-               {"in_the_way", bundle.in_the_way},
+  Json json = {{"schema", k_schema},          {"tool", "fusee bundle"},
+               {"version", bundle.version},   {"built_with", bundle.built_with},
+               {"runs_on", bundle.runs_on},   {"command", bundle.words},
+               {"exit", bundle.outcome.exit}, {"messages", Json::array()},
+               {"files", Json::array()},      {"in_the_way", bundle.in_the_way},
                {"outputs", Json::array()}};
   for (const Diagnostic& message : bundle.outcome.messages) json["messages"].push_back(to_json(message));
   for (const BundledFile& file : bundle.files) json["files"].push_back(to_json(file));
@@ -75,7 +69,8 @@ Json index_of(const Bundle& bundle) {
 std::map<std::string, std::string> entries_of(std::string_view bytes, const std::string& file) {
   const ZipArchive archive(bytes, file, "a bundle of fusee, which is a zip archive");
   if (archive.size() > k_most_bundled_files + 2)
-    throw InputError(file, fmt::format("has {} entries; a bundle has {} at most", archive.size(), k_most_bundled_files));
+    throw InputError(file,
+                     fmt::format("has {} entries; a bundle has {} at most", archive.size(), k_most_bundled_files));
   std::uint64_t budget = k_largest_bundle;
   const std::string limits = fmt::format("a bundle may have {} MiB", k_largest_bundle >> 20);
   std::map<std::string, std::string> entries;

@@ -55,8 +55,8 @@ inline constexpr std::uint64_t k_largest_bundle = std::uint64_t{512} << 20;
 inline constexpr std::size_t k_most_bundled_files = 2000;
 
 std::string bundle_bytes(const Bundle& bundle);
-/// Any bytes. InputError of `name`, with the entry that is wrong: names that lead out of the bundle, links, entries that
-/// stand twice, that are not listed or not as listed, or unpack to too much.
+/// Any bytes. InputError of `name`, with the entry that is wrong: names that lead out of the bundle, links, entries
+/// that stand twice, that are not listed or not as listed, or unpack to too much.
 Bundle read_bundle(std::string_view bytes, const std::string& name);
 /// Whether these bytes begin as a bundle does: ours to replace.
 bool is_bundle(std::string_view bytes);

@@ -55,7 +55,8 @@ std::string zip_bytes(const std::vector<ZipEntry>& entries) {
   demand(bytes != nullptr, "zip: no memory");
   zip_source_keep(bytes);
   const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> keeper(bytes, &zip_source_free);
-  std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open_from_source(bytes, ZIP_TRUNCATE, nullptr), &zip_discard);
+  std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open_from_source(bytes, ZIP_TRUNCATE, nullptr),
+                                                         &zip_discard);
   demand_zip(archive != nullptr, nullptr, "zip");
   for (const ZipEntry& entry : entries) add_entry(archive.get(), entry);
   demand_zip(zip_close(archive.get()) == 0, archive.get(), "zip");

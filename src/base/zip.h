@@ -33,8 +33,8 @@ class ZipArchive {
   bool is_plain_file(std::size_t entry) const;
   /// Whatever its capitals.
   std::optional<std::size_t> find(const std::string& entry) const;
-  /// The bytes of an entry, taken off `budget`: what an entry says of its size proves nothing. InputError, with `limits`
-  /// for a person, where they are more.
+  /// The bytes of an entry, taken off `budget`: what an entry says of its size proves nothing. InputError, with
+  /// `limits` for a person, where they are more.
   std::string unpacked(std::size_t entry, std::uint64_t& budget, const std::string& limits) const;
 
  private:

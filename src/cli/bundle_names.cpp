@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/bundle.h"
 #include "cli/command.h"
 #include "fusee/base/files.h"
-#include "base/bundle.h"
 
 namespace fusee::cli {
 namespace {
@@ -17,9 +17,7 @@ fs::path whole_of(const fs::path& here, const fs::path& path) {
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-bool leads_out(const fs::path& path) {
-  return path.is_absolute() || path.empty() || *path.begin() == "..";
-}
+bool leads_out(const fs::path& path) { return path.is_absolute() || path.empty() || *path.begin() == ".."; }
 
 /// Any name as one that a bundle may hold.
 std::string tame(std::string name) {
@@ -58,15 +56,16 @@ bool takes_plain_value(const std::string& flag) {
 bool looks_like_path(const std::string& text) { return text == ".." || text.find('/') != std::string::npos; }
 
 bool belongs_to_name(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80;
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
+         static_cast<unsigned char>(c) >= 0x80;
 }
 
 void replace_name(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
     const char before = at == 0 ? ' ' : text[at - 1];
     const std::size_t end = at + from.size();
-    const bool inside = belongs_to_name(before) || before == '/' || before == '.' ||
-                        (end < text.size() && belongs_to_name(text[end]));
+    const bool inside =
+        belongs_to_name(before) || before == '/' || before == '.' || (end < text.size() && belongs_to_name(text[end]));
     if (!inside) text.replace(at, from.size(), to);
     at += inside ? from.size() : to.size();
   }
@@ -74,9 +73,7 @@ void replace_name(std::string& text, const std::string& from, const std::string&
 
 }  // namespace
 
-fs::path seen_from(const fs::path& here, const fs::path& path) {
-  return whole_of(here, path).lexically_relative(here);
-}
+fs::path seen_from(const fs::path& here, const fs::path& path) { return whole_of(here, path).lexically_relative(here); }
 
 std::string hidden_path(const fs::path& path) { return "sha256:" + sha256(path.lexically_normal().string()); }
 
@@ -89,7 +86,8 @@ std::optional<std::string> BundleNames::home_of(const fs::path& whole) const {
   for (fs::path folder = whole; folder.has_relative_path(); folder = folder.parent_path()) {
     const auto home = named_.find(folder);
     if (home != named_.end() && folder == whole) return home->second;
-    if (home != named_.end()) return (fs::path(home->second) / whole.lexically_relative(folder)).lexically_normal().string();
+    if (home != named_.end())
+      return (fs::path(home->second) / whole.lexically_relative(folder)).lexically_normal().string();
   }
   return std::nullopt;
 }

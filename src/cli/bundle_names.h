@@ -31,7 +31,7 @@ class BundleNames {
   std::optional<std::string> home_of(const std::filesystem::path& whole) const;
 
   std::filesystem::path here_;
-  std::map<std::filesystem::path, std::string> named_;  ///< from the root
+  std::map<std::filesystem::path, std::string> named_;    ///< from the root
   std::map<std::filesystem::path, std::string> outside_;  ///< a folder, and its name in the bundle
   std::map<std::string, std::string> renamed_;
   std::vector<std::string> set_paths_;  ///< absolute ones of --set, which are taken from the mechanism file's folder

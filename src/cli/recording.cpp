@@ -86,7 +86,8 @@ BundledOutcome outcome_of(const Ending& ending, std::vector<BundledOutput> outpu
 Recording::Recording(fs::path file, const std::vector<std::string>& words, bool force)
     : file_(std::move(file)), force_(force), names_(here()) {
   if (!force_ && stands_as_other(file_))
-    throw OutputError(file_.string() + " exists and is no bundle of fusee", "choose another name, or overwrite it with --force");
+    throw OutputError(file_.string() + " exists and is no bundle of fusee",
+                      "choose another name, or overwrite it with --force");
   sign(bundle_);
   bundle_.words = names_.inner_words(words);
 }
@@ -131,7 +132,8 @@ Diagnostic Recording::pack(const Ending& ending) {
   const std::string own = names_.inner(file_);
   for (const BundledFile& file : bundle_.files) {
     if (file.path == own && !file.failure)
-      throw OutputError("no bundle was written: " + file_.string() + " is one of the files that were read", "choose another name");
+      throw OutputError("no bundle was written: " + file_.string() + " is one of the files that were read",
+                        "choose another name");
   }
   bundle_.outcome = outcome_of(ending, bundle_.outcome.outputs, names_);
   // What stands there was looked at before the run.

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/bundle.h"
 #include "cli/bundle_names.h"
 #include "cli/run.h"
 #include "fusee/base/file_access.h"
-#include "base/bundle.h"
 
 namespace fusee::cli {
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/bundle.h"
 #include "base/staging.h"
 #include "cli/bundle_names.h"
 #include "cli/command.h"
@@ -12,7 +13,6 @@
 #include "cli/run.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
-#include "base/bundle.h"
 
 // A bundle runs again in a folder of its own and in this process. What it reads comes from the bundle and from nowhere
 // else, whatever its command line says; what it writes stays in that folder. A hostile bundle can do no more than fusee
@@ -199,7 +199,8 @@ std::vector<std::string> messages_of(const BundledOutcome& outcome) {
 std::vector<std::string> outputs_of(const BundledOutcome& outcome) {
   std::vector<std::string> texts;
   for (const BundledOutput& output : outcome.outputs)
-    texts.push_back(output.path + ", " + std::to_string(output.bytes) + " bytes, sha256 " + output.sha256.substr(0, 12));
+    texts.push_back(output.path + ", " + std::to_string(output.bytes) + " bytes, sha256 " +
+                    output.sha256.substr(0, 12));
   return texts;
 }
 
@@ -234,7 +235,8 @@ std::string files_text(const Bundle& bundle) {
 void say_version(const Bundle& bundle, Reply& reply) {
   Bundle own;
   sign(own);
-  const auto say = [&reply](Severity severity, const std::string& what, const std::string& then, const std::string& now) {
+  const auto say = [&reply](Severity severity, const std::string& what, const std::string& then,
+                            const std::string& now) {
     if (then != now)
       reply.diagnostics.push_back(note(severity, "the bundle is of " + what + then + ", and this is " + what + now));
   };
@@ -252,7 +254,8 @@ std::string summary(const Bundle& bundle, const BundledOutcome& now, const std::
            std::to_string(lines_of(now.result).size()) + " lines on stdout\n";
   for (std::size_t i = 0; i < std::min(differences.size(), k_most_differences); ++i) {
     const Difference& difference = differences[i];
-    text += "  differs    " + difference.of + "\n    then     " + difference.then + "\n    now      " + difference.now + "\n";
+    text += "  differs    " + difference.of + "\n    then     " + difference.then + "\n    now      " + difference.now +
+            "\n";
   }
   if (differences.size() > k_most_differences)
     text += "  and        " + std::to_string(differences.size() - k_most_differences) + " more differences\n";
@@ -324,7 +327,8 @@ Command replay_command() {
           "it printed are as they were then, and where they differ (exit code 5). It reads\n"
           "nothing but the bundle, and writes nothing but in a folder of its own, which is\n"
           "removed afterwards unless -o gives it a place.",
-          {{"-o,--out", "DIR", "leave the files of the bundle and what the run makes of\nthem in DIR, which must not exist or be empty"}},
+          {{"-o,--out", "DIR",
+            "leave the files of the bundle and what the run makes of\nthem in DIR, which must not exist or be empty"}},
           {{"fusee build arm.toml --set pulley.r1_mm=15 --bundle bug.zip", "pack a run: attach bug.zip to a report"},
            {"fusee replay bug.zip", "does it end as it did there?"},
            {"fusee replay bug.zip -o bug", "and with everything left in bug, to look at"}},

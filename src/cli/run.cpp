@@ -69,9 +69,8 @@ Reply failed(Exit exit, Diagnostic diagnostic) {
 }
 
 Reply bug(const std::string& what) {
-  return failed(Exit::bug,
-                note(Severity::error, what + ": this is a bug in fusee",
-                     "please report it with what the same command writes with --bundle bug.zip"));
+  return failed(Exit::bug, note(Severity::error, what + ": this is a bug in fusee",
+                                "please report it with what the same command writes with --bundle bug.zip"));
 }
 
 /// The one place where exceptions become exit codes.
@@ -101,9 +100,10 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
 }  // namespace
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {new_command(),    explain_command(), analyze_command(),  build_command(),
-                                           check_command(),  rewind_command(),  optimize_command(), reproduce_command(),
-                                           calibrate_command(), plan_command(),     simulate_command(), replay_command()};
+  static const std::vector<Command> all = {new_command(),      explain_command(),   analyze_command(),
+                                           build_command(),    check_command(),     rewind_command(),
+                                           optimize_command(), reproduce_command(), calibrate_command(),
+                                           plan_command(),     simulate_command(),  replay_command()};
   return all;
 }
 

@@ -14,7 +14,7 @@ namespace fusee::cli {
 struct Ending {
   std::string command;  ///< "" where none was understood
   Reply reply;
-  std::string result;   ///< for stdout
+  std::string result;  ///< for stdout
 };
 
 /// `words`: the arguments without the program's name. Never throws; nothing is printed but progress.

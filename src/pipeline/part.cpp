@@ -37,9 +37,7 @@ bool is_closed(const DrawingPath& path) { return path.closed; }
 
 }  // namespace
 
-Part read_part(const std::filesystem::path& path) {
-  return parse_part(read_file(path, k_largest_file), path.string());
-}
+Part read_part(const std::filesystem::path& path) { return parse_part(read_file(path, k_largest_file), path.string()); }
 
 Part read_made_part(const std::filesystem::path& path) {
   return parse_part(read_output(path, k_largest_file), path.string());

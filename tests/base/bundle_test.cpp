@@ -77,10 +77,12 @@ TEST(Bundles, AreReadAsTheyWereWritten) {
 }
 
 TEST(Bundles, RefuseNamesThatLeadOut) {
-  for (const char* name : {"../evil", "/evil", "files/../evil", "files/./evil", "files//evil", "files\\evil", "c:evil"}) {
+  for (const char* name :
+       {"../evil", "/evil", "files/../evil", "files/./evil", "files//evil", "files\\evil", "c:evil"}) {
     Entries entries;
     entries.all.push_back({name, "x"});
-    EXPECT_THAT(refusal(zip_bytes(entries.all)), HasSubstr(std::string("bug.zip: error: ") + name + ": the name leads out"));
+    EXPECT_THAT(refusal(zip_bytes(entries.all)),
+                HasSubstr(std::string("bug.zip: error: ") + name + ": the name leads out"));
   }
 }
 
@@ -97,7 +99,8 @@ TEST(Bundles, HoldWhatTheyListAndNothingElse) {
 }
 
 TEST(Bundles, RefuseWhatIsNoIndex) {
-  for (const std::string& index : {std::string("{}"), std::string("[]"), std::string(50000, '['), std::string("\0", 1)}) {
+  for (const std::string& index :
+       {std::string("{}"), std::string("[]"), std::string(50000, '['), std::string("\0", 1)}) {
     Entries entries;
     entries.all[0].bytes = index;
     EXPECT_THAT(refusal(zip_bytes(entries.all)), HasSubstr("bug.zip: error: bundle.json: "));
