@@ -58,7 +58,7 @@ struct Workshop {
     result.outputs.push_back({std::move(name), std::move(bytes)});
     folder.stage(result.outputs.back());
   }
-  Part read_back(const std::string& name) const { return read_part(folder.staged_path(name)); }
+  Part read_back(const std::string& name) const { return read_made_part(folder.staged_path(name)); }
   void add(std::vector<Check> checks, const std::string& prefix = {}) {
     for (Check& check : checks) {
       check.name = prefix + check.name;
