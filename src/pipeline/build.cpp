@@ -154,7 +154,7 @@ std::vector<Check> print_checks(const Workshop& shop, const TriangleMesh& mesh) 
 }
 
 std::vector<Check> draco_checks(const Workshop& shop, const TriangleMesh& mesh, const DracoFile& made) {
-  const bool is_what_was_read = read_file(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
+  const bool is_what_was_read = read_output(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
   const Part decoded = is_what_was_read ? Part(made.decoded) : shop.read_back("pulley.drc");
   std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
   for (const Check& check : is_what_was_read ? made.checks : check_part(decoded)) checks.push_back(check);
