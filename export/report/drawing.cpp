@@ -75,29 +75,41 @@ std::string scale_bar(const View& view, const Vec2& left_end) {
 constexpr double k_panel_width = 290;
 constexpr double k_panel_height = 345;
 constexpr double k_detail_height = 230;
+constexpr double k_moving_width = 520;
+constexpr double k_moving_height = 560;
 
 double pulley_reach(const SynthesisResult& synthesis) {
   return std::max(circumradius(parallel(synthesis.p1, 0)), circumradius(parallel(synthesis.p2, 0)));
 }
 
-View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<Pose>& poses) {
+/// px.
+struct Frame {
+  double left, top, width, height;
+};
+
+View fitted(View view, const Frame& frame) {
+  view.fit(frame.left, frame.top, frame.width, frame.height);
+  return view;
+}
+
+/// Room for the joint at each of these angles.
+View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<double>& thetas,
+                    const Frame& frame) {
   View view;
   view.include({0, 0}, 0.06 * mechanism.joint.R);
   for (const Side side : {Side::left, Side::right}) {
     view.include(pin_centre(mechanism, side), mechanism.guide_pitch_radius() + 0.5 * mechanism.tendon.diameter);
   }
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
-  for (const Pose& pose : poses) view.include(attachment(mechanism, pose.theta));
-  view.fit(30, 40, k_panel_width - 60, k_panel_height - 82);
-  return view;
+  for (const double theta : thetas) view.include(attachment(mechanism, theta));
+  return fitted(view, frame);
 }
 
 /// The pulley alone, larger: on the whole mechanism it is small.
-View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const Frame& frame) {
   View view;
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
-  view.fit(24, 24, k_panel_width - 48, k_detail_height - 48);
-  return view;
+  return fitted(view, frame);
 }
 
 /// Turned with the pulley, a group of its own: the outlines as they lie at home.
@@ -116,21 +128,24 @@ std::string pulley_group(const Mechanism& mechanism, const SynthesisResult& synt
   return svg + svg_circle("metal", centre, 3) + "</g>";
 }
 
+std::string tendon_name(Side side) { return side == Side::left ? "tendon1" : "tendon2"; }
+
 std::string tendon_group(const TendonTrace& trace, const View& view, const Mechanism& mechanism, Side side) {
   const double width = std::max(2.0, mechanism.tendon.diameter * view.scale);
   // Dashes as long as the line is wide: where tendon 2 covers tendon 1, both are seen.
   const std::string dashes =
       side == Side::right ? ";stroke-dasharray:" + svg_number(3 * width) + " " + svg_number(1.6 * width) : "";
-  std::string svg = "<g class=\"tendon\" style=\"stroke-width:" + svg_number(width) + dashes + "\">";
+  std::string svg =
+      "<g class=\"tendon " + tendon_name(side) + "\" style=\"stroke-width:" + svg_number(width) + dashes + "\">";
   svg += curve(ink(side), view, trace.free_path) + curve(ink(side), view, trace.wound_path);
-  return svg + "</g>" + svg_circle("take-off", view(trace.take_off), 3);
+  return svg + "</g>" + svg_circle("take-off off-" + tendon_name(side), view(trace.take_off), 3);
 }
 
 std::string joint_group(const Mechanism& mechanism, const View& view, double theta) {
   const Vec2 joint = view({0, 0});
   const Vec2 end = view(attachment(mechanism, theta));
   return "<g class=\"joint-link\">" + svg_line("link", joint, end) + "</g>" + svg_circle("metal", joint, 5) +
-         svg_circle("take-off", end, 3.5);
+         svg_circle("take-off at-c", end, 3.5);
 }
 
 std::string pins(const Mechanism& mechanism, const View& view) {
@@ -145,7 +160,8 @@ std::string point_names(const Mechanism& mechanism, const View& view, double the
   const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
   const Vec2 c = view(attachment(mechanism, theta));
   const Vec2 away(std::sin(theta), -std::cos(theta));
-  return svg_words("halo middle", c + 15 * away + Vec2(0, 4), "C") + svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
+  return svg_words("halo middle name-c", c + 15 * away + Vec2(0, 4), "C") +
+         svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
          svg_words("halo middle", view(pin_centre(mechanism, Side::left)) + Vec2(gap, 5), "B") +
          svg_words("halo middle", view(pin_centre(mechanism, Side::right)) + Vec2(-gap, 5), "D") +
          svg_words("halo", view(pulley_axis(mechanism)) + Vec2(7, 15), "G");
@@ -175,6 +191,18 @@ Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synth
                  scale_bar(detail, {10, k_detail_height - 14}) + "</svg>";
   const Vec2 low(1, k_panel_height), high(k_panel_width - 1, k_panel_height + k_detail_height - 1);
   figure.body += svg_path("frame", {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, true);
+  return figure;
+}
+
+// The same, to be moved -----------------------------------------------------------------------------------------------
+
+Figure moving_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose,
+                     const std::string& title) {
+  Figure figure{k_moving_width, k_moving_height, title, {}, {}};
+  const Vec2 origin = view({0, 0});
+  figure.body = "<g class=\"scene\" data-view=\"" + shortest(view.scale) + " " + shortest(origin.x()) + " " +
+                shortest(origin.y()) + "\">" + scene(mechanism, synthesis, view, pose) + "</g>" +
+                scale_bar(view, {6, k_moving_height - 8});
   return figure;
 }
 
@@ -249,34 +277,101 @@ double active_turn(const Outline& outline) {
   return wrapped(outline.points[outline.active_last].psi - outline.points[outline.active_first].psi);
 }
 
-std::string profile_legend(const Outline& outline) {
-  const std::string colour = ink(outline.side);
-  struct Entry {
-    std::string classes;
-    std::string words;
-  };
-  const Entry entries[] = {{"curve " + colour + " whole", "active arc (pitch)"},
-                           {"closing " + colour, "closing arc"},
-                           {"floor main", "groove floor"},
-                           {"flange", "lip"}};
+struct LegendEntry {
+  std::string classes;
+  std::string words;
+};
+
+std::string legend(const std::vector<LegendEntry>& entries) {
   std::string svg;
   double x = 4;
-  for (const Entry& entry : entries) {
+  for (const LegendEntry& entry : entries) {
     svg += svg_line(entry.classes, {x, 40}, {x + 24, 40}) + svg_words("small", {x + 30, 44}, entry.words);
     x += 30 + words_width(entry.words, 12) + 10;
   }
   return svg;
 }
 
+std::string profile_legend(const Outline& outline) {
+  const std::string colour = ink(outline.side);
+  return legend({{"curve " + colour + " whole", "active arc (pitch)"},
+                 {"closing " + colour, "closing arc"},
+                 {"floor main", "groove floor"},
+                 {"flange", "lip"}});
+}
+
+// The polar drawing beside it ---------------------------------------------------------------------------------------
+
+/// A place of the active arc in polar coordinates about the axis.
+struct PolarPlace {
+  double alpha = 0;
+  double angle = 0;
+  double r = 0;
+};
+
+/// r against α: what the paper draws.
+std::vector<PolarPlace> polar_drawing(const std::vector<TransmissionPoint>& stroke, Side side) {
+  const auto tendon = [side](const TransmissionPoint& point) -> const TendonPoint& {
+    return side == Side::left ? point.t1 : point.t2;
+  };
+  const auto home = std::min_element(
+      stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
+  std::vector<PolarPlace> places;
+  for (const TransmissionPoint& point : stroke)
+    places.push_back({point.alpha, tendon(*home).lower_normal + point.alpha, tendon(point).p});
+  return places;
+}
+
+bool is_round(const std::vector<PolarPlace>& drawing) {
+  const auto [least, most] = std::minmax_element(drawing.begin(), drawing.end(),
+                                                 [](const PolarPlace& a, const PolarPlace& b) { return a.r < b.r; });
+  return most->r - least->r < 1e-9 * most->r;
+}
+
+/// Of the active arc in the direction of `angle`; NaN where only the closing arc lies there.
+double radius_towards(const Outline& outline, double angle) {
+  const Vec2 direction = unit(angle);
+  for (std::size_t i = 0; i < outline.points.size(); ++i) {
+    const Vec2& from = outline.points[i].position;
+    const Vec2& to = outline.points[(i + 1) % outline.points.size()].position;
+    if (cross(direction, from) > 0 || cross(direction, to) <= 0 || direction.dot(from + to) <= 0) continue;
+    if (!outline.is_active(i) || !outline.is_active((i + 1) % outline.points.size())) break;
+    return cross(from, to - from) / cross(direction, to - from);
+  }
+  return std::nan("");
+}
+
+/// So that `difference` is seen beside a radius of `r`: 1, 2, 5, 10 …
+double magnification(double difference, double r) {
+  constexpr double k_seen = 0.22;  // of the radius
+  const double most = k_seen * r / difference;
+  double factor = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * factor <= most) return std::max(1.0, step * factor);
+  }
+  return std::max(1.0, factor);
+}
+
 }  // namespace
 
 std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis,
                                       const std::vector<Pose>& poses) {
-  const View whole = mechanism_view(mechanism, synthesis, poses);
-  const View detail = pulley_view(mechanism, synthesis);
+  std::vector<double> thetas;
+  for (const Pose& pose : poses) thetas.push_back(pose.theta);
+  const View whole = mechanism_view(mechanism, synthesis, thetas, {30, 40, k_panel_width - 60, k_panel_height - 82});
+  const View detail = pulley_view(mechanism, synthesis, {24, 24, k_panel_width - 48, k_detail_height - 48});
   std::vector<Figure> figures;
   for (const Pose& pose : poses) figures.push_back(mechanism_figure(mechanism, synthesis, whole, detail, pose));
   return figures;
+}
+
+std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pose& pose) {
+  std::vector<double> thetas;
+  for (const TransmissionPoint& point : synthesis.stroke) thetas.push_back(point.theta);
+  const View whole = mechanism_view(mechanism, synthesis, thetas, {40, 30, k_moving_width - 80, k_moving_height - 80});
+  const View near = pulley_view(mechanism, synthesis, {60, 60, k_moving_width - 120, k_moving_height - 130});
+  return {moving_figure(mechanism, synthesis, whole, pose, "The joint with both tendons, to scale"),
+          moving_figure(mechanism, synthesis, near, pose, "The pulley with both tendons, larger")};
 }
 
 Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const Pulley& pulley) {
@@ -304,6 +399,50 @@ Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const 
   const std::string words =
       "overall " + readable(high - low, 2) + " mm, active arc " + readable(degrees(active_turn(outline)), 1) + "°";
   figure.body += width_dimension(view, low, high, k_profile_height - 24, words);
+  return figure;
+}
+
+std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side) {
+  const Outline& outline = side == Side::left ? synthesis.p1 : synthesis.p2;
+  if (outline.points.size() < 3 || synthesis.stroke.size() < 2) return std::nullopt;
+  const std::vector<PolarPlace> drawing = polar_drawing(synthesis.stroke, side);
+  if (is_round(drawing)) return std::nullopt;
+  std::vector<Vec2> drawn;
+  std::vector<PolarPlace> apart;  // of the drawing from the profile
+  PolarPlace most;
+  for (const PolarPlace& place : drawing) {
+    drawn.push_back(place.r * unit(place.angle));
+    const double difference = place.r - radius_towards(outline, place.angle);
+    if (!std::isfinite(difference)) continue;
+    apart.push_back({place.alpha, place.angle, difference});
+    if (std::abs(difference) > std::abs(most.r)) most = apart.back();
+  }
+  if (most.r == 0) return std::nullopt;
+  const double factor = magnification(std::abs(most.r), drawing.front().r);
+  std::vector<Vec2> magnified;
+  for (const PolarPlace& place : apart)
+    magnified.push_back((radius_towards(outline, place.angle) + factor * place.r) * unit(place.angle));
+
+  const std::string name(pulley_name(side));
+  Figure figure{k_profile_width, k_profile_height, "The polar drawing of " + name + " beside its profile", {}, {}};
+  View view;
+  for (const std::vector<Vec2>* points : {&drawn, &magnified}) {
+    for (const Vec2& point : *points) view.include(point);
+  }
+  for (const OutlinePoint& point : outline.points) view.include(point.position);
+  view.fit(34, 66, k_profile_width - 68, k_profile_height - 118);
+  figure.body = svg_words("heading", {4, 18}, name + ": r against α in polar coordinates is another curve") +
+                legend({{"curve whole " + ink(side), "profile"},
+                        {"curve main", "polar drawing"},
+                        {"third", "difference × " + readable_rounded(factor)}});
+  figure.body += svg_circle("metal", view({0, 0}), 3);
+  figure.body += curve("closing " + ink(side), view, arc_points(outline, outline.active_last, outline.active_first));
+  figure.body +=
+      curve("curve whole " + ink(side), view, arc_points(outline, outline.active_first, outline.active_last));
+  figure.body += curve("thin main", view, drawn) + curve("third", view, magnified);
+  figure.body +=
+      svg_words("small middle", {0.5 * k_profile_width, k_profile_height - 12},
+                "furthest apart: " + readable(most.r, 3) + " mm, where α = " + readable(degrees(most.alpha), 1) + "°");
   return figure;
 }
 

@@ -3,6 +3,7 @@
 /// → px.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,18 @@ struct Pose {
 std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis,
                                       const std::vector<Pose>& poses);
 
+/// The joint at one pose, large, and its pulley beside it: two figures that moving_joint.js moves. Each has a group
+/// "scene" whose data-view is the scale in px/mm and where the frame's origin lies; tendons are groups of their own
+/// ("tendon1", "tendon2").
+std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pose& pose);
+
 /// One pulley of the pair seen along its axis at home: pitch curve (active and closing arc), floor, lip, bore, anchors,
 /// dimensions.
 Figure profile_figure(const Mechanism& mechanism, const Outline& outline, const Pulley& pulley);
+
+/// The polar drawing of one pulley, r against α from the direction of the tendon's normal at home, over its exact
+/// profile, and what lies between both magnified. The figure of method = "exact"; null for a round pulley, where both
+/// are one.
+std::optional<Figure> polar_figure(const SynthesisResult& synthesis, Side side);
 
 }  // namespace fusee

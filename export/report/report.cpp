@@ -12,6 +12,7 @@
 #include "export/report/drawing.h"
 #include "export/report/html.h"
 #include "export/report/mesh_code.h"
+#include "export/report/moving_joint.h"
 #include "export/report/report_parts.h"
 #include "export/report/report_plots.h"
 #include "export/report/tables.h"
@@ -200,11 +201,10 @@ std::string part_view(const Product& product) {
       "data-view=\"top\">Top</button>"
       "<button data-view=\"side\">Side</button><button data-view=\"below\">Below</button>"
       "<button data-view=\"half\" aria-pressed=\"false\">Cut open</button></div>"
-      "<p class=\"missing\">This view needs WebGL 2, which is off or missing here. The same part is in pulley.stl, "
-      "pulley.3mf and pulley.obj; its profiles are drawn below.</p></div>";
+      "<p class=\"missing\">A still picture: WebGL 2 is off or missing here.</p></div>";
   html +=
-      "<p class=\"hint\">Drag to turn, shift-drag to move, pinch or wheel (after a click) to zoom; arrow keys, + and "
-      "−. " +
+      "<p class=\"hint\"><span class=\"how\">Drag to turn, shift-drag to move, pinch or wheel (after a click) to "
+      "zoom; arrow keys, + and −. </span>" +
       std::to_string(code->triangles) + " triangles. P1 is the lower groove, P2 the upper one.</p>";
   return html + "<script type=\"text/plain\" id=\"mesh\">" + code->base64 + "</script>";
 }
@@ -236,6 +236,16 @@ std::string mechanism_panels(const Product& product) {
   for (const Figure& figure : mechanism_figures(product.joint.mechanism, product.synthesis, poses(product)))
     html += in_div(figure);
   return html;
+}
+
+std::string moving_section(const Product& product) {
+  const std::string joint = moving_joint(product.joint.mechanism, product.synthesis, product.holding.loaded);
+  if (joint.empty()) return "";
+  return "<section id=\"moving\"><h2>The joint moves</h2><p class=\"lead\">Both tendons as taut strings over the pins "
+         "and on the true profile; the thicker the line, the larger the tension, dotted where it is slack. Tensions, "
+         "torque and θ under the load are the full model’s, with stretch and friction, in the direction in which "
+         "you move.</p>" +
+         joint + "</section>";
 }
 
 std::string all_in_divs(const std::vector<Plot>& plots) {
@@ -417,6 +427,9 @@ std::string profiles(const Product& product) {
   for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
     html += in_div(profile_figure(product.joint.mechanism, *outline, product.pulley));
   }
+  for (const Side side : {Side::left, Side::right}) {
+    if (const auto figure = polar_figure(product.synthesis, side)) html += in_div(*figure);
+  }
   return html;
 }
 
@@ -432,6 +445,7 @@ std::string report_html(const Product& product) {
                                               {"page_css", std::string(embedded::page_css)},
                                               {"readout_js", std::string(embedded::readout_js)},
                                               {"viewer_js", std::string(embedded::viewer_js)},
+                                              {"moving_joint_js", std::string(embedded::moving_joint_js)},
                                               {"source", source_words(product.file)},
                                               {"verdict_class", verdict.style},
                                               {"verdict_sign", verdict.sign},
@@ -439,6 +453,7 @@ std::string report_html(const Product& product) {
                                               {"warnings", warnings(product)},
                                               {"key_numbers", key_numbers(product)},
                                               {"part", part_view(product)},
+                                              {"moving", moving_section(product)},
                                               {"mechanism", mechanism_panels(product)},
                                               {"transmission_plots", all_in_divs(transmission_plots(product))},
                                               {"as_built_words", safe_text(as_built_words(product))},

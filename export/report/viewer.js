@@ -1,12 +1,9 @@
-// The part in 3-D: WebGL 2 and nothing else. Right-handed throughout; z is the pulley's axis.
+// The part in 3-D: WebGL 2 and nothing else; without it a still picture. Right-handed throughout; z is the pulley's axis.
 (() => {
   const stage = document.querySelector(".stage");
   if (!stage) return;
   const canvas = stage.querySelector("canvas"), missing = stage.querySelector(".missing");
   const gl = canvas.getContext("webgl2", { antialias: true, stencil: true, preserveDrawingBuffer: true });
-  if (!gl) { canvas.hidden = true; return; }
-  missing.hidden = true;
-  stage.querySelector(".buttons").hidden = false;
 
   // The code of export/report/mesh_code.h.
   const bytes = Uint8Array.from(atob(document.getElementById("mesh").textContent.trim()), c => c.charCodeAt(0));
@@ -50,6 +47,58 @@
     else open.set(v * count + next, f);
   }
 
+  const colour = name => { const h = getComputedStyle(stage).getPropertyValue(name).trim(); return [1, 3, 5].map(i => parseInt(h.slice(i, i + 2), 16) / 255); };
+  const home = { turn: -65, lift: 32, zoom: 1, x: 0, y: 0, half: false };
+  const view = { ...home };
+  let spin = 0;  // α of the pulley: seen from a camera that goes round the other way
+  const fit = () => {
+    const ratio = Math.min(devicePixelRatio || 1, 2), size = [canvas.clientWidth, canvas.clientHeight].map(n => Math.max(1, Math.round(n * ratio)));
+    if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
+    return size;
+  };
+  const camera = aspect => {
+    const turn = (view.turn + spin) * Math.PI / 180, lift = view.lift * Math.PI / 180, f = 4;
+    const back = [Math.cos(lift) * Math.cos(turn), Math.cos(lift) * Math.sin(turn), Math.sin(lift)];
+    const side = [-Math.sin(turn), Math.cos(turn), 0], above = cross(back, side);  // side × above = back: right-handed
+    const distance = f * radius * 0.86 * Math.max(1, 1 / aspect) / view.zoom;
+    const eye = [0, 1, 2].map(k => centre[k] + distance * back[k] - view.x * side[k] - view.y * above[k]);
+    const near = Math.max(distance - 3 * radius, 0.02 * radius), far = distance + 3 * radius;
+    const a = (far + near) / (near - far), b = 2 * far * near / (near - far);
+    const rows = [side.map(s => s * f / aspect), above.map(s => s * f), back];
+    const shift = rows.map(r => -dot(r, eye));
+    const matrix = [];
+    for (let k = 0; k < 3; k++) matrix.push(rows[0][k], rows[1][k], a * back[k], -back[k]);
+    matrix.push(shift[0], shift[1], a * shift[2] + b, -shift[2]);
+    return { matrix, eye, side, above };
+  };
+
+  // Without WebGL: faces that look this way, the furthest first.
+  const still = () => {
+    const pen = canvas.getContext("2d"), [w, h] = fit(), { matrix, eye, side, above } = camera(w / h), order = [];
+    const ink = ["--metal", "--p1", "--p2"].map(colour), tints = ink.map((c, k) => c.map((v, i) => k ? .45 * ink[0][i] + .55 * v : v));
+    const grooves = [data.groove1, data.groove2].map(words => words.split(" ").map(Number));
+    const seen = p => { const r = [0, 1, 3].map(k => matrix[k] * p[0] + matrix[4 + k] * p[1] + matrix[8 + k] * p[2] + matrix[12 + k]); return [w * (1 + r[0] / r[2]) / 2, h * (1 - r[1] / r[2]) / 2, r[2]]; };
+    for (let f = 0; f < faces; f++) {
+      const ends = [0, 1, 2].map(k => vertex(index[3 * f + k])), middle = [0, 1, 2].map(k => (ends[0][k] + ends[1][k] + ends[2][k]) / 3);
+      const to_eye = unit(sub(eye, middle)), n = flat[f];
+      if (dot(n, to_eye) <= 0) continue;
+      const within = g => Math.abs(middle[2] - g[0]) < g[1] && Math.hypot(middle[0], middle[1]) > g[2];
+      const key = unit([0, 1, 2].map(k => .8 * to_eye[k] - .45 * side[k] + .6 * above[k]));
+      const light = 255 * (.45 + .08 * dot(n, above) + .6 * Math.max(dot(n, key), 0)), tint = tints[within(grooves[0]) ? 1 : within(grooves[1]) ? 2 : 0];
+      order.push({ depth: seen(middle)[2], ends: ends.map(seen), ink: `rgb(${tint.map(v => Math.min(255, Math.round(v * light))).join()})` });
+    }
+    pen.clearRect(0, 0, w, h);
+    for (const face of order.sort((p, q) => q.depth - p.depth)) {
+      pen.fillStyle = pen.strokeStyle = face.ink;
+      pen.beginPath();
+      for (const [x, y] of face.ends) pen.lineTo(x, y);
+      pen.closePath(); pen.fill(); pen.stroke();
+    }
+  };
+  if (!gl) { canvas.removeAttribute("tabindex"); document.querySelector(".how").hidden = true; addEventListener("resize", still); addEventListener("beforeprint", still); still(); return; }
+  missing.hidden = true;
+  stage.querySelector(".buttons").hidden = false;
+
   const shader = (type, source) => {
     const s = gl.createShader(type);
     gl.shaderSource(s, "#version 300 es\nprecision highp float;\n" + source); gl.compileShader(s);
@@ -87,24 +136,9 @@
   const y = 1e-5 * radius, plane = buffers(new Float32Array([low3[0], y, low3[2], top3[0], y, low3[2], low3[0], y, top3[2], top3[0], y, top3[2]]), null);
   gl.enable(gl.DEPTH_TEST); gl.enable(gl.CULL_FACE);
 
-  const colour = name => { const h = getComputedStyle(stage).getPropertyValue(name).trim(); return [1, 3, 5].map(i => parseInt(h.slice(i, i + 2), 16) / 255); };
-  const home = { turn: -65, lift: 32, zoom: 1, x: 0, y: 0, half: false };
-  const view = { ...home };
   const draw = () => {
-    const ratio = Math.min(devicePixelRatio || 1, 2), w = Math.max(1, Math.round(canvas.clientWidth * ratio)), h = Math.max(1, Math.round(canvas.clientHeight * ratio));
-    if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
-    const turn = view.turn * Math.PI / 180, lift = view.lift * Math.PI / 180, aspect = w / h, f = 4;
-    const back = [Math.cos(lift) * Math.cos(turn), Math.cos(lift) * Math.sin(turn), Math.sin(lift)];
-    const side = [-Math.sin(turn), Math.cos(turn), 0], above = cross(back, side);  // side × above = back: right-handed
-    const distance = f * radius * 0.86 * Math.max(1, 1 / aspect) / view.zoom;
-    const eye = [0, 1, 2].map(k => centre[k] + distance * back[k] - view.x * side[k] - view.y * above[k]);
-    const near = Math.max(distance - 3 * radius, 0.02 * radius), far = distance + 3 * radius;
-    const a = (far + near) / (near - far), b = 2 * far * near / (near - far);
-    const rows = [side.map(s => s * f / aspect), above.map(s => s * f), back];
-    const shift = rows.map(r => -dot(r, eye));
-    const matrix = [];
-    for (let k = 0; k < 3; k++) matrix.push(rows[0][k], rows[1][k], a * back[k], -back[k]);
-    matrix.push(shift[0], shift[1], a * shift[2] + b, -shift[2]);
+    const [w, h] = fit();
+    const { matrix, eye, side, above } = camera(w / h);
     gl.viewport(0, 0, w, h);
     gl.clearColor(...colour("--stage"), 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.uniformMatrix4fv(uniform("m"), false, matrix);
@@ -157,9 +191,10 @@
     set({ half: !view.half });
     button.setAttribute("aria-pressed", view.half);
   });
+  document.addEventListener("pulley", e => { spin = e.detail; redraw(); });
   new ResizeObserver(redraw).observe(canvas);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   addEventListener("beforeprint", draw);
-  canvas.addEventListener("webglcontextlost", () => { canvas.hidden = true; missing.hidden = false; });
+  canvas.addEventListener("webglcontextlost", () => { canvas.hidden = true; missing.hidden = false; missing.textContent = "The graphics were lost: load this page again."; });
   draw();
 })();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/stroke.h"
+#include "fusee/analysis/stroke.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"

@@ -3,9 +3,9 @@
 #include <functional>
 
 #include "analysis/rigid_joint.h"
-#include "analysis/stroke.h"
 #include "base/normal_numbers.h"
 #include "fusee/analysis/analysis.h"
+#include "fusee/analysis/stroke.h"
 #include "transmission/alpha_range.h"
 
 namespace fusee {

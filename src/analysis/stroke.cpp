@@ -1,4 +1,4 @@
-#include "analysis/stroke.h"
+#include "fusee/analysis/stroke.h"
 
 #include <algorithm>
 #include <cmath>

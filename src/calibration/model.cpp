@@ -37,11 +37,39 @@ double price_of_play(double loose, double floor) {
   return floor * floor * (1.0 - weight * weight);
 }
 
-double nats_of_play(double residual, double loose, double floor) {
-  const double weight = weight_of(loose, floor);
-  const double squares = residual * residual / (floor * floor);
-  const double anywhere = squares - 2.0 * std::log(weight);
-  return 0.5 * (std::min(anywhere, squares / (weight * weight)) - squares);
+LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loose, double floor) {
+  constexpr int k_rounds = 40;
+  const Eigen::Index rows = residual.size();
+  LooseRows result{0, Eigen::VectorXd::Zero(rows)};
+  Eigen::VectorXd pushed(rows), anywhere(rows), weight(rows);  // densities, in those of noise at its height
+  double count = 0;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    weight[i] = weight_of(loose[i], floor);
+    const double squares = residual[i] * residual[i] / (floor * floor);
+    pushed[i] = std::exp(-0.5 * squares / (weight[i] * weight[i]));
+    anywhere[i] = weight[i] * std::exp(-0.5 * squares);
+    if (loose[i] > 0) count += 1;
+  }
+  if (count == 0) return result;
+  const auto surely_pushed = [&](Eigen::Index i, double share) {
+    return (1.0 - share) * pushed[i] / ((1.0 - share) * pushed[i] + share * anywhere[i]);
+  };
+  double share = 0.5;  // of those that rest anywhere: expectation and maximisation in turn
+  for (int round = 0; round < k_rounds; ++round) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      if (loose[i] > 0) sum += 1.0 - surely_pushed(i, share);
+    }
+    share = std::clamp(sum / count, 1e-9, 1.0 - 1e-9);
+  }
+  result.nats = 0.5 * std::log(count);  // the share is a number that was fitted
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    if (!(loose[i] > 0)) continue;
+    const double squares = residual[i] * residual[i] / (floor * floor);
+    result.nats -= std::log((1.0 - share) * pushed[i] + share * anywhere[i]) + 0.5 * squares;
+    result.unheard[i] = surely_pushed(i, share) * (1.0 / (weight[i] * weight[i]) - 1.0);
+  }
+  return result;
 }
 
 double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other) {

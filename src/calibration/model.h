@@ -37,10 +37,15 @@ class Model {
 /// are charged alike, whether a joint is loose or not.
 double price_of_play(double loose, double floor);
 
-/// What a loose row costs in evidence beyond half its weighted residual's square in floors: either the joint rests
-/// where it was pushed, and its whole residual counts, or anywhere in the play. So a joint is not made loose to be rid
-/// of rows that nothing explains.
-double nats_of_play(double residual, double loose, double floor);
+/// What loose rows say beyond their weighted residuals: each rests where it was last pushed, and its whole residual
+/// counts, or anywhere in the play; how many rest anywhere is what suits them best. So a joint is not made loose to be
+/// rid of rows that nothing explains, nor of what noise leaves.
+struct LooseRows {
+  double nats = 0;          ///< to be taken off the evidence that half their weighted squares, in floors, give
+  Eigen::VectorXd unheard;  ///< a row's square that says something of the fit's numbers, beyond the weighted one's: a
+                            ///< factor; 0 where it is taut
+};
+LooseRows loose_rows(const Eigen::VectorXd& residual, const Eigen::VectorXd& loose, double floor);
 
 /// rms over the rows in use, rad.
 double rms_apart(const Evidence& evidence, const Eigen::VectorXd& one, const Eigen::VectorXd& other);

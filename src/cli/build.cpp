@@ -206,7 +206,7 @@ Reply run_build(const Arguments& arguments, Console& console) {
     return reply;
   }
   reply.text = summary(built, options, console.verbose());
-  reply.fields = product_json(built, options);
+  if (arguments.has("--json")) reply.fields = product_json(built, options);
   if (built.status == BuildStatus::check_failed) add_failed_checks(built, options, reply);
   return reply;
 }

@@ -41,6 +41,9 @@ class TemporaryFolder {
 constexpr double k_trial_tolerance = 0.05;
 constexpr int k_trial_steps = 36;
 
+// No file of ours is larger.
+constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
+
 /// A build under way: what was made so far and where it is staged.
 struct Workshop {
   const BuildOptions& options;
@@ -55,7 +58,7 @@ struct Workshop {
     result.outputs.push_back({std::move(name), std::move(bytes)});
     folder.stage(result.outputs.back());
   }
-  Part read_back(const std::string& name) const { return read_part(folder.staged_path(name)); }
+  Part read_back(const std::string& name) const { return read_made_part(folder.staged_path(name)); }
   void add(std::vector<Check> checks, const std::string& prefix = {}) {
     for (Check& check : checks) {
       check.name = prefix + check.name;
@@ -63,6 +66,12 @@ struct Workshop {
     }
   }
 };
+
+/// On a thread of its own, or a core's next turn.
+template <typename Work>
+auto beside(Work work) {
+  return std::async(std::launch::async, std::move(work));
+}
 
 /// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound
 /// on it at all: `wind` throws. What the exact method draws always can: there it would be a bug.
@@ -96,7 +105,9 @@ bool design(Workshop& shop, TieOffSearch search = TieOffSearch::thorough) {
   if (!product.synthesis.made()) return false;
   draw_for_making(product.synthesis, product.joint.outline);
   shop.step("making the body");
+  auto cut_layout = beside([&] { return layout_to_cut(mechanism, product.synthesis); });
   product.pulley = make_pulley(mechanism, product.synthesis, search);
+  product.cut_layout = cut_layout.get();
   if (!product.pulley.made()) return false;
   for (const Condition& condition :
        windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
@@ -106,73 +117,91 @@ bool design(Workshop& shop, TieOffSearch search = TieOffSearch::thorough) {
   return product.pulley.made();
 }
 
-void write_parts(Workshop& shop) {
-  const Product& product = shop.result.product;
+/// The Draco file and what was found of it.
+DracoFile write_parts(Workshop& shop) {
+  Product& product = shop.result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
   shop.step("writing meshes and drawings");
-  // The two that take longest, beside the others; all are staged in order.
-  auto draco = std::async(std::launch::async, [&] { return draco_bytes(mesh, shop.options.tolerance); });
-  auto plates = std::async(std::launch::async, [&] { return plates_dxf(product, shop.options.dxf); });
+  // Each beside the others; all are staged in order.
+  auto draco = beside([&] { return draco_file(mesh, shop.options.tolerance); });
+  auto plates = beside([&] { return plates_dxf(product, shop.options.dxf); });
+  auto profile = beside([&] { return profile_dxf(product, shop.options.dxf); });
+  auto threemf = beside([&] { return threemf_bytes(plate_of(product.pulley), name); });
+  auto scad = beside([&] { return scad_text(product); });
+  auto holding = beside(
+      [&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   shop.stage("pulley.obj", obj_text(mesh, name));
-  shop.stage("pulley.3mf", threemf_bytes(plate_of(product.pulley), name));
+  shop.stage("pulley.3mf", threemf.get());
   for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
-  shop.stage("pulley.drc", draco.get());
-  shop.stage("pulley.scad", scad_text(product));
-  shop.stage("profile.dxf", profile_dxf(product, shop.options.dxf));
+  DracoFile file = draco.get();
+  shop.stage("pulley.drc", file.bytes);
+  shop.stage("pulley.scad", scad.get());
+  shop.stage("profile.dxf", profile.get());
   shop.stage("plates.dxf", plates.get());
+  product.holding = holding.get();
+  return file;
 }
 
 /// As it lies on the printer.
-void check_print_of(Workshop& shop, const TriangleMesh& mesh, const std::string& prefix) {
+std::vector<Check> print_checks(const Workshop& shop, const TriangleMesh& mesh) {
   const Print& print = shop.result.product.joint.mechanism.print;
-  if (print.supports) return;
+  if (print.supports) return {};
   PrintLimits limits;
   limits.overhang = print.overhang;
-  shop.add(check_print(mesh, limits), prefix);
+  return check_print(mesh, limits);
 }
 
-/// Everything below looks at files, not at what is in memory: only what was written can be printed.
-void check_parts(Workshop& shop) {
+std::vector<Check> draco_checks(const Workshop& shop, const TriangleMesh& mesh, const DracoFile& made) {
+  const bool is_what_was_read = read_file(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
+  const Part decoded = is_what_was_read ? Part(made.decoded) : shop.read_back("pulley.drc");
+  std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
+  for (const Check& check : is_what_was_read ? made.checks : check_part(decoded)) checks.push_back(check);
+  return checks;
+}
+
+/// Everything below looks at files, not at what is in memory: only what was written can be printed. What was found of
+/// the same bytes, or of the same facets, before they were written is not looked for again.
+void check_parts(Workshop& shop, const DracoFile& draco) {
   Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
-  shop.step("checking the mesh that was written");
+  shop.step("checking what was written");
   const Part written = shop.read_back("pulley.stl");
   const auto& mesh = std::get<TriangleMesh>(written);
-  auto of_draco = std::async(std::launch::async, [&] {
-    const Part decoded = shop.read_back("pulley.drc");
-    std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
-    for (Check& check : check_part(decoded)) checks.push_back(std::move(check));
-    return checks;
-  });
+  const auto mesh_of = [&shop](const std::string& name) { return std::get<TriangleMesh>(shop.read_back(name)); };
+  auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
+  auto of_plates = beside([&] { return check_part(shop.read_back("plates.dxf")); });
+  auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
+  auto as_built = beside([&] { return rewind_made(product.joint, product.pulley.layout, mesh); });
+  auto of_3mf = beside([&] { return same_mesh(plate_of(product.pulley), mesh_of("pulley.3mf")); });
+  auto of_obj = beside([&] { return same_mesh(mesh, mesh_of("pulley.obj")); });
+  const bool is_whole = product.pulley.parts.empty();
+  auto of_print = beside([&] { return is_whole ? print_checks(shop, mesh) : std::vector<Check>(); });
   shop.add(check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance));
   shop.step("winding tendons on it");
-  product.as_built = rewind_made(product.joint, product.pulley.layout, mesh);
+  product.as_built = as_built.get();
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
   for (const PrintedPart& part : product.pulley.parts) {
     shop.step("checking " + part_file_name(part.side));
-    const Part piece = shop.read_back(part_file_name(part.side));
+    const TriangleMesh piece = mesh_of(part_file_name(part.side));
     const std::string prefix = part.side == Side::left ? "p1_" : "p2_";
-    shop.add(check_printed_part(std::get<TriangleMesh>(piece), part), prefix);
-    check_print_of(shop, std::get<TriangleMesh>(piece), prefix);
+    shop.add(check_printed_part(piece, part), prefix);
+    shop.add(print_checks(shop, piece), prefix);
   }
-  if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
-  shop.add(same_mesh(mesh, std::get<TriangleMesh>(shop.read_back("pulley.obj"))), "obj_");
-  shop.add(same_mesh(plate_of(product.pulley), std::get<TriangleMesh>(shop.read_back("pulley.3mf"))), "3mf_");
-  shop.step("checking pulley.drc");
+  shop.add(of_print.get());
+  shop.add(of_obj.get(), "obj_");
+  shop.add(of_3mf.get(), "3mf_");
   shop.add(of_draco.get(), "drc_");
-  for (const std::string drawing : {"profile", "plates"}) {
-    shop.step("checking " + drawing + ".dxf");
-    shop.add(check_part(shop.read_back(drawing + ".dxf")), drawing + "_dxf_");
-  }
+  shop.add(of_profile.get(), "profile_dxf_");
+  shop.add(of_plates.get(), "plates_dxf_");
 }
 
 /// Looks at what is staged. A file of ours that cannot be used is nobody's bad input.
-void check_written(Workshop& shop) {
+void check_written(Workshop& shop, const DracoFile& draco) {
   try {
-    check_parts(shop);
+    check_parts(shop, draco);
   } catch (const InputError& error) {
     throw Bug(std::string("what was written cannot be used: ") + error.what());
   }
@@ -213,8 +242,8 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   shop.step("winding tendons on it");
   shop.add(as_built_checks(product.joint.mechanism, rewind_made(product.joint, product.pulley.layout, mesh),
                            options.limits));
-  if (product.pulley.parts.empty()) check_print_of(shop, mesh, {});
-  for (const PrintedPart& part : product.pulley.parts) check_print_of(shop, part.mesh, {});
+  if (product.pulley.parts.empty()) shop.add(print_checks(shop, mesh));
+  for (const PrintedPart& part : product.pulley.parts) shop.add(print_checks(shop, part.mesh));
   shop.stage("plates.dxf", plates_dxf(product, options.dxf));
   shop.add(check_part(shop.read_back("plates.dxf")));
   return all_ok(product.checks);
@@ -261,11 +290,8 @@ void work(Workshop& shop) {
     shop.result.advice = advice_for(shop.result.product.file, shop.options);
     return;
   }
-  Product& product = shop.result.product;
-  shop.step("moving the joint to see what its knots bear");
-  product.holding = tendon_holding(product.joint.mechanism, product.synthesis, product.pulley);
-  write_parts(shop);
-  check_written(shop);
+  const DracoFile draco = write_parts(shop);
+  check_written(shop, draco);
   write_texts(shop);
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/stroke.h"
+#include "fusee/analysis/stroke.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "solid/plan.h"
@@ -48,23 +48,29 @@ void raise(StrokeLoads& loads, std::size_t i, const EquilibriumPoint& point) {
   }
 }
 
-// The largest tension at each take-off. A load that relieves one tendon loads the other, so the joint moves without it
-// too.
-StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<TransmissionPoint>& stroke) {
-  StrokeLoads loads;
+std::vector<double> alphas_of(const std::vector<TransmissionPoint>& stroke) {
   std::vector<double> alphas;
   for (const TransmissionPoint& point : stroke) alphas.push_back(point.alpha);
+  return alphas;
+}
+
+// The largest tension at each take-off; `loaded` is the declared load's cycle. A load that relieves one tendon loads
+// the other, so the joint moves without it too.
+StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<TransmissionPoint>& stroke,
+                         const std::vector<StrokePoint>& loaded) {
+  StrokeLoads loads;
+  const std::vector<double> alphas = alphas_of(stroke);
   for (const Side side : {Side::left, Side::right}) {
     const std::vector<double> turns = turns_to_end(stroke, side);
     for (std::size_t i = 0; i < stroke.size(); ++i) loads[index_of(side)].push_back({alphas[i], 0.0, turns[i]});
   }
   Mechanism unloaded = mechanism;
   unloaded.load = {};
-  for (const Mechanism* moved : {&mechanism, static_cast<const Mechanism*>(&unloaded)}) {
-    const std::vector<StrokePoint> points = settled_stroke(*moved, alphas);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      raise(loads, i, points[i].rising);
-      raise(loads, i, points[i].falling);
+  const std::vector<StrokePoint> free = settled_stroke(unloaded, alphas);
+  for (const std::vector<StrokePoint>* points : {&loaded, &free}) {
+    for (std::size_t i = 0; i < alphas.size(); ++i) {
+      raise(loads, i, (*points)[i].rising);
+      raise(loads, i, (*points)[i].falling);
     }
   }
   return loads;
@@ -121,7 +127,8 @@ std::vector<std::string> what_helps(const Mechanism& mechanism, const SynthesisR
     changed.pulley.r1 = std::ceil(10.0 * factor * mechanism.pulley.r1) / 10.0;
     const SynthesisResult other = synthesise(changed, {.advice = false});
     if (!other.made()) continue;
-    const auto better = with_planned_tie_offs(changed, other, stroke_loads(changed, other.stroke));
+    const std::vector<StrokePoint> loaded = settled_stroke(changed, alphas_of(other.stroke));
+    const auto better = with_planned_tie_offs(changed, other, stroke_loads(changed, other.stroke, loaded));
     if (!better || !all_hold(*better)) continue;
     helps.push_back(fmt::format("pulley.r1_mm = {}", rounded(changed.pulley.r1)));
     break;
@@ -159,8 +166,9 @@ std::optional<double> Holding::share(const KnotHold& knot) const {
 }
 
 Holding tendon_holding(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pulley& pulley) {
-  const StrokeLoads loads = stroke_loads(mechanism, synthesis.stroke);
   Holding holding;
+  holding.loaded = settled_stroke(mechanism, alphas_of(synthesis.stroke));
+  const StrokeLoads loads = stroke_loads(mechanism, synthesis.stroke, holding.loaded);
   holding.strength = tendon_strength(mechanism.tendon);
   for (const Anchor& anchor : pulley.anchors) {
     if (!anchor.wound_end) continue;

@@ -180,24 +180,43 @@ TEST(Folds, ALoadThatTurnsWithTheMotionIsOneLevel) {
   EXPECT_THAT(gather(joint(), measurement, k_floor).factors, IsEmpty());
 }
 
-/// Half the squares of a weighted row and what its play costs, by its whole residual.
-double cost_of_row(double residual, double loose, double floor) {
-  const double weighted = residual * floor / std::hypot(floor, loose / 3.0);
-  return 0.5 * weighted * weighted / (floor * floor) + nats_of_play(weighted, loose, floor);
+/// Half the squares of weighted rows and what their play costs.
+double cost_of_rows(const Eigen::VectorXd& residuals, double loose, double floor) {
+  const Eigen::VectorXd weighted = residuals * floor / std::hypot(floor, loose / 3.0);
+  const Eigen::VectorXd plays = Eigen::VectorXd::Constant(residuals.size(), loose);
+  return 0.5 * weighted.squaredNorm() / (floor * floor) + loose_rows(weighted, plays, floor).nats;
 }
 
-TEST(Play, CostsARowWhatItsWholeResidualDoesOrAnywhereInThePlay) {
+TEST(Play, CostsRowsWhatTheirWholeResidualsDoOrAnywhereInThePlay) {
   constexpr double floor = 0.01, loose = 0.3;
-  EXPECT_EQ(nats_of_play(0.02, 0, floor), 0);  // no play
-  for (const double residual : {0.0, 0.5 * floor, floor, 2 * floor})
-    EXPECT_NEAR(cost_of_row(residual, loose, floor), 0.5 * residual * residual / (floor * floor), 1e-12);
-  // A density as much lower as the play is wider than noise: ln 10.05, and the squares of one so wide.
-  EXPECT_NEAR(cost_of_row(0.1, loose, floor), 2.3076 + 0.4950, 1e-4);
-  double last = 0;
-  for (int i = 0; i < 300; ++i) {
-    const double cost = cost_of_row(0.001 * i, loose, floor);
-    EXPECT_GE(cost, last);
-    last = cost;
+  constexpr Eigen::Index count = 400;
+  const double fitted = 0.5 * std::log(count);
+  EXPECT_EQ(loose_rows(Eigen::VectorXd::Constant(9, 0.02), Eigen::VectorXd::Zero(9), floor).nats, 0);  // no play
+  // Where it was pushed, but for noise: what taut rows would cost.
+  const Eigen::VectorXd noise = floor * Eigen::VectorXd::LinSpaced(count, -1.7, 1.7);
+  EXPECT_NEAR(cost_of_rows(noise, loose, floor), 0.5 * noise.squaredNorm() / (floor * floor) + fitted, 0.5);
+  // Anywhere: a density as much lower as the play is wider than noise, ln 10.05, and the squares of one so wide.
+  const Eigen::VectorXd far = Eigen::VectorXd::Constant(count, 0.1);
+  EXPECT_NEAR(cost_of_rows(far, loose, floor), count * (2.3076 + 0.4950) + fitted, 0.5);
+  // Half of each: more than either alone, for what is not known of each row.
+  Eigen::VectorXd mixed = noise;
+  mixed.tail(count / 2) = far.tail(count / 2);
+  const double apart = 0.5 * noise.head(count / 2).squaredNorm() / (floor * floor) + count / 2 * (2.3076 + 0.4950);
+  EXPECT_NEAR(cost_of_rows(mixed, loose, floor), apart + count * std::log(2.0) + fitted, 0.15 * count);
+}
+
+TEST(Play, IsADensity) {
+  // Over all that one more row could have shown, beside many that say where such rows rest.
+  constexpr double floor = 0.01, loose = 0.3, step = 0.2 * floor;
+  for (const double others : {0.0, 0.12}) {
+    Eigen::VectorXd rows = Eigen::VectorXd::Constant(201, others);
+    const double rest = cost_of_rows(rows.head(200), loose, floor);
+    double sum = 0;
+    for (int i = -500; i <= 500; ++i) {
+      rows[200] = i * step;
+      sum += std::exp(rest - cost_of_rows(rows, loose, floor)) * step;
+    }
+    EXPECT_NEAR(sum / (floor * std::sqrt(k_two_pi)), 1.0, 0.03) << others;
   }
 }
 

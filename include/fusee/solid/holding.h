@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fusee/analysis/analysis.h"
+#include "fusee/analysis/stroke.h"
 #include "fusee/profile/synthesis.h"
 #include "fusee/solid/pulley.h"
 
@@ -30,6 +31,7 @@ struct Holding {
   std::vector<KnotHold> knots;       ///< one a tied tendon
   std::optional<Strength> strength;  ///< of the tendon, where it is known
   std::vector<std::string> warnings;
+  std::vector<StrokePoint> loaded;  ///< the declared load's cycle at each place of the synthesis' stroke
 
   /// Of what it bears at a knot; null where that is not known.
   std::optional<double> share(const KnotHold& knot) const;

@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""Chromium judges report.html: what its scripts do, and what it shows.
+
+    judge_page.py build/forearm …           folders of `fusee build`
+    judge_page.py build/forearm --self-test that this judge sees a broken page
+
+Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is not installed.
+
+The page is opened as it is, with a script before its own that notes errors and one after them that moves the slider and
+looks at the outcome. What must hold: the drawn lever stands where transmission.csv says; each drawn tendon keeps its
+length over the stroke; the 3-D view is neither blank nor inside out and turns with the pulley; without WebGL there is a
+still picture; nothing is asked of a network; nothing is wider than a phone; a frame takes at most 4 ms.
+"""
+
+import csv
+import html
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+MOST_FRAME_MS = 4.0
+MOST_BYTES = 1_000_000
+
+BEFORE = """
+window.noted = [];
+// Chromium paints a page that nobody looks at when it likes.
+window.requestAnimationFrame = paint => setTimeout(() => paint(performance.now()), 0);
+addEventListener("error", e => noted.push("script error: " + e.message));
+addEventListener("unhandledrejection", e => noted.push("script error: " + e.reason));
+document.addEventListener("securitypolicyviolation", e => noted.push("asks for " + e.blockedURI));
+for (const name of ["error", "warn"]) console[name] = (...words) => noted.push("console: " + words.join(" "));
+"""
+
+AFTER = """
+(async () => {
+  const found = { noted, places: [], times: [] };
+  const slider = document.querySelector("#alpha"), canvas = document.querySelector(".stage canvas");
+  const scene = document.querySelector(".moving .scene"), [scale, x, y] = scene.dataset.view.split(" ").map(Number);
+  const path = element => element.getAttribute("d").slice(1).split("L").map(p => p.split(" ").map(Number));
+  const long = points => points.reduce((sum, p, k) => k ? sum + Math.hypot(p[0] - points[k - 1][0], p[1] - points[k - 1][1]) : 0, 0) / scale;
+  for (const alpha of ALPHAS) {
+    slider.value = alpha;
+    const start = performance.now();
+    slider.dispatchEvent(new Event("input"));
+    found.times.push(performance.now() - start);
+    const c = path(scene.querySelector(".link"))[1];
+    found.places.push({
+      alpha: Number(slider.value),
+      theta: Math.atan2(c[0] - x, y - c[1]) * 180 / Math.PI,
+      lever: Math.hypot(c[0] - x, y - c[1]) / scale,
+      shown: document.querySelector("[data-show=theta]").textContent,
+      lengths: [1, 2].map(k => [...scene.querySelectorAll(".tendon" + k + " path")].reduce((sum, p) => sum + long(path(p)), 0)),
+      turn: Number(scene.querySelector(".pulley").getAttribute("transform").match(/rotate\\(([-0-9.]+)/)[1]),
+    });
+  }
+  const frame = () => new Promise(done => setTimeout(done, 100));
+  const gl = canvas.getContext("webgl2");
+  found.webgl = Boolean(gl);
+  const look = () => {
+    const w = canvas.width, h = canvas.height;
+    let pixels;
+    if (gl) { pixels = new Uint8Array(4 * w * h); gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels); }
+    else pixels = canvas.getContext("2d").getImageData(0, 0, w, h).data;
+    const ground = [...pixels.slice(0, 4)];
+    let part = 0, light = 0, warm = 0, cold = 0, sum = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      if (pixels[i] === ground[0] && pixels[i + 1] === ground[1] && pixels[i + 2] === ground[2]) continue;
+      part++; light += (pixels[i] + pixels[i + 1] + pixels[i + 2]) / 3;
+      if (pixels[i] > pixels[i + 2] + 30) warm++;
+      if (pixels[i + 2] > pixels[i] + 50) cold++;
+      sum = (sum * 31 + pixels[i] + i) % 1000000007;
+    }
+    const all = pixels.length / 4;
+    return { part: part / all, light: light / Math.max(1, part), warm: warm / all, cold: cold / all, sum };
+  };
+  const move = alpha => { slider.value = alpha; slider.dispatchEvent(new Event("input")); };
+  move(0); await frame();
+  found.home = look();
+  move(ALPHAS[ALPHAS.length - 1]); await frame();
+  found.end = look();
+  found.requests = performance.getEntriesByType("resource").length;
+  found.room = innerWidth;
+  found.wide = document.documentElement.scrollWidth;
+  found.label = document.querySelector("label[for=alpha]") !== null && slider.getAttribute("aria-valuetext") !== null;
+  parent.document.body.append(Object.assign(parent.document.createElement("pre"), { id: "found", textContent: JSON.stringify(found) }));
+})();
+"""
+
+
+def browser():
+    return next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
+
+
+def script(words):
+    return f"<script>//<![CDATA[\n{words}\n//]]></script>"
+
+
+def seen_in(page, alphas, width, options=()):
+    """What AFTER found on the page."""
+    page = page.replace("<head>", "<head>" + script(BEFORE), 1)
+    page = page.replace("</body>", script(AFTER.replace("ALPHAS", json.dumps(alphas))) + "</body>", 1)
+    # In a frame: a window of Chromium's is never narrower than 500 px.
+    frame = f'<!DOCTYPE html><body><iframe width="{width}" height="900" srcdoc="{html.escape(page)}"></iframe></body>'
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "page.html")
+        file.write_text(frame, encoding="utf-8")
+        command = [browser(), "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", f"--user-data-dir={folder}/user",
+                   "--virtual-time-budget=20000", "--window-size=1300,1000", *options, "--dump-dom", file.as_uri()]
+        text = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=120, check=False).stdout.decode()
+    if '<pre id="found">' not in text:
+        return None
+    return json.loads(html.unescape(text.split('<pre id="found">')[1].split("</pre>")[0]))
+
+
+def number_of(words):
+    try:
+        return float(words.rstrip("°").replace("\u2212", "-"))
+    except ValueError:
+        return None
+
+
+def faults_of_motion(found, rows, R):
+    """The drawing against the table that another program wrote."""
+    for place, row in zip(found["places"], rows):
+        alpha, theta = float(row["alpha_deg"]), float(row["theta_deg"])
+        if abs(place["theta"] - theta) > 0.05:
+            yield f"at alpha = {alpha} the lever is drawn at {place['theta']:.3f} deg, not {theta}"
+        if number_of(place["shown"]) is None or abs(number_of(place["shown"]) - theta) > 0.00501:
+            yield f"at alpha = {alpha} the page says {place['shown']}, not {theta}"
+        if abs(place["lever"] - R) > 0.003 * R:
+            yield f"the lever is drawn {place['lever']:.2f} mm long, not {R}"
+        if abs(place["turn"] - alpha) > 0.01:
+            yield f"at alpha = {alpha} the pulley is drawn at {place['turn']}"
+    for k in (0, 1):
+        lengths = [place["lengths"][k] for place in found["places"]]
+        if max(lengths) - min(lengths) > 0.004 * R:
+            yield f"tendon {k + 1} is drawn from {min(lengths):.2f} to {max(lengths):.2f} mm long over the stroke"
+
+
+def faults_of_view(found):
+    home, end = found["home"], found["end"]
+    if not 0.05 < home["part"] < 0.8:
+        yield f"the part covers {100 * home['part']:.1f} % of the 3-D view"
+    if home["light"] < 100:
+        yield f"the part is lit from behind: mean light {home['light']:.0f} of 255"
+    if home["warm"] < 0.002 or home["cold"] < 0.002:
+        yield "the grooves of P1 and P2 are not to be seen"
+    if found["webgl"] and home["sum"] == end["sum"]:
+        yield "the 3-D part does not turn with the pulley"
+
+
+# Name, px, options of Chromium.
+WAYS = [("wide", 1200, ()), ("phone", 320, ()), ("no WebGL", 800, ("--disable-3d-apis",))]
+
+
+def faults(page, rows, R, ways=WAYS):
+    alphas = [float(row["alpha_deg"]) for row in rows]
+    if len(page.encode()) > MOST_BYTES:
+        yield f"{len(page.encode())} bytes"
+    for name, width, options in ways:
+        found = seen_in(page, alphas, width, options)
+        if found is None:
+            yield f"{name}: the page's scripts did not end"
+            continue
+        if found["webgl"] == (name == "no WebGL"):
+            yield f"{name}: WebGL {found['webgl']}"
+        looks = [*found["noted"], *faults_of_motion(found, rows, R), *faults_of_view(found)]
+        if found["requests"]:
+            looks.append(f"{found['requests']} requests")
+        if found["wide"] > found["room"]:
+            looks.append(f"{found['wide']} px wide in a window of {found['room']}")
+        if not found["label"]:
+            looks.append("the slider has no name for those who cannot see it")
+        quick = sorted(found["times"])[len(found["times"]) // 4]  # the others waited for whatever else this machine does
+        if quick > MOST_FRAME_MS:
+            looks.append(f"a frame takes {quick:.1f} ms")
+        print(f"  {name}: {quick:.2f} ms a frame, part on {100 * found['home']['part']:.0f} % of the view")
+        yield from (f"{name}: {look}" for look in looks)
+
+
+def read(folder):
+    folder = pathlib.Path(folder)
+    with open(folder / "transmission.csv", encoding="utf-8") as lines:
+        rows = list(csv.DictReader(lines))
+    rows = rows[:: max(1, len(rows) // 24)]
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    R = json.loads(page.split('id="motion">')[1].split("</script>")[0])["R"]
+    return page, rows, R
+
+
+# What breaks a page, and a word of what the judge must say then.
+BREAKS = {
+    "angle": ("place = place_of(alpha), theta = theta_at(place)", "place = place_of(alpha), theta = 0.9 * theta_at(place)", "the lever is drawn at"),
+    "tendon": ("turned(points[k], -alpha)", "turned(points[k], alpha)", "mm long over the stroke"),
+    "inside out": ("gl.enable(gl.CULL_FACE);\n", "gl.enable(gl.CULL_FACE); gl.cullFace(gl.FRONT);\n", "lit from behind"),
+    "blank": ("paint(body, gl.TRIANGLES, corners);\n    gl.uniform1f", "gl.uniform1f", "3-D view"),
+    "still": ("spin = e.detail;", "", "does not turn"),
+    "error": ("const box = document.querySelector(\".moving\");", "missing_name(); const box = 0;", "missing_name"),
+    "request": ("(() => {\n  const stage", "new Image().src = '//example.org/x.png';(() => {\n  const stage", "asks for"),
+    "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
+}
+
+
+def self_test(folder):
+    page, rows, R = read(folder)
+    failed = 0
+    for name, (old, new, word) in BREAKS.items():
+        assert old in page, f"{name}: the page has no {old!r}"
+        said = list(faults(page.replace(old, new, 1), rows[::6], R, WAYS[:1]))
+        if not any(word in fault for fault in said):
+            failed += 1
+            print(f"{name}: not seen; said {said}")
+    return 1 if failed else 0
+
+
+def main():
+    if browser() is None:
+        return SKIPPED
+    folders = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
+    if "--self-test" in sys.argv:
+        return self_test(folders[0])
+    found = [f"{folder}: {fault}" for folder in folders for fault in faults(*read(folder))]
+    print("\n".join(found))
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
