@@ -9,6 +9,7 @@
 #include "export/report/calibration_plots.h"
 #include "export/report/calibration_words.h"
 #include "export/report/html.h"
+#include "export/report/moving_joint.h"
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
@@ -209,6 +210,16 @@ std::string effects_section(const CalibrationProduct& product) {
   return html_section("effects", "Effects found", html);
 }
 
+std::string moving_section(const CalibrationProduct& product) {
+  const std::string joint = moving_joint(expected_joint(product.file.mechanism), product.rehearsal);
+  if (joint.empty()) return "";
+  return html_section("moving", "What they do",
+                      "<p class=\"lead\">The joint with what was found in it, simulated in a slow stroke back and "
+                      "forth: turn each effect up and down, to twice what was found. Each is simulated alone and added "
+                      "to the declared joint under that load, whose tensions and torque are shown.</p>" +
+                          joint);
+}
+
 // ---- residuals ------------------------------------------------------------------------------------------------------
 
 /// Mean and rms of a run's residuals in one direction.
@@ -364,9 +375,9 @@ std::string calibration_report_html(const CalibrationProduct& product) {
             .body = verdict_section(calibration) + slips_section(product),
             .foot = "Angles in degrees at the joint, lengths in mm, forces in N.",
             .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
-            .scripts = {embedded::readout_js}};
+            .scripts = {embedded::readout_js, embedded::moving_joint_js}};
   if (calibration.verdict != CalibrationVerdict::not_testable) {
-    page.body += key_numbers(product) + action_section(product) + effects_section(product) +
+    page.body += key_numbers(product) + action_section(product) + effects_section(product) + moving_section(product) +
                  residuals_section(product) + rest_section(product) + figures_section(product) +
                  evidence_section(calibration) + detectable_section(calibration);
   } else if (!calibration.next_runs.empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fusee/analysis/stroke.h"
+#include "fusee/correction/rehearsal.h"
 #include "fusee/profile/synthesis.h"
 
 namespace fusee {
@@ -21,5 +22,7 @@ inline constexpr std::string_view k_moving_words =
 /// there is nothing to move. Needs moving_joint.js, and page.css.
 std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synthesis,
                          const std::vector<StrokePoint>& loaded);
+/// The same with what was found in a joint: a slider for each effect, and for the load.
+std::string moving_joint(const Mechanism& mechanism, const Rehearsal& rehearsal);
 
 }  // namespace fusee
