@@ -145,8 +145,7 @@ DracoFile write_parts(Workshop& shop) {
   auto threemf = beside([&] { return threemf_bytes(plate_of(product.pulley), name); });
   auto obj = beside([&] { return obj_text(mesh, name); });
   auto scad = beside([&] { return scad_text(product); });
-  auto holding =
-      beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
+  auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
@@ -196,9 +195,8 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
   auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
   auto of_3mf = beside([&] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
   auto of_obj = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
-  auto of_pulley = beside([&] {
-    return check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance);
-  });
+  auto of_pulley =
+      beside([&] { return check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance); });
   std::vector<std::future<std::vector<Check>>> of_printed;
   for (const PrintedPart& part : product.pulley.parts)
     of_printed.push_back(beside([&] { return checks_of_printed(shop, part); }));
@@ -268,9 +266,9 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
     return std::all_of(product.pulley.parts.begin(), product.pulley.parts.end(),
                        [&](const PrintedPart& part) { return all_ok(print_checks(mechanism.print, part.mesh)); });
   });
-  const bool is_right = all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.tolerance)) &&
-                        all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh),
-                                               options.limits));
+  const bool is_right =
+      all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.tolerance)) &&
+      all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
   const bool prints = of_printing.get();
   return of_plates.get() && prints && is_right;
 }

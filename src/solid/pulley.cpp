@@ -231,6 +231,7 @@ bool keeps_walls(const BodyPlan& plan, int variant) {
     const AnchorPath path = varied(*channel, variant);
     std::vector<Bar> bars = path.bars(layout.channel_width);
     bars.push_back({path.pocket(), path.pocket(), layout.pocket_radius});
+    for (const Bar& side : path.tab_sides(layout.channel_width, layout.pocket_radius)) bars.push_back(side);
     return std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
       return std::all_of(holes.begin(), holes.end(),
                          [&](const Bar& hole) { return gap(bar, hole) >= layout.min_wall; });
