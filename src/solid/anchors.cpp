@@ -147,9 +147,9 @@ std::vector<Bar> AnchorPath::bars(double width) const {
 
 double half_tab(double width, double radius) { return std::min(0.5 * width + 0.5 * k_deeper, 0.95 * radius); }
 
-std::vector<Bar> AnchorPath::tab_sides(double width, double radius) const {
+std::array<Bar, 2> AnchorPath::tab_sides(double width, double radius) const {
   const Vec2 end = pocket() - (radius + k_deeper) * heading(), aside = half_tab(width, radius) * outer();
-  return {{pocket() + aside, end + aside, 0.0}, {pocket() - aside, end - aside, 0.0}};
+  return {Bar{pocket() + aside, end + aside, 0.0}, Bar{pocket() - aside, end - aside, 0.0}};
 }
 
 ArcWalk::ArcWalk(const Outline& outline, bool wound_end) : outline_(outline) {

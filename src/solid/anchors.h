@@ -3,6 +3,7 @@
 /// pocket. mm, rad.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -78,7 +79,7 @@ struct AnchorPath {
   std::vector<Vec2> edge(double aside, int steps) const;
   std::vector<Bar> bars(double width) const;
   /// Both sides of the tab behind a pocket of this radius: a little further out than the channel's.
-  std::vector<Bar> tab_sides(double width, double radius) const;
+  std::array<Bar, 2> tab_sides(double width, double radius) const;
 };
 
 /// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm

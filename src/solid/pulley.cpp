@@ -252,6 +252,10 @@ class PieceMaker {
     }
   }
 
+  void demand_solids() const {
+    for (const Blank& blank : blanks_) demand_solid(blank.mesh, "body");
+  }
+
   // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way
   // through that nobody planned: a mark that opens a channel.
   std::vector<Made> cut(int variant) const {
@@ -278,7 +282,6 @@ class PieceMaker {
         body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange, plan_.layout, piece),
         plan_.layout.scale);
     blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
-    demand_solid(blanks_.back().mesh, "body");
   }
 
   const Mechanism& mechanism_;
@@ -326,18 +329,24 @@ struct BestCut {
 
 // The first that bears so much, or what bears most.
 BestCut best_cut(const PieceMaker& maker, int variants, int enough) {
+  // What is no solid has no cut, but is a bug and not a refusal.
+  std::future<void> gate = std::async(std::launch::async, [&maker] { maker.demand_solids(); });
   BestCut taken;
   int best = k_any;
   for (int variant = 0; variant < variants; ++variant) {
     std::vector<Made> made = maker.cut(variant);
     if (made.empty()) continue;
-    if (enough == k_any) return {std::move(made), variant};
+    if (enough == k_any) {
+      taken = {std::move(made), variant};
+      break;
+    }
     const int soundness = soundness_of(made.front().mesh);
     if (!taken.pieces.empty() && soundness <= best) continue;
     taken = {std::move(made), variant};
     best = soundness;
     if (best >= enough) break;
   }
+  gate.get();
   return taken;
 }
 
