@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <cstdint>
+#include <future>
 #include <optional>
 #include <utility>
 
 #include "fusee/base/units.h"
 #include "solid/nearest_segment.h"
-#include "solid/section.h"
 #include "solid/plane_distance.h"
+#include "solid/section.h"
 
 namespace fusee {
 namespace {
