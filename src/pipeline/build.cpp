@@ -59,7 +59,10 @@ struct Workshop {
   OutputFolder& folder;
   std::function<void()> clean_up;
 
-  void step(std::string_view what) const { announce(options, what); }
+  void step(std::string_view what) const {
+    if (options.while_waiting) options.while_waiting(clean_up);
+    announce(options, what);
+  }
   void stage(std::string name, std::string bytes) {
     step("writing " + name);
     result.outputs.push_back({std::move(name), std::move(bytes)});
@@ -146,7 +149,8 @@ DracoFile write_parts(Workshop& shop) {
   auto obj = beside([&] { return obj_text(mesh, name); });
   auto scad = beside([&] { return scad_text(product); });
   auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
-  shop.stage("pulley.stl", stl_bytes(mesh, name));
+  auto stl = beside([&] { return stl_bytes(mesh, name); });
+  shop.stage("pulley.stl", shop.take(stl));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
   for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
@@ -189,7 +193,8 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
   Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   shop.step("checking what was written");
-  const TriangleMesh mesh = shop.mesh_of("pulley.stl");
+  auto written = beside([&] { return shop.mesh_of("pulley.stl"); });
+  const TriangleMesh mesh = shop.take(written);
   auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
   auto of_plates = beside([&] { return check_part(shop.read_back("plates.dxf")); });
   auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
@@ -231,7 +236,8 @@ void write_texts(Workshop& shop) {
   shop.step("writing tables, report and manifest");
   auto report = beside([&] { return report_html(product); });
   auto transmission = beside([&] { return transmission_csv(product); });
-  shop.stage("profile.csv", profile_csv(product));
+  auto profile = beside([&] { return profile_csv(product); });
+  shop.stage("profile.csv", shop.take(profile));
   shop.stage("transmission.csv", shop.take(transmission));
   shop.stage("report.html", shop.take(report));
   auto manifest = beside([&] { return manifest_json(product, shop.result.outputs); });
