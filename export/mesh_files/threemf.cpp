@@ -2,7 +2,6 @@
 // in other parts).
 
 #include <fmt/format.h>
-#include <zip.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <pugixml.hpp>
 #include <vector>
 
+#include "base/zip.h"
 #include "export/mesh_files/mesh_formats.h"
 #include "export/mesh_files/text_scanner.h"
 #include "export/tool.h"
@@ -20,8 +20,6 @@
 
 namespace fusee {
 namespace {
-
-using Archive = std::unique_ptr<zip_t, decltype(&zip_discard)>;
 
 // Writing ------------------------------------------------------------------------------------------------------------
 
@@ -68,36 +66,6 @@ std::string model_xml(const TriangleMesh& mesh, const std::string& name) {
   return fmt::to_string(xml);
 }
 
-void demand_zip(bool done, zip_t* archive, const char* step) {
-  demand(done, fmt::format("{}: {}", step, archive == nullptr ? "no memory" : zip_strerror(archive)));
-}
-
-/// `text` must outlive the archive's closing.
-void add_part(zip_t* archive, const char* path, std::string_view text) {
-  constexpr zip_uint16_t k_midnight = 0;
-  constexpr zip_uint16_t k_first_of_1980 = (1 << 5) | 1;  // the zero of DOS dates
-  zip_source_t* part = zip_source_buffer(archive, text.data(), text.size(), 0);
-  demand_zip(part != nullptr, archive, path);
-  const zip_int64_t index = zip_file_add(archive, path, part, ZIP_FL_ENC_UTF_8);
-  if (index < 0) zip_source_free(part);
-  demand_zip(index >= 0, archive, path);
-  const auto entry = static_cast<zip_uint64_t>(index);
-  // A date of its own, in DOS fields: zip_file_set_mtime() would go through the local time zone.
-  demand_zip(zip_file_set_dostime(archive, entry, k_midnight, k_first_of_1980, 0) == 0, archive, path);
-  constexpr zip_uint32_t k_quick = 3;  // twice as fast as the usual 6, and a fifth larger
-  demand_zip(zip_set_file_compression(archive, entry, ZIP_CM_DEFLATE, k_quick) == 0, archive, path);
-}
-
-std::string source_bytes(zip_source_t* source) {
-  zip_stat_t stat;
-  demand(zip_source_stat(source, &stat) == 0 && zip_source_open(source) == 0, "reading back a zip in memory");
-  std::string bytes(stat.size, '\0');
-  const zip_int64_t count = zip_source_read(source, bytes.data(), bytes.size());
-  zip_source_close(source);
-  demand(count == static_cast<zip_int64_t>(bytes.size()), "reading back a zip in memory");
-  return bytes;
-}
-
 // Reading ------------------------------------------------------------------------------------------------------------
 
 /// A model of 128 MiB has about two million triangles.
@@ -107,12 +75,6 @@ constexpr std::uint64_t k_most_unpacking = 100;
 constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;
 /// Components within components …
 constexpr int k_deepest = 32;
-
-[[noreturn]] void fail_in_part(const Source& source, const std::string& part, std::ptrdiff_t offset,
-                               const std::string& message) {
-  const std::string at = offset < 0 ? std::string() : fmt::format(" at byte {}", offset);
-  throw InputError(source.name, fmt::format("{}{}: {}", printable(part), at, message));
-}
 
 std::string_view local_name(std::string_view name) { return name.substr(name.find(':') + 1); }
 
@@ -159,7 +121,7 @@ class ThreemfReader {
   double unit_of(const ModelPart& part, const pugi::xml_node& model) const;
 
   [[noreturn]] void fail(const ModelPart& part, const pugi::xml_node& node, const std::string& message) const {
-    fail_in_part(source_, part.path, node.offset_debug(), message);
+    fail_in_entry(source_.name, part.path, node.offset_debug(), message);
   }
   double number(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const;
   std::int64_t integer(const ModelPart& part, const pugi::xml_node& node, const char* attribute) const;
@@ -173,7 +135,7 @@ class ThreemfReader {
   void spend(ModelPart& part, const pugi::xml_node& node);
 
   const Source& source_;
-  Archive archive_{nullptr, &zip_discard};
+  ZipArchive archive_;
   std::map<std::string, std::unique_ptr<ModelPart>> parts_;
   std::uint64_t unpacked_left_;
   std::uint64_t elements_left_ = 0;
@@ -182,47 +144,21 @@ class ThreemfReader {
 
 ThreemfReader::ThreemfReader(const Source& source)
     : source_(source),
+      archive_(source.bytes, source.name, "a zip archive with a 3MF model"),
       unpacked_left_(
-          std::min<std::uint64_t>(k_largest_part, k_always_unpacked + k_most_unpacking * source.bytes.size())) {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* bytes = zip_source_buffer_create(source.bytes.data(), source.bytes.size(), 0, &error);
-  if (bytes != nullptr) archive_.reset(zip_open_from_source(bytes, ZIP_RDONLY, &error));
-  const std::string reason = zip_error_strerror(&error);
-  zip_error_fini(&error);
-  if (archive_ == nullptr) {
-    zip_source_free(bytes);
-    throw InputError(source.name, fmt::format("expected a zip archive with a 3MF model: {}", reason));
-  }
-}
+          std::min<std::uint64_t>(k_largest_part, k_always_unpacked + k_most_unpacking * source.bytes.size())) {}
 
 std::string ThreemfReader::unpacked(const std::string& path) {
-  const zip_int64_t index = zip_name_locate(archive_.get(), path.c_str(), ZIP_FL_NOCASE);
-  if (index < 0) fail_in_part(source_, path, -1, "expected this part in the archive");
-  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(
-      zip_fopen_index(archive_.get(), static_cast<zip_uint64_t>(index), 0), &zip_fclose);
-  if (file == nullptr) fail_in_part(source_, path, -1, zip_strerror(archive_.get()));
-  // Grown as it comes: the size that the archive declares proves nothing.
-  std::string text;
-  std::array<char, 65536> chunk;
-  zip_int64_t count = 0;
-  while ((count = zip_fread(file.get(), chunk.data(), chunk.size())) > 0) {
-    const auto size = static_cast<std::uint64_t>(count);
-    if (size > unpacked_left_) {
-      fail_in_part(source_, path, -1,
-                   fmt::format("unpacks to too much; parts may have {} MiB and {} times the file's bytes",
-                               k_largest_part >> 20, k_most_unpacking));
-    }
-    unpacked_left_ -= size;
-    text.append(chunk.data(), size);
-  }
-  if (count < 0) fail_in_part(source_, path, static_cast<std::ptrdiff_t>(text.size()), zip_file_strerror(file.get()));
-  return text;
+  const std::optional<std::size_t> entry = archive_.find(path);
+  if (!entry) fail_in_entry(source_.name, path, -1, "expected this part in the archive");
+  return archive_.unpacked(
+      *entry, unpacked_left_,
+      fmt::format("parts may have {} MiB and {} times the file's bytes", k_largest_part >> 20, k_most_unpacking));
 }
 
 void ThreemfReader::parse(const std::string& path, std::string& text, pugi::xml_document& xml) const {
   const pugi::xml_parse_result result = xml.load_buffer_inplace(text.data(), text.size());
-  if (!result) fail_in_part(source_, path, result.offset, std::string("expected XML: ") + result.description());
+  if (!result) fail_in_entry(source_.name, path, result.offset, std::string("expected XML: ") + result.description());
 }
 
 /// The part that the package's relationships name as its 3-D model.
@@ -237,7 +173,7 @@ std::string ThreemfReader::model_path() {
       target = relationship.attribute("Target").value();
     }
   });
-  if (target.empty()) fail_in_part(source_, path, -1, "expected a relationship of type …/3dmodel");
+  if (target.empty()) fail_in_entry(source_.name, path, -1, "expected a relationship of type …/3dmodel");
   return target;
 }
 
@@ -251,7 +187,7 @@ ModelPart& ThreemfReader::part(const std::string& path) {
   elements_left_ += slot->text.size();
   parse(name, slot->text, slot->xml);
   const pugi::xml_node model = child(slot->xml, "model");
-  if (!model) fail_in_part(source_, name, 0, "expected the element 'model'");
+  if (!model) fail_in_entry(source_.name, name, 0, "expected the element 'model'");
   slot->unit = unit_of(*slot, model);
   for_children(child(model, "resources"), "object",
                [&](const pugi::xml_node& object) { slot->objects[integer(*slot, object, "id")] = object; });
@@ -379,18 +315,8 @@ TriangleMesh ThreemfReader::read() {
 
 std::string threemf_bytes(const TriangleMesh& mesh, const std::string& name) {
   const std::string model = model_xml(mesh, name);
-  zip_source_t* bytes = zip_source_buffer_create(nullptr, 0, 0, nullptr);
-  demand(bytes != nullptr, "3MF: no memory");
-  zip_source_keep(bytes);
-  const std::unique_ptr<zip_source_t, decltype(&zip_source_free)> keeper(bytes, &zip_source_free);
-  Archive archive(zip_open_from_source(bytes, ZIP_TRUNCATE, nullptr), &zip_discard);
-  demand_zip(archive != nullptr, nullptr, "3MF");
-  add_part(archive.get(), "[Content_Types].xml", k_content_types);
-  add_part(archive.get(), "_rels/.rels", k_relationships);
-  add_part(archive.get(), "3D/3dmodel.model", model);
-  demand_zip(zip_close(archive.get()) == 0, archive.get(), "3MF");
-  static_cast<void>(archive.release());  // closed
-  return source_bytes(bytes);
+  return zip_bytes(
+      {{"[Content_Types].xml", k_content_types}, {"_rels/.rels", k_relationships}, {"3D/3dmodel.model", model}});
 }
 
 TriangleMesh read_threemf(const Source& source) { return ThreemfReader(source).read(); }

@@ -98,6 +98,8 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
 using Part = std::variant<TriangleMesh, Drawing>;
 /// A mesh (stl obj 3mf off ply drc) or a drawing (dxf), told apart by content, then by the name's ending. InputError.
 Part read_part(const std::filesystem::path& path);
+/// The same of what this run wrote: no input.
+Part read_made_part(const std::filesystem::path& path);
 /// check_mesh or check_drawing.
 std::vector<Check> check_part(const Part& part);
 

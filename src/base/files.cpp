@@ -1,17 +1,12 @@
 #include "fusee/base/files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 
-#include "base/descriptor.h"
 #include "base/output_list.h"
+#include "base/staging.h"
 #include "fusee/base/diagnostics.h"
 
 namespace fusee {
@@ -19,38 +14,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string error_text(int code) { return std::error_code(code, std::generic_category()).message(); }
+/// All at once, where the size is known beforehand.
+void reserve_for(const fs::path& path, std::size_t limit, std::string& bytes) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size <= limit) bytes.reserve(static_cast<std::size_t>(size));
+}
 
 }  // namespace
 
+void read_blocks(const ReadRequest& request, const TakeBlock& take) {
+  if (FileAccess* access = FileAccess::current()) return access->read(request, take);
+  read_from_disk(request, take);
+}
+
 std::string read_file(const fs::path& path, std::size_t limit) {
-  const std::string name = path.string();
-  // O_NONBLOCK: a pipe that nobody writes to must not hang us.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  if (!file.ok())
-    throw InputError(name, "cannot be read: " + error_text(errno), errno == ENOENT ? "check the path" : "");
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0) throw InputError(name, "cannot be read: " + error_text(errno));
-  if (S_ISDIR(status.st_mode)) throw InputError(name, "is a directory", "name a file in it");
-  if (!S_ISREG(status.st_mode)) throw InputError(name, "is not a regular file", "write it to a file first");
-  const auto too_large = [&] {
-    return InputError(name, fmt::format("is larger than {} bytes", limit), "is it the right file?");
-  };
-  if (static_cast<std::uintmax_t>(status.st_size) > limit) throw too_large();
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
-  std::size_t filled = 0;
-  // One byte more than stat promised, to see the end of the file; files of /proc promise none at all.
-  for (;;) {
-    if (filled == bytes.size())
-      bytes.resize(std::min(bytes.size() + std::max<std::size_t>(bytes.size() / 2, 4096), limit + 1));
-    const ssize_t count = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw InputError(name, "cannot be read: " + error_text(errno));
-    if (count == 0) break;
-    filled += static_cast<std::size_t>(count);
-    if (filled > limit) throw too_large();
-  }
-  bytes.resize(filled);
+  std::string bytes;
+  reserve_for(path, limit, bytes);
+  read_blocks({path, limit}, [&bytes](std::string_view block) { bytes += block; });
+  return bytes;
+}
+
+std::string read_output(const fs::path& path, std::size_t limit) {
+  std::string bytes;
+  reserve_for(path, limit, bytes);
+  read_as_it_lies({path, limit}, [&bytes](std::string_view block) { bytes += block; });
   return bytes;
 }
 

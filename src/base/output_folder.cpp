@@ -37,7 +37,7 @@ bool read_manifest(const fs::path& path, Owned& owned) {
   using Json = nlohmann::json;
   std::string text;
   try {
-    text = read_file(path, k_largest_manifest);
+    text = read_output(path, k_largest_manifest);
   } catch (const InputError&) {
     return false;
   }
@@ -56,6 +56,10 @@ bool read_manifest(const fs::path& path, Owned& owned) {
     owned.emplace(file->get<std::string>(), hash->get<std::string>());
   }
   return true;
+}
+
+void tell_in_the_way(const fs::path& path) {
+  if (FileAccess* access = FileAccess::current()) access->in_the_way(path);
 }
 
 /// The deepest part of `path` that exists.
@@ -140,7 +144,7 @@ std::string journal_of(const fs::path& folder, const std::vector<std::string>& r
   for (const auto* names : {&replaced, &withdrawn}) {
     for (const std::string& name : *names) {
       if (!stands(folder / name)) continue;
-      journal["outputs"].push_back({{"file", name}, {"sha256", sha256(read_file(folder / name, k_largest_output))}});
+      journal["outputs"].push_back({{"file", name}, {"sha256", sha256(read_output(folder / name, k_largest_output))}});
     }
   }
   return journal.dump();
@@ -148,7 +152,7 @@ std::string journal_of(const fs::path& folder, const std::vector<std::string>& r
 
 bool is_of(const Owned& owned, const fs::path& file) {
   return fs::is_regular_file(fs::symlink_status(file)) &&
-         owned.count({file.filename().string(), sha256(read_file(file, k_largest_output))}) != 0;
+         owned.count({file.filename().string(), sha256(read_output(file, k_largest_output))}) != 0;
 }
 
 /// Ends what a run began that was killed between two renames; nothing when somebody changed the files since.
@@ -166,23 +170,55 @@ void end_publishing(const fs::path& staging, const fs::path& folder) {
   for (const fs::path& file : rest)
     if (::rename(file.c_str(), (folder / file.filename()).c_str()) != 0) return;
   ::rename((staging / k_manifest).c_str(), (folder / k_manifest).c_str());
-  const auto journal = nlohmann::json::parse(read_file(staging / k_journal, k_largest_manifest));
+  const auto journal = nlohmann::json::parse(read_output(staging / k_journal, k_largest_manifest));
   for (const std::string& name : journal.at("withdrawn").get<std::vector<std::string>>())
     if (is_of(owned, folder / name)) ::unlink((folder / name).c_str());
 }
 
+void end_killed_publishing_in(const fs::path& place) {
+  if (stale_stagings(place).empty()) return;
+  const Turn turn(place.parent_path());
+  for (const fs::path& staging : stale_stagings(place)) end_publishing(staging, place);
+  remove_stale_stagings(place);
+}
+
+/// Some of its set were renamed already, and some wait in the staging folder.
+bool is_half_published(const fs::path& staging, const fs::path& file) {
+  if (!stands(staging / k_journal)) return false;
+  Owned set;
+  read_manifest(staging / k_manifest, set);
+  std::set<std::string> names;
+  for (const auto& [name, hash] : set) names.insert(name);
+  for (const fs::path& entry : entries_of(staging)) {
+    const std::string name = entry.filename().string();
+    if (name.rfind(k_backup_prefix, 0) == 0) names.insert(name.substr(k_backup_prefix.size()));
+    if (name.front() != '.') names.insert(name);
+  }
+  const auto waits = [&staging](const std::string& name) { return stands(staging / name); };
+  const auto waiting = static_cast<std::size_t>(std::count_if(names.begin(), names.end(), waits));
+  return waiting > 0 && waiting < names.size() && names.count(file.filename().string()) != 0;
+}
+
 }  // namespace
+
+void end_killed_publishing(const fs::path& file) {
+  const fs::path place = place_of(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  if (stale_stagings(place).empty()) return;
+  end_killed_publishing_in(place);
+  for (const fs::path& staging : stale_stagings(place)) {
+    if (!is_half_published(staging, file)) continue;
+    throw InputError(file.string(), "belongs to a set of files that a killed run of fusee left half old and half new",
+                     "run it again there, as one who may write in " + place.string());
+  }
+}
 
 OutputFolder::OutputFolder(fs::path folder, bool force)
     : folder_(folder.empty() ? "." : std::move(folder)),
       place_(place_of(folder_)),
       force_(force),
       missing_(std::make_unique<MissingFolders>()) {
-  if (!stale_stagings(place_).empty()) {
-    const Turn turn(place_.parent_path());
-    for (const fs::path& staging : stale_stagings(place_)) end_publishing(staging, place_);
-    remove_stale_stagings(place_);
-  }
+  if (FileAccess* access = FileAccess::current()) access->will_write(folder_);
+  end_killed_publishing_in(place_);
   earlier_run_ = read_manifest(place_ / k_manifest, ours_);
 }
 
@@ -202,6 +238,7 @@ void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
     const fs::path target = folder_ / name;
     if (!stands(target)) continue;
     if (!fs::is_regular_file(fs::symlink_status(target))) {
+      tell_in_the_way(target);
       throw OutputError(target.string() + " is in the way and is not a regular file",
                         "move it away, or choose another folder with -o");
     }
@@ -209,7 +246,8 @@ void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
     const auto by_name = [&name](const auto& entry) { return entry.first == name; };
     if (std::none_of(ours_.begin(), ours_.end(), by_name)) {
       foreign += (foreign.empty() ? "" : ", ") + name;
-    } else if (ours_.count({name, sha256(read_file(target, k_largest_output))}) == 0) {
+      tell_in_the_way(target);
+    } else if (ours_.count({name, sha256(read_output(target, k_largest_output))}) == 0) {
       changed += (changed.empty() ? "" : ", ") + name;
     }
   }
@@ -353,14 +391,21 @@ void OutputFolder::publish() {
   for (const std::string& name : staged_) to_flush.push_back(staging_->path() / name);
   flush_all(to_flush);
   const std::vector<std::string> gone = obsolete();
+  if (FileAccess* access = FileAccess::current()) {
+    for (const std::string& name : staged_)
+      access->wrote(folder_ / name, read_output(staging_->path() / name, k_largest_output));
+  }
   if (!publish_as_folder(gone)) publish_one_by_one(gone);
   staging_.reset();
   staged_.clear();
 }
 
 void write_file(const fs::path& path, std::string_view bytes, bool force) {
+  FileAccess* access = FileAccess::current();
+  if (access != nullptr) access->will_write(path);
   std::error_code error;
   const fs::path target = fs::is_symlink(path) ? fs::weakly_canonical(path, error) : path;
+  if (stands(target) && (!force || !fs::is_regular_file(fs::symlink_status(target)))) tell_in_the_way(path);
   if (stands(target) && !fs::is_regular_file(fs::symlink_status(target))) {
     throw OutputError(path.string() + " exists and is not a regular file", "choose another name");
   }
@@ -380,6 +425,7 @@ void write_file(const fs::path& path, std::string_view bytes, bool force) {
   flush_all({made});
   if (::rename(made.c_str(), target.c_str()) != 0) fail_output("cannot write", target, errno);
   flush_all({folder});
+  if (access != nullptr) access->wrote(path, bytes);
 }
 
 }  // namespace fusee

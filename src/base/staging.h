@@ -8,7 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "fusee/base/file_access.h"
+
 namespace fusee {
+
+/// read_from_disk() without a look at what killed runs left.
+void read_as_it_lies(const ReadRequest& request, const TakeBlock& take);
+/// Before `file` is read: where a run was killed while it put a set of files in its folder, one by one, the set is made
+/// whole. InputError when it cannot be: half of it is of another set.
+void end_killed_publishing(const std::filesystem::path& file);
 
 /// OutputError: "<what> <path>: <what the code means>", with a hint where one is known.
 [[noreturn]] void fail_output(const std::string& what, const std::filesystem::path& path, int code);

@@ -41,6 +41,7 @@ Command reproduce_command();
 Command calibrate_command();
 Command plan_command();
 Command simulate_command();
+Command replay_command();
 
 /// All of them, in the order in which a person meets them.
 const std::vector<Command>& commands();

@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/help.h"
 #include "cli/interrupt.h"
+#include "cli/recording.h"
 
 namespace fusee::cli {
 namespace {
@@ -68,9 +69,8 @@ Reply failed(Exit exit, Diagnostic diagnostic) {
 }
 
 Reply bug(const std::string& what) {
-  return failed(Exit::bug,
-                note(Severity::error, what + ": this is a bug in fusee",
-                     "please report it with the command line, the mechanism file and the output of 'fusee --version'"));
+  return failed(Exit::bug, note(Severity::error, what + ": this is a bug in fusee",
+                                "please report it with what the same command writes with --bundle bug.zip"));
 }
 
 /// The one place where exceptions become exit codes.
@@ -103,19 +103,53 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> all = {new_command(),      explain_command(),   analyze_command(),
                                            build_command(),    check_command(),     rewind_command(),
                                            optimize_command(), reproduce_command(), calibrate_command(),
-                                           plan_command(),     simulate_command()};
+                                           plan_command(),     simulate_command(),  replay_command()};
   return all;
 }
 
-int run(const std::vector<std::string>& words) {
+Ending ending_of(const std::vector<std::string>& words, Console& console) {
+  Ending ending;
+  ending.reply = guarded_answer(words, ending.command, console);
+  ending.result = has_switch(words, "--json") ? document(ending.reply, ending.command) : ending.reply.text;
+  return ending;
+}
+
+namespace {
+
+/// What cannot be packed is said, and is a failure where the run itself is none.
+void add_not_packed(const OutputError& error, Reply& reply) {
+  reply.diagnostics.push_back(note(Severity::error, error.what(), error.hint()));
+  if (reply.exit == Exit::done) reply.exit = Exit::cannot_write;
+}
+
+Ending recorded_ending(std::vector<std::string> words, const std::string& bundle, Console& console) {
+  const bool json = has_switch(words, "--json");
+  Ending ending;
+  try {
+    Recording recording(bundle, words, has_switch(words, "--force"));
+    ending = ending_of(words, console);
+    ending.reply.diagnostics.push_back(recording.pack(ending));
+    ending.reply.fields["bundle"] = bundle;
+  } catch (const OutputError& error) {
+    add_not_packed(error, ending.reply);
+  }
+  ending.result = json ? document(ending.reply, ending.command) : ending.reply.text;
+  return ending;
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& given) {
+  std::vector<std::string> words = given;
   const bool json = has_switch(words, "--json");
   catch_interrupts(json);
   Console console;
-  std::string command_name;
-  const Reply reply = guarded_answer(words, command_name, console);
+  const std::string bundle = take_bundle_option(words);
+  const Ending ending = bundle.empty() ? ending_of(words, console) : recorded_ending(words, bundle, console);
+  const Reply& reply = ending.reply;
   for (const Diagnostic& diagnostic : reply.diagnostics) console.say(diagnostic);
   console.end_progress();
-  if (!write_result(json ? document(reply, command_name) : reply.text)) {
+  if (!write_result(ending.result)) {
     console.say(
         note(Severity::error, std::string("the result could not be written to stdout: ") + std::strerror(errno)));
     return static_cast<int>(reply.exit == Exit::done ? Exit::cannot_write : reply.exit);

@@ -5,9 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "cli/console.h"
+#include "cli/reply.h"
+
 namespace fusee::cli {
 
-/// `words`: the arguments without the program's name. Never throws.
+/// A command that came to its end, good or bad.
+struct Ending {
+  std::string command;  ///< "" where none was understood
+  Reply reply;
+  std::string result;  ///< for stdout
+};
+
+/// `words`: the arguments without the program's name. Never throws; nothing is printed but progress.
+Ending ending_of(const std::vector<std::string>& words, Console& console);
+
+/// The same with everything printed, and the exit code. --bundle is seen to here.
 int run(const std::vector<std::string>& words);
 
 }  // namespace fusee::cli

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
 
+#include "fusee/base/files.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 
@@ -456,25 +456,10 @@ LoggedRows read_rows(std::string_view text, const std::string& name, const Measu
 
 LoggedRows read_rows(const std::filesystem::path& path, const std::string& name, const MeasurementOptions& options,
                      std::size_t most_samples) {
-  std::error_code problem;
-  const auto kind = std::filesystem::status(path, problem).type();
-  if (kind == std::filesystem::file_type::not_found) throw InputError(name, "there is no such file");
-  if (kind == std::filesystem::file_type::none) throw InputError(name, "cannot be read: " + problem.message());
-  if (kind == std::filesystem::file_type::directory)
-    throw InputError(name, "is a folder", "name the files in it: " + name + "/*.csv");
-  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::fifo) {
-    throw InputError(name, "is not a regular file");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(name, "cannot be read");
   RowReader reader(name, options, most_samples);
   Lines lines(reader);
-  std::vector<char> block(std::size_t{1} << 20);
-  while (stream) {
-    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-    lines.add({block.data(), static_cast<std::size_t>(stream.gcount())});
-  }
-  if (stream.bad()) throw InputError(name, "cannot be read to its end");
+  constexpr std::size_t k_any_size = std::numeric_limits<std::size_t>::max();
+  read_blocks({path, k_any_size, /*pipes=*/true}, [&lines](std::string_view block) { lines.add(block); });
   return lines.finish();
 }
 

@@ -76,7 +76,7 @@ struct Workshop {
     }
     return made.get();
   }
-  Part read_back(const std::string& name) const { return read_part(folder.staged_path(name)); }
+  Part read_back(const std::string& name) const { return read_made_part(folder.staged_path(name)); }
   TriangleMesh mesh_of(const std::string& name) const { return std::get<TriangleMesh>(read_back(name)); }
   void add(std::vector<Check> checks, const std::string& prefix = {}) {
     for (Check& check : checks) {
@@ -172,7 +172,7 @@ std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
 }
 
 std::vector<Check> draco_checks(const Workshop& shop, const TriangleMesh& mesh, const DracoFile& made) {
-  const bool is_what_was_read = read_file(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
+  const bool is_what_was_read = read_output(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
   const Part decoded = is_what_was_read ? Part(made.decoded) : shop.read_back("pulley.drc");
   std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
   for (const Check& check : is_what_was_read ? made.checks : check_part(decoded)) checks.push_back(check);

@@ -28,14 +28,19 @@ bool is_drawing(std::string_view bytes, const std::string& name) {
   return code == "0" || code == "999";
 }
 
+Part parse_part(std::string_view bytes, const std::string& name) {
+  if (is_drawing(bytes, name)) return read_dxf(bytes, name);
+  return read_mesh(bytes, name);
+}
+
 bool is_closed(const DrawingPath& path) { return path.closed; }
 
 }  // namespace
 
-Part read_part(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path, k_largest_file);
-  if (is_drawing(bytes, path.string())) return read_dxf(bytes, path.string());
-  return read_mesh(bytes, path.string());
+Part read_part(const std::filesystem::path& path) { return parse_part(read_file(path, k_largest_file), path.string()); }
+
+Part read_made_part(const std::filesystem::path& path) {
+  return parse_part(read_output(path, k_largest_file), path.string());
 }
 
 std::vector<Check> check_part(const Part& part) {

@@ -16,12 +16,15 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "fusee/base/diagnostics.h"
 #include "fusee/base/files.h"
 
 namespace {
 
 /// Calls until the end; 0: no end.
 int calls_left = 0;
+/// As on a disk that may only be read.
+bool writable = true;
 
 void before_a_change() {
   if (calls_left > 0 && --calls_left == 0) ::kill(::getpid(), SIGKILL);
@@ -30,6 +33,10 @@ void before_a_change() {
 template <class... Words>
 int changed(long number, Words... words) {
   before_a_change();
+  if (!writable) {
+    errno = EROFS;
+    return -1;
+  }
   return static_cast<int>(::syscall(number, words...));
 }
 
@@ -168,6 +175,34 @@ TEST_P(Kill, LeavesTheOldSetOrTheNewOne) {
   }
   EXPECT_GT(old_sets, 4);
   EXPECT_GT(new_sets, 0);
+}
+
+/// "old " or "new "; "" where the reader was told that it is some of both.
+std::string set_read_from(const fs::path& folder) {
+  try {
+    const std::string first = read_file(folder / "pulley.stl", 100), last = read_file(folder / "report.html", 100);
+    EXPECT_EQ(first.substr(0, 4), last.substr(0, 4));
+    return first.substr(0, 4);
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("left half old and half new"));
+    return "";
+  }
+}
+
+TEST_P(Kill, IsEndedByWhoReadsNext) {
+  if (!GetParam().earlier_run) return;
+  int halves = 0, call = 1;
+  for (bool killed = true; killed; ++call) {
+    const fs::path folder = prepared(call);
+    killed = killed_before(call, [&] { publish(folder, newer_); });
+    writable = false;
+    halves += set_read_from(folder).empty() ? 1 : 0;
+    writable = true;
+    EXPECT_NE(set_read_from(folder), "");
+    const Folder left = files_in(folder);
+    EXPECT_TRUE(left == with_the_rest(older_) || left == with_the_rest(newer_)) << "killed before call " << call;
+  }
+  EXPECT_EQ(halves > 0, GetParam().subfolder);
 }
 
 INSTANTIATE_TEST_SUITE_P(Grounds, Kill,

@@ -228,7 +228,7 @@ class Calibrate(harness.Scratch):
 
     def test_what_cannot_be_read_or_tested(self):
         self.expect("calibrate joint.toml", 2, err="needs RUN.csv")
-        self.expect("calibrate joint.toml nothing.csv", 3, err="no such file")
+        self.expect("calibrate joint.toml nothing.csv", 3, err="No such file")
         (self.folder / "text.csv").write_text("alpha_deg,theta_deg\n1,2\n3,four\n")
         self.expect("calibrate joint.toml text.csv", 3, err='text.csv:3:3: error: theta_deg: "four" is not a number')
         (self.folder / "still.csv").write_text("alpha_deg,theta_deg\n" + "1,2\n" * 50)

@@ -22,7 +22,7 @@ FILES = {
 OPTIMIZE = """arm.toml --set optimize.variables='["guides.ED_mm"]' --set optimize.lower='[40]' --set optimize.upper='[60]' """
 OPTIMIZE_OTHER = """optimize arm.toml --set optimize.variables='["%s"]' --set optimize.lower='[0]' --set optimize.upper='[1]'"""
 
-ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind.*optimize.*reproduce"
+ALL_COMMANDS = "new.*explain.*analyze.*build.*check.*rewind.*optimize.*reproduce.*calibrate.*plan.*simulate.*replay"
 
 CASES = [
     # Asking for help.
@@ -36,6 +36,7 @@ CASES = [
     ("explain --help", 0, "usage: fusee explain", "^$"),
     ("check --help", 0, "usage: fusee check FILE", "^$"),
     ("rewind --help", 0, "usage: fusee rewind SPEC FILE", "^$"),
+    ("replay --help", 0, "usage: fusee replay FILE.*--out DIR", "^$"),
     ("optimize --help", 0, "usage: fusee optimize SPEC.*--then OBJECTIVE", "^$"),
     ("reproduce --help", 0, "usage: fusee reproduce.*--out DIR", "^$"),
     # Optimisation.
@@ -136,6 +137,10 @@ CASES = [
     ("check contours.dxf", 0, r"size 1500 × 40 mm, 1 closed contour\n", r"looks like millimetres taken for inches \(÷ 25.4 = 59.06 × 1.575 mm\)"),
     ("rewind arm.toml triangle.obj", 3, "^$", "triangle.obj.*groove"),
     ("rewind arm.toml missing.stl", 3, "^$", "missing.stl"),
+    ("replay missing.zip", 3, "^$", "missing.zip"),
+    ("replay arm.toml", 3, "^$", "arm.toml: error: expected a bundle of fusee"),
+    ("replay empty.stl", 3, "^$", "empty.stl: error: .*it is no bundle of fusee"),
+    ("replay arm.toml -o .", 3, "^$", "expected a bundle"),
     # Templates and keys.
     ("new", 0, "paper_optimum", "^$"),
     ("new paper_optimum", 0, r"^#.*schema = 1.*\[joint\]", "^$"),

@@ -154,7 +154,7 @@ class Simulate(harness.Scratch):
             with self.subTest(text):
                 self.log(text)
                 self.expect("simulate arm.toml log.csv", 3, "^$", re.escape(words))
-        self.expect("simulate arm.toml none.csv", 3, "^$", "no such file")
+        self.expect("simulate arm.toml none.csv", 3, "^$", "No such file")
         self.expect("simulate arm.toml log.csv --noise-deg -1", 2, "^$", "noise-deg")
         self.expect("simulate arm.toml", 2)
 

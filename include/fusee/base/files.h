@@ -11,10 +11,17 @@
 #include <utility>
 #include <vector>
 
+#include "fusee/base/file_access.h"
+
 namespace fusee {
 
-/// The bytes of a regular file. InputError when it is missing, a directory, unreadable, or larger than `limit` bytes.
+/// An input of the run, in blocks: as ReadRequest says, through the FileAccess that there is.
+void read_blocks(const ReadRequest& request, const TakeBlock& take);
+/// The bytes of a regular file that is an input. InputError when it is missing, a directory, unreadable, or larger than
+/// `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
+/// The same of what fusee itself wrote, now or earlier: no input.
+std::string read_output(const std::filesystem::path& path, std::size_t limit);
 
 /// SHA-256 of `bytes`, 64 lower-case hex digits.
 std::string sha256(std::string_view bytes);
@@ -55,7 +62,7 @@ class OutputFolder {
   /// cannot be written. Writes nothing.
   void claim(const std::vector<std::string>& names);
   void stage(const OutputFile& file);
-  /// Where a staged file can be read back before it is published.
+  /// Where a staged file lies before it is published.
   std::filesystem::path staged_path(const std::string& name) const;
   /// Publishing will remove those of `names` that an earlier run wrote, that nobody changed since, and that this run
   /// did not write: they would be taken for this run's.

@@ -1,0 +1,241 @@
+#include "base/bundle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/zip.h"
+#include "fusee/base/files.h"
+
+namespace fusee {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_index = "bundle.json";
+constexpr const char* k_result = "stdout.txt";
+constexpr const char* k_files = "files/";
+constexpr int k_schema = 1;
+constexpr std::size_t k_longest_path = 1000;
+
+// ---- writing --------------------------------------------------------------------------------------------------------
+
+std::string_view word(Severity severity) {
+  if (severity == Severity::error) return "error";
+  return severity == Severity::warning ? "warning" : "note";
+}
+
+Json to_json(const Diagnostic& diagnostic) {
+  return {{"severity", word(diagnostic.severity)}, {"file", diagnostic.place.file}, {"line", diagnostic.place.line},
+          {"column", diagnostic.place.column},     {"message", diagnostic.message}, {"hint", diagnostic.hint}};
+}
+
+Json to_json(const BundledFile& file) {
+  Json json = {{"path", file.path}};
+  if (!file.asked.empty()) json["asked"] = file.asked;
+  if (file.failure) {
+    json["failure"] = to_json(*file.failure);
+  } else {
+    json["bytes"] = file.bytes.size();
+    json["sha256"] = sha256(file.bytes);
+  }
+  return json;
+}
+
+Json index_of(const Bundle& bundle) {
+  Json json = {{"schema", k_schema},          {"tool", "fusee bundle"},
+               {"version", bundle.version},   {"built_with", bundle.built_with},
+               {"runs_on", bundle.runs_on},   {"command", bundle.words},
+               {"exit", bundle.outcome.exit}, {"messages", Json::array()},
+               {"files", Json::array()},      {"in_the_way", bundle.in_the_way},
+               {"outputs", Json::array()}};
+  for (const Diagnostic& message : bundle.outcome.messages) json["messages"].push_back(to_json(message));
+  for (const BundledFile& file : bundle.files) json["files"].push_back(to_json(file));
+  for (const BundledOutput& output : bundle.outcome.outputs)
+    json["outputs"].push_back({{"path", output.path}, {"bytes", output.bytes}, {"sha256", output.sha256}});
+  return json;
+}
+
+// ---- reading --------------------------------------------------------------------------------------------------------
+
+[[noreturn]] void fail(const std::string& file, const std::string& entry, const std::string& message) {
+  fail_in_entry(file, entry, -1, message);
+}
+
+/// The entries of an archive, each once and each a name that stays in it.
+std::map<std::string, std::string> entries_of(std::string_view bytes, const std::string& file) {
+  const ZipArchive archive(bytes, file, "a bundle of fusee, which is a zip archive");
+  if (archive.size() > k_most_bundled_files + 2)
+    throw InputError(file,
+                     fmt::format("has {} entries; a bundle has {} at most", archive.size(), k_most_bundled_files));
+  std::uint64_t budget = k_largest_bundle;
+  const std::string limits = fmt::format("a bundle may have {} MiB", k_largest_bundle >> 20);
+  std::map<std::string, std::string> entries;
+  for (std::size_t i = 0; i < archive.size(); ++i) {
+    const std::string name = archive.name_of(i);
+    if (!is_inner_path(name)) fail(file, name, "the name leads out of the bundle");
+    if (!archive.is_plain_file(i)) fail(file, name, "is a link, a folder or encrypted, and no file");
+    if (entries.count(name) != 0) fail(file, name, "stands twice in the bundle");
+    entries[name] = archive.unpacked(i, budget, limits);
+  }
+  return entries;
+}
+
+/// Values of bundle.json, each with its place where it is not what it should be.
+class Index {
+ public:
+  Index(const std::string& file, const Json& json, std::string place)
+      : file_(file), json_(json), place_(std::move(place)) {
+    if (!json_.is_object()) fail(file_, k_index, place_ + " is no table");
+  }
+
+  bool has(const char* key) const { return json_.contains(key); }
+  std::string text(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_string()) wrong(key, "a text");
+    return value.get<std::string>();
+  }
+  std::int64_t integer(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_number_integer()) wrong(key, "a whole number");
+    return value.get<std::int64_t>();
+  }
+  const Json& list(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_array()) wrong(key, "a list");
+    return value;
+  }
+  std::vector<std::string> texts(const char* key) const {
+    std::vector<std::string> all;
+    for (const Json& each : list(key)) {
+      if (!each.is_string()) wrong(key, "a list of texts");
+      all.push_back(each.get<std::string>());
+    }
+    return all;
+  }
+  Index table(const char* key) const { return {file_, at(key), place_ + "." + key}; }
+  template <class Read>
+  void for_each(const char* key, const Read& read) const {
+    std::size_t count = 0;
+    for (const Json& item : list(key)) read(Index(file_, item, fmt::format("{}.{}[{}]", place_, key, count++)));
+  }
+  [[noreturn]] void wrong(const char* key, const std::string& expected) const {
+    fail(file_, k_index, fmt::format("{}.{} is not {}", place_, key, expected));
+  }
+
+ private:
+  const Json& at(const char* key) const {
+    const auto found = json_.find(key);
+    if (found == json_.end()) fail(file_, k_index, fmt::format("{} lacks {}", place_, key));
+    return *found;
+  }
+
+  const std::string& file_;
+  const Json& json_;
+  std::string place_;
+};
+
+Diagnostic read_diagnostic(const Index& index) {
+  const std::string severity = index.text("severity");
+  Diagnostic diagnostic;
+  if (severity == "warning") diagnostic.severity = Severity::warning;
+  if (severity == "note") diagnostic.severity = Severity::note;
+  diagnostic.place = {index.text("file"), static_cast<int>(index.integer("line")),
+                      static_cast<int>(index.integer("column"))};
+  diagnostic.message = index.text("message");
+  diagnostic.hint = index.text("hint");
+  return diagnostic;
+}
+
+/// Takes what belongs to it out of `entries`.
+BundledFile read_bundled(const Index& index, std::map<std::string, std::string>& entries) {
+  BundledFile file;
+  file.path = index.text("path");
+  if (index.has("asked")) file.asked = index.texts("asked");
+  if (index.has("failure")) {
+    file.failure = read_diagnostic(index.table("failure"));
+    return file;
+  }
+  if (!is_inner_path(file.path)) index.wrong("path", "a path within the bundle");
+  const auto entry = entries.find(k_files + file.path);
+  if (entry == entries.end()) index.wrong("path", "in the bundle, or listed twice");
+  file.bytes = std::move(entry->second);
+  entries.erase(entry);
+  if (sha256(file.bytes) != index.text("sha256")) index.wrong("sha256", "that of " + (k_files + file.path));
+  return file;
+}
+
+Json parse_index(const std::string& text, const std::string& file) {
+  // nlohmann destroys nested lists with recursion; an index nests four deep.
+  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= 8; };
+  Json json = Json::parse(text, shallow, /*allow_exceptions=*/false);
+  if (!json.is_object()) fail(file, k_index, "is no JSON document of a bundle");
+  return json;
+}
+
+}  // namespace
+
+bool is_inner_path(std::string_view path) {
+  if (path.empty() || path.size() > k_longest_path) return false;
+  const auto is_odd = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f || c == '\\' || c == ':'; };
+  if (std::any_of(path.begin(), path.end(), is_odd)) return false;
+  for (std::string_view rest = path;;) {
+    const std::string_view part = rest.substr(0, rest.find('/'));
+    if (part.empty() || part == "." || part == "..") return false;
+    if (part.size() == rest.size()) return true;
+    rest.remove_prefix(part.size() + 1);
+  }
+}
+
+std::string bundle_bytes(const Bundle& bundle) {
+  // Messages may quote bytes of any file; JSON may not.
+  const std::string index = index_of(bundle).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::vector<ZipEntry> entries = {{k_index, index}, {k_result, bundle.outcome.result}};
+  for (const BundledFile& file : bundle.files)
+    if (!file.failure) entries.push_back({k_files + file.path, file.bytes});
+  return zip_bytes(entries);
+}
+
+bool is_bundle(std::string_view bytes) {
+  // A zip's first entry has its name 30 bytes after its beginning.
+  constexpr std::size_t k_name = 30;
+  return bytes.substr(0, 4) == std::string_view("PK\3\4", 4) && bytes.size() > k_name &&
+         bytes.substr(k_name).rfind(k_index, 0) == 0;
+}
+
+Bundle read_bundle(std::string_view bytes, const std::string& name) {
+  std::map<std::string, std::string> entries = entries_of(bytes, name);
+  const auto text = entries.find(k_index), result = entries.find(k_result);
+  if (text == entries.end()) fail(name, k_index, "is not in this archive: it is no bundle of fusee");
+  if (result == entries.end()) fail(name, k_result, "is not in this archive: it is no whole bundle of fusee");
+  const Json json = parse_index(text->second, name);
+  const Index index(name, json, "the bundle");
+  if (index.text("tool") != "fusee bundle") index.wrong("tool", "\"fusee bundle\"");
+  if (index.integer("schema") != k_schema) index.wrong("schema", "1: it is of a later fusee");
+  Bundle bundle;
+  bundle.outcome.result = std::move(result->second);
+  entries.erase(text);
+  entries.erase(result);
+  bundle.version = index.text("version");
+  bundle.built_with = index.text("built_with");
+  bundle.runs_on = index.text("runs_on");
+  bundle.words = index.texts("command");
+  bundle.outcome.exit = static_cast<int>(index.integer("exit"));
+  index.for_each("messages", [&](const Index& each) { bundle.outcome.messages.push_back(read_diagnostic(each)); });
+  index.for_each("files", [&](const Index& each) { bundle.files.push_back(read_bundled(each, entries)); });
+  bundle.in_the_way = index.texts("in_the_way");
+  for (const std::string& path : bundle.in_the_way)
+    if (!is_inner_path(path.ends_with('/') ? path.substr(0, path.size() - 1) : path))
+      index.wrong("in_the_way", "a list of paths within the bundle");
+  index.for_each("outputs", [&](const Index& each) {
+    bundle.outcome.outputs.push_back(
+        {each.text("path"), static_cast<std::uint64_t>(each.integer("bytes")), each.text("sha256")});
+  });
+  if (!entries.empty()) fail(name, entries.begin()->first, "is not listed in bundle.json");
+  return bundle;
+}
+
+}  // namespace fusee

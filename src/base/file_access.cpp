@@ -1,0 +1,69 @@
+#include "fusee/base/file_access.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <vector>
+
+#include "base/descriptor.h"
+#include "base/staging.h"
+#include "fusee/base/diagnostics.h"
+
+namespace fusee {
+namespace {
+
+/// Set by the one thread that reads and writes files, and looked at by it.
+FileAccess* innermost = nullptr;
+
+std::string error_text(int code) { return std::error_code(code, std::generic_category()).message(); }
+
+void demand_readable(const ReadRequest& request, const Descriptor& file) {
+  const std::string name = request.path.string();
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0) throw InputError(name, "cannot be read: " + error_text(errno));
+  if (S_ISDIR(status.st_mode)) throw InputError(name, "is a directory", "name a file in it");
+  if (!S_ISREG(status.st_mode) && !(request.pipes && S_ISFIFO(status.st_mode)))
+    throw InputError(name, "is not a regular file", "write it to a file first");
+  if (S_ISREG(status.st_mode) && static_cast<std::uintmax_t>(status.st_size) > request.limit)
+    throw InputError(name, fmt::format("is larger than {} bytes", request.limit), "is it the right file?");
+}
+
+}  // namespace
+
+FileAccess::FileAccess() : outer_(innermost) { innermost = this; }
+FileAccess::~FileAccess() { innermost = outer_; }
+FileAccess* FileAccess::current() { return innermost; }
+
+void read_as_it_lies(const ReadRequest& request, const TakeBlock& take) {
+  const std::string name = request.path.string();
+  // O_NONBLOCK: a pipe that nobody writes to must not hang us; where pipes are welcome there is a writer to wait for.
+  const int waiting = request.pipes ? 0 : O_NONBLOCK;
+  const Descriptor file(::open(request.path.c_str(), O_RDONLY | O_CLOEXEC | waiting));
+  if (!file.ok())
+    throw InputError(name, "cannot be read: " + error_text(errno), errno == ENOENT ? "check the path" : "");
+  demand_readable(request, file);
+  constexpr std::size_t k_block = std::size_t{1} << 20;
+  std::vector<char> block(k_block);
+  std::size_t left = request.limit;
+  for (;;) {
+    const ssize_t count = ::read(file.number(), block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw InputError(name, "cannot be read: " + error_text(errno));
+    if (count == 0) return;
+    // Files of /proc promise no size at all.
+    if (static_cast<std::size_t>(count) > left)
+      throw InputError(name, fmt::format("is larger than {} bytes", request.limit), "is it the right file?");
+    left -= static_cast<std::size_t>(count);
+    take({block.data(), static_cast<std::size_t>(count)});
+  }
+}
+
+void read_from_disk(const ReadRequest& request, const TakeBlock& take) {
+  end_killed_publishing(request.path);
+  read_as_it_lies(request, take);
+}
+
+}  // namespace fusee

@@ -1,0 +1,149 @@
+#include "cli/recording.h"
+
+#include <gnu/libc-version.h>
+
+#include <algorithm>
+
+#include "fusee/base/files.h"
+
+namespace fusee::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool stands_as_other(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return false;
+  if (!fs::is_regular_file(file, error)) return true;
+  try {
+    return !is_bundle(read_output(file, k_largest_bundle));
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
+fs::path here() {
+  std::error_code error;
+  const fs::path folder = fs::current_path(error);
+  return error ? fs::path("/") : folder;
+}
+
+std::string compiler() {
+#ifdef __clang__
+  return "clang " __clang_version__;
+#else
+  return "gcc " __VERSION__;
+#endif
+}
+
+std::string machine() {
+#if defined(__x86_64__)
+  const std::string processor = "x86_64";
+#elif defined(__aarch64__)
+  const std::string processor = "aarch64";
+#else
+  const std::string processor = "another processor";
+#endif
+  return processor + ", glibc " + gnu_get_libc_version();
+}
+
+}  // namespace
+
+std::string take_bundle_option(std::vector<std::string>& words) {
+  const auto end = std::find(words.begin(), words.end(), "--");
+  for (auto word = words.begin(); word != end; ++word) {
+    if (word->rfind("--bundle=", 0) == 0) {
+      const std::string file = word->substr(9);
+      if (!file.empty()) words.erase(word);
+      return file;
+    }
+    if (*word != "--bundle" || word + 1 == end || (word + 1)->empty() || (word + 1)->rfind("--", 0) == 0) continue;
+    const std::string file = *(word + 1);
+    words.erase(word, word + 2);
+    return file;
+  }
+  return "";
+}
+
+void sign(Bundle& bundle) {
+  bundle.version = FUSEE_VERSION;
+  bundle.built_with = compiler();
+  bundle.runs_on = machine();
+}
+
+BundledOutcome outcome_of(const Ending& ending, std::vector<BundledOutput> outputs, const BundleNames& names) {
+  BundledOutcome outcome;
+  outcome.exit = static_cast<int>(ending.reply.exit);
+  outcome.outputs = std::move(outputs);
+  outcome.result = names.text(ending.result);
+  for (Diagnostic message : ending.reply.diagnostics) {
+    for (std::string* words : {&message.place.file, &message.message, &message.hint}) *words = names.text(*words);
+    outcome.messages.push_back(std::move(message));
+  }
+  return outcome;
+}
+
+Recording::Recording(fs::path file, const std::vector<std::string>& words, bool force)
+    : file_(std::move(file)), force_(force), names_(here()) {
+  if (!force_ && stands_as_other(file_))
+    throw OutputError(file_.string() + " exists and is no bundle of fusee",
+                      "choose another name, or overwrite it with --force");
+  sign(bundle_);
+  bundle_.words = names_.inner_words(words);
+}
+
+void Recording::read(const ReadRequest& request, const TakeBlock& take) {
+  std::vector<std::string> asked = names_.asked(request.path);  // before it has a name itself
+  const std::string name = names_.inner(request.path);
+  asked.erase(std::remove(asked.begin(), asked.end(), name), asked.end());
+  const bool known = std::any_of(bundle_.files.begin(), bundle_.files.end(),
+                                 [&name](const BundledFile& file) { return file.path == name; });
+  if (known) return read_from_disk(request, take);  // what is read twice stands once
+  BundledFile& entry = bundle_.files.emplace_back(BundledFile{name, std::move(asked), {}, {}});
+  bool taking = false;
+  try {
+    read_from_disk(request, [&](std::string_view block) {
+      kept_ += block.size();
+      if (kept_ <= k_largest_bundle) entry.bytes += block;
+      taking = true;
+      take(block);
+      taking = false;
+    });
+  } catch (const InputError& error) {
+    if (!taking) entry.failure = error.diagnostics().front();
+    if (entry.failure) entry.failure->place.file.clear();
+    throw;
+  }
+}
+
+void Recording::in_the_way(const fs::path& path) {
+  const std::string name = names_.inner(path);
+  // What cannot stand again in a folder of its own is only in the message.
+  if (is_inner_path(name)) bundle_.in_the_way.push_back(name + (fs::is_directory(path) ? "/" : ""));
+}
+
+void Recording::wrote(const fs::path& name, std::string_view bytes) {
+  bundle_.outcome.outputs.push_back({names_.inner(name), bytes.size(), sha256(bytes)});
+}
+
+Diagnostic Recording::pack(const Ending& ending) {
+  if (kept_ > k_largest_bundle || bundle_.files.size() > k_most_bundled_files)
+    throw OutputError("no bundle was written: what was read is more than one may hold");
+  const std::string own = names_.inner(file_);
+  for (const BundledFile& file : bundle_.files) {
+    if (file.path == own && !file.failure)
+      throw OutputError("no bundle was written: " + file_.string() + " is one of the files that were read",
+                        "choose another name");
+  }
+  bundle_.outcome = outcome_of(ending, bundle_.outcome.outputs, names_);
+  // What stands there was looked at before the run.
+  write_file(file_, bundle_bytes(bundle_), /*force=*/!stands_as_other(file_) || force_);
+  std::string list;
+  for (const BundledFile& file : bundle_.files)
+    if (!file.failure) list += (list.empty() ? "" : ", ") + file.path;
+  return note(Severity::note,
+              file_.string() + " holds the options of this run, what it said" + (list.empty() ? "" : ", and " + list),
+              "'fusee replay " + file_.string() + "' runs it again");
+}
+
+}  // namespace fusee::cli

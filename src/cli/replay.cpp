@@ -1,0 +1,338 @@
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "base/bundle.h"
+#include "base/staging.h"
+#include "cli/bundle_names.h"
+#include "cli/command.h"
+#include "cli/recording.h"
+#include "cli/run.h"
+#include "fusee/base/files.h"
+#include "fusee/base/text.h"
+
+// A bundle runs again in a folder of its own and in this process. What it reads comes from the bundle and from nowhere
+// else, whatever its command line says; what it writes stays in that folder. A hostile bundle can do no more than fusee
+// can do to its own files.
+
+namespace fusee::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t k_most_differences = 8;
+
+// ---- running it -----------------------------------------------------------------------------------------------------
+
+/// The files of a bundle in place of the disk.
+class Replaying : public FileAccess {
+ public:
+  Replaying(const Bundle& bundle, fs::path here) : bundle_(bundle), here_(std::move(here)), names_(here_) {}
+
+  void read(const ReadRequest& request, const TakeBlock& take) override;
+  void will_write(const fs::path& place) override;
+  void wrote(const fs::path& name, std::string_view bytes) override {
+    outputs_.push_back({names_.inner(name), bytes.size(), sha256(bytes)});
+  }
+  const std::vector<BundledOutput>& outputs() const { return outputs_; }
+  const BundleNames& names() const { return names_; }
+
+ private:
+  const BundledFile* find(const fs::path& path) const;
+
+  const Bundle& bundle_;
+  fs::path here_;
+  BundleNames names_;
+  std::vector<BundledOutput> outputs_;
+};
+
+const BundledFile* Replaying::find(const fs::path& path) const {
+  const std::string near = seen_from(here_, path).string();
+  const std::string hidden = path.is_absolute() ? hidden_path(path) : std::string();
+  for (const BundledFile& file : bundle_.files) {
+    const auto is_it = [&](const std::string& asked) { return asked == near || (!hidden.empty() && asked == hidden); };
+    if (file.path == near || std::any_of(file.asked.begin(), file.asked.end(), is_it)) return &file;
+  }
+  return nullptr;
+}
+
+void Replaying::read(const ReadRequest& request, const TakeBlock& take) {
+  const std::string name = request.path.string();
+  const BundledFile* file = find(request.path);
+  if (file == nullptr) throw InputError(name, "cannot be read: it is not in the bundle");
+  names_.add(name, file->path);
+  if (file->failure) throw InputError(name, file->failure->message, file->failure->hint);
+  if (file->bytes.size() > request.limit)
+    throw InputError(name, "is larger than " + std::to_string(request.limit) + " bytes", "is it the right file?");
+  constexpr std::size_t k_block = std::size_t{1} << 20;
+  for (std::string_view rest = file->bytes; !rest.empty(); rest.remove_prefix(std::min(rest.size(), k_block)))
+    take(rest.substr(0, k_block));
+}
+
+void Replaying::will_write(const fs::path& place) {
+  const fs::path near = seen_from(here_, place);
+  if (near.empty() || *near.begin() == "..")
+    throw OutputError(place.string() + " lies outside of the folder in which a bundle is replayed");
+}
+
+/// The process stands in `folder` while it lives, and has its temporary files there.
+class Within {
+ public:
+  explicit Within(const fs::path& folder) {
+    std::error_code error;
+    before_ = fs::current_path(error);
+    if (const char* temporary = ::getenv("TMPDIR")) temporary_ = temporary;
+    if (::chdir(folder.c_str()) != 0) fail_output("cannot work in", folder, errno);
+    ::setenv("TMPDIR", folder.c_str(), 1);
+  }
+  ~Within() {
+    if (!before_.empty() && ::chdir(before_.c_str()) != 0) before_.clear();
+    if (temporary_) {
+      ::setenv("TMPDIR", temporary_->c_str(), 1);
+    } else {
+      ::unsetenv("TMPDIR");
+    }
+  }
+  Within(const Within&) = delete;
+  Within& operator=(const Within&) = delete;
+
+ private:
+  fs::path before_;
+  std::optional<std::string> temporary_;
+};
+
+BundledOutcome replayed(const Bundle& bundle, const fs::path& folder) {
+  const Within within(folder);
+  Console console;
+  Replaying access(bundle, fs::current_path());
+  const Ending ending = ending_of(bundle.words, console);
+  return outcome_of(ending, access.outputs(), access.names());
+}
+
+// ---- where it goes --------------------------------------------------------------------------------------------------
+
+void unpack(const Bundle& bundle, const fs::path& folder) {
+  for (const BundledFile& file : bundle.files)
+    if (!file.failure) write_file(folder / file.path, file.bytes, /*force=*/false);
+}
+
+/// What was refused then because something stood there is refused again.
+void put_in_the_way(const Bundle& bundle, const fs::path& folder) {
+  std::error_code ignored;
+  for (const std::string& path : bundle.in_the_way) {
+    const fs::path place = folder / path;
+    fs::create_directories(path.ends_with('/') ? place : place.parent_path(), ignored);
+    if (!path.ends_with('/') && !stands(place)) write_file(place, "", /*force=*/false);
+  }
+}
+
+void demand_free(const fs::path& folder) {
+  std::error_code error;
+  if (!stands(folder) || (fs::is_directory(fs::symlink_status(folder)) && fs::is_empty(folder, error))) return;
+  throw OutputError(folder.string() + " exists and is not an empty folder", "choose another one with -o");
+}
+
+/// In a folder beside `kept`, which gets its name; without one in the system's temporary folder.
+BundledOutcome replayed_in_own_folder(const Bundle& bundle, const std::optional<fs::path>& kept) {
+  std::error_code error;
+  const fs::path place = kept ? fs::weakly_canonical(fs::absolute(*kept), error) : fs::path();
+  const fs::path above = kept ? (place.has_filename() ? place.parent_path() : place.parent_path().parent_path())
+                              : fs::temp_directory_path();
+  MissingFolders missing;
+  missing.make(above);
+  remove_stale_stagings(above);
+  const Staging staging(above);
+  // In it, not it: who publishes into a folder takes a turn at the one above, and the staging folder is taken.
+  const fs::path folder = staging.path() / "run";
+  if (!fs::create_directory(folder, error)) fail_output("cannot make the folder", folder, error.value());
+  if (kept) unpack(bundle, folder);
+  put_in_the_way(bundle, folder);
+  BundledOutcome outcome = replayed(bundle, folder);
+  if (!kept) return outcome;
+  demand_free(*kept);
+  if (::rename(folder.c_str(), place.c_str()) != 0) fail_output("cannot write", *kept, errno);
+  return outcome;
+}
+
+// ---- what is the same -----------------------------------------------------------------------------------------------
+
+/// Columns and lines are as wide as the names in them.
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Difference {
+  std::string of;  ///< "exit code", "message 2" …
+  std::string then, now;
+};
+
+/// Texts one by one, and those that only one of them has.
+void compare(const std::string& of, const std::vector<std::string>& then, const std::vector<std::string>& now,
+             std::vector<Difference>& differences) {
+  const std::string none = "(none)";
+  for (std::size_t i = 0; i < std::max(then.size(), now.size()); ++i) {
+    const std::string& before = i < then.size() ? then[i] : none;
+    const std::string& after = i < now.size() ? now[i] : none;
+    if (words_of(before) != words_of(after)) differences.push_back({of + " " + std::to_string(i + 1), before, after});
+  }
+}
+
+std::vector<std::string> messages_of(const BundledOutcome& outcome) {
+  std::vector<std::string> texts;
+  for (const Diagnostic& message : outcome.messages) texts.push_back(to_text(message));
+  return texts;
+}
+
+std::vector<std::string> outputs_of(const BundledOutcome& outcome) {
+  std::vector<std::string> texts;
+  for (const BundledOutput& output : outcome.outputs)
+    texts.push_back(output.path + ", " + std::to_string(output.bytes) + " bytes, sha256 " +
+                    output.sha256.substr(0, 12));
+  return texts;
+}
+
+std::vector<Difference> differences_of(const BundledOutcome& then, const BundledOutcome& now) {
+  std::vector<Difference> all;
+  if (then.exit != now.exit) all.push_back({"exit code", std::to_string(then.exit), std::to_string(now.exit)});
+  compare("message", messages_of(then), messages_of(now), all);
+  compare("output", outputs_of(then), outputs_of(now), all);
+  if (words_of(then.result) != words_of(now.result)) compare("line", lines_of(then.result), lines_of(now.result), all);
+  return all;
+}
+
+// ---- words ----------------------------------------------------------------------------------------------------------
+
+std::string command_line(const Bundle& bundle) {
+  std::string line = "fusee";
+  for (const std::string& word : bundle.words) {
+    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$`()[]{}*?;&|<>#!~") == std::string::npos;
+    line += plain ? " " + word : " '" + word + "'";
+  }
+  return line;
+}
+
+std::string files_text(const Bundle& bundle) {
+  std::string text;
+  for (const BundledFile& file : bundle.files)
+    text += (text.empty() ? "" : ", ") + file.path +
+            (file.failure ? " (" + file.failure->message + ")" : " (" + std::to_string(file.bytes.size()) + " B)");
+  return text.empty() ? "no file" : text;
+}
+
+void say_version(const Bundle& bundle, Reply& reply) {
+  Bundle own;
+  sign(own);
+  const auto say = [&reply](Severity severity, const std::string& what, const std::string& then,
+                            const std::string& now) {
+    if (then != now)
+      reply.diagnostics.push_back(note(severity, "the bundle is of " + what + then + ", and this is " + what + now));
+  };
+  say(Severity::warning, "fusee ", bundle.version, own.version);
+  say(Severity::note, "a fusee built with ", bundle.built_with, own.built_with);
+  say(Severity::note, "a machine with ", bundle.runs_on, own.runs_on);
+}
+
+std::string summary(const Bundle& bundle, const BundledOutcome& now, const std::vector<Difference>& differences) {
+  std::string text = command_line(bundle) + "\n  packed by  fusee " + bundle.version + ", " + bundle.built_with + ", " +
+                     bundle.runs_on + "\n" + wrapped(files_text(bundle), "  read       ", "             ");
+  if (differences.empty())
+    return text + "  the same   exit code " + std::to_string(now.exit) + ", " + std::to_string(now.messages.size()) +
+           " messages, " + std::to_string(now.outputs.size()) + " outputs, " +
+           std::to_string(lines_of(now.result).size()) + " lines on stdout\n";
+  for (std::size_t i = 0; i < std::min(differences.size(), k_most_differences); ++i) {
+    const Difference& difference = differences[i];
+    text += "  differs    " + difference.of + "\n    then     " + difference.then + "\n    now      " + difference.now +
+            "\n";
+  }
+  if (differences.size() > k_most_differences)
+    text += "  and        " + std::to_string(differences.size() - k_most_differences) + " more differences\n";
+  return text;
+}
+
+void add_findings(const Bundle& bundle, const std::vector<Difference>& differences, Reply& reply) {
+  if (differences.empty()) return;
+  reply.exit = Exit::check_failed;
+  std::string hint;
+  if (bundle.outcome.exit == static_cast<int>(Exit::cannot_write))
+    hint = "what stood where its outputs go is not in a bundle";
+  if (bundle.outcome.exit == static_cast<int>(Exit::interrupted)) hint = "that run was interrupted";
+  reply.diagnostics.push_back(
+      note(Severity::error, "the run is not as it was: " + differences.front().of + " differs", hint));
+}
+
+Json differences_json(const std::vector<Difference>& differences) {
+  Json list = Json::array();
+  for (const Difference& difference : differences)
+    list.push_back({{"of", difference.of}, {"then", difference.then}, {"now", difference.now}});
+  return list;
+}
+
+/// One in another would have no end where a bundle is made to hold itself.
+void refuse_nested(const Bundle& bundle, const std::string& file) {
+  const auto at = find_command(bundle.words);
+  if (at && bundle.words[*at] == "replay")
+    throw InputError(file, "holds a run of 'fusee replay'", "replay the bundle that it was given: it is in this zip");
+}
+
+Reply run_replay(const Arguments& arguments, Console& console) {
+  const std::string& file = arguments.positionals().front();
+  std::optional<fs::path> kept;
+  if (const auto folder = arguments.text("--out")) kept = *folder;
+  const Bundle bundle = read_bundle(read_file(file, k_largest_bundle), file);
+  refuse_nested(bundle, file);
+  if (arguments.has("--dry-run")) kept.reset();
+  if (kept) demand_free(*kept);
+  console.progress("running " + command_line(bundle));
+  Reply reply;
+  say_version(bundle, reply);
+  const BundledOutcome now = replayed_in_own_folder(bundle, kept);
+  const std::vector<Difference> differences = differences_of(bundle.outcome, now);
+  add_findings(bundle, differences, reply);
+  reply.text = summary(bundle, now, differences);
+  if (kept) reply.text += "  in         " + kept->string() + "\n";
+  reply.fields["replayed"] = bundle.words;
+  reply.fields["version"] = bundle.version;
+  reply.fields["built_with"] = bundle.built_with;
+  reply.fields["runs_on"] = bundle.runs_on;
+  reply.fields["exit_then"] = bundle.outcome.exit;
+  reply.fields["exit_now"] = now.exit;
+  reply.fields["same"] = differences.empty();
+  reply.fields["differences"] = differences_json(differences);
+  reply.fields["messages"] = messages_of(now);
+  if (kept) reply.fields["folder"] = kept->string();
+  return reply;
+}
+
+}  // namespace
+
+Command replay_command() {
+  return {"replay",
+          "FILE",
+          "a run that --bundle packed, once more",
+          "Runs the command again that --bundle packed into FILE, on the files and with the\n"
+          "options that are in it, and says whether exit code, messages, outputs and what\n"
+          "it printed are as they were then, and where they differ (exit code 5). It reads\n"
+          "nothing but the bundle, and writes nothing but in a folder of its own, which is\n"
+          "removed afterwards unless -o gives it a place.",
+          {{"-o,--out", "DIR",
+            "leave the files of the bundle and what comes of them\nin DIR, which must not exist or be empty"}},
+          {{"fusee build arm.toml --set pulley.r1_mm=15 --bundle bug.zip", "pack a run: attach bug.zip to a report"},
+           {"fusee replay bug.zip", "does it end as it did there?"},
+           {"fusee replay bug.zip -o bug", "and with everything left in bug, to look at"}},
+          run_replay};
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,129 @@
+// A bundle is read as it was written, and nothing that anybody sends as one does harm.
+#include "base/bundle.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "base/zip.h"
+#include "fusee/base/files.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr std::size_t k_any_size = 1 << 26;
+
+Bundle example() {
+  Bundle bundle;
+  bundle.version = "1.2.3";
+  bundle.built_with = "a compiler";
+  bundle.runs_on = "a machine";
+  bundle.words = {"build", "arm.toml", "-o", "outside/made"};
+  bundle.files.push_back({"arm.toml", {}, std::string("a\0b\r\n", 5), {}});
+  bundle.files.push_back({"outside/law.csv", {"../law.csv", "sha256:00"}, "", {}});
+  Diagnostic failure;
+  failure.message = "cannot be read";
+  failure.hint = "check the path";
+  bundle.files.push_back({"none.csv", {}, "", failure});
+  bundle.in_the_way = {"made/pulley.stl", "made/"};
+  bundle.outcome.exit = 4;
+  Diagnostic warning = failure;
+  warning.severity = Severity::warning;
+  warning.place = {"arm.toml", 3, 7};
+  bundle.outcome.messages = {warning, failure};
+  bundle.outcome.result = "a line\n";
+  bundle.outcome.outputs = {{"made/pulley.stl", 12, std::string(64, 'f')}};
+  return bundle;
+}
+
+std::string refusal(const std::string& bytes) {
+  try {
+    read_bundle(bytes, "bug.zip");
+  } catch (const InputError& error) {
+    return to_text(error.diagnostics().front());
+  }
+  return "";
+}
+
+/// The entries of the example, to be spoilt.
+struct Entries {
+  std::string index, result = "a line\n", spec = std::string("a\0b\r\n", 5), law;
+  std::vector<ZipEntry> all;
+  Entries() {
+    const std::string bytes = bundle_bytes(example());
+    const ZipArchive archive(bytes, "bug.zip", "a zip");
+    std::uint64_t budget = k_any_size;
+    index = archive.unpacked(archive.find("bundle.json").value(), budget, "");
+    all = {{"bundle.json", index}, {"stdout.txt", result}, {"files/arm.toml", spec}, {"files/outside/law.csv", law}};
+  }
+};
+
+TEST(Bundles, AreReadAsTheyWereWritten) {
+  const std::string bytes = bundle_bytes(example());
+  const Bundle read = read_bundle(bytes, "bug.zip");
+  EXPECT_TRUE(is_bundle(bytes));
+  EXPECT_EQ(bundle_bytes(read), bytes);
+  EXPECT_EQ(read.words, example().words);
+  EXPECT_EQ(read.files[0].bytes, example().files[0].bytes);
+  EXPECT_EQ(read.files[1].asked, example().files[1].asked);
+  EXPECT_EQ(read.files[2].failure->hint, "check the path");
+  EXPECT_EQ(read.in_the_way, example().in_the_way);
+  EXPECT_EQ(read.outcome.outputs, example().outcome.outputs);
+  EXPECT_EQ(read.outcome.messages[0].severity, Severity::warning);
+  EXPECT_EQ(read.outcome.messages[0].place.column, 7);
+}
+
+TEST(Bundles, RefuseNamesThatLeadOut) {
+  for (const char* name :
+       {"../evil", "/evil", "files/../evil", "files/./evil", "files//evil", "files\\evil", "c:evil"}) {
+    Entries entries;
+    entries.all.push_back({name, "x"});
+    EXPECT_THAT(refusal(zip_bytes(entries.all)),
+                HasSubstr(std::string("bug.zip: error: ") + name + ": the name leads out"));
+  }
+}
+
+TEST(Bundles, HoldWhatTheyListAndNothingElse) {
+  Entries more;
+  more.all.push_back({"files/more", "x"});
+  EXPECT_THAT(refusal(zip_bytes(more.all)), HasSubstr("files/more: is not listed"));
+  Entries less;
+  less.all.pop_back();
+  EXPECT_THAT(refusal(zip_bytes(less.all)), HasSubstr("the bundle.files[1].path is not in the bundle"));
+  Entries changed;
+  changed.all[2].bytes = "other";
+  EXPECT_THAT(refusal(zip_bytes(changed.all)), HasSubstr("the bundle.files[0].sha256 is not that of files/arm.toml"));
+}
+
+TEST(Bundles, RefuseWhatIsNoIndex) {
+  for (const std::string& index :
+       {std::string("{}"), std::string("[]"), std::string(50000, '['), std::string("\0", 1)}) {
+    Entries entries;
+    entries.all[0].bytes = index;
+    EXPECT_THAT(refusal(zip_bytes(entries.all)), HasSubstr("bug.zip: error: bundle.json: "));
+  }
+  EXPECT_THAT(refusal("PK"), HasSubstr("expected a bundle of fusee, which is a zip archive"));
+  EXPECT_THAT(refusal(zip_bytes({{"a", "b"}})), HasSubstr("it is no bundle of fusee"));
+}
+
+TEST(Bundles, UnpackToAsMuchAsIsAllowed) {
+  const std::string zeros(1 << 20, '\0');
+  const std::string bytes = zip_bytes({{"zeros", zeros}});
+  const ZipArchive archive(bytes, "bomb.zip", "a zip");
+  std::uint64_t budget = zeros.size() - 1;
+  EXPECT_THROW(archive.unpacked(0, budget, "no more than that"), InputError);
+  EXPECT_LT(bytes.size(), zeros.size() / 100);
+}
+
+TEST(Bundles, OfTheFuzzersCorpus) {
+  int read = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(FUSEE_SOURCE_DIR) / "tests/fuzz/corpus/bundle"))
+    read += refusal(read_file(entry.path(), k_any_size)).empty() ? 1 : 0;
+  EXPECT_EQ(read, 3);
+}
+
+}  // namespace
+}  // namespace fusee
