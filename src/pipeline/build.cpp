@@ -6,6 +6,7 @@
 #include <functional>
 #include <future>
 
+#include "base/beside.h"
 #include "fusee/analysis/plausibility.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/mesh_files.h"
@@ -71,7 +72,7 @@ struct Workshop {
   /// What another thread makes.
   template <typename Value>
   Value take(std::future<Value>& made) const {
-    while (made.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+    while (made.wait_for(std::chrono::milliseconds(20)) == std::future_status::timeout) {
       if (options.while_waiting) options.while_waiting(clean_up);
     }
     return made.get();
@@ -85,12 +86,6 @@ struct Workshop {
     }
   }
 };
-
-/// On a thread of its own, or a core's next turn.
-template <typename Work>
-auto beside(Work work) {
-  return std::async(std::launch::async, std::move(work));
-}
 
 /// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound
 /// on it at all: `wind` throws. What the exact method draws always can: there it would be a bug.

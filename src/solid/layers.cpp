@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <future>
 #include <optional>
 #include <utility>
 
+#include "base/beside.h"
 #include "fusee/base/units.h"
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"
@@ -204,7 +204,7 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
     return ledges;
   };
   const std::size_t half = heights.size() / 2;
-  auto upper = std::async(std::launch::async, [&] { return ledges_between(half, heights.size() - 1); });
+  auto upper = beside([&] { return ledges_between(half, heights.size() - 1); });
   std::vector<Vec3> ledges = ledges_between(0, half);
   for (const Vec3& ledge : upper.get()) ledges.push_back(ledge);
   return ledges;

@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <future>
 #include <optional>
 #include <utility>
 
+#include "base/beside.h"
 #include "fusee/base/diagnostics.h"
 #include "solid/blame.h"
 #include "solid/body.h"
@@ -330,7 +330,7 @@ struct BestCut {
 // The first that bears so much, or what bears most.
 BestCut best_cut(const PieceMaker& maker, int variants, int enough) {
   // What is no solid has no cut, but is a bug and not a refusal.
-  std::future<void> gate = std::async(std::launch::async, [&maker] { maker.demand_solids(); });
+  auto gate = beside([&maker] { maker.demand_solids(); });
   BestCut taken;
   int best = k_any;
   for (int variant = 0; variant < variants; ++variant) {
@@ -457,7 +457,7 @@ Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResul
     // Any cut shows whether it prints; the best is looked for where it does.
     Pulley pulley = pulley_of(mechanism, synthesis, plan, effort, k_any);
     if (!pulley.made()) return pulley;
-    std::future<int> soundness = std::async(std::launch::async, [&pulley] { return soundness_of(pulley.mesh); });
+    auto soundness = beside([&pulley] { return soundness_of(pulley.mesh); });
     std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
     if (soundness.get() != k_sound && places.empty()) {
       pulley = pulley_of(mechanism, synthesis, plan, effort, k_sound);
