@@ -6,6 +6,7 @@
 #include <functional>
 #include <future>
 
+#include "base/beside.h"
 #include "fusee/analysis/plausibility.h"
 #include "fusee/export/drawings.h"
 #include "fusee/export/mesh_files.h"
@@ -59,7 +60,10 @@ struct Workshop {
   OutputFolder& folder;
   std::function<void()> clean_up;
 
-  void step(std::string_view what) const { announce(options, what); }
+  void step(std::string_view what) const {
+    if (options.while_waiting) options.while_waiting(clean_up);
+    announce(options, what);
+  }
   void stage(std::string name, std::string bytes) {
     step("writing " + name);
     result.outputs.push_back({std::move(name), std::move(bytes)});
@@ -68,7 +72,7 @@ struct Workshop {
   /// What another thread makes.
   template <typename Value>
   Value take(std::future<Value>& made) const {
-    while (made.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+    while (made.wait_for(std::chrono::milliseconds(20)) == std::future_status::timeout) {
       if (options.while_waiting) options.while_waiting(clean_up);
     }
     return made.get();
@@ -82,12 +86,6 @@ struct Workshop {
     }
   }
 };
-
-/// On a thread of its own, or a core's next turn.
-template <typename Work>
-auto beside(Work work) {
-  return std::async(std::launch::async, std::move(work));
-}
 
 /// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound
 /// on it at all: `wind` throws. What the exact method draws always can: there it would be a bug.
@@ -145,9 +143,9 @@ DracoFile write_parts(Workshop& shop) {
   auto threemf = beside([&] { return threemf_bytes(plate_of(product.pulley), name); });
   auto obj = beside([&] { return obj_text(mesh, name); });
   auto scad = beside([&] { return scad_text(product); });
-  auto holding =
-      beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
-  shop.stage("pulley.stl", stl_bytes(mesh, name));
+  auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
+  auto stl = beside([&] { return stl_bytes(mesh, name); });
+  shop.stage("pulley.stl", shop.take(stl));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
   for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
@@ -190,15 +188,15 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
   Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   shop.step("checking what was written");
-  const TriangleMesh mesh = shop.mesh_of("pulley.stl");
+  auto written = beside([&] { return shop.mesh_of("pulley.stl"); });
+  const TriangleMesh mesh = shop.take(written);
   auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
   auto of_plates = beside([&] { return check_part(shop.read_back("plates.dxf")); });
   auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
   auto of_3mf = beside([&] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
   auto of_obj = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
-  auto of_pulley = beside([&] {
-    return check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance);
-  });
+  auto of_pulley =
+      beside([&] { return check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance); });
   std::vector<std::future<std::vector<Check>>> of_printed;
   for (const PrintedPart& part : product.pulley.parts)
     of_printed.push_back(beside([&] { return checks_of_printed(shop, part); }));
@@ -233,7 +231,8 @@ void write_texts(Workshop& shop) {
   shop.step("writing tables, report and manifest");
   auto report = beside([&] { return report_html(product); });
   auto transmission = beside([&] { return transmission_csv(product); });
-  shop.stage("profile.csv", profile_csv(product));
+  auto profile = beside([&] { return profile_csv(product); });
+  shop.stage("profile.csv", shop.take(profile));
   shop.stage("transmission.csv", shop.take(transmission));
   shop.stage("report.html", shop.take(report));
   auto manifest = beside([&] { return manifest_json(product, shop.result.outputs); });
@@ -268,9 +267,9 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
     return std::all_of(product.pulley.parts.begin(), product.pulley.parts.end(),
                        [&](const PrintedPart& part) { return all_ok(print_checks(mechanism.print, part.mesh)); });
   });
-  const bool is_right = all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.tolerance)) &&
-                        all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh),
-                                               options.limits));
+  const bool is_right =
+      all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.tolerance)) &&
+      all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh), options.limits));
   const bool prints = of_printing.get();
   return of_plates.get() && prints && is_right;
 }

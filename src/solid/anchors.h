@@ -3,6 +3,7 @@
 /// pocket. mm, rad.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -15,6 +16,11 @@ namespace fusee {
 
 /// Chords of a channel's arc.
 inline constexpr int k_fillet_steps = 6;
+/// A pocket's closed end is this much deeper than its channel, and the tab in which the channel ends this much wider
+/// and longer, so that no two of their faces coincide.
+inline constexpr double k_deeper = 0.07;
+/// Half the width of that tab.
+double half_tab(double width, double radius);
 /// A place of the closing arc.
 struct Station {
   double lap = 0;   ///< along the pitch curve from the end of the active arc
@@ -72,6 +78,8 @@ struct AnchorPath {
   /// pocket.
   std::vector<Vec2> edge(double aside, int steps) const;
   std::vector<Bar> bars(double width) const;
+  /// Both sides of the tab behind a pocket of this radius: a little further out than the channel's.
+  std::array<Bar, 2> tab_sides(double width, double radius) const;
 };
 
 /// Where on the closing arc a channel may begin, along the pitch curve from the end of the active arc. mm

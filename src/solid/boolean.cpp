@@ -153,7 +153,7 @@ std::optional<Surroundings> surroundings_of(const TriangleMesh& patch, const Tri
   // Where surfaces lie on one another they are a grain of a float apart or not at all; other walls are thicker.
   constexpr double k_beside = 1e-4;
   const auto [point, normal] = place_in(patch);
-  if (const auto inside = is_inside_of(solid, point)) return Surroundings{*inside, *inside};
+  if (const auto inside = is_inside_seen_upwards(solid, point)) return Surroundings{*inside, *inside};
   const auto below = is_inside_of(solid, point - k_beside * normal), above = is_inside_of(solid, point + k_beside * normal);
   if (!below || !above) return std::nullopt;
   return Surroundings{*below, *above};
@@ -184,21 +184,32 @@ bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& 
   return true;
 }
 
-// Each side of a facet has one that runs back along it.
-bool is_closed_once(const TriangleMesh& welded) {
-  std::vector<std::uint64_t> sides, back;
+using OpenSide = std::array<double, 6>;  // of a facet, from corner to corner
+
+// The sides along which a mesh is open, in order. Null where one is a side of several facets.
+std::optional<std::vector<OpenSide>> border_of(const TriangleMesh& welded) {
+  std::vector<std::pair<std::uint64_t, bool>> sides;  // an edge, and whether it is run upwards
   sides.reserve(3 * welded.triangles.size());
-  back.reserve(3 * welded.triangles.size());
   for (const auto& triangle : welded.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint64_t a = triangle[k], b = triangle[(k + 1) % 3];
-      sides.push_back(a << 32 | b);
-      back.push_back(b << 32 | a);
+      sides.emplace_back(std::min(a, b) << 32 | std::max(a, b), a < b);
     }
   }
   std::sort(sides.begin(), sides.end());
-  std::sort(back.begin(), back.end());
-  return sides == back && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+  if (std::adjacent_find(sides.begin(), sides.end()) != sides.end()) return std::nullopt;
+  std::vector<OpenSide> border;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (k + 1 < sides.size() && sides[k].first == sides[k + 1].first) {
+      ++k;
+      continue;
+    }
+    Vec3 from = welded.vertices[sides[k].first >> 32], to = welded.vertices[sides[k].first & 0xFFFFFFFFu];
+    if (!sides[k].second) std::swap(from, to);
+    border.push_back({from.x(), from.y(), from.z(), to.x(), to.y(), to.z()});
+  }
+  std::sort(border.begin(), border.end());
+  return border;
 }
 
 // Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone.
@@ -262,9 +273,11 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
   if (!cut || !sort_patches(cut->first, tool, true, operation, kept) ||
       !sort_patches(cut->second, body, false, operation, kept))
     return std::nullopt;
-  kept.result.push_back(parts.far);
-  const TriangleMesh exact = weld(together(kept.result));
-  if (!is_closed_once(exact)) return std::nullopt;
+  const TriangleMesh near = weld(together(kept.result));
+  // It has to fit into the place of what it was.
+  const auto border = border_of(near);
+  if (!border || border != border_of(parts.near)) return std::nullopt;
+  const TriangleMesh exact = together({near, parts.far});
   BooleanResult outcome{in_order(without_short_edges(rounded_to_float(exact))), enclosed_volume(in_order(weld(together(kept.common))))};
   flip_flat_facets(outcome.mesh);
   return outcome;

@@ -1,9 +1,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <optional>
 
+#include "base/beside.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/solid/mesh.h"
@@ -267,8 +267,7 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
     return checks;
   }
   const TriangleMesh welded = weld(mesh);
-  const auto where = welded.triangles.size() > k_worth_a_thread ? std::launch::async : std::launch::deferred;
-  std::future<Check> crossings = std::async(where, [&welded] { return crossing_check(welded); });
+  auto crossings = beside([&welded] { return crossing_check(welded); }, welded.triangles.size() > k_worth_a_thread);
   const std::vector<EdgeSide> sides = edge_sides(welded);
   const Topology topology = topology_of(welded, sides);
   checks.push_back(none_of(welded, "degenerate_facets", degenerate_facets(welded)));

@@ -7,10 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "base/beside.h"
 #include "fusee/base/units.h"
 #include "solid/nearest_segment.h"
-#include "solid/section.h"
 #include "solid/plane_distance.h"
+#include "solid/section.h"
 
 namespace fusee {
 namespace {
@@ -187,17 +188,25 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
   const TriangleMesh welded = weld(lying);
   const std::vector<Triangles> layers = triangles_by_layer(welded, heights);
   const auto section_of = [&](std::size_t layer) { return section_of_welded(welded, layers[layer], heights[layer]); };
-  std::vector<Vec3> ledges;
-  std::vector<Polygon> below = section_of(0);
-  for (std::size_t layer = 1; layer < heights.size(); ++layer) {
-    std::vector<Polygon> here = section_of(layer);
-    const WidenedLayer widened(std::move(below), reach, corners);
-    for (const Polygon& loop : here) {
-      if (const auto out = LayerWalk(widened).furthest_out(loop))
-        ledges.emplace_back(out->x(), out->y(), heights[layer]);
+  // Of the layers after the first up to the last.
+  const auto ledges_between = [&](std::size_t first, std::size_t last) {
+    std::vector<Vec3> ledges;
+    std::vector<Polygon> below = section_of(first);
+    for (std::size_t layer = first + 1; layer <= last; ++layer) {
+      std::vector<Polygon> here = section_of(layer);
+      const WidenedLayer widened(std::move(below), reach, corners);
+      for (const Polygon& loop : here) {
+        if (const auto out = LayerWalk(widened).furthest_out(loop))
+          ledges.emplace_back(out->x(), out->y(), heights[layer]);
+      }
+      below = std::move(here);
     }
-    below = std::move(here);
-  }
+    return ledges;
+  };
+  const std::size_t half = heights.size() / 2;
+  auto upper = beside([&] { return ledges_between(half, heights.size() - 1); });
+  std::vector<Vec3> ledges = ledges_between(0, half);
+  for (const Vec3& ledge : upper.get()) ledges.push_back(ledge);
   return ledges;
 }
 

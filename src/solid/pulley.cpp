@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <future>
 #include <optional>
 #include <utility>
 
+#include "base/beside.h"
 #include "fusee/base/diagnostics.h"
 #include "solid/blame.h"
 #include "solid/body.h"
@@ -231,6 +231,7 @@ bool keeps_walls(const BodyPlan& plan, int variant) {
     const AnchorPath path = varied(*channel, variant);
     std::vector<Bar> bars = path.bars(layout.channel_width);
     bars.push_back({path.pocket(), path.pocket(), layout.pocket_radius});
+    for (const Bar& side : path.tab_sides(layout.channel_width, layout.pocket_radius)) bars.push_back(side);
     return std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
       return std::all_of(holes.begin(), holes.end(),
                          [&](const Bar& hole) { return gap(bar, hole) >= layout.min_wall; });
@@ -249,6 +250,10 @@ class PieceMaker {
       add(synthesis, Piece::p1);
       add(synthesis, Piece::p2);
     }
+  }
+
+  void demand_solids() const {
+    for (const Blank& blank : blanks_) demand_solid(blank.mesh, "body");
   }
 
   // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way
@@ -277,7 +282,6 @@ class PieceMaker {
         body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange, plan_.layout, piece),
         plan_.layout.scale);
     blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
-    demand_solid(blanks_.back().mesh, "body");
   }
 
   const Mechanism& mechanism_;
@@ -325,18 +329,24 @@ struct BestCut {
 
 // The first that bears so much, or what bears most.
 BestCut best_cut(const PieceMaker& maker, int variants, int enough) {
+  // What is no solid has no cut, but is a bug and not a refusal.
+  auto gate = beside([&maker] { maker.demand_solids(); });
   BestCut taken;
   int best = k_any;
   for (int variant = 0; variant < variants; ++variant) {
     std::vector<Made> made = maker.cut(variant);
     if (made.empty()) continue;
-    if (enough == k_any) return {std::move(made), variant};
+    if (enough == k_any) {
+      taken = {std::move(made), variant};
+      break;
+    }
     const int soundness = soundness_of(made.front().mesh);
     if (!taken.pieces.empty() && soundness <= best) continue;
     taken = {std::move(made), variant};
     best = soundness;
     if (best >= enough) break;
   }
+  gate.get();
   return taken;
 }
 
@@ -447,7 +457,7 @@ Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResul
     // Any cut shows whether it prints; the best is looked for where it does.
     Pulley pulley = pulley_of(mechanism, synthesis, plan, effort, k_any);
     if (!pulley.made()) return pulley;
-    std::future<int> soundness = std::async(std::launch::async, [&pulley] { return soundness_of(pulley.mesh); });
+    auto soundness = beside([&pulley] { return soundness_of(pulley.mesh); });
     std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
     if (soundness.get() != k_sound && places.empty()) {
       pulley = pulley_of(mechanism, synthesis, plan, effort, k_sound);

@@ -14,8 +14,6 @@
 namespace fusee {
 namespace {
 
-// A pocket's closed end is this much deeper than its channel, so that no two of their faces coincide.
-constexpr double k_deeper = 0.07;
 // A slot to the face begins this far past the groove's plane, in the floor's band.
 constexpr double k_past_plane = 0.03;
 
@@ -76,7 +74,7 @@ TriangleMesh channel(const ChannelEdges& edges, double width, const Heights& hei
 // wall across it. The circle itself would meet the channel's slope at too sharp an angle.
 std::vector<Vec2> pocket_outline(double radius, double width, bool tab, int facets) {
   // A little wider than the channel, so that no two of their faces coincide.
-  const double half = std::min(0.5 * width + 0.5 * k_deeper, 0.95 * radius), behind = std::asin(half / radius);
+  const double half = half_tab(width, radius), behind = std::asin(half / radius);
   const double step = k_two_pi / facets;
   std::vector<Vec2> points;
   if (!tab) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/beside.h"
 #include "fusee/base/units.h"
 #include "solid/face_holes.h"
 
@@ -169,16 +170,20 @@ void TieOffPlanner::settle_pockets(BodyLayout& layout, const WoundTieOffs& wound
 std::vector<PlannedAnchor> TieOffPlanner::all(BodyLayout& layout, const WoundTieOffs& wound) const {
   std::vector<PlannedAnchor> anchors;
   if (!wound.both()) return anchors;
-  add(anchors, layout, ground1_, *wound.p1);
-  add(anchors, layout, ground2_, *wound.p2);
+  // Neither knows of the other; the nearest are found before a thread has begun.
+  const bool takes_long = mechanism_.body.wrap <= 0 && wishes_.wrap == WrapChoice::furthest;
+  auto pair2 = beside([&] { return wrapped_furthest(layout, ground2_, *wound.p2); }, takes_long);
+  const TieOffPair pair1 = wrapped_furthest(layout, ground1_, *wound.p1);
+  const TieOffPair of_p2 = pair2.get();
+  add(anchors, layout, ground1_, pair1);
+  add(anchors, layout, ground2_, of_p2);
   return anchors;
 }
 
 void TieOffPlanner::add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const AnchorGround& ground,
-                        const TieOff& first) const {
-  const TieOffPair pair = wrapped_furthest(layout, ground, first);
+                        const TieOffPair& pair) const {
   anchors.push_back({ground.outline().side, true, pair.wound, {}});
-  if (!is_channel(first)) {
+  if (!is_channel(pair.wound)) {
     layout.notes.push_back(
         fmt::format("no room on {} for a tie-off's channel and pocket: the tendon goes through a slot "
                     "to the face",

@@ -111,7 +111,7 @@ class TieOffPlanner {
   std::optional<TieOff> tie_off(const AnchorSite& site, const BodyLayout& layout, bool wound_end, double wanted,
                                 const LapRange& laps) const;
   void add(std::vector<PlannedAnchor>& anchors, BodyLayout& layout, const AnchorGround& ground,
-           const TieOff& first) const;
+           const TieOffPair& pair) const;
   bool is_rejected(Side side, bool wound_end, double wrap) const;
   TieOffPair wrapped_furthest(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;
   std::optional<TieOff> spare_beside(const BodyLayout& layout, const AnchorGround& ground, const TieOff& first) const;

@@ -1,7 +1,8 @@
 """How soon each command ends after one SIGINT, at random moments of its run: on the clock, and in seconds of processor
 used after the signal, which other programs on the machine do not change.
 
-usage: interrupt_latency.py FUSEE [MOMENTS=50] [COMMAND ...]   (build, refused, calibrate, plan, simulate, reproduce)
+usage: interrupt_latency.py FUSEE [MOMENTS=50] [COMMAND ...]
+(build, giant: of 1 m in fine facets, refused, refused_giant, calibrate, plan, simulate, reproduce)
 
 Runs of too short a command are over before the signal: they are counted as such. Ends with 1 where one took more than
 0.2 s of processor, or ended otherwise than with 130 or done.
@@ -58,6 +59,9 @@ def commands(fusee, folder):
     out = ["-o", f"{folder}/out", "--force"]
     return {
         "build": [fusee, "build", str(ROOT / "profiles/paper_optimum.toml"), *out],
+        "giant": [fusee, "build", f"{folder}/giant.toml", *out, "--tolerance-mm", "0.001"],
+        "refused_giant": [fusee, "build", f"{folder}/giant.toml", *out, "--tolerance-mm", "0.001",
+                          "--set", "body.bore_diameter_mm=280"],
         "refused": [fusee, "build", str(ROOT / "tests/data/refused.toml"), *out],
         "plan": [fusee, "plan", spec, *out],
         "simulate": [fusee, "simulate", spec, log, "-o", f"{folder}/sim.csv", "--force"],
@@ -66,8 +70,27 @@ def commands(fusee, folder):
     }
 
 
+GIANT = """schema = 1
+name = "giant"
+[joint]
+length_mm = 1000.0
+range_deg = [-30.0, 30.0]
+[guides]
+EB_mm = 500.0
+ED_mm = 500.0
+OE_mm = -400.0
+radius_mm = 8.0
+[pulley]
+EF_mm = 800.0
+r1_mm = 160.0
+[tendon]
+diameter_mm = 4.0
+"""
+
+
 def prepare(fusee, folder):
-    """Run files, and what the joint itself would read on them: something to calibrate."""
+    """A giant; run files, and what the joint itself would read on them: something to calibrate."""
+    pathlib.Path(folder, "giant.toml").write_text(GIANT)
     spec = str(ROOT / "profiles/forearm.toml")
     subprocess.run([fusee, "plan", spec, "-o", f"{folder}/plan", "-q"], check=True, stdout=subprocess.DEVNULL)
     for run in sorted(pathlib.Path(folder).glob("plan/run_*.csv"))[:3]:

@@ -1,0 +1,119 @@
+// Booleans against volumes that are known: boxes beside, within, through and flush with one another.
+#include "solid/boolean.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/check.h"
+#include "fusee/base/units.h"
+#include "solid/tools.h"
+
+namespace fusee {
+namespace {
+
+TriangleMesh box(const Vec3& low, const Vec3& high) {
+  return rounded_to_float(
+      prism({{{low.x(), low.y()}, {high.x(), low.y()}, {high.x(), high.y()}, {low.x(), high.y()}}}, low.z(), high.z()));
+}
+
+/// A ball of radius 10 in rings: most of its facets are far from a small tool.
+TriangleMesh ball() {
+  constexpr int k_rings = 24, k_sides = 48;
+  TriangleMesh mesh;
+  for (int i = 1; i < k_rings; ++i) {
+    for (int j = 0; j < k_sides; ++j) {
+      const double tilt = k_pi * i / k_rings, turn = k_two_pi * j / k_sides;
+      mesh.vertices.emplace_back(10 * std::sin(tilt) * std::cos(turn), 10 * std::sin(tilt) * std::sin(turn),
+                                 10 * std::cos(tilt));
+    }
+  }
+  const auto north = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.emplace_back(0, 0, 10);
+  mesh.vertices.emplace_back(0, 0, -10);
+  const auto at = [](int ring, int side) { return static_cast<std::uint32_t>((ring - 1) * k_sides + side % k_sides); };
+  for (int j = 0; j < k_sides; ++j) {
+    mesh.triangles.push_back({north, at(1, j), at(1, j + 1)});
+    mesh.triangles.push_back({north + 1, at(k_rings - 1, j + 1), at(k_rings - 1, j)});
+    for (int i = 1; i + 1 < k_rings; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return rounded_to_float(mesh);
+}
+
+void expect_solid(const std::optional<BooleanResult>& result, double volume, double common) {
+  ASSERT_TRUE(result.has_value());
+  for (const Check& check : check_mesh(result->mesh)) EXPECT_TRUE(check.ok) << check.name << " " << check.where;
+  EXPECT_NEAR(enclosed_volume(result->mesh), volume, 1e-5 * volume);
+  EXPECT_NEAR(result->common_volume, common, 1e-5 * volume);
+}
+
+const TriangleMesh k_body = box({0, 0, 0}, {10, 10, 10});
+
+TEST(Boolean, OfBoxesThatCross) {
+  const TriangleMesh tool = box({4, 4, -1}, {6, 7, 11});
+  expect_solid(subtract(k_body, tool), 1000 - 60, 60);
+  expect_solid(unite(k_body, tool), 1000 + 12, 60);
+}
+
+TEST(Boolean, OfWhatStandsApart) {
+  const TriangleMesh tool = box({20, 0, 0}, {21, 1, 1});
+  expect_solid(subtract(k_body, tool), 1000, 0);
+  expect_solid(unite(k_body, tool), 1001, 0);
+}
+
+TEST(Boolean, OfWhatLiesWithin) {
+  const TriangleMesh tool = box({2, 2, 2}, {3, 3, 3});
+  expect_solid(subtract(k_body, tool), 999, 1);
+  expect_solid(unite(k_body, tool), 1000, 1);
+}
+
+// Faces that are one: the tool ends in a face of the body, from within and from without.
+TEST(Boolean, OfFacesThatLieOnOneAnother) {
+  expect_solid(subtract(k_body, box({4, 4, 5}, {6, 7, 10})), 1000 - 30, 30);
+  expect_solid(subtract(k_body, box({4, 4, 10}, {6, 7, 15})), 1000, 0);
+  expect_solid(unite(k_body, box({4, 4, 10}, {6, 7, 15})), 1030, 0);
+  expect_solid(unite(k_body, box({4, 4, 5}, {6, 7, 10})), 1000, 30);
+}
+
+TEST(Boolean, OfSeveralToolsAtOnce) {
+  const TriangleMesh tools =
+      together({box({1, 1, -1}, {2, 2, 11}), box({4, 4, 8}, {6, 6, 11}), box({30, 0, 0}, {31, 1, 1})});
+  expect_solid(subtract(k_body, tools), 1000 - 10 - 8, 18);
+}
+
+TEST(Boolean, WhatIsFarFromTheToolStaysToTheBit) {
+  const TriangleMesh body = ball();
+  const double whole = enclosed_volume(body);
+  const auto cut = subtract(body, box({-1, -1, 8}, {1, 1, 12}));
+  ASSERT_TRUE(cut.has_value());
+  expect_solid(cut, whole - cut->common_volume, cut->common_volume);
+  EXPECT_GT(cut->common_volume, 4 * 1.5);
+  EXPECT_LT(cut->common_volume, 4 * 2.0);
+  std::size_t kept = 0;
+  for (const Vec3& vertex : body.vertices)
+    kept += std::find(cut->mesh.vertices.begin(), cut->mesh.vertices.end(), vertex) != cut->mesh.vertices.end() ? 1 : 0;
+  EXPECT_GE(kept, body.vertices.size() - 60);
+}
+
+TEST(Boolean, TheOrderOfAMeshIsItsOwn) {
+  const TriangleMesh tool = box({4, 4, -1}, {6, 7, 11});
+  const auto once = subtract(k_body, tool), again = subtract(k_body, tool);
+  ASSERT_TRUE(once && again);
+  EXPECT_EQ(once->mesh.vertices, again->mesh.vertices);
+  EXPECT_EQ(once->mesh.triangles, again->mesh.triangles);
+  EXPECT_EQ(once->common_volume, again->common_volume);
+}
+
+// Between two cuts a mesh may come to cross itself when it is rounded: CGAL takes for granted that it does not, and a
+// trial in a campaign (seed 7001, design 217) ended in a crash.
+TEST(Boolean, WhatCrossesItselfIsNotCut) {
+  const TriangleMesh crossed = together({k_body, box({5, 5, 5}, {15, 15, 15})});
+  EXPECT_FALSE(subtract(crossed, box({9, 9, -1}, {9.5, 9.5, 20})).has_value());
+}
+
+}  // namespace
+}  // namespace fusee
