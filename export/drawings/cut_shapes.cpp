@@ -50,12 +50,15 @@ bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin)
 
 }  // namespace
 
-BodyLayout layout_to_cut(const Product& product) {
-  Mechanism mechanism = product.joint.mechanism;
+BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis) {
   mechanism.material.shrinkage = 0;
   mechanism.material.hole_compensation = 0;
   mechanism.material.elephant_foot = 0;
-  return resolve_layout(mechanism, product.synthesis);
+  return resolve_layout(mechanism, synthesis);
+}
+
+BodyLayout layout_to_cut(const Product& product) {
+  return product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);
 }
 
 Contour bore_contour(const BoreLayout& bore) {

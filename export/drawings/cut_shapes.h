@@ -11,7 +11,7 @@
 
 namespace fusee {
 
-/// The body's sizes without shrinkage and hole compensation, which are a print's.
+/// Of the product's body, where it is known already.
 BodyLayout layout_to_cut(const Product& product);
 
 /// The bore as it is cut: a circle, arcs and flats, or corners.

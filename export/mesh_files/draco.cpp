@@ -17,7 +17,6 @@
 
 #include "export/mesh_files/mesh_formats.h"
 #include "fusee/export/mesh_files.h"
-#include "solid/self_intersection.h"
 
 namespace fusee {
 namespace {
@@ -60,20 +59,14 @@ bool keeps_faces(const TriangleMesh& mesh, const TriangleMesh& on_grid) {
   });
 }
 
-/// Faces that lie close together can come to cross, all on their sides still.
-bool keeps_solid(const TriangleMesh& mesh, const Grid& grid) {
-  const TriangleMesh on_grid = rounded_to_float(snapped(mesh, grid));
-  return keeps_faces(mesh, on_grid) && !find_crossing(on_grid).facets;
-}
-
-/// The coarsest grid that is within the tolerance and leaves the mesh a solid; none where not even the finest does:
-/// then the floats are kept as they are.
+/// The coarsest grid that is within the tolerance and leaves every face on its side; none where not even the finest
+/// does: then the floats are kept as they are.
 std::optional<Grid> grid_for(const TriangleMesh& mesh, double tolerance) {
   const Bounds box = bounds(mesh);
   Grid grid{box.low, (box.high - box.low).maxCoeff(), 1};
   while (grid.bits < k_most_bits && grid.reach() > tolerance) ++grid.bits;
   for (; grid.bits <= k_most_bits; ++grid.bits) {
-    if (keeps_solid(mesh, grid)) return grid;
+    if (keeps_faces(mesh, rounded_to_float(snapped(mesh, grid)))) return grid;
   }
   return std::nullopt;
 }
@@ -239,16 +232,26 @@ std::string encoded(const TriangleMesh& mesh, const std::optional<Grid>& grid) {
   return {buffer.data(), buffer.size()};
 }
 
+DracoFile read_back(std::string bytes) {
+  DracoFile file{std::move(bytes), {}, {}};
+  file.decoded = read_drc({file.bytes, "pulley.drc"});
+  file.checks = check_mesh(file.decoded);
+  return file;
+}
+
 }  // namespace
 
-// A grid is judged by what comes out of the file: Draco's own arithmetic rounds once more.
-std::string draco_bytes(const TriangleMesh& mesh, double tolerance) {
+// A grid is judged by what comes out of the file: faces that lie close together can come to cross, all on their sides
+// still, and Draco's own arithmetic rounds once more.
+DracoFile draco_file(const TriangleMesh& mesh, double tolerance) {
   for (std::optional<Grid> grid = grid_for(mesh, tolerance); grid && grid->bits <= k_most_bits; ++grid->bits) {
-    const std::string bytes = encoded(mesh, grid);
-    if (all_ok(check_mesh(read_drc({bytes, "pulley.drc"})))) return bytes;
+    DracoFile file = read_back(encoded(mesh, grid));
+    if (all_ok(file.checks)) return file;
   }
-  return encoded(mesh, std::nullopt);
+  return read_back(encoded(mesh, std::nullopt));
 }
+
+std::string draco_bytes(const TriangleMesh& mesh, double tolerance) { return draco_file(mesh, tolerance).bytes; }
 
 /// Where attributes have seams Draco holds a point for each side; they are one again by their position.
 TriangleMesh read_drc(const Source& source) {

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace fusee {
@@ -14,7 +13,10 @@ struct Box3 {
   std::array<double, 3> low, high;
 };
 
-bool overlap(const Box3& a, const Box3& b);
+inline bool overlap(const Box3& a, const Box3& b) {
+  return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
+         a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+}
 
 /// A tree of boxes, halved at the median of the coordinate in which they spread furthest. The same boxes give the same
 /// tree.
@@ -22,8 +24,11 @@ class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box3>& boxes);
 
-  /// Calls `look` once for each two boxes that overlap, until it says true; whether it did.
-  bool any_pair(const std::function<bool(std::size_t, std::size_t)>& look) const;
+  /// Calls `look`, (size_t, size_t) → bool, once for each two boxes that overlap, until it says true; whether it did.
+  template <typename Look>
+  bool any_pair(const Look& look) const {
+    return !nodes_.empty() && within(0, look);
+  }
 
  private:
   struct Node {
@@ -31,10 +36,39 @@ class BoxTree {
     std::uint32_t first = 0, last = 0;  ///< of items_, a leaf's
     std::uint32_t right = 0;            ///< the left child is the next node; 0: a leaf
   };
-  using Look = std::function<bool(std::size_t, std::size_t)>;
-  void add_node(std::uint32_t first, std::uint32_t last);
-  bool within(std::uint32_t node, const Look& look) const;
-  bool between(std::uint32_t a, std::uint32_t b, const Look& look) const;
+  using Middles = std::vector<std::array<double, 3>>;  ///< twice the middle of each box
+
+  std::size_t widest_axis(const Middles& middles, std::uint32_t first, std::uint32_t last) const;
+  void add_node(const Middles& middles, std::uint32_t first, std::uint32_t last);
+
+  template <typename Look>
+  bool within(std::uint32_t node, const Look& look) const {
+    const Node& here = nodes_[node];
+    if (here.right != 0)
+      return within(node + 1, look) || within(here.right, look) || between(node + 1, here.right, look);
+    for (std::uint32_t i = here.first; i < here.last; ++i) {
+      for (std::uint32_t j = i + 1; j < here.last; ++j) {
+        if (overlap(boxes_[items_[i]], boxes_[items_[j]]) && look(items_[i], items_[j])) return true;
+      }
+    }
+    return false;
+  }
+
+  template <typename Look>
+  bool between(std::uint32_t a, std::uint32_t b, const Look& look) const {
+    const Node &p = nodes_[a], &q = nodes_[b];
+    if (!overlap(p.box, q.box)) return false;
+    if (p.right != 0 && (q.right == 0 || p.last - p.first >= q.last - q.first))
+      return between(a + 1, b, look) || between(p.right, b, look);
+    if (q.right != 0) return between(a, b + 1, look) || between(a, q.right, look);
+    for (std::uint32_t i = p.first; i < p.last; ++i) {
+      if (!overlap(boxes_[items_[i]], q.box)) continue;
+      for (std::uint32_t j = q.first; j < q.last; ++j) {
+        if (overlap(boxes_[items_[i]], boxes_[items_[j]]) && look(items_[i], items_[j])) return true;
+      }
+    }
+    return false;
+  }
 
   const std::vector<Box3>& boxes_;
   std::vector<std::uint32_t> items_;

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <optional>
 
 #include "fusee/base/text.h"
@@ -9,6 +10,7 @@
 #include "solid/disjoint_sets.h"
 #include "solid/place.h"
 #include "solid/self_intersection.h"
+#include "solid/solid_angle.h"
 
 namespace fusee {
 namespace {
@@ -183,10 +185,8 @@ std::vector<Part> parts_of(const TriangleMesh& mesh, const std::vector<EdgeSide>
 double winding_number(const TriangleMesh& mesh, const Part& part, const Vec3& point) {
   double angle = 0;
   for (const std::size_t f : part.facets) {
-    const auto& [ia, ib, ic] = mesh.triangles[f];
-    const Vec3 a = mesh.vertices[ia] - point, b = mesh.vertices[ib] - point, c = mesh.vertices[ic] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    const auto& [a, b, c] = mesh.triangles[f];
+    angle += solid_angle(mesh.vertices[a] - point, mesh.vertices[b] - point, mesh.vertices[c] - point);
   }
   return angle / (2.0 * k_two_pi);
 }
@@ -213,6 +213,9 @@ Check outward_check(const TriangleMesh& mesh, const std::vector<EdgeSide>& sides
   }
   return none_of(mesh, "inverted_parts", inverted);
 }
+
+// Of fewer facets a search for crossings is over before a thread has begun.
+constexpr std::size_t k_worth_a_thread = 2000;
 
 Check crossing_check(const TriangleMesh& mesh) {
   const CrossingSearch search = find_crossing(mesh);
@@ -264,6 +267,8 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
     return checks;
   }
   const TriangleMesh welded = weld(mesh);
+  const auto where = welded.triangles.size() > k_worth_a_thread ? std::launch::async : std::launch::deferred;
+  std::future<Check> crossings = std::async(where, [&welded] { return crossing_check(welded); });
   const std::vector<EdgeSide> sides = edge_sides(welded);
   const Topology topology = topology_of(welded, sides);
   checks.push_back(none_of(welded, "degenerate_facets", degenerate_facets(welded)));
@@ -275,7 +280,7 @@ std::vector<Check> check_mesh(const TriangleMesh& mesh) {
   const bool closed = topology.open.count == 0 && topology.crowded.count == 0 && topology.turned.count == 0;
   checks.push_back(closed ? outward_check(welded, sides)
                           : not_looked_at("inverted_parts", "the surface has no inside: see the checks above"));
-  checks.push_back(crossing_check(welded));
+  checks.push_back(crossings.get());
   return checks;
 }
 

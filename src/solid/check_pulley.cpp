@@ -199,8 +199,25 @@ class GrooveGauge {
 // Are indices, coordinates and edges so that anything else can be measured?
 bool is_measurable(const std::vector<Check>& checks) { return checks[0].ok && checks[1].ok && checks[2].ok; }
 
-std::vector<Check> check_body(const TriangleMesh& mesh, int expected_euler, double expected_volume) {
-  std::vector<Check> checks = check_mesh(mesh);
+// Facet by facet in the same place, whatever the numbers of the vertices.
+bool is_same(const TriangleMesh& a, const TriangleMesh& b) {
+  if (a.triangles.size() != b.triangles.size()) return false;
+  for (std::size_t f = 0; f < a.triangles.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t i = a.triangles[f][k], j = b.triangles[f][k];
+      if (i >= a.vertices.size() || j >= b.vertices.size() || a.vertices[i] != b.vertices[j]) return false;
+    }
+  }
+  return true;
+}
+
+// What was found of the mesh that was made holds of what was read back where that is the same.
+std::vector<Check> checks_of(const TriangleMesh& mesh, const TriangleMesh& made, const std::vector<Check>& of_made) {
+  return !of_made.empty() && is_same(mesh, made) ? of_made : check_mesh(mesh);
+}
+
+std::vector<Check> check_body(const TriangleMesh& mesh, std::vector<Check> checks, int expected_euler,
+                              double expected_volume) {
   if (!is_measurable(checks)) return checks;
   checks.push_back(exactly("euler_number", euler_number(mesh), expected_euler, "1",
                            "a hole is missing or closed, or there is one too many"));
@@ -215,7 +232,7 @@ std::vector<Check> check_body(const TriangleMesh& mesh, int expected_euler, doub
 std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mechanism, const SynthesisResult& synthesis,
                                 const Pulley& pulley, double tolerance) {
   demand(pulley.made(), "check of a pulley that was not made");
-  std::vector<Check> checks = check_body(mesh, pulley.expected_euler, pulley.expected_volume);
+  std::vector<Check> checks = check_body(mesh, checks_of(mesh, pulley.mesh, pulley.mesh_checks), pulley.expected_euler, pulley.expected_volume);
   if (!is_measurable(checks)) return checks;
   GrooveGauge(mesh, mechanism, synthesis.p1, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
   GrooveGauge(mesh, mechanism, synthesis.p2, pulley).add_checks(checks, tolerance, pulley.layout.min_wall);
@@ -223,7 +240,7 @@ std::vector<Check> check_pulley(const TriangleMesh& mesh, const Mechanism& mecha
 }
 
 std::vector<Check> check_printed_part(const TriangleMesh& mesh, const PrintedPart& part) {
-  return check_body(mesh, part.expected_euler, part.expected_volume);
+  return check_body(mesh, checks_of(mesh, part.mesh, part.mesh_checks), part.expected_euler, part.expected_volume);
 }
 
 }  // namespace fusee

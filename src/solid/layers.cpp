@@ -9,6 +9,7 @@
 
 #include "fusee/base/units.h"
 #include "solid/nearest_segment.h"
+#include "solid/section.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {
@@ -163,9 +164,8 @@ class LayerWalk {
 };
 
 // Of each layer from the second on: the triangles that its section may cut, in the mesh's order.
-std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles_by_layer(const TriangleMesh& mesh,
-                                                                          const std::vector<double>& heights) {
-  std::vector<std::vector<std::array<std::uint32_t, 3>>> layers(heights.size());
+std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::vector<double>& heights) {
+  std::vector<Triangles> layers(heights.size());
   for (const auto& triangle : mesh.triangles) {
     const auto [low, high] =
         std::minmax({mesh.vertices[triangle[0]].z(), mesh.vertices[triangle[1]].z(), mesh.vertices[triangle[2]].z()});
@@ -184,12 +184,9 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
   // What stands out over the first layer comes down onto the bed: PrusaSlicer puts no support that low.
   std::vector<double> heights{box.low.z() + 1.5 * k_layer};
   for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) heights.push_back(z);
-  std::vector<std::vector<std::array<std::uint32_t, 3>>> layers = triangles_by_layer(lying, heights);
-  TriangleMesh slab{lying.vertices, {}};
-  const auto section_of = [&](std::size_t layer) {
-    slab.triangles = std::move(layers[layer]);
-    return section(slab, heights[layer]);
-  };
+  const TriangleMesh welded = weld(lying);
+  const std::vector<Triangles> layers = triangles_by_layer(welded, heights);
+  const auto section_of = [&](std::size_t layer) { return section_of_welded(welded, layers[layer], heights[layer]); };
   std::vector<Vec3> ledges;
   std::vector<Polygon> below = section_of(0);
   for (std::size_t layer = 1; layer < heights.size(); ++layer) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
+#include <numeric>
 
 namespace fusee {
 namespace {
@@ -18,6 +18,15 @@ bool on_one_side(const Vec2& from, const Vec2& to, const Vec2& a, const Vec2& b)
 }
 
 }  // namespace
+
+template <typename Visit>
+void NearestSegment::for_cells_of(const std::pair<Vec2, Vec2>& segment, const Visit& visit) const {
+  const auto& [a, b] = segment;
+  const Cell from = cell_of(a.cwiseMin(b)), to = cell_of(a.cwiseMax(b));
+  for (long row = from.row; row <= to.row; ++row) {
+    for (long column = from.column; column <= to.column; ++column) visit(place_of(column, row));
+  }
+}
 
 NearestSegment::NearestSegment(const std::vector<Polygon>& loops) {
   Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
@@ -35,15 +44,13 @@ NearestSegment::NearestSegment(const std::vector<Polygon>& loops) {
                    std::numeric_limits<double>::min());
   columns_ = static_cast<long>(size.x() / side_) + 1;
   rows_ = static_cast<long>(size.y() / side_) + 1;
-  cells_.resize(static_cast<std::size_t>(columns_ * rows_));
-  for (std::uint32_t s = 0; s < segments_.size(); ++s) {
-    const auto& [a, b] = segments_[s];
-    const Cell from = cell_of(a.cwiseMin(b)), to = cell_of(a.cwiseMax(b));
-    for (long row = from.row; row <= to.row; ++row) {
-      for (long column = from.column; column <= to.column; ++column)
-        cells_[static_cast<std::size_t>(row * columns_ + column)].push_back(s);
-    }
-  }
+  first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  for (const auto& segment : segments_) for_cells_of(segment, [this](std::size_t cell) { ++first_[cell + 1]; });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  cells_.resize(first_.back());
+  std::vector<std::uint32_t> end(first_.begin(), first_.end() - 1);
+  for (std::uint32_t s = 0; s < segments_.size(); ++s)
+    for_cells_of(segments_[s], [&](std::size_t cell) { cells_[end[cell]++] = s; });
 }
 
 NearestSegment::Cell NearestSegment::cell_of(const Vec2& point) const {
@@ -55,7 +62,9 @@ NearestSegment::Cell NearestSegment::cell_of(const Vec2& point) const {
 
 void NearestSegment::look_in(Nearest& nearest, long column, long row, const Vec2& point) const {
   if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
-  for (const std::uint32_t s : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
+  const std::size_t cell = place_of(column, row);
+  for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
+    const std::uint32_t s = cells_[k];
     const double distance = distance_to_segment(point, segments_[s].first, segments_[s].second);
     if (distance < nearest.distance) nearest = {distance, s};
   }
@@ -87,8 +96,9 @@ bool NearestSegment::is_clear(const Vec2& from, const Vec2& to) const {
   const Cell low = cell_of(from.cwiseMin(to) - margin), high = cell_of(from.cwiseMax(to) + margin);
   for (long row = low.row; row <= high.row; ++row) {
     for (long column = low.column; column <= high.column; ++column) {
-      for (const std::uint32_t s : cells_[static_cast<std::size_t>(row * columns_ + column)]) {
-        const auto& [a, b] = segments_[s];
+      const std::size_t cell = place_of(column, row);
+      for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
+        const auto& [a, b] = segments_[cells_[k]];
         if (!on_one_side(from, to, a, b) && !on_one_side(a, b, from, to)) return false;
       }
     }

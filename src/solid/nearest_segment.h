@@ -30,13 +30,17 @@ class NearestSegment {
     long column, row;
   };
   Cell cell_of(const Vec2& point) const;
+  std::size_t place_of(long column, long row) const { return static_cast<std::size_t>(row * columns_ + column); }
+  template <typename Visit>
+  void for_cells_of(const std::pair<Vec2, Vec2>& segment, const Visit& visit) const;
   void look_in(Nearest& nearest, long column, long row, const Vec2& point) const;
 
   std::vector<std::pair<Vec2, Vec2>> segments_;
   Vec2 low_ = Vec2::Zero();
   double side_ = 1;
   long columns_ = 1, rows_ = 1;
-  std::vector<std::vector<std::uint32_t>> cells_;
+  // What lies in cell k: cells_[first_[k]] up to cells_[first_[k + 1]].
+  std::vector<std::uint32_t> first_, cells_;
 };
 
 }  // namespace fusee

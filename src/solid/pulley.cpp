@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -50,6 +51,7 @@ constexpr double k_between_parts = 5.0;
 struct Featured {
   TriangleMesh mesh;
   double volume = 0;
+  std::vector<Check> checks = {};
 };
 
 // From where a piece stands in the whole to where it lies on the printer: P1 is turned over about the x axis.
@@ -98,7 +100,8 @@ class FeatureCutter {
       result = {outcome->mesh, result.volume + added - outcome->common_volume};
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
-    if (!all_ok(check_mesh(result.mesh))) return std::nullopt;
+    result.checks = check_mesh(result.mesh);
+    if (!all_ok(result.checks)) return std::nullopt;
     return result;
   }
 
@@ -211,7 +214,29 @@ struct Made {
   TriangleMesh mesh;
   double volume = 0;
   int euler = 0;
+  std::vector<Check> checks = {};
 };
+
+// A variant moves channels a little, within the walls to what is cut along the axis.
+bool keeps_walls(const BodyPlan& plan, int variant) {
+  const BodyLayout& layout = plan.layout;
+  std::vector<Bar> holes{{Vec2::Zero(), Vec2::Zero(), layout.bore.radius}};
+  for (const Polygon& hole : layout.bore.screw_holes) {
+    const RoundHole circle = circle_within(hole);
+    holes.push_back({circle.centre, circle.centre, (hole.front() - circle.centre).norm()});
+  }
+  return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
+    const auto* channel = std::get_if<AnchorPath>(&anchor.way);
+    if (channel == nullptr) return true;
+    const AnchorPath path = varied(*channel, variant);
+    std::vector<Bar> bars = path.bars(layout.channel_width);
+    bars.push_back({path.pocket(), path.pocket(), layout.pocket_radius});
+    return std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
+      return std::all_of(holes.begin(), holes.end(),
+                         [&](const Bar& hole) { return gap(bar, hole) >= layout.min_wall; });
+    });
+  });
+}
 
 // The pieces of a pulley before anything is cut out of them, the whole first.
 class PieceMaker {
@@ -230,10 +255,11 @@ class PieceMaker {
   // through that nobody planned: a mark that opens a channel.
   std::vector<Made> cut(int variant) const {
     std::vector<Made> made;
+    if (variant > 0 && !keeps_walls(plan_, variant)) return made;
     for (const Blank& blank : blanks_) {
       auto featured = FeatureCutter(mechanism_, plan_, marks_, blank.piece).cut(blank.mesh, blank.volume, variant);
       if (!featured || !has_euler(featured->mesh, blank.euler)) return {};
-      made.push_back({std::move(featured->mesh), featured->volume, blank.euler});
+      made.push_back({std::move(featured->mesh), featured->volume, blank.euler, std::move(featured->checks)});
     }
     return made;
   }
@@ -362,9 +388,11 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
   pulley.mesh = std::move(pieces.front().mesh);
   pulley.expected_volume = pieces.front().volume;
   pulley.expected_euler = pieces.front().euler;
+  pulley.mesh_checks = std::move(pieces.front().checks);
   for (std::size_t k = 1; k < pieces.size(); ++k)
     pulley.parts.push_back(
-        {k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume, pieces[k].euler});
+        {k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume, pieces[k].euler,
+         std::move(pieces[k].checks)});
   pulley.status = PulleyStatus::made;
   return pulley;
 }
@@ -419,8 +447,9 @@ Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResul
     // Any cut shows whether it prints; the best is looked for where it does.
     Pulley pulley = pulley_of(mechanism, synthesis, plan, effort, k_any);
     if (!pulley.made()) return pulley;
+    std::future<int> soundness = std::async(std::launch::async, [&pulley] { return soundness_of(pulley.mesh); });
     std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
-    if (places.empty() && soundness_of(pulley.mesh) != k_sound) {
+    if (soundness.get() != k_sound && places.empty()) {
       pulley = pulley_of(mechanism, synthesis, plan, effort, k_sound);
       places = unprintable_places(pulley, mechanism.print.overhang, corners);
     }

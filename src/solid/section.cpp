@@ -2,11 +2,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
+#include <utility>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/solid/mesh.h"
+#include "solid/section.h"
 
 namespace fusee {
 namespace {
@@ -27,16 +28,20 @@ std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
 // A vertex exactly at z counts as above, so that no case is special.
 bool above(const Vec3& vertex, double z) { return vertex.z() >= z; }
 
+bool is_cut(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle, double z) {
+  const bool first = above(mesh.vertices[triangle[0]], z);
+  return above(mesh.vertices[triangle[1]], z) != first || above(mesh.vertices[triangle[2]], z) != first;
+}
+
 // The triangles that the plane cuts, welded: neighbours are found by place, not by how a file numbered them.
 TriangleMesh cut_triangles(const TriangleMesh& mesh, double z) {
   TriangleMesh cut;
   const std::size_t count = mesh.vertices.size();
   for (const auto& [a, b, c] : mesh.triangles) {
     if (a >= count || b >= count || c >= count) continue;
-    const Vec3 &va = mesh.vertices[a], &vb = mesh.vertices[b], &vc = mesh.vertices[c];
-    if (above(va, z) == above(vb, z) && above(vb, z) == above(vc, z)) continue;
+    if (!is_cut(mesh, {a, b, c}, z)) continue;
     const auto first = static_cast<std::uint32_t>(cut.vertices.size());
-    cut.vertices.insert(cut.vertices.end(), {va, vb, vc});
+    cut.vertices.insert(cut.vertices.end(), {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
     cut.triangles.push_back({first, first + 1, first + 2});
   }
   return weld(cut);
@@ -50,9 +55,11 @@ Vec2 crossing(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double
   return (first + share * (second - first)).head<2>();
 }
 
-std::vector<Cut> cuts_at(const TriangleMesh& mesh, double z) {
+std::vector<Cut> cuts_at(const TriangleMesh& mesh, const Triangles& triangles, double z) {
   std::vector<Cut> cuts;
-  for (const auto& triangle : mesh.triangles) {
+  cuts.reserve(triangles.size());
+  for (const auto& triangle : triangles) {
+    if (!is_cut(mesh, triangle, z)) continue;
     Cut cut;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
@@ -80,36 +87,56 @@ Polygon without_repeats(const Polygon& points) {
   return distinct;
 }
 
+// Where cuts begin, in the order of their edges.
+class CutStarts {
+ public:
+  explicit CutStarts(const std::vector<Cut>& cuts) {
+    starts_.reserve(cuts.size());
+    for (std::size_t k = 0; k < cuts.size(); ++k) starts_.emplace_back(cuts[k].from, k);
+    std::sort(starts_.begin(), starts_.end());
+  }
+
+  // The first cut that begins there and is not used yet; the number of cuts where there is none.
+  std::size_t next(const std::vector<Cut>& cuts, std::uint64_t edge) const {
+    auto found = std::lower_bound(starts_.begin(), starts_.end(), std::pair(edge, std::size_t{0}));
+    while (found != starts_.end() && found->first == edge && cuts[found->second].used) ++found;
+    return found != starts_.end() && found->first == edge ? found->second : cuts.size();
+  }
+
+ private:
+  std::vector<std::pair<std::uint64_t, std::size_t>> starts_;
+};
+
 }  // namespace
 
-std::vector<Polygon> section(const TriangleMesh& mesh, double z) {
-  std::vector<Cut> cuts = cuts_at(cut_triangles(mesh, z), z);
-  std::unordered_multimap<std::uint64_t, std::size_t> starts;
-  starts.reserve(cuts.size());
-  for (std::size_t k = cuts.size(); k-- > 0;) starts.emplace(cuts[k].from, k);
-  const auto take_next = [&](std::uint64_t edge) {
-    const auto found = starts.find(edge);
-    if (found == starts.end()) return cuts.size();
-    const std::size_t next = found->second;
-    starts.erase(found);
-    return next;
-  };
+std::vector<Polygon> section_of_welded(const TriangleMesh& mesh, const Triangles& triangles, double z) {
+  std::vector<Cut> cuts = cuts_at(mesh, triangles, z);
+  const CutStarts starts(cuts);
   std::vector<Polygon> loops;
   for (std::size_t first = 0; first < cuts.size(); ++first) {
     if (cuts[first].used) continue;
     Polygon points;
-    std::size_t at = first;
+    std::size_t at = first, end = first;
     while (at < cuts.size() && !cuts[at].used) {
       cuts[at].used = true;
       points.push_back(cuts[at].start);
-      at = take_next(cuts[at].to);
+      if (cuts[at].to == cuts[first].from) {
+        end = at;
+        break;
+      }
+      at = starts.next(cuts, cuts[at].to);
     }
     // An open mesh leaves chains that end nowhere: no loop.
-    if (at != first) continue;
+    if (end != at) continue;
     points = without_repeats(points);
     if (points.size() >= 3) loops.push_back(std::move(points));
   }
   return loops;
+}
+
+std::vector<Polygon> section(const TriangleMesh& mesh, double z) {
+  const TriangleMesh cut = cut_triangles(mesh, z);
+  return section_of_welded(cut, cut.triangles, z);
 }
 
 Polygon outer_loop(const std::vector<Polygon>& loops) {

@@ -24,33 +24,41 @@ Point point(const TriangleMesh& mesh, std::uint32_t index) {
   return {vertex.x(), vertex.y(), vertex.z()};
 }
 
-// Shared corners of two triangles come first in both.
-int put_shared_first(Triangle& a, Triangle& b) {
-  int shared = 0;
+// Which corners of two facets are one vertex.
+struct SharedCorners {
+  int count = 0;
+  std::array<bool, 3> of_first{}, of_second{};
+};
+
+SharedCorners shared_corners(const Triangle& a, const Triangle& b) {
+  SharedCorners shared;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = shared; j < 3; ++j) {
-      if (a[i] != b[j]) continue;
-      std::swap(a[i], a[shared]);
-      std::swap(b[j], b[shared]);
-      ++shared;
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (a[i] != b[j] || shared.of_second[j]) continue;
+      shared.of_first[i] = shared.of_second[j] = true;
+      ++shared.count;
       break;
     }
   }
   return shared;
 }
 
+constexpr std::size_t after(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
+
 // A facet's plane, and planes through its edges upright on it: most pairs are told apart by one of them in plain
 // arithmetic, whose margin is far above its rounding.
 class FacetPlanes {
  public:
-  FacetPlanes(const TriangleMesh& mesh, const Triangle& facet)
-      : corners_{mesh.vertices[facet[0]], mesh.vertices[facet[1]], mesh.vertices[facet[2]]} {
+  explicit FacetPlanes(const std::array<Vec3, 3>& corners) : corners_(corners) {
     const Vec3 along = corners_[1] - corners_[0], across = corners_[2] - corners_[0];
     normal_ = along.cross(across);
     reach_ = along.cwiseAbs().maxCoeff() * across.cwiseAbs().maxCoeff();
   }
 
   const Vec3& corner(std::size_t k) const { return corners_[k]; }
+
+  // Surely three corners that are on no line.
+  bool has_area() const { return normal_.cwiseAbs().maxCoeff() > k_margin * reach_; }
 
   // +1, −1: surely on that side of the plane; 0: who knows.
   int side_of(const Vec3& point) const {
@@ -60,11 +68,16 @@ class FacetPlanes {
     return height > margin ? 1 : height < -margin ? -1 : 0;
   }
 
-  // Surely beyond the edge from corner k to the next.
-  bool is_beyond(std::size_t k, const Vec3& point) const {
-    const Vec3 outward = (corners_[(k + 1) % 3] - corners_[k]).cross(normal_);
-    const Vec3 offset = point - corners_[k];
-    return outward.dot(offset) > k_edge_margin * outward.cwiseAbs().maxCoeff() * offset.cwiseAbs().maxCoeff();
+  // All of these corners of the other facet lie surely beyond the edge from corner k to the next.
+  bool are_beyond(std::size_t k, const FacetPlanes& other, const std::array<bool, 3>& left_out) const {
+    const Vec3 outward = (corners_[after(k)] - corners_[k]).cross(normal_);
+    const double size = k_edge_margin * outward.cwiseAbs().maxCoeff();
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (left_out[j]) continue;
+      const Vec3 offset = other.corners_[j] - corners_[k];
+      if (!(outward.dot(offset) > size * offset.cwiseAbs().maxCoeff())) return false;
+    }
+    return true;
   }
 
  private:
@@ -76,28 +89,46 @@ class FacetPlanes {
   double reach_ = 0;
 };
 
+// Exact, once plain arithmetic has not told two facets apart.
 class CrossingTest {
  public:
-  explicit CrossingTest(const TriangleMesh& mesh) : mesh_(mesh) {}
+  CrossingTest(const TriangleMesh& mesh, const std::vector<std::size_t>& facets, const std::vector<FacetPlanes>& planes)
+      : mesh_(mesh), facets_(facets), planes_(planes) {}
 
-  bool operator()(std::size_t f, std::size_t g) const {
-    Triangle a = mesh_.triangles[f], b = mesh_.triangles[g];
-    const int shared = put_shared_first(a, b);
-    if (shared == 3) return false;
-    const FacetPlanes first(mesh_, a);
-    if (shared == 2) return !clearly_unfolded(first, mesh_.vertices[b[2]]) && folded_flat(points(a), points(b));
-    const FacetPlanes second(mesh_, b);
-    if (clearly_apart(first, second, shared) || clearly_apart(second, first, shared)) return false;
-    const std::array<Point, 3> p = points(a), q = points(b);
+  /// Of two in the list of facets.
+  bool operator()(std::size_t i, std::size_t j) const {
+    const Triangle &a = mesh_.triangles[facets_[i]], &b = mesh_.triangles[facets_[j]];
+    const SharedCorners shared = shared_corners(a, b);
+    if (shared.count == 3) return false;
+    const FacetPlanes &first = planes_[i], &second = planes_[j];
+    if (shared.count == 2) {
+      return !clearly_unfolded(first, shared.of_first, second, shared.of_second) &&
+             folded_flat(with_last(a, shared.of_first), with_last(b, shared.of_second));
+    }
+    if (on_one_side(first, second, shared.of_second) || on_one_side(second, first, shared.of_first)) return false;
+    if (beyond_an_edge(first, shared.of_first, second, shared.of_second) ||
+        beyond_an_edge(second, shared.of_second, first, shared.of_first))
+      return false;
+    const std::array<Point, 3> p = with_first(a, shared.of_first), q = with_first(b, shared.of_second);
     const Kernel::Triangle_3 one(p[0], p[1], p[2]), other(q[0], q[1], q[2]);
-    if (shared == 0) return CGAL::do_intersect(one, other);
+    if (shared.count == 0) return CGAL::do_intersect(one, other);
     return CGAL::do_intersect(one, Kernel::Segment_3(q[1], q[2])) ||
            CGAL::do_intersect(other, Kernel::Segment_3(p[1], p[2]));
   }
 
  private:
-  std::array<Point, 3> points(const Triangle& facet) const {
-    return {point(mesh_, facet[0]), point(mesh_, facet[1]), point(mesh_, facet[2])};
+  std::array<Point, 3> from_corner(const Triangle& facet, std::size_t k) const {
+    return {point(mesh_, facet[k]), point(mesh_, facet[after(k)]), point(mesh_, facet[after(after(k))])};
+  }
+  // The one shared corner first.
+  std::array<Point, 3> with_first(const Triangle& facet, const std::array<bool, 3>& shared) const {
+    return from_corner(facet, shared[1] ? 1 : shared[2] ? 2 : 0);
+  }
+  // The one corner that is not shared last, the shared ones in the order of their vertices.
+  std::array<Point, 3> with_last(const Triangle& facet, const std::array<bool, 3>& shared) const {
+    const std::size_t apart = !shared[0] ? 0 : !shared[1] ? 1 : 2;
+    const auto [low, high] = std::minmax(facet[after(apart)], facet[after(after(apart))]);
+    return {point(mesh_, low), point(mesh_, high), point(mesh_, facet[apart])};
   }
 
   // Facets that share an edge overlap only when both lie on one side of it in one plane.
@@ -105,30 +136,37 @@ class CrossingTest {
     return CGAL::coplanar(p[0], p[1], p[2], q[2]) &&
            CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) == CGAL::POSITIVE;
   }
-  static bool clearly_unfolded(const FacetPlanes& a, const Vec3& beside) {
-    return a.side_of(beside) != 0 || a.is_beyond(0, beside);
+  static bool clearly_unfolded(const FacetPlanes& a, const std::array<bool, 3>& of_a, const FacetPlanes& b,
+                               const std::array<bool, 3>& of_b) {
+    const std::size_t beside = !of_b[0] ? 0 : !of_b[1] ? 1 : 2, apart = !of_a[0] ? 0 : !of_a[1] ? 1 : 2;
+    return a.side_of(b.corner(beside)) != 0 || a.are_beyond(after(apart), b, of_b);
   }
 
-  // b's corners, but for a shared one, lie on one side of a's plane, or beyond one of a's edges; where a corner is
-  // shared, of an edge at that corner. Long thin facets side by side have overlapping boxes, thousands of them in a
-  // fine part.
-  static bool clearly_apart(const FacetPlanes& a, const FacetPlanes& b, int shared) {
-    const auto all_of_b = [&](const auto& holds) {
-      for (auto k = static_cast<std::size_t>(shared); k < 3; ++k) {
-        if (!holds(b.corner(k))) return false;
-      }
-      return true;
-    };
-    const int side = a.side_of(b.corner(2));
-    if (side != 0 && all_of_b([&](const Vec3& corner) { return a.side_of(corner) == side; })) return true;
-    for (const std::size_t edge : {std::size_t{0}, std::size_t{2}, std::size_t{1}}) {
-      if (edge == 1 && shared == 1) continue;
-      if (all_of_b([&](const Vec3& corner) { return a.is_beyond(edge, corner); })) return true;
+  // b's corners, but for a shared one, lie surely beyond one of a's edges; where a corner is shared, of an edge at that
+  // corner. Long thin facets side by side have overlapping boxes, thousands of them in a fine part.
+  static bool beyond_an_edge(const FacetPlanes& a, const std::array<bool, 3>& of_a, const FacetPlanes& b,
+                             const std::array<bool, 3>& of_b) {
+    const bool any = !of_a[0] && !of_a[1] && !of_a[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((any || of_a[k] || of_a[after(k)]) && a.are_beyond(k, b, of_b)) return true;
     }
     return false;
   }
+  // Surely of a's plane.
+  static bool on_one_side(const FacetPlanes& a, const FacetPlanes& b, const std::array<bool, 3>& left_out) {
+    int side = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (left_out[j]) continue;
+      const int here = a.side_of(b.corner(j));
+      if (here == 0 || here == -side) return false;
+      side = here;
+    }
+    return true;
+  }
 
   const TriangleMesh& mesh_;
+  const std::vector<std::size_t>& facets_;
+  const std::vector<FacetPlanes>& planes_;
 };
 
 // How much room a box takes of the first two coordinates.
@@ -149,53 +187,65 @@ double distance_from_axis(const Vec3& a, const Vec3& b) {
 
 /// Angle about the z axis, distance from it, height: the strips of a fine turned part consist of needles that point at the axis, whose
 /// boxes in x and y overlap by the thousand. The margins are far above the rounding.
-Box3 polar_box(const std::array<Vec3, 3>& corners) {
+Box3 polar_box(const std::array<Vec3, 3>& corners, const std::array<double, 3>& angles) {
   constexpr double margin = 1e-9;
   Box3 box = cartesian_box(corners);
-  const double start = std::atan2(corners[0].y(), corners[0].x());
-  double before = 0, after = 0, farthest = 0;
+  const double start = angles[0];
+  double before = 0, after_it = 0, farthest = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    const double turn = std::remainder(std::atan2(corners[k].y(), corners[k].x()) - start, k_two_pi);
+    double turn = angles[k] - start;  // as std::remainder() by a turn
+    if (turn > k_pi) turn -= k_two_pi;
+    if (turn < -k_pi) turn += k_two_pi;
     before = std::min(before, turn);
-    after = std::max(after, turn);
-    nearest = std::min(nearest, distance_from_axis(corners[k], corners[(k + 1) % 3]));
-    farthest = std::max(farthest, corners[k].head<2>().norm());
+    after_it = std::max(after_it, turn);
+    nearest = std::min(nearest, distance_from_axis(corners[k], corners[after(k)]));
+    farthest = std::max(farthest, corners[k].head<2>().squaredNorm());
   }
-  const bool round_axis = after - before > k_pi - margin;
-  const bool over_cut = start + before < -k_pi || start + after > k_pi;
+  const bool round_axis = after_it - before > k_pi - margin;
+  const bool over_cut = start + before < -k_pi || start + after_it > k_pi;
   box.low[0] = round_axis || over_cut ? -4.0 : start + before - margin;
-  box.high[0] = round_axis || over_cut ? 4.0 : start + after + margin;
+  box.high[0] = round_axis || over_cut ? 4.0 : start + after_it + margin;
   box.low[1] = round_axis ? 0.0 : nearest * (1.0 - margin);
-  box.high[1] = farthest * (1.0 + margin);
+  box.high[1] = std::sqrt(farthest) * (1.0 + margin);
   return box;
 }
 
 /// What facets take up: those whose boxes are apart do not meet.
 struct FacetBoxes {
   std::vector<std::size_t> facets;  ///< that have an area
+  std::vector<FacetPlanes> planes;
   std::vector<Box3> boxes;
 };
 
 /// In the coordinates in which the facets crowd each other less.
 FacetBoxes boxes_of(const TriangleMesh& mesh) {
-  std::vector<std::size_t> facets;
-  std::vector<Box3> cartesian, polar;
+  std::vector<double> angles;
+  angles.reserve(mesh.vertices.size());
+  for (const Vec3& vertex : mesh.vertices) angles.push_back(std::atan2(vertex.y(), vertex.x()));
+  FacetBoxes of;
+  std::vector<Box3> polar;
+  of.facets.reserve(mesh.triangles.size());
+  of.planes.reserve(mesh.triangles.size());
+  of.boxes.reserve(mesh.triangles.size());
+  polar.reserve(mesh.triangles.size());
   double cartesian_crowd = 0, polar_crowd = 0, reach = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (is_degenerate(mesh, f)) continue;
     const auto& [a, b, c] = mesh.triangles[f];
     const std::array<Vec3, 3> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
-    facets.push_back(f);
-    cartesian.push_back(cartesian_box(corners));
-    polar.push_back(polar_box(corners));
-    cartesian_crowd += area_of(cartesian.back());
+    const FacetPlanes planes(corners);
+    if (!planes.has_area() && is_degenerate(mesh, f)) continue;
+    of.facets.push_back(f);
+    of.planes.push_back(planes);
+    of.boxes.push_back(cartesian_box(corners));
+    polar.push_back(polar_box(corners, {angles[a], angles[b], angles[c]}));
+    cartesian_crowd += area_of(of.boxes.back());
     polar_crowd += area_of(polar.back());
     reach = std::max(reach, polar.back().high[1]);
   }
   // Shares of a square about the disc that the mesh fills, and of that disc unrolled.
-  const bool unrolled = polar_crowd / (k_two_pi * reach) < cartesian_crowd / (4.0 * reach * reach);
-  return {std::move(facets), unrolled ? std::move(polar) : std::move(cartesian)};
+  if (polar_crowd / (k_two_pi * reach) < cartesian_crowd / (4.0 * reach * reach)) of.boxes = std::move(polar);
+  return of;
 }
 
 }  // namespace
@@ -207,15 +257,14 @@ bool is_degenerate(const TriangleMesh& mesh, std::size_t facet) {
 
 CrossingSearch find_crossing(const TriangleMesh& welded) {
   const FacetBoxes facets = boxes_of(welded);
-  const CrossingTest cross(welded);
+  const CrossingTest cross(welded, facets.facets, facets.planes);
   // A part whose facets all lie in one heap would take hours; no real one comes near this.
   std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
   CrossingSearch search;
   BoxTree(facets.boxes).any_pair([&](std::size_t i, std::size_t j) {
     search.gave_up = pairs_left-- == 0;
     if (search.gave_up) return true;
-    const std::size_t f = facets.facets[i], g = facets.facets[j];
-    if (cross(f, g)) search.facets = std::minmax(f, g);
+    if (cross(i, j)) search.facets = std::minmax(facets.facets[i], facets.facets[j]);
     return search.facets.has_value();
   });
   return search;

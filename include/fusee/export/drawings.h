@@ -15,6 +15,9 @@ namespace fusee {
 
 enum class DxfVersion { ac1015, r12 };
 
+/// The body's sizes without shrinkage and hole compensation, which are a print's.
+BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis);
+
 /// The pulley's curves at true size about the axis, with marks that say how it sits at home.
 std::string profile_dxf(const Product& product, DxfVersion version);
 /// The part as a stack of plates to cut, nested on sheets.

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fusee/solid/mesh.h"
 #include "fusee/transmission/tendon_path.h"
@@ -16,7 +17,14 @@ std::string stl_bytes(const TriangleMesh& mesh, const std::string& name);  ///< 
 std::string part_file_name(Side side);
 std::string obj_text(const TriangleMesh& mesh, const std::string& name);
 std::string threemf_bytes(const TriangleMesh& mesh, const std::string& name);  ///< unit, named object, metadata
-/// Quantised so that no vertex moves by more than `tolerance` (mm).
+/// A Draco file, and what reading it back gave.
+struct DracoFile {
+  std::string bytes;
+  TriangleMesh decoded;
+  std::vector<Check> checks;  ///< check_mesh() of that
+};
+/// Quantised so that no vertex moves by more than `tolerance` (mm), and so finely that it is a solid still.
+DracoFile draco_file(const TriangleMesh& mesh, double tolerance);
 std::string draco_bytes(const TriangleMesh& mesh, double tolerance);
 
 /// Reads stl (both kinds), obj, 3mf, off, ply (both kinds), drc, told apart by content and, where that does not tell,

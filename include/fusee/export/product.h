@@ -2,6 +2,7 @@
 /// What drawings and reports are made from.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fusee/base/check.h"
@@ -20,6 +21,7 @@ struct Product {
   JointAsItIs joint;   ///< what was made, and what for
   SynthesisResult synthesis;
   Pulley pulley;
+  std::optional<BodyLayout> cut_layout;  ///< where it is known: of what is cut, which neither shrinks nor gets elephant's feet
   Holding holding;  ///< of its tendons
   RewindResult as_built;
   std::vector<Check> checks;

@@ -59,6 +59,7 @@ struct PrintedPart {
   TriangleMesh mesh;           ///< coordinates are floats already
   double expected_volume = 0;  ///< mm³
   int expected_euler = 0;
+  std::vector<Check> mesh_checks = {};  ///< check_mesh() of it
 };
 
 enum class PulleyStatus { made, impossible };
@@ -72,6 +73,7 @@ struct Pulley {
   std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too
   double expected_volume = 0;         ///< exact volume of the discretised part, by areas of sections, mm³
   int expected_euler = 0;             ///< V − E + F
+  std::vector<Check> mesh_checks;     ///< check_mesh() of `mesh`
 
   bool made() const { return status == PulleyStatus::made; }
   std::string brief() const;

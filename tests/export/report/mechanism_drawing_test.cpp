@@ -34,9 +34,47 @@ TEST(MechanismFigures, MoveInGroupsOfTheirOwn) {
   const auto figures = mechanism_figures(mechanism, synthesise(mechanism), {{radians(90), radians(20)}});
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(inline_svg(figures[0]).c_str()));
-  EXPECT_EQ(document.select_nodes("/svg/g[@class='tendon']").size(), 2u);
+  EXPECT_EQ(document.select_nodes("/svg/g[@class='tendon tendon1']").size(), 1u);
+  EXPECT_EQ(document.select_nodes("/svg/g[@class='tendon tendon2']").size(), 1u);
   const std::string turn = document.select_node("/svg/g[@class='pulley']").node().attribute("transform").as_string();
   EXPECT_EQ(turn.rfind("rotate(90 ", 0), 0u) << "α > 0 is clockwise, as SVG turns: " << turn;
+}
+
+TEST(MovingFigures, SayWhereTheirOriginLies) {
+  const Mechanism mechanism = testing::forearm();
+  const auto figures = moving_figures(mechanism, synthesise(mechanism), {0, 0});
+  ASSERT_EQ(figures.size(), 2u);
+  for (const Figure& figure : figures) {
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_string(inline_svg(figure).c_str()));
+    const auto scene = document.select_node("/svg/g[@class='scene']").node();
+    double scale = 0, x = 0, y = 0, to_x = 0, to_y = 0;
+    ASSERT_EQ(std::sscanf(scene.attribute("data-view").as_string(), "%lf %lf %lf", &scale, &x, &y), 3);
+    const char* link = scene.select_node("./g[@class='joint-link']/path").node().attribute("d").as_string();
+    ASSERT_EQ(std::sscanf(link, "M%*f %*fL%lf %lf", &to_x, &to_y), 2);
+    EXPECT_NEAR(to_x, x, 0.01);
+    EXPECT_NEAR(to_y, y - scale * mechanism.joint.R, 0.01);
+  }
+}
+
+TEST(PolarFigure, SaysHowFarThePolarDrawingIsOff) {
+  const Mechanism mechanism = testing::forearm();
+  const SynthesisResult synthesis = synthesise(mechanism);
+  EXPECT_FALSE(polar_figure(synthesis, Side::left)) << "P1 is round: both are one";
+  const auto figure = polar_figure(synthesis, Side::right);
+  ASSERT_TRUE(figure);
+  double said = 0;
+  const std::size_t at = figure->body.find("furthest apart: ");
+  ASSERT_NE(at, std::string::npos);
+  std::string words = figure->body.substr(at + 16);
+  if (words.rfind("\u2212", 0) == 0) words = "-" + words.substr(std::string("\u2212").size());
+  ASSERT_EQ(std::sscanf(words.c_str(), "%lf", &said), 1);
+  // The exact profile's radius where the tendon leaves it is larger than the tendon's distance from the axis:
+  // √(r2² + r2'²), and it stands as much further on.
+  double most = 0;
+  for (const TransmissionPoint& point : synthesis.stroke) most = std::max(most, std::hypot(point.t2.p, point.t2.dp) - point.t2.p);
+  EXPECT_GT(std::abs(said), 0.2 * most);
+  EXPECT_LT(std::abs(said), 20 * most);
 }
 
 TEST(Thinned, StaysWithinItsTolerance) {

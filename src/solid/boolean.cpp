@@ -1,0 +1,292 @@
+#include "solid/boolean.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
+#include "solid/corefinement.h"
+#include "solid/disjoint_sets.h"
+#include "solid/self_intersection.h"
+#include "solid/solid_angle.h"
+
+// A tool touches a tenth of a body's facets. Only those are handed to CGAL, which cuts both surfaces along their common
+// line into patches. Each patch lies inside or outside of the other solid as one of its points does.
+
+namespace fusee {
+namespace {
+
+enum class Operation { subtract, unite };
+
+// Some facets of a mesh, with their vertices alone.
+class Share {
+ public:
+  explicit Share(const TriangleMesh& whole) : whole_(whole), number_(whole.vertices.size(), k_none) {}
+
+  void add(const std::array<std::uint32_t, 3>& triangle) {
+    auto& facet = mesh_.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& known = number_[triangle[k]];
+      if (known == k_none) {
+        known = static_cast<std::uint32_t>(mesh_.vertices.size());
+        mesh_.vertices.push_back(whole_.vertices[triangle[k]]);
+      }
+      facet[k] = known;
+    }
+  }
+  const TriangleMesh& mesh() const { return mesh_; }
+
+ private:
+  static constexpr auto k_none = std::numeric_limits<std::uint32_t>::max();
+  const TriangleMesh& whole_;
+  std::vector<std::uint32_t> number_;
+  TriangleMesh mesh_;
+};
+
+// Those whose boxes touch the tool's, and all others.
+struct Neighbourhood {
+  TriangleMesh near, far;
+};
+
+// One for each piece that hangs together.
+std::vector<Bounds> boxes_of_pieces(const TriangleMesh& tool) {
+  DisjointSets pieces(tool.vertices.size());
+  for (const auto& [a, b, c] : tool.triangles) {
+    pieces.unite(a, b);
+    pieces.unite(a, c);
+  }
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::map<std::size_t, Bounds> boxes;
+  for (std::size_t k = 0; k < tool.vertices.size(); ++k) {
+    Bounds& box = boxes.try_emplace(pieces.root(k), Bounds{Vec3::Constant(far), Vec3::Constant(-far)}).first->second;
+    box.low = box.low.cwiseMin(tool.vertices[k]);
+    box.high = box.high.cwiseMax(tool.vertices[k]);
+  }
+  std::vector<Bounds> all;
+  for (const auto& [root, box] : boxes) all.push_back(box);
+  return all;
+}
+
+Neighbourhood neighbourhood(const TriangleMesh& body, const TriangleMesh& tool) {
+  const std::vector<Bounds> boxes = boxes_of_pieces(tool);
+  Share near(body), far(body);
+  for (const auto& triangle : body.triangles) {
+    const Vec3 &a = body.vertices[triangle[0]], &b = body.vertices[triangle[1]], &c = body.vertices[triangle[2]];
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    const bool touches = std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) {
+      return (low.array() <= box.high.array()).all() && (high.array() >= box.low.array()).all();
+    });
+    (touches ? near : far).add(triangle);
+  }
+  return {near.mesh(), far.mesh()};
+}
+
+// The middle and the normal of a patch's largest facet.
+struct Place {
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+};
+
+Place place_in(const TriangleMesh& patch) {
+  Place place;
+  for (const auto& [ia, ib, ic] : patch.triangles) {
+    const Vec3 &a = patch.vertices[ia], &b = patch.vertices[ib], &c = patch.vertices[ic];
+    const Vec3 normal = (b - a).cross(c - a);
+    if (normal.squaredNorm() > place.normal.squaredNorm()) place = {(a + b + c) / 3.0, normal};
+  }
+  place.normal.stableNormalize();
+  return place;
+}
+
+// How often a closed surface goes round a point.
+double winding_number(const TriangleMesh& solid, const Vec3& point) {
+  double angle = 0;
+  for (const auto& [a, b, c] : solid.triangles)
+    angle += solid_angle(solid.vertices[a] - point, solid.vertices[b] - point, solid.vertices[c] - point);
+  return angle / (2.0 * k_two_pi);
+}
+
+// Straight up from the point: how often is the surface met? Null where that is by a facet's edge, or next to it.
+std::optional<bool> is_inside_seen_upwards(const TriangleMesh& solid, const Vec3& point) {
+  constexpr double k_doubt = 1e-9;
+  const Vec2 at = point.head<2>();
+  bool inside = false;
+  for (const auto& [ia, ib, ic] : solid.triangles) {
+    const Vec3 &a = solid.vertices[ia], &b = solid.vertices[ib], &c = solid.vertices[ic];
+    if (std::max({a.z(), b.z(), c.z()}) < point.z() || std::max({a.x(), b.x(), c.x()}) < at.x() ||
+        std::min({a.x(), b.x(), c.x()}) > at.x() || std::max({a.y(), b.y(), c.y()}) < at.y() ||
+        std::min({a.y(), b.y(), c.y()}) > at.y())
+      continue;
+    const Vec2 to_a = a.head<2>() - at, to_b = b.head<2>() - at, to_c = c.head<2>() - at;
+    const double of_a = cross(to_b, to_c), of_b = cross(to_c, to_a), of_c = cross(to_a, to_b);
+    const auto [least, most] = std::minmax({of_a, of_b, of_c});
+    const double size = k_doubt * std::max({to_a.squaredNorm(), to_b.squaredNorm(), to_c.squaredNorm()});
+    if (least < -size && most > size) continue;
+    if (least < size && most > -size) return std::nullopt;
+    const double height = (of_a * a.z() + of_b * b.z() + of_c * c.z()) / (of_a + of_b + of_c) - point.z();
+    if (std::abs(height) < k_doubt * (1.0 + std::abs(point.z()))) return std::nullopt;
+    if (height > 0) inside = !inside;
+  }
+  return inside;
+}
+
+// Null where the point lies so near to the surface that nobody can say.
+std::optional<bool> is_inside_of(const TriangleMesh& solid, const Vec3& point) {
+  if (const auto inside = is_inside_seen_upwards(solid, point)) return inside;
+  constexpr double k_doubt = 1e-3;
+  const double turns = winding_number(solid, point);
+  if (!(std::abs(turns - std::round(turns)) < k_doubt)) return std::nullopt;
+  return std::lround(turns) != 0;
+}
+
+// Does the other solid reach up to a patch, from below and from above as the patch's normal points? Both where it lies
+// inside, one where both surfaces are one there.
+struct Surroundings {
+  bool below = false, above = false;
+};
+
+std::optional<Surroundings> surroundings_of(const TriangleMesh& patch, const TriangleMesh& solid) {
+  // Where surfaces lie on one another they are a grain of a float apart or not at all; other walls are thicker.
+  constexpr double k_beside = 1e-4;
+  const auto [point, normal] = place_in(patch);
+  if (const auto inside = is_inside_of(solid, point)) return Surroundings{*inside, *inside};
+  const auto below = is_inside_of(solid, point - k_beside * normal), above = is_inside_of(solid, point + k_beside * normal);
+  if (!below || !above) return std::nullopt;
+  return Surroundings{*below, *above};
+}
+
+TriangleMesh turned_over(TriangleMesh mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+struct Kept {
+  std::vector<TriangleMesh> result, common;
+};
+
+// Of the second solid, only what lies wholly inside or outside is kept: where surfaces are one the first one's is taken.
+bool sort_patches(const std::vector<TriangleMesh>& patches, const TriangleMesh& solid, bool is_first, Operation operation,
+                  Kept& kept) {
+  for (const TriangleMesh& patch : patches) {
+    const std::optional<Surroundings> around = surroundings_of(patch, solid);
+    if (!around) return false;
+    const auto [below, above] = *around;
+    const bool is_inside = is_first ? below : below && above;
+    const bool is_outside = is_first ? !(operation == Operation::unite ? above : below) : !below && !above;
+    if (is_inside) kept.common.push_back(patch);
+    if (is_first || operation == Operation::unite ? is_outside : is_inside)
+      kept.result.push_back(is_first || operation == Operation::unite ? patch : turned_over(patch));
+  }
+  return true;
+}
+
+// Each side of a facet has one that runs back along it.
+bool is_closed_once(const TriangleMesh& welded) {
+  std::vector<std::uint64_t> sides, back;
+  sides.reserve(3 * welded.triangles.size());
+  back.reserve(3 * welded.triangles.size());
+  for (const auto& triangle : welded.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t a = triangle[k], b = triangle[(k + 1) % 3];
+      sides.push_back(a << 32 | b);
+      back.push_back(b << 32 | a);
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::sort(back.begin(), back.end());
+  return sides == back && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+}
+
+// Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone.
+TriangleMesh without_short_edges(const TriangleMesh& rounded) {
+  TriangleMesh mesh = weld(rounded);
+  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return mesh;
+}
+
+// Rounding may put a facet's three corners on a line. It lies along its longest edge: the two facets on that edge are
+// divided the other way.
+void flip_flat_facets(TriangleMesh& mesh) {
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (!is_degenerate(mesh, f)) continue;
+    auto& flat = mesh.triangles[f];
+    const auto length = [&](std::size_t k) {
+      return (mesh.vertices[flat[(k + 1) % 3]] - mesh.vertices[flat[k]]).squaredNorm();
+    };
+    const std::size_t k = length(0) >= length(1) ? (length(0) >= length(2) ? 0 : 2) : (length(1) >= length(2) ? 1 : 2);
+    const std::uint32_t p = flat[k], q = flat[(k + 1) % 3], r = flat[(k + 2) % 3];
+    const auto runs_back = [p, q](const auto& t) {
+      return (t[0] == q && t[1] == p) || (t[1] == q && t[2] == p) || (t[2] == q && t[0] == p);
+    };
+    const auto beside = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), runs_back);
+    if (beside == mesh.triangles.end()) continue;
+    const std::uint32_t s = (*beside)[0] + (*beside)[1] + (*beside)[2] - p - q;
+    flat = {p, s, r};
+    *beside = {s, q, r};
+  }
+}
+
+// CGAL numbers what it makes in an order that depends on where in memory its boxes lie: the same vertices and facets
+// are put into the same order every time.
+TriangleMesh in_order(TriangleMesh mesh) {
+  std::vector<std::uint32_t> order(mesh.vertices.size()), rank(order.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b];
+    return std::tuple(p.z(), p.y(), p.x()) < std::tuple(q.z(), q.y(), q.x());
+  });
+  std::vector<Vec3> vertices;
+  for (std::uint32_t k = 0; k < order.size(); ++k) {
+    rank[order[k]] = k;
+    vertices.push_back(mesh.vertices[order[k]]);
+  }
+  mesh.vertices = std::move(vertices);
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& index : triangle) index = rank[index];
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  }
+  std::sort(mesh.triangles.begin(), mesh.triangles.end());
+  return mesh;
+}
+
+std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMesh& tool, Operation operation) {
+  const Neighbourhood parts = neighbourhood(body, tool);
+  // What crosses itself leaves CGAL without an answer, without an end, or without its wits.
+  if (find_crossing(parts.near).facets) return std::nullopt;
+  const std::optional<Corefined> cut = corefined(parts.near, tool);
+  Kept kept;
+  if (!cut || !sort_patches(cut->first, tool, true, operation, kept) ||
+      !sort_patches(cut->second, body, false, operation, kept))
+    return std::nullopt;
+  kept.result.push_back(parts.far);
+  const TriangleMesh exact = weld(together(kept.result));
+  if (!is_closed_once(exact)) return std::nullopt;
+  BooleanResult outcome{in_order(without_short_edges(rounded_to_float(exact))), enclosed_volume(in_order(weld(together(kept.common))))};
+  flip_flat_facets(outcome.mesh);
+  return outcome;
+}
+
+}  // namespace
+
+std::optional<BooleanResult> subtract(const TriangleMesh& body, const TriangleMesh& tool) {
+  return combined(body, tool, Operation::subtract);
+}
+std::optional<BooleanResult> unite(const TriangleMesh& a, const TriangleMesh& b) {
+  return combined(a, b, Operation::unite);
+}
+
+TriangleMesh together(const std::vector<TriangleMesh>& meshes) {
+  TriangleMesh all;
+  for (const TriangleMesh& mesh : meshes) {
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
+  }
+  return all;
+}
+
+}  // namespace fusee
