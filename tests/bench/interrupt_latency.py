@@ -1,7 +1,8 @@
 """How soon each command ends after one SIGINT, at random moments of its run: on the clock, and in seconds of processor
 used after the signal, which other programs on the machine do not change.
 
-usage: interrupt_latency.py FUSEE [MOMENTS=50] [COMMAND ...]   (build, refused, calibrate, plan, simulate, reproduce)
+usage: interrupt_latency.py FUSEE [MOMENTS=50] [COMMAND ...]   (build, refused, check, rewind, analyze, certified, ga,
+       pareto, plan, simulate, calibrate, reproduce, replay)
 
 Runs of too short a command are over before the signal: they are counted as such. Ends with 1 where one took more than
 0.2 s of processor, or ended otherwise than with 130 or done.
@@ -56,8 +57,18 @@ def commands(fusee, folder):
     spec = str(ROOT / "profiles/forearm.toml")
     log = str(min(pathlib.Path(folder).glob("plan/run_*.csv")))
     out = ["-o", f"{folder}/out", "--force"]
+    box = [("optimize.variables", '["pulley.r1_mm","guides.EB_mm","guides.ED_mm","guides.OE_mm","pulley.EF_mm","joint.length_mm"]'),
+           ("optimize.lower", "[14,45,45,-60,70,90]"), ("optimize.upper", "[18,60,60,-30,90,110]")]
+    search = [fusee, "optimize", spec, *(word for key, value in box for word in ("--set", f"{key}={value}"))]
     return {
         "build": [fusee, "build", str(ROOT / "profiles/paper_optimum.toml"), *out],
+        "check": [fusee, "check", f"{folder}/fine/pulley.stl"],
+        "rewind": [fusee, "rewind", str(ROOT / "profiles/paper_optimum.toml"), f"{folder}/fine/pulley.stl"],
+        "analyze": [fusee, "analyze", spec, "--steps", "2000", "--samples", "20000"],
+        "certified": [*search, "--method", "certified"],
+        "ga": [*search, "--method", "ga", "--set", "optimize.feasible=true"],
+        "pareto": [*search, "--method", "pareto", "--set", 'optimize.objective=["max_tension","footprint"]'],
+        "replay": [fusee, "replay", f"{folder}/bug.zip"],
         "refused": [fusee, "build", str(ROOT / "tests/data/refused.toml"), *out],
         "plan": [fusee, "plan", spec, *out],
         "simulate": [fusee, "simulate", spec, log, "-o", f"{folder}/sim.csv", "--force"],
@@ -69,6 +80,8 @@ def commands(fusee, folder):
 def prepare(fusee, folder):
     """Run files, and what the joint itself would read on them: something to calibrate."""
     spec = str(ROOT / "profiles/forearm.toml")
+    fine = [fusee, "build", str(ROOT / "profiles/paper_optimum.toml"), "-o", f"{folder}/fine", "--tolerance-mm", "0.001"]
+    subprocess.run([*fine, "--bundle", f"{folder}/bug.zip", "-q"], check=True, stdout=subprocess.DEVNULL)
     subprocess.run([fusee, "plan", spec, "-o", f"{folder}/plan", "-q"], check=True, stdout=subprocess.DEVNULL)
     for run in sorted(pathlib.Path(folder).glob("plan/run_*.csv"))[:3]:
         command = [fusee, "simulate", spec, str(run), "-o", f"{folder}/sim_{run.name}", "-q"]
