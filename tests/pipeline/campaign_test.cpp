@@ -302,11 +302,12 @@ class Choices : public ::testing::TestWithParam<const char*> {
     std::vector<Setting> settings{{"body.horn", "disc-25T-M3"}};
     std::string words;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-      // The first word of a bore is "round", which a shaft may not be: it is left out beside one.
-      if (choices[i].key == "body.bore" && combination[i] == 0) continue;
       settings.push_back({choices[i].key, choices[i].words[combination[i]]});
       words += " --set " + settings.back().key + "=" + settings.back().value;
     }
+    // Beside a shaft the bore is the shaft's.
+    const bool has_shaft = words.find("body.shaft=none") == std::string::npos;
+    if (has_shaft) settings.push_back({"body.bore", "d"});
     SCOPED_TRACE(GetParam() + words);
     const auto read = [&] {
       return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / GetParam(), settings);
