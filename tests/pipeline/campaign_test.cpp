@@ -1,6 +1,6 @@
 // Random designs through the whole making, of every law and with every choice of the file: each is made, with every
-// check, or refused for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). And the choices in [body] and
-// [print] on three mechanisms: every pair of words of two keys, FUSEE_LAW_CASES combinations more, and with
+// check, or refused for a reason. FUSEE_LAW_CASES: how many (24); FUSEE_LAW_SEED: which (1). And the choices in [body]
+// and [print] on three mechanisms: every pair of words of two keys, FUSEE_LAW_CASES combinations more, and with
 // FUSEE_LONG_TESTS every combination that says something else than another (7560 a mechanism, a quarter of an hour of
 // one core each).
 #include <fmt/format.h>
@@ -244,9 +244,9 @@ Combination combination_of(std::size_t number, const std::vector<Choice>& choice
 /// A key that another one leaves without use has its first word.
 bool says_something_new(const Combination& combination, const std::vector<Choice>& choices) {
   const auto at = [&](const std::string& key) {
-    return static_cast<std::size_t>(std::find_if(choices.begin(), choices.end(),
-                                                 [&](const Choice& choice) { return choice.key == key; }) -
-                                    choices.begin());
+    return static_cast<std::size_t>(
+        std::find_if(choices.begin(), choices.end(), [&](const Choice& choice) { return choice.key == key; }) -
+        choices.begin());
   };
   const auto word = [&](const std::string& key) { return choices[at(key)].words[combination[at(key)]]; };
   if (word("body.shaft") != "none" && combination[at("body.bore")] != 0) return false;
