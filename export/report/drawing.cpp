@@ -83,18 +83,18 @@ double pulley_reach(const SynthesisResult& synthesis) {
 }
 
 /// px.
-struct Frame {
+struct PaperBox {
   double left, top, width, height;
 };
 
-View fitted(View view, const Frame& frame) {
+View fitted(View view, const PaperBox& frame) {
   view.fit(frame.left, frame.top, frame.width, frame.height);
   return view;
 }
 
 /// Room for the joint at each of these angles.
 View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const std::vector<double>& thetas,
-                    const Frame& frame) {
+                    const PaperBox& frame) {
   View view;
   view.include({0, 0}, 0.06 * mechanism.joint.R);
   for (const Side side : {Side::left, Side::right}) {
@@ -106,7 +106,7 @@ View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis
 }
 
 /// The pulley alone, larger: on the whole mechanism it is small.
-View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const Frame& frame) {
+View pulley_view(const Mechanism& mechanism, const SynthesisResult& synthesis, const PaperBox& frame) {
   View view;
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
   return fitted(view, frame);

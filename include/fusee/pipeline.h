@@ -59,6 +59,11 @@ struct BuildOptions {
   std::function<void(std::string_view step)> before_step;
   /// Called some hundred times a second while advice is searched for, to the same end.
   std::function<void()> between_tries;
+  /// Called once, before anything stands on the disk.
+  std::function<void()> before_writing;
+  /// From then on called some fifty times a second while files are made and checked on other threads. For a program
+  /// that has to end at once: `clean_up` removes what stands on the disk.
+  std::function<void(const std::function<void()>& clean_up)> while_waiting;
 };
 
 enum class BuildStatus { done, infeasible, check_failed };

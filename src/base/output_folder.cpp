@@ -260,6 +260,11 @@ void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
 }
 
 /// Beside the folder where it can be replaced as a whole, so that what a killed run leaves does not lie in it either.
+void OutputFolder::discard() {
+  staging_.reset();
+  missing_.reset();
+}
+
 void OutputFolder::open_staging() {
   if (staging_) return;
   demand_ground(folder_);

@@ -121,8 +121,7 @@ const std::vector<Option>& common_options() {
       {"--force", "", "overwrite files that fusee did not write"},
       {"--dry-run", "", "do everything, but leave no file behind"},
       {"--bundle", "FILE",
-       "pack options, version and all that is read into FILE,\na zip, also when it fails; 'fusee replay' runs it "
-       "again"},
+       "pack options, version and all that is read into FILE,\na zip, also when it fails: 'fusee replay' reruns it"},
       {"-q,--quiet", "", "no warnings and no progress; errors are still shown"},
       {"-v,--verbose", "", "say more: each step, and every check"},
       {"--no-color", "", "no colours (nor with NO_COLOR set in the environment)"},

@@ -195,9 +195,19 @@ Reply run_build(const Arguments& arguments, Console& console) {
     stop_if_interrupted();
     console.progress(step);
   };
-  options.between_tries = [] { stop_if_interrupted(); };
-  const InterruptsDeferred deferred;
+  // Until something stands on the disk a signal ends the program where it is.
+  std::optional<InterruptsDeferred> writing;
+  options.before_writing = [&writing] {
+    writing.emplace();
+    stop_if_interrupted();
+  };
+  options.while_waiting = [](const std::function<void()>& clean_up) {
+    if (!is_interrupted()) return;
+    clean_up();
+    leave_interrupted();
+  };
   const BuildResult built = build(file, options);
+  writing.reset();
   Reply reply;
   add_warnings(built.product, reply);
   add_pins_note(file, reply);

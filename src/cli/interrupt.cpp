@@ -52,6 +52,8 @@ void catch_interrupts(bool json) {
 InterruptsDeferred::InterruptsDeferred() { deferred = 1; }
 InterruptsDeferred::~InterruptsDeferred() { deferred = 0; }
 
+void leave_interrupted() { leave(); }
+
 bool is_interrupted() { return interrupted != 0; }
 
 void stop_if_interrupted() {

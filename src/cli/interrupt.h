@@ -25,6 +25,8 @@ class InterruptsDeferred {
   InterruptsDeferred& operator=(const InterruptsDeferred&) = delete;
 };
 void stop_if_interrupted();
+/// Exit 130 at once, whatever other threads do.
+[[noreturn]] void leave_interrupted();
 /// For a search that has an answer whenever it is stopped.
 bool is_interrupted();
 

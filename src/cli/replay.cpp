@@ -328,7 +328,7 @@ Command replay_command() {
           "nothing but the bundle, and writes nothing but in a folder of its own, which is\n"
           "removed afterwards unless -o gives it a place.",
           {{"-o,--out", "DIR",
-            "leave the files of the bundle and what the run makes of\nthem in DIR, which must not exist or be empty"}},
+            "leave the files of the bundle and what comes of them\nin DIR, which must not exist or be empty"}},
           {{"fusee build arm.toml --set pulley.r1_mm=15 --bundle bug.zip", "pack a run: attach bug.zip to a report"},
            {"fusee replay bug.zip", "does it end as it did there?"},
            {"fusee replay bug.zip -o bug", "and with everything left in bug, to look at"}},

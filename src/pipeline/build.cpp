@@ -1,6 +1,9 @@
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <future>
 
 #include "fusee/analysis/plausibility.h"
@@ -23,14 +26,15 @@ class TemporaryFolder {
     if (::mkdtemp(name.data()) == nullptr) throw OutputError("the temporary folder cannot be written: " + name);
     path_ = name;
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
+  ~TemporaryFolder() { remove(); }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  void remove() const {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
 
  private:
   std::filesystem::path path_;
@@ -44,21 +48,33 @@ constexpr int k_trial_steps = 36;
 // No file of ours is larger.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
 
+void announce(const BuildOptions& options, std::string_view what) {
+  if (options.before_step) options.before_step(what);
+}
+
 /// A build under way: what was made so far and where it is staged.
 struct Workshop {
   const BuildOptions& options;
-  OutputFolder& folder;
   BuildResult& result;
+  OutputFolder& folder;
+  std::function<void()> clean_up;
 
-  void step(std::string_view what) const {
-    if (options.before_step) options.before_step(what);
-  }
+  void step(std::string_view what) const { announce(options, what); }
   void stage(std::string name, std::string bytes) {
     step("writing " + name);
     result.outputs.push_back({std::move(name), std::move(bytes)});
     folder.stage(result.outputs.back());
   }
+  /// What another thread makes.
+  template <typename Value>
+  Value take(std::future<Value>& made) const {
+    while (made.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+      if (options.while_waiting) options.while_waiting(clean_up);
+    }
+    return made.get();
+  }
   Part read_back(const std::string& name) const { return read_made_part(folder.staged_path(name)); }
+  TriangleMesh mesh_of(const std::string& name) const { return std::get<TriangleMesh>(read_back(name)); }
   void add(std::vector<Check> checks, const std::string& prefix = {}) {
     for (Check& check : checks) {
       check.name = prefix + check.name;
@@ -94,17 +110,16 @@ std::vector<Condition> windable(const Mechanism& mechanism, Wind wind) {
 }
 
 /// False when no such pulley can be made.
-bool design(Workshop& shop, TieOffSearch search = TieOffSearch::thorough) {
-  Product& product = shop.result.product;
+bool design(Product& product, const BuildOptions& options, TieOffSearch search = TieOffSearch::thorough) {
   const Mechanism& mechanism = product.joint.mechanism;
-  shop.step("finding both pitch curves");
+  announce(options, "finding both pitch curves");
   SynthesisOptions synthesis_options;
-  synthesis_options.tolerance = shop.options.tolerance;
+  synthesis_options.tolerance = options.tolerance;
   synthesis_options.advice = false;  // it is searched for with the body
   product.synthesis = synthesise(mechanism, synthesis_options);
   if (!product.synthesis.made()) return false;
   draw_for_making(product.synthesis, product.joint.outline);
-  shop.step("making the body");
+  announce(options, "making the body");
   auto cut_layout = beside([&] { return layout_to_cut(mechanism, product.synthesis); });
   product.pulley = make_pulley(mechanism, product.synthesis, search);
   product.cut_layout = cut_layout.get();
@@ -128,25 +143,25 @@ DracoFile write_parts(Workshop& shop) {
   auto plates = beside([&] { return plates_dxf(product, shop.options.dxf); });
   auto profile = beside([&] { return profile_dxf(product, shop.options.dxf); });
   auto threemf = beside([&] { return threemf_bytes(plate_of(product.pulley), name); });
+  auto obj = beside([&] { return obj_text(mesh, name); });
   auto scad = beside([&] { return scad_text(product); });
-  auto holding = beside(
-      [&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
+  auto holding =
+      beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
   shop.stage("pulley.stl", stl_bytes(mesh, name));
-  shop.stage("pulley.obj", obj_text(mesh, name));
-  shop.stage("pulley.3mf", threemf.get());
+  shop.stage("pulley.obj", shop.take(obj));
+  shop.stage("pulley.3mf", shop.take(threemf));
   for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
-  DracoFile file = draco.get();
+  DracoFile file = shop.take(draco);
   shop.stage("pulley.drc", file.bytes);
-  shop.stage("pulley.scad", scad.get());
-  shop.stage("profile.dxf", profile.get());
-  shop.stage("plates.dxf", plates.get());
-  product.holding = holding.get();
+  shop.stage("pulley.scad", shop.take(scad));
+  shop.stage("profile.dxf", shop.take(profile));
+  shop.stage("plates.dxf", shop.take(plates));
+  product.holding = shop.take(holding);
   return file;
 }
 
 /// As it lies on the printer.
-std::vector<Check> print_checks(const Workshop& shop, const TriangleMesh& mesh) {
-  const Print& print = shop.result.product.joint.mechanism.print;
+std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
   if (print.supports) return {};
   PrintLimits limits;
   limits.overhang = print.overhang;
@@ -154,10 +169,18 @@ std::vector<Check> print_checks(const Workshop& shop, const TriangleMesh& mesh) 
 }
 
 std::vector<Check> draco_checks(const Workshop& shop, const TriangleMesh& mesh, const DracoFile& made) {
-  const bool is_what_was_read = read_file(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
+  const bool is_what_was_read = read_output(shop.folder.staged_path("pulley.drc"), k_largest_draco) == made.bytes;
   const Part decoded = is_what_was_read ? Part(made.decoded) : shop.read_back("pulley.drc");
   std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
   for (const Check& check : is_what_was_read ? made.checks : check_part(decoded)) checks.push_back(check);
+  return checks;
+}
+
+/// As it was written, and as it lies on the printer.
+std::vector<Check> checks_of_printed(const Workshop& shop, const PrintedPart& part) {
+  const TriangleMesh piece = shop.mesh_of(part_file_name(part.side));
+  std::vector<Check> checks = check_printed_part(piece, part);
+  for (const Check& check : print_checks(shop.result.product.joint.mechanism.print, piece)) checks.push_back(check);
   return checks;
 }
 
@@ -167,35 +190,33 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
   Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   shop.step("checking what was written");
-  const Part written = shop.read_back("pulley.stl");
-  const auto& mesh = std::get<TriangleMesh>(written);
-  const auto mesh_of = [&shop](const std::string& name) { return std::get<TriangleMesh>(shop.read_back(name)); };
+  const TriangleMesh mesh = shop.mesh_of("pulley.stl");
   auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
   auto of_plates = beside([&] { return check_part(shop.read_back("plates.dxf")); });
   auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
+  auto of_3mf = beside([&] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
+  auto of_obj = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
+  auto of_pulley = beside([&] {
+    return check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance);
+  });
+  std::vector<std::future<std::vector<Check>>> of_printed;
+  for (const PrintedPart& part : product.pulley.parts)
+    of_printed.push_back(beside([&] { return checks_of_printed(shop, part); }));
+  if (product.pulley.parts.empty()) of_printed.push_back(beside([&] { return print_checks(mechanism.print, mesh); }));
   auto as_built = beside([&] { return rewind_made(product.joint, product.pulley.layout, mesh); });
-  auto of_3mf = beside([&] { return same_mesh(plate_of(product.pulley), mesh_of("pulley.3mf")); });
-  auto of_obj = beside([&] { return same_mesh(mesh, mesh_of("pulley.obj")); });
-  const bool is_whole = product.pulley.parts.empty();
-  auto of_print = beside([&] { return is_whole ? print_checks(shop, mesh) : std::vector<Check>(); });
-  shop.add(check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance));
+  shop.add(shop.take(of_pulley));
   shop.step("winding tendons on it");
-  product.as_built = as_built.get();
+  product.as_built = shop.take(as_built);
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
-  for (const PrintedPart& part : product.pulley.parts) {
-    shop.step("checking " + part_file_name(part.side));
-    const TriangleMesh piece = mesh_of(part_file_name(part.side));
-    const std::string prefix = part.side == Side::left ? "p1_" : "p2_";
-    shop.add(check_printed_part(piece, part), prefix);
-    shop.add(print_checks(shop, piece), prefix);
-  }
-  shop.add(of_print.get());
-  shop.add(of_obj.get(), "obj_");
-  shop.add(of_3mf.get(), "3mf_");
-  shop.add(of_draco.get(), "drc_");
-  shop.add(of_profile.get(), "profile_dxf_");
-  shop.add(of_plates.get(), "plates_dxf_");
+  for (std::size_t k = 0; k < product.pulley.parts.size(); ++k)
+    shop.add(shop.take(of_printed[k]), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
+  if (product.pulley.parts.empty()) shop.add(shop.take(of_printed.front()));
+  shop.add(shop.take(of_obj), "obj_");
+  shop.add(shop.take(of_3mf), "3mf_");
+  shop.add(shop.take(of_draco), "drc_");
+  shop.add(shop.take(of_profile), "profile_dxf_");
+  shop.add(shop.take(of_plates), "plates_dxf_");
 }
 
 /// Looks at what is staged. A file of ours that cannot be used is nobody's bad input.
@@ -210,10 +231,13 @@ void check_written(Workshop& shop, const DracoFile& draco) {
 void write_texts(Workshop& shop) {
   const Product& product = shop.result.product;
   shop.step("writing tables, report and manifest");
+  auto report = beside([&] { return report_html(product); });
+  auto transmission = beside([&] { return transmission_csv(product); });
   shop.stage("profile.csv", profile_csv(product));
-  shop.stage("transmission.csv", transmission_csv(product));
-  shop.stage("report.html", report_html(product));
-  shop.stage("manifest.json", manifest_json(product, shop.result.outputs));
+  shop.stage("transmission.csv", shop.take(transmission));
+  shop.stage("report.html", shop.take(report));
+  auto manifest = beside([&] { return manifest_json(product, shop.result.outputs); });
+  shop.stage("manifest.json", shop.take(manifest));
 }
 
 /// What is tried stands in place of what was declared; what was found to be otherwise stays.
@@ -222,31 +246,33 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
   return file;
 }
 
-/// Curves, body and plates with the checks that a design can fail; the other files say the same.
+/// Curves, body and plates with the checks that a design can fail; the other files say the same. Nothing is written.
 bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
-  BuildResult result;
-  result.product.file = file;
-  result.product.joint = as_it_is(file.mechanism);
-  const TemporaryFolder temporary;
-  OutputFolder staging(temporary.path() / "out", true);
+  Product product;
+  product.file = file;
+  product.joint = as_it_is(file.mechanism);
   BuildOptions quietly = options;
   quietly.before_step = [&options](std::string_view) {
     if (options.between_tries) options.between_tries();
   };
-  Workshop shop{quietly, staging, result};
-  if (!design(shop, TieOffSearch::brief)) return false;
-  const Product& product = result.product;
+  if (!design(product, quietly, TieOffSearch::brief)) return false;
+  const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
-  shop.step("checking its mesh");
-  shop.add(check_pulley(mesh, product.joint.mechanism, product.synthesis, product.pulley, options.tolerance));
-  shop.step("winding tendons on it");
-  shop.add(as_built_checks(product.joint.mechanism, rewind_made(product.joint, product.pulley.layout, mesh),
-                           options.limits));
-  if (product.pulley.parts.empty()) shop.add(print_checks(shop, mesh));
-  for (const PrintedPart& part : product.pulley.parts) shop.add(print_checks(shop, part.mesh));
-  shop.stage("plates.dxf", plates_dxf(product, options.dxf));
-  shop.add(check_part(shop.read_back("plates.dxf")));
-  return all_ok(product.checks);
+  announce(quietly, "checking its mesh");
+  auto of_plates = beside([&] {
+    const std::string drawing = plates_dxf(product, options.dxf);
+    return all_ok(check_part(read_dxf(drawing, "plates.dxf")));
+  });
+  auto of_printing = beside([&] {
+    if (product.pulley.parts.empty()) return all_ok(print_checks(mechanism.print, mesh));
+    return std::all_of(product.pulley.parts.begin(), product.pulley.parts.end(),
+                       [&](const PrintedPart& part) { return all_ok(print_checks(mechanism.print, part.mesh)); });
+  });
+  const bool is_right = all_ok(check_pulley(mesh, mechanism, product.synthesis, product.pulley, options.tolerance)) &&
+                        all_ok(as_built_checks(mechanism, rewind_made(product.joint, product.pulley.layout, mesh),
+                                               options.limits));
+  const bool prints = of_printing.get();
+  return of_plates.get() && prints && is_right;
 }
 
 /// A number that makes the file bad input, or a part on which no tendon can be wound, is no advice.
@@ -283,17 +309,22 @@ Advice advice_for(const MechanismFile& file, const BuildOptions& options) {
                       [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); }});
 }
 
-void work(Workshop& shop) {
-  if (!design(shop)) {
-    shop.result.status = BuildStatus::infeasible;
-    shop.step("looking for what would make it possible");
-    shop.result.advice = advice_for(shop.result.product.file, shop.options);
-    return;
-  }
+void write_and_check(Workshop& shop) {
   const DracoFile draco = write_parts(shop);
   check_written(shop, draco);
   write_texts(shop);
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
+}
+
+void write_and_forget(BuildResult& result, const BuildOptions& options) {
+  if (options.before_writing) options.before_writing();
+  const TemporaryFolder temporary;
+  OutputFolder staging(temporary.path() / "out", true);
+  Workshop shop{options, result, staging, [&] {
+                  staging.discard();
+                  temporary.remove();
+                }};
+  write_and_check(shop);
 }
 
 }  // namespace
@@ -311,17 +342,21 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(output_names());  // before the work: a refusal should not cost a wait
-  if (options.dry_run) {
-    const TemporaryFolder temporary;
-    OutputFolder staging(temporary.path() / "out", true);
-    Workshop shop{options, staging, result};
-    work(shop);
+  if (!design(result.product, options)) {
+    result.status = BuildStatus::infeasible;
+    announce(options, "looking for what would make it possible");
+    result.advice = advice_for(result.product.file, options);
     return result;
   }
-  Workshop shop{options, target, result};
-  work(shop);
+  if (options.dry_run) {
+    write_and_forget(result, options);
+    return result;
+  }
+  if (options.before_writing) options.before_writing();
+  Workshop shop{options, result, target, [&target] { target.discard(); }};
+  write_and_check(shop);
   const bool may_publish = result.status == BuildStatus::done || !target.has_earlier_run() || options.force;
-  if (result.status == BuildStatus::infeasible || !may_publish) return result;
+  if (!may_publish) return result;
   shop.step("publishing");
   // pulley_p1.stl of an earlier run does not belong to a pulley in one piece.
   target.withdraw(output_names());

@@ -88,9 +88,12 @@ class AnchorSearch {
 
   bool channel_fits(const AnchorPath& path) const {
     const std::vector<Bar> bars = path.bars(site_.width);
+    // What is cut bulges out over the chords of the arc: in a joint of 24 mm 0.35 µm of a wall of 0.4 mm were lost to it.
+    const double bulge = path.fillet * (1.0 - std::cos(0.5 * path.turn / k_fillet_steps));
     for (const Bar& bar : bars) {
+      const double wall = site_.wall + (&bar == &bars.back() ? 0.0 : bulge);
       for (const Bar& hole : site_.holes) {
-        if (gap(bar, hole) < site_.wall) return false;
+        if (gap(bar, hole) < wall) return false;
       }
     }
     const double clear = 0.5 * site_.width + k_floor_gap;

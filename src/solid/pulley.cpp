@@ -217,6 +217,27 @@ struct Made {
   std::vector<Check> checks = {};
 };
 
+// A variant moves channels a little, within the walls to what is cut along the axis.
+bool keeps_walls(const BodyPlan& plan, int variant) {
+  const BodyLayout& layout = plan.layout;
+  std::vector<Bar> holes{{Vec2::Zero(), Vec2::Zero(), layout.bore.radius}};
+  for (const Polygon& hole : layout.bore.screw_holes) {
+    const RoundHole circle = circle_within(hole);
+    holes.push_back({circle.centre, circle.centre, (hole.front() - circle.centre).norm()});
+  }
+  return std::all_of(plan.anchors.begin(), plan.anchors.end(), [&](const PlannedAnchor& anchor) {
+    const auto* channel = std::get_if<AnchorPath>(&anchor.way);
+    if (channel == nullptr) return true;
+    const AnchorPath path = varied(*channel, variant);
+    std::vector<Bar> bars = path.bars(layout.channel_width);
+    bars.push_back({path.pocket(), path.pocket(), layout.pocket_radius});
+    return std::all_of(bars.begin(), bars.end(), [&](const Bar& bar) {
+      return std::all_of(holes.begin(), holes.end(),
+                         [&](const Bar& hole) { return gap(bar, hole) >= layout.min_wall; });
+    });
+  });
+}
+
 // The pieces of a pulley before anything is cut out of them, the whole first.
 class PieceMaker {
  public:
@@ -234,6 +255,7 @@ class PieceMaker {
   // through that nobody planned: a mark that opens a channel.
   std::vector<Made> cut(int variant) const {
     std::vector<Made> made;
+    if (variant > 0 && !keeps_walls(plan_, variant)) return made;
     for (const Blank& blank : blanks_) {
       auto featured = FeatureCutter(mechanism_, plan_, marks_, blank.piece).cut(blank.mesh, blank.volume, variant);
       if (!featured || !has_euler(featured->mesh, blank.euler)) return {};

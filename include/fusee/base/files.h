@@ -69,6 +69,8 @@ class OutputFolder {
   void withdraw(const std::vector<std::string>& names);
   /// Where a rename fails, what was renamed before it is put back.
   void publish();
+  /// Removes what is staged and the folders made for it.
+  void discard();
 
  private:
   void demand_ours(const std::vector<std::string>& names) const;
