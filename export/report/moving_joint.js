@@ -126,7 +126,7 @@
     box.querySelectorAll(".effect-share").forEach((row, k) => {
       const { i, u } = within(data.effects[k].shares.map(share => share.share), number_in("effect" + k)), shares = data.effects[k].shares;
       const names = row.dataset.names.split("|"), units = row.dataset.units.split("|");
-      const sizes = names.map((name, n) => (names.length > 1 ? name + " " : "") + words(mix(shares[i].numbers[n], u ? shares[i + 1].numbers[n] : 0, u), 3, units[n] && (units[n] === "°" || units[n] === "%" ? units[n] : " " + units[n])));
+      const sizes = names.map((name, n) => (names.length > 1 ? name + " " : "") + words(mix(shares[i].numbers[n] ?? NaN, u ? shares[i + 1].numbers[n] ?? NaN : 0, u), 3, units[n] && (units[n] === "°" || units[n] === "%" ? units[n] : " " + units[n])));
       show("effect" + k, sizes.join(", "));
     });
   };
