@@ -219,7 +219,7 @@ class Hostile(Packed):
 
     def setUp(self):
         super().setUp()
-        self.pack(["build", "arm.toml", "-o", "made"], 0)
+        self.pack(["check", "arm.toml"], 3)
 
     def refuse(self, code, words):
         done = self.replay(code)
