@@ -9,6 +9,7 @@
 #include "export/report/calibration_plots.h"
 #include "export/report/calibration_words.h"
 #include "export/report/html.h"
+#include "export/report/moving_joint.h"
 #include "export/report/report_parts.h"
 #include "export/report/svg.h"
 #include "export/report/tables.h"
@@ -21,25 +22,6 @@ namespace fusee {
 namespace {
 
 std::string degree_words(double value) { return with_unit(degrees(value), "deg", 3); }
-
-// ---- HTML -----------------------------------------------------------------------------------------------------------
-
-std::string cell(const std::string& words) { return "<td>" + safe_text(words) + "</td>"; }
-std::string number_cell(const std::string& words) { return "<td class=\"number\">" + safe_text(words) + "</td>"; }
-
-/// A title that begins with '#' stands over numbers.
-std::string html_table(const std::vector<std::string>& titles, const std::string& rows) {
-  std::string html = "<div class=\"scroll\"><table><thead><tr>";
-  for (const std::string& title : titles) {
-    const bool numbers = !title.empty() && title[0] == '#';
-    html += (numbers ? "<th class=\"number\">" : "<th>") + safe_text(numbers ? title.substr(1) : title) + "</th>";
-  }
-  return html + "</tr></thead><tbody>" + rows + "</tbody></table></div>";
-}
-
-std::string section(const std::string& id, const std::string& title, const std::string& body) {
-  return body.empty() ? "" : "<section id=\"" + id + "\"><h2>" + safe_text(title) + "</h2>" + body + "</section>\n";
-}
 
 // ---- verdict and figures --------------------------------------------------------------------------------------------
 
@@ -72,9 +54,9 @@ std::string verdict_section(const Calibration& calibration) {
 
 std::string slips_section(const CalibrationProduct& product) {
   if (product.slips.empty()) return "";
-  return section("slips", "A slip of the file or of the log?",
-                 "<p class=\"lead\">No effect explains these data. What follows would: look there first.</p>" +
-                     html_list(slips_words(product)));
+  return html_section("slips", "A slip of the file or of the log?",
+                      "<p class=\"lead\">No effect explains these data. What follows would: look there first.</p>" +
+                          html_list(slips_words(product)));
 }
 
 std::string key_numbers(const CalibrationProduct& product) {
@@ -93,11 +75,12 @@ std::string key_numbers(const CalibrationProduct& product) {
               product.correction.by_curve > 0
                   ? degree_words(product.correction.by_curve) + " of it by an empirical curve, without a cause"
                   : "");
-  return section("numbers", "Key numbers", numbers.html());
+  return html_section("numbers", "Key numbers", numbers.html());
 }
 
 std::string figures_row(const std::string& name, double before, double after) {
-  return "<tr>" + cell(name) + number_cell(degree_words(before)) + number_cell(degree_words(after)) + "</tr>";
+  return "<tr>" + html_cell(name) + html_number_cell(degree_words(before)) + html_number_cell(degree_words(after)) +
+         "</tr>";
 }
 
 std::string held_out_words(const CalibrationProduct& product) {
@@ -119,19 +102,19 @@ std::string figures_section(const CalibrationProduct& product) {
   const std::string rows =
       figures_row("RMS", c.before.rms, c.after.rms) + figures_row("Largest", c.before.max, c.after.max) +
       figures_row("RMS on data that were not fitted", c.before.held_out_rms, c.after.held_out_rms) +
-      (c.curve.used ? "<tr>" + cell("The same, with the empirical curve") + number_cell("–") +
-                          number_cell(degree_words(c.curve.held_out_rms)) + "</tr>"
+      (c.curve.used ? "<tr>" + html_cell("The same, with the empirical curve") + html_number_cell("–") +
+                          html_number_cell(degree_words(c.curve.held_out_rms)) + "</tr>"
                     : std::string()) +
       figures_row("ISO 230-2 A, accuracy", c.iso_before.A, c.iso_after.A) +
       figures_row("ISO 230-2 R, repeatability both ways", c.iso_before.R, c.iso_after.R) +
       figures_row("ISO 230-2 B, reversal", c.iso_before.B, c.iso_after.B) +
       figures_row("ISO 230-2 E, systematic", c.iso_before.E, c.iso_after.E) +
       figures_row("ISO 230-2 M, mean of both ways", c.iso_before.M, c.iso_after.M);
-  return section("figures", "Before and after",
-                 "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: "
-                 "with the effects below. " +
-                     safe_text(held_out_words(product)) + "</p>" +
-                     html_table({"at the joint", "#before", "#after"}, rows));
+  return html_section(
+      "figures", "Before and after",
+      "<p class=\"lead\">Before: the joint as the file declares it, nothing fitted but free zeros. After: "
+      "with the effects below. " +
+          safe_text(held_out_words(product)) + "</p>" + html_table({"at the joint", "#before", "#after"}, rows));
 }
 
 // ---- what to do -----------------------------------------------------------------------------------------------------
@@ -165,7 +148,7 @@ std::string compensation_table(const Correction& correction) {
     std::vector<double> angles = {row.theta, row.alpha_up, row.alpha_down, row.alpha_up - row.alpha_down};
     if (has_curve) angles.insert(angles.end(), {row.curve_up, row.curve_down});
     rows += "<tr>";
-    for (const double angle : angles) rows += number_cell(readable(degrees(angle), 3));
+    for (const double angle : angles) rows += html_number_cell(readable(degrees(angle), 3));
     rows += "</tr>";
   }
   if (rows.empty()) return "";
@@ -181,7 +164,7 @@ std::string action_section(const CalibrationProduct& product) {
     html += "<h3>Measure next, what tells most first</h3>" + html_list(calibration.next_runs, "ol", "next");
   html += "<h3>Correction</h3>" + html_list(correction_items(product)) + compensation_html(product) +
           compensation_table(product.correction);
-  return section("actions", "What to do", html);
+  return html_section("actions", "What to do", html);
 }
 
 // ---- effects --------------------------------------------------------------------------------------------------------
@@ -224,7 +207,17 @@ std::string effects_section(const CalibrationProduct& product) {
         "these numbers and but for this difference at the joint.</p>" +
         html_list(calibration.null_combinations);
   }
-  return section("effects", "Effects found", html);
+  return html_section("effects", "Effects found", html);
+}
+
+std::string moving_section(const CalibrationProduct& product) {
+  const std::string joint = moving_joint(expected_joint(product.file.mechanism), product.rehearsal);
+  if (joint.empty()) return "";
+  return html_section("moving", "What they do",
+                      "<p class=\"lead\">The joint with what was found in it, simulated in a slow stroke back and "
+                      "forth: turn each effect up and down, to twice what was found. Each is simulated alone and added "
+                      "to the declared joint under that load, whose tensions and torque are shown.</p>" +
+                          joint);
 }
 
 // ---- residuals ------------------------------------------------------------------------------------------------------
@@ -241,8 +234,9 @@ std::string direction_cells(const Run& run, const std::vector<double>& residuals
       count += 1;
     }
   }
-  if (count == 0) return number_cell("–") + number_cell("–");
-  return number_cell(readable(degrees(sum / count), 3)) + number_cell(readable(degrees(std::sqrt(squares / count)), 3));
+  if (count == 0) return html_number_cell("–") + html_number_cell("–");
+  return html_number_cell(readable(degrees(sum / count), 3)) +
+         html_number_cell(readable(degrees(std::sqrt(squares / count)), 3));
 }
 
 std::string run_table(const CalibrationProduct& product) {
@@ -251,7 +245,7 @@ std::string run_table(const CalibrationProduct& product) {
   for (std::size_t r = 0; r < product.measurement.runs.size(); ++r) {
     if (r >= calibration.residuals_before.size() || r >= calibration.residuals_after.size()) break;
     const Run& run = product.measurement.runs[r];
-    rows += "<tr>" + cell(run_words(run, product.measurement.load_unit));
+    rows += "<tr>" + html_cell(run_words(run, product.measurement.load_unit));
     for (const auto* residuals : {&calibration.residuals_before[r], &calibration.residuals_after[r]}) {
       rows += direction_cells(run, *residuals, 1) + direction_cells(run, *residuals, -1);
     }
@@ -271,8 +265,8 @@ std::string run_table(const CalibrationProduct& product) {
 std::string residuals_section(const CalibrationProduct& product) {
   const std::string map = residual_map_html(product);
   if (map.empty()) return "";
-  return section("residuals", "Residuals",
-                 map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
+  return html_section("residuals", "Residuals",
+                      map + residual_levels_html(product) + residual_runs_html(product) + run_table(product));
 }
 
 std::string covered_html(const CalibrationProduct& product) {
@@ -297,7 +291,8 @@ std::string rest_section(const CalibrationProduct& product) {
     unknown += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
   if (!unknown.empty()) unknown = "<h3>What has no name, by what it depends on</h3>" + unknown;
   unknown += covered_html(product);
-  return section("rest", "What is left", "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
+  return html_section("rest", "What is left",
+                      "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
 }
 
 // ---- evidence -------------------------------------------------------------------------------------------------------
@@ -316,13 +311,13 @@ std::string evidence_row(const Candidate& candidate, double most, bool as_good) 
           : as_good          ? " class=\"alike\""
                              : "") +
          ">" +
-         cell((candidate.accepted ? "✓ "
-               : as_good          ? "≈ "
-                                  : "") +
-              open_words(candidate.name)) +
+         html_cell((candidate.accepted ? "✓ "
+                    : as_good          ? "≈ "
+                                       : "") +
+                   open_words(candidate.name)) +
          "<td class=\"bar\"><span style=\"width:" + fixed(width, 1) + "%\"></span></td>" +
-         number_cell(readable(candidate.evidence / std::log(10.0), 1)) +
-         cell(candidate.why + (as_good ? "; as good in another's place" : "")) + "</tr>";
+         html_number_cell(readable(candidate.evidence / std::log(10.0), 1)) +
+         html_cell(candidate.why + (as_good ? "; as good in another's place" : "")) + "</tr>";
 }
 
 std::string evidence_section(const Calibration& calibration) {
@@ -337,22 +332,24 @@ std::string evidence_section(const Calibration& calibration) {
   for (const Candidate& candidate : all)
     rows += evidence_row(candidate, most, !candidate.accepted && is_as_good(calibration, candidate.name));
   if (rows.empty()) return "";
-  return section("evidence", "Evidence",
-                 "<p class=\"lead\">How many times likelier the data are with an effect than without it, in powers of "
-                 "ten, beside everything else that was found and a discrepancy that may take any smooth shape. A name "
-                 "costs 2.6.</p>" +
-                     html_table({"effect", "", "#powers of ten", "why"}, rows));
+  return html_section(
+      "evidence", "Evidence",
+      "<p class=\"lead\">How many times likelier the data are with an effect than without it, in powers of "
+      "ten, beside everything else that was found and a discrepancy that may take any smooth shape. A name "
+      "costs 2.6.</p>" +
+          html_table({"effect", "", "#powers of ten", "why"}, rows));
 }
 
 std::string detectable_section(const Calibration& calibration) {
   std::string rows;
   for (const auto& [size, names] : detectable_groups(calibration))
-    rows += "<tr>" + number_cell(degree_words(size)) + cell(open_words(joined(names, ", "))) + "</tr>";
+    rows += "<tr>" + html_number_cell(degree_words(size)) + html_cell(open_words(joined(names, ", "))) + "</tr>";
   if (rows.empty()) return "";
-  return section("detectable", "What would have been seen",
-                 "<p class=\"lead\">The smallest error at the joint, rms, with which these data would have shown an "
-                 "effect that was not found.</p>" +
-                     html_table({"#at the joint", "effects"}, rows));
+  return html_section(
+      "detectable", "What would have been seen",
+      "<p class=\"lead\">The smallest error at the joint, rms, with which these data would have shown an "
+      "effect that was not found.</p>" +
+          html_table({"#at the joint", "effects"}, rows));
 }
 
 std::string data_section(const Measurement& measurement) {
@@ -362,41 +359,32 @@ std::string data_section(const Measurement& measurement) {
     html += "<h3>Why nothing can be concluded</h3>" + html_list(measurement.not_testable) + "<h3>What was logged</h3>" +
             logged_html(measurement);
   if (!notes.empty()) html += (html.empty() ? "" : "<h3>Notes</h3>") + html_list(notes);
-  return section("data", "About the data", html);
-}
-
-std::string page_head(const CalibrationProduct& product, const std::string& name) {
-  const std::size_t runs = product.measurement.runs.size();
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
-         "content=\"width=device-width, initial-scale=1\"/>\n"
-         "<meta name=\"color-scheme\" content=\"light dark\"/>\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-         "script-src 'unsafe-inline'\"/>\n"
-         "<meta name=\"generator\" content=\"" +
-         std::string(k_tool) + "\"/>\n<title>" + name + " – calibration</title>\n<style>" +
-         std::string(embedded::figure_css) + std::string(embedded::page_css) + std::string(embedded::calibration_css) +
-         "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">Calibration report</p>\n<h1>" + name +
-         "</h1>\n<p class=\"source\">" + std::to_string(runs) + (runs == 1 ? " run" : " runs") + " against <code>" +
-         safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code></p>\n</header>\n<main>\n";
+  return html_section("data", "About the data", html);
 }
 
 }  // namespace
 
 std::string calibration_report_html(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
-  const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
-  std::string html = page_head(product, name) + verdict_section(calibration) + slips_section(product);
+  const std::size_t runs = product.measurement.runs.size();
+  Page page{.title = "calibration",
+            .kicker = "Calibration report",
+            .name = product.file.mechanism.name,
+            .source = std::to_string(runs) + (runs == 1 ? " run" : " runs") + " against <code>" +
+                      safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
+            .body = verdict_section(calibration) + slips_section(product),
+            .foot = "Angles in degrees at the joint, lengths in mm, forces in N.",
+            .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
+            .scripts = {embedded::readout_js, embedded::moving_joint_js}};
   if (calibration.verdict != CalibrationVerdict::not_testable) {
-    html += key_numbers(product) + action_section(product) + effects_section(product) + residuals_section(product) +
-            rest_section(product) + figures_section(product) + evidence_section(calibration) +
-            detectable_section(calibration);
+    page.body += key_numbers(product) + action_section(product) + effects_section(product) + moving_section(product) +
+                 residuals_section(product) + rest_section(product) + figures_section(product) +
+                 evidence_section(calibration) + detectable_section(calibration);
   } else if (!calibration.next_runs.empty()) {
-    html += section("actions", "Measure next", html_list(calibration.next_runs, "ol", "next"));
+    page.body += html_section("actions", "Measure next", html_list(calibration.next_runs, "ol", "next"));
   }
-  html += data_section(product.measurement);
-  return html + "</main>\n<footer><p>Made by " + std::string(k_tool) +
-         ". Angles in degrees at the joint, lengths in mm, forces in N.</p></footer>\n<script>//<![CDATA[\n" +
-         std::string(embedded::readout_js) + "//]]></script>\n</body>\n</html>\n";
+  page.body += data_section(product.measurement);
+  return html_page(page);
 }
 
 }  // namespace fusee

@@ -1,6 +1,7 @@
 #include "export/report/html.h"
 
 #include "export/report/svg.h"
+#include "export/tool.h"
 #include "fusee/base/diagnostics.h"
 
 namespace fusee {
@@ -19,6 +20,43 @@ std::string filled_page(std::string_view page, const PageParts& parts) {
     at = close + 2;
   }
 }
+
+std::string html_page(const Page& page) {
+  const std::string name = page.name.empty() ? "unnamed" : safe_text(page.name);
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\"/>\n<meta name=\"color-scheme\" content=\"light dark\"/>\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'" +
+      std::string(page.scripts.empty() ? "" : "; script-src 'unsafe-inline'") +
+      "\"/>\n<meta name=\"generator\" content=\"" + std::string(k_tool) + "\"/>\n<title>" + name + " – " +
+      safe_text(page.title) + "</title>\n<style>";
+  for (const std::string_view style : page.styles) html += style;
+  html += "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">" + safe_text(page.kicker) + "</p>\n<h1>" + name +
+          "</h1>\n<p class=\"source\">" + page.source + "</p>\n</header>\n<main>\n" + page.body +
+          "</main>\n<footer><p>Made by " + std::string(k_tool) + ". " + safe_text(page.foot) + "</p></footer>\n";
+  if (!page.scripts.empty()) {
+    html += "<script>//<![CDATA[\n";
+    for (const std::string_view script : page.scripts) html += script;
+    html += "//]]></script>\n";
+  }
+  return html + "</body>\n</html>\n";
+}
+
+std::string html_section(const std::string& id, const std::string& title, const std::string& body) {
+  return body.empty() ? "" : "<section id=\"" + id + "\"><h2>" + safe_text(title) + "</h2>" + body + "</section>\n";
+}
+
+std::string html_table(const std::vector<std::string>& titles, const std::string& rows) {
+  std::string html = "<div class=\"scroll\"><table><thead><tr>";
+  for (const std::string& title : titles) {
+    const bool numbers = !title.empty() && title[0] == '#';
+    html += (numbers ? "<th class=\"number\">" : "<th>") + safe_text(numbers ? title.substr(1) : title) + "</th>";
+  }
+  return html + "</tr></thead><tbody>" + rows + "</tbody></table></div>";
+}
+
+std::string html_cell(const std::string& words) { return "<td>" + safe_text(words) + "</td>"; }
+std::string html_number_cell(const std::string& words) { return "<td class=\"number\">" + safe_text(words) + "</td>"; }
 
 std::string html_list(const std::vector<std::string>& items, const std::string& tag, const std::string& style) {
   if (items.empty()) return "";

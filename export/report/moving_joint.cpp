@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "export/report/drawing.h"
+#include "export/report/tables.h"
 #include "export/report/tendon_trace.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
@@ -31,6 +32,13 @@ std::string json_numbers(const std::string& name, const Items& items, int decima
   return text + "]";
 }
 
+template <typename Items, typename Text>
+std::string all_of(const Items& items, Text text_of) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ",") + text_of(item);
+  return text;
+}
+
 std::string json_outline(const Outline& outline) {
   std::string text = "{\"sign\":" + json_number(mirror_sign(outline.side), 0) +
                      ",\"end\":" + std::to_string(outline.anchor_end()) + ",\"points\":[";
@@ -42,8 +50,7 @@ std::string json_outline(const Outline& outline) {
 bool is_held(const EquilibriumPoint& point) { return point.status != EquilibriumStatus::no_equilibrium; }
 
 /// The joint under its load, on one of the ways through the stroke.
-std::string json_way(const std::string& name, const std::vector<StrokePoint>& loaded,
-                     EquilibriumPoint StrokePoint::*way) {
+std::string json_way(const std::vector<StrokePoint>& loaded, EquilibriumPoint StrokePoint::*way) {
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
     return json_numbers(key, loaded, decimals, [&](const StrokePoint& point) {
       return is_held(point.*way) ? value(point.*way) : std::nan("");
@@ -52,7 +59,7 @@ std::string json_way(const std::string& name, const std::vector<StrokePoint>& lo
   const auto tension = [&](const std::string& key, TendonState EquilibriumPoint::*tendon, double TendonState::*part) {
     return numbers(key, 3, [=](const EquilibriumPoint& point) { return point.*tendon.*part; });
   };
-  return "\"" + name + "\":{" + tension("upper1", &EquilibriumPoint::t1, &TendonState::upper) + "," +
+  return "{" + tension("upper1", &EquilibriumPoint::t1, &TendonState::upper) + "," +
          tension("lower1", &EquilibriumPoint::t1, &TendonState::lower) + "," +
          tension("upper2", &EquilibriumPoint::t2, &TendonState::upper) + "," +
          tension("lower2", &EquilibriumPoint::t2, &TendonState::lower) + "," +
@@ -60,8 +67,41 @@ std::string json_way(const std::string& name, const std::vector<StrokePoint>& lo
          numbers("theta", 5, [](const EquilibriumPoint& point) { return degrees(point.theta); }) + "}";
 }
 
+/// By load.
+std::string json_strokes(const std::vector<LoadedStroke>& strokes) {
+  std::string text = json_numbers("loads", strokes, 4, [](const LoadedStroke& stroke) { return stroke.load; });
+  for (const bool rising : {true, false}) {
+    text += rising ? ",\"rising\":[" : ",\"falling\":[";
+    for (std::size_t i = 0; i < strokes.size(); ++i)
+      text += (i ? "," : "") + json_way(strokes[i].points, rising ? &StrokePoint::rising : &StrokePoint::falling);
+    text += "]";
+  }
+  return text;
+}
+
+std::string json_angles(const std::string& name, const std::vector<std::vector<double>>& by_load) {
+  std::string text = "\"" + name + "\":[";
+  for (std::size_t i = 0; i < by_load.size(); ++i) {
+    text += i ? ",[" : "[";
+    for (std::size_t k = 0; k < by_load[i].size(); ++k) text += (k ? "," : "") + json_number(degrees(by_load[i][k]), 4);
+    text += "]";
+  }
+  return text + "]";
+}
+
+std::string json_effect(const RehearsedEffect& effect) {
+  std::string text = "{\"shares\":[";
+  for (std::size_t i = 0; i < effect.shares.size(); ++i) {
+    const RehearsedShare& share = effect.shares[i];
+    text += std::string(i ? "," : "") + "{\"share\":" + json_number(k_rehearsed_shares[i], 2) + "," +
+            json_numbers("numbers", share.parameters, 5, [](const FittedParameter& number) { return number.value; }) +
+            "," + json_angles("rising", share.rising) + "," + json_angles("falling", share.falling) + "}";
+  }
+  return text + "]}";
+}
+
 std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synthesis,
-                        const std::vector<StrokePoint>& loaded) {
+                        const std::vector<LoadedStroke>& strokes, const std::vector<RehearsedEffect>& effects) {
   const std::vector<TransmissionPoint>& stroke = synthesis.stroke;
   const auto numbers = [&](const std::string& key, int decimals, auto value) {
     return json_numbers(key, stroke, decimals, value) + ",";
@@ -74,9 +114,8 @@ std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synth
          numbers("theta", 6, [](const TransmissionPoint& point) { return degrees(point.theta); }) +
          numbers("slope", 6, [](const TransmissionPoint& point) { return point.g; }) +
          numbers("r1", 4, [](const TransmissionPoint& point) { return point.t1.p; }) +
-         numbers("r2", 4, [](const TransmissionPoint& point) { return point.t2.p; }) +
-         json_way("rising", loaded, &StrokePoint::rising) + "," + json_way("falling", loaded, &StrokePoint::falling) +
-         "}";
+         numbers("r2", 4, [](const TransmissionPoint& point) { return point.t2.p; }) + json_strokes(strokes) +
+         ",\"effects\":[" + all_of(effects, json_effect) + "]}";
 }
 
 // What a person sees -----------------------------------------------------------------------------------------------
@@ -86,20 +125,75 @@ std::string number_row(const std::string& words, const std::string& name) {
   return "<div><dt>" + words + "</dt><dd data-show=\"" + name + "\">–</dd></div>";
 }
 
-std::string slider(const SynthesisResult& synthesis) {
-  const double low = degrees(synthesis.stroke.front().alpha), high = degrees(synthesis.stroke.back().alpha);
-  return "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" class=\"play\" "
-         "aria-pressed=\"false\">Play</button>"
-         "<label for=\"alpha\">Pulley angle α</label><input id=\"alpha\" type=\"range\" min=\"" +
-         fixed(low, 3) + "\" max=\"" + fixed(high, 3) +
-         "\" step=\"any\" value=\"0\"/><output for=\"alpha\" data-show=\"alpha\">0.0°</output></div>";
+/// `name`: of the slider and of the output beside it.
+std::string slider(const std::string& words, const std::string& name, double low, double high, double value) {
+  return "<label for=\"" + name + "\">" + words + "</label><input id=\"" + name + "\" type=\"range\" min=\"" +
+         trimmed_fixed(low, 3) + "\" max=\"" + trimmed_fixed(high, 3) + "\" step=\"any\" value=\"" +
+         trimmed_fixed(value, 3) + "\"/><output for=\"" + name + "\" data-show=\"" + name + "\">–</output>";
 }
 
-std::string numbers_list() {
-  return "<dl class=\"numbers\" hidden=\"hidden\">" + number_row("Joint angle θ", "theta") +
-         number_row("θ under the load", "loaded") + number_row("dθ/dα", "slope") + number_row("r1, r2", "radii") +
+std::string controls(const std::string& inside) {
+  return "<div class=\"controls\" hidden=\"hidden\">" + inside + "</div>";
+}
+
+std::string alpha_controls(const SynthesisResult& synthesis) {
+  return controls("<button type=\"button\" class=\"play\" aria-pressed=\"false\">Play</button>" +
+                  slider("Pulley angle α", "alpha", degrees(synthesis.stroke.front().alpha),
+                         degrees(synthesis.stroke.back().alpha), 0));
+}
+
+std::string load_controls(const std::vector<LoadedStroke>& strokes) {
+  if (strokes.size() < 2) return "";
+  return controls(slider("Load at the tip", "load", strokes.front().load, strokes.back().load, 0));
+}
+
+/// "width" of "width_deg", and "°".
+std::pair<std::string, std::string> name_and_unit(const std::string& name) {
+  const std::size_t at = name.rfind('_');
+  if (at == std::string::npos) return {name, ""};
+  std::string words = name.substr(0, at), unit = shown_unit(name.substr(at + 1));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return {words, unit == "percent" ? "%" : unit};
+}
+
+/// A slider for how much of it there is: 1 is what was found.
+std::string effect_controls(const RehearsedEffect& effect, std::size_t number) {
+  std::string units, names;
+  for (const FittedParameter& parameter : effect.shares.front().parameters) {
+    const auto [words, unit] = name_and_unit(parameter.name);
+    names += (names.empty() ? "" : "|") + words;
+    units += (units.empty() ? "" : "|") + unit;
+  }
+  std::string title = effect.name;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return "<div class=\"controls effect-share\" hidden=\"hidden\" data-names=\"" + safe_text(names) +
+         "\" data-units=\"" + safe_text(units) + "\">" +
+         slider(safe_text(title), "effect" + std::to_string(number), k_rehearsed_shares.front(),
+                k_rehearsed_shares.back(), 1) +
+         "</div>";
+}
+
+std::string numbers_list(bool imperfect) {
+  return "<dl class=\"numbers\" hidden=\"hidden\">" + number_row("Joint angle θ, declared", "theta") +
+         number_row(imperfect ? "θ as the sensor shows it" : "θ under the load", "loaded") +
+         number_row("dθ/dα", "slope") + number_row("r1, r2", "radii") +
          number_row("Tendon 1, at C / at P1", "tendon1") + number_row("Tendon 2, at C / at P2", "tendon2") +
-         number_row("Motor torque", "torque") + number_row("Turning", "way") + "</dl>";
+         number_row("Motor torque", "torque") + number_row("Turning", "way") +
+         (imperfect ? number_row("Off the declared law", "off") : "") + "</dl>";
+}
+
+std::string moving(const Mechanism& mechanism, const SynthesisResult& synthesis,
+                   const std::vector<LoadedStroke>& strokes, const std::vector<RehearsedEffect>& effects) {
+  const auto home =
+      std::min_element(synthesis.stroke.begin(), synthesis.stroke.end(),
+                       [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
+  std::string html = "<div class=\"moving\">" + alpha_controls(synthesis) + load_controls(strokes);
+  for (std::size_t i = 0; i < effects.size(); ++i) html += effect_controls(effects[i], i);
+  html += "<div class=\"scenes\">";
+  for (const Figure& figure : moving_figures(mechanism, synthesis, {home->alpha, home->theta}))
+    html += "<div>" + inline_svg(figure) + "</div>";
+  return html + "</div>" + numbers_list(!effects.empty()) + "<script type=\"application/json\" id=\"motion\">" +
+         motion_json(mechanism, synthesis, strokes, effects) + "</script></div>";
 }
 
 }  // namespace
@@ -107,14 +201,12 @@ std::string numbers_list() {
 std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synthesis,
                          const std::vector<StrokePoint>& loaded) {
   if (synthesis.stroke.empty() || loaded.size() != synthesis.stroke.size() || synthesis.p1.points.size() < 3) return "";
-  const auto home =
-      std::min_element(synthesis.stroke.begin(), synthesis.stroke.end(),
-                       [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
-  std::string html = "<div class=\"moving\">" + slider(synthesis) + "<div class=\"scenes\">";
-  for (const Figure& figure : moving_figures(mechanism, synthesis, {home->alpha, home->theta}))
-    html += "<div>" + inline_svg(figure) + "</div>";
-  return html + "</div>" + numbers_list() + "<script type=\"application/json\" id=\"motion\">" +
-         motion_json(mechanism, synthesis, loaded) + "</script></div>";
+  return moving(mechanism, synthesis, {{mechanism.load.tip_force, loaded}}, {});
+}
+
+std::string moving_joint(const Mechanism& mechanism, const Rehearsal& rehearsal) {
+  if (rehearsal.effects.empty()) return "";
+  return moving(mechanism, rehearsal.synthesis, rehearsal.strokes, rehearsal.effects);
 }
 
 }  // namespace fusee

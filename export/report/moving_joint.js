@@ -4,7 +4,7 @@
   const box = document.querySelector(".moving");
   if (!box) return;
   const data = JSON.parse(document.getElementById("motion").textContent);
-  const slider = box.querySelector("input"), play = box.querySelector(".play");
+  const slider = box.querySelector("#alpha"), play = box.querySelector(".play");
   const count = data.alpha.length, radian = Math.PI / 180;
 
   const unit = a => [Math.cos(a), Math.sin(a)];
@@ -17,6 +17,11 @@
     let low = 0, high = count - 1;
     while (high - low > 1) { const middle = low + high >> 1; if (data.alpha[middle] <= alpha) low = middle; else high = middle; }
     return { i: low, u: Math.max(0, Math.min(1, (alpha - data.alpha[low]) / (data.alpha[high] - data.alpha[low]))) };
+  };
+  const within = (knots, x) => {
+    let i = 0;
+    while (i < knots.length - 2 && knots[i + 1] < x) i++;
+    return knots.length < 2 ? { i: 0, u: 0 } : { i, u: Math.max(0, Math.min(1, (x - knots[i]) / (knots[i + 1] - knots[i]))) };
   };
   const between = (values, { i, u }) => values[i] === null || values[i + 1] === null ? NaN : values[i] + u * (values[i + 1] - values[i]);
   // Cubic through the angles with their slopes: as exact as the table.
@@ -67,7 +72,7 @@
     return { px: p => [x + scale * p[0], y - scale * p[1]], tendons, link: find(".link"), c: find(".at-c"), name: find(".name-c"), pulley: find(".pulley") };
   });
 
-  const largest = Math.max(1e-9, ...[data.rising, data.falling].flatMap(way => [way.upper1, way.lower1, way.upper2, way.lower2].flat()));
+  const largest = Math.max(1e-9, ...[...data.rising, ...data.falling].flatMap(way => [way.upper1, way.lower1, way.upper2, way.lower2].flat()));
   const thickness = tension => tension > 1e-6 ? 1.2 + 7 * tension / largest : 1.2;
   const path_of = points => "M" + points.map(p => p[0].toFixed(2) + " " + p[1].toFixed(2)).join("L");
   const draw_line = (path, points, tension) => {
@@ -98,21 +103,60 @@
   const words = (value, decimals, unit) => Number.isFinite(value) ? value.toFixed(decimals).replace(/^-0(\.0*)?$/, "0$1").replace("-", "\u2212") + unit : "\u2013";
   const show = (name, text) => { for (const element of box.querySelectorAll(`[data-show=${name}]`)) element.textContent = text; };
   const pair = tensions => tensions.every(t => !(t > 1e-6) && Number.isFinite(t)) ? "slack" : words(tensions[0], 2, "") + " / " + words(tensions[1], 2, " N");
+  const mix = (a, b, u) => u ? a + u * (b - a) : a;
+  const number_in = id => { const input = box.querySelector("#" + id); return input ? Number(input.value) : 0; };
+
+  // Where the joint really is, so many times as far off that it is seen.
+  const furthest = data.effects.reduce((most, effect) => most + Math.max(...["rising", "falling"].flatMap(way => effect.shares[2][way].flat()).map(Math.abs)), 0);
+  const magnified = [50, 20, 10, 5, 2].find(times => times * furthest < 12) || 1;
+  for (const scene of data.effects.length ? scenes : []) {
+    scene.really = svg("path", scene.link.parentNode, { class: "really" });
+    scene.says = svg("text", scene.link.parentNode.parentNode, { class: "small halo middle" });
+  }
+  const draw_off = (theta, loaded) => {
+    for (const scene of scenes.filter(one => one.really)) {
+      const t = (theta + magnified * (loaded - theta)) * radian, c = [data.R * Math.sin(t), data.R * Math.cos(t)];
+      scene.really.setAttribute("d", Number.isFinite(t) ? path_of([scene.px([0, 0]), scene.px(c)]) : "");
+      scene.says.textContent = magnified > 1 ? `dashed: ${magnified} times as far off` : "dashed: where it is";
+      move(scene.says, scene.px([0, -0.16 * data.R]), ["x", "y"]);
+    }
+  };
+  const show_sizes = () => {
+    show("load", words(number_in("load"), 1, " N"));
+    box.querySelectorAll(".effect-share").forEach((row, k) => {
+      const { i, u } = within(data.effects[k].shares.map(share => share.share), number_in("effect" + k)), shares = data.effects[k].shares;
+      const names = row.dataset.names.split("|"), units = row.dataset.units.split("|");
+      const sizes = names.map((name, n) => (names.length > 1 ? name + " " : "") + words(mix(shares[i].numbers[n] ?? NaN, u ? shares[i + 1].numbers[n] ?? NaN : 0, u), 3, units[n] && (units[n] === "°" || units[n] === "%" ? units[n] : " " + units[n])));
+      show("effect" + k, sizes.join(", "));
+    });
+  };
+
   let before = 0, rising = true;
   const set = alpha => {
     if (alpha !== before) rising = alpha > before;
     before = alpha;
-    const place = place_of(alpha), theta = theta_at(place), way = rising ? data.rising : data.falling;
-    const tensions = [[between(way.upper1, place), between(way.lower1, place)], [between(way.upper2, place), between(way.lower2, place)]];
+    const place = place_of(alpha), theta = theta_at(place), ways = rising ? data.rising : data.falling;
+    const load = within(data.loads, number_in("load"));
+    const mixed = value_of => mix(value_of(load.i), load.u ? value_of(load.i + 1) : 0, load.u);
+    const of_way = name => mixed(k => between(ways[k][name], place));
+    const tensions = [[of_way("upper1"), of_way("lower1")], [of_way("upper2"), of_way("lower2")]];
+    let loaded = of_way("theta");
+    data.effects.forEach((effect, k) => {
+      const size = within(effect.shares.map(share => share.share), number_in("effect" + k));
+      const off = at => mixed(l => between(effect.shares[at][rising ? "rising" : "falling"][l], place));
+      loaded += mix(off(size.i), size.u ? off(size.i + 1) : 0, size.u);
+    });
     draw(alpha, theta, tensions);
+    draw_off(theta, loaded);
     show("alpha", words(alpha, 1, "°"));
     show("theta", words(theta, 2, "°"));
-    show("loaded", words(between(way.theta, place), 2, "°"));
+    show("loaded", words(loaded, 2, "°"));
+    show("off", words(loaded - theta, 3, "°"));
     show("slope", words(between(data.slope, place), 4, ""));
     show("radii", words(between(data.r1, place), 2, "") + ", " + words(between(data.r2, place), 2, " mm"));
     show("tendon1", pair(tensions[0]));
     show("tendon2", pair(tensions[1]));
-    show("torque", words(between(way.torque, place), 1, " N\u00b7mm"));
+    show("torque", words(of_way("torque"), 1, " N\u00b7mm"));
     show("way", rising ? "α growing" : "α falling");
     slider.setAttribute("aria-valuetext", `α ${words(alpha, 1, " degrees")}, θ ${words(theta, 1, " degrees")}`);
     document.dispatchEvent(new CustomEvent("pulley", { detail: alpha }));
@@ -138,6 +182,8 @@
     running = requestAnimationFrame(tick);
   });
   slider.addEventListener("input", () => { stop(); set(Number(slider.value)); });
-  box.querySelector(".controls").hidden = box.querySelector("dl").hidden = false;
+  for (const input of box.querySelectorAll("input:not(#alpha)")) input.addEventListener("input", () => { show_sizes(); set(before); });
+  for (const part of box.querySelectorAll(".controls, dl")) part.hidden = false;
+  show_sizes();
   set(0);
 })();

@@ -19,10 +19,6 @@ namespace {
 std::string size_words(double angle) { return with_unit(degrees(angle), "deg", 2); }
 std::string minutes_words(double minutes) { return fixed(minutes, 1) + " min"; }
 
-std::string part(const std::string& id, const std::string& title, const std::string& body) {
-  return "<section id=\"" + id + "\"><h2>" + safe_text(title) + "</h2>" + body + "</section>\n";
-}
-
 std::string open_name(std::string name) {
   for (char& c : name) c = c == '_' ? ' ' : c;
   return name;
@@ -77,18 +73,19 @@ std::string step_item(const PlanProduct& product, std::size_t i) {
 std::string steps_section(const PlanProduct& product) {
   std::string items;
   for (std::size_t i = 0; i < product.plan.steps.size(); ++i) items += step_item(product, i);
-  return part("steps", "At the bench",
-              "<p class=\"lead\">In this order: each step is the one that tells most for its minutes, so whoever has "
-              "to stop early has measured the best of it. Begin every run at the end of the range, coming from home; "
-              "do not touch zeros between runs unless it says so.</p><ol class=\"steps\">" +
-                  items + "</ol>");
+  return html_section(
+      "steps", "At the bench",
+      "<p class=\"lead\">In this order: each step is the one that tells most for its minutes, so whoever has "
+      "to stop early has measured the best of it. Begin every run at the end of the range, coming from home; "
+      "do not touch zeros between runs unless it says so.</p><ol class=\"steps\">" +
+          items + "</ol>");
 }
 
 std::string after_section(const PlanProduct& product) {
   const std::string spec = std::filesystem::path(product.file.path).filename().string();
   const bool reads = std::any_of(product.plan.steps.begin(), product.plan.steps.end(),
                                  [](const PlanStep& step) { return step.reading != nullptr; });
-  return part(
+  return html_section(
       "after", "Then",
       (reads ? std::string("<p>Write what was read by hand into <code>[prior]</code> of the file, and</p>") : "") +
           "<p><code>fusee calibrate " + safe_text(spec) + " run_*.csv</code></p>");
@@ -103,7 +100,7 @@ std::string causes_section(const Plan& plan) {
             safe_text(cause.smallest_alone ? size_words(*cause.smallest_alone) : std::string("–")) + "</td><td>" +
             safe_text(names_of(cause.rivals)) + "</td></tr>";
   }
-  return part(
+  return html_section(
       "causes", "What these runs can show",
       "<p class=\"lead\">At the joint, rms over the runs: what each cause does at its usual size, the least of "
       "it that would be seen, the least that could be named alone, and what it could not be told from.</p>"
@@ -116,7 +113,7 @@ std::string left_out_section(const Plan& plan) {
   if (plan.left_out.empty()) return "";
   std::vector<std::string> lines;
   for (const auto& [name, why] : plan.left_out) lines.push_back(open_name(name) + ": " + why);
-  return part("left_out", "Not planned for", html_list(lines));
+  return html_section("left_out", "Not planned for", html_list(lines));
 }
 
 std::string key_numbers(const PlanProduct& product) {
@@ -128,31 +125,27 @@ std::string key_numbers(const PlanProduct& product) {
   numbers.add("Causes that can be named alone", std::to_string(alone), "of " + std::to_string(plan.causes.size()));
   numbers.add("Noise of the joint's sensor", size_words(product.noise), "assumed");
   numbers.add("Motor", readable(degrees(plan.from), 1) + "° … " + readable(degrees(plan.to), 1) + "°");
-  return part("numbers", "In short", numbers.html());
+  return html_section("numbers", "In short", numbers.html());
 }
 
 }  // namespace
 
 std::string plan_html(const PlanProduct& product) {
-  const std::string name = product.file.mechanism.name.empty() ? "unnamed" : safe_text(product.file.mechanism.name);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\"/>\n<meta name=\"color-scheme\" content=\"light dark\"/>\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>\n"
-      "<meta name=\"generator\" content=\"" +
-      std::string(k_tool) + "\"/>\n<title>" + name + " – measuring plan</title>\n<style>" +
-      std::string(embedded::page_css) + std::string(embedded::plan_css) +
-      "</style>\n</head>\n<body>\n<header>\n<p class=\"kicker\">Measuring plan</p>\n<h1>" + name +
-      "</h1>\n<p class=\"source\">for <code>" +
-      safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code></p>\n</header>\n<main>\n";
-  html += key_numbers(product) + steps_section(product) + after_section(product);
+  Page page{
+      .title = "measuring plan",
+      .kicker = "Measuring plan",
+      .name = product.file.mechanism.name,
+      .source = "for <code>" + safe_text(std::filesystem::path(product.file.path).filename().string()) + "</code>",
+      .body = key_numbers(product) + steps_section(product) + after_section(product),
+      .foot = "Angles of the motor are those its sensor shows, zero at home.",
+      .styles = {embedded::page_css, embedded::plan_css},
+      .scripts = {}};
   if (!product.plan.beyond.empty())
-    html += part("more", "What more minutes would buy", html_list(more_items(product.plan.beyond)));
-  html += causes_section(product.plan) +
-          part("blame", "How often a name would be false", html_list(blame_words(product.plan))) +
-          left_out_section(product.plan);
-  return html + "</main>\n<footer><p>Made by " + std::string(k_tool) +
-         ". Angles of the motor are those its sensor shows, zero at home.</p></footer>\n</body>\n</html>\n";
+    page.body += html_section("more", "What more minutes would buy", html_list(more_items(product.plan.beyond)));
+  page.body += causes_section(product.plan) +
+               html_section("blame", "How often a name would be false", html_list(blame_words(product.plan))) +
+               left_out_section(product.plan);
+  return html_page(page);
 }
 
 }  // namespace fusee

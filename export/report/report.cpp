@@ -241,11 +241,7 @@ std::string mechanism_panels(const Product& product) {
 std::string moving_section(const Product& product) {
   const std::string joint = moving_joint(product.joint.mechanism, product.synthesis, product.holding.loaded);
   if (joint.empty()) return "";
-  return "<section id=\"moving\"><h2>The joint moves</h2><p class=\"lead\">Both tendons as taut strings over the pins "
-         "and on the true profile; the thicker the line, the larger the tension, dotted where it is slack. Tensions, "
-         "torque and θ under the load are the full model’s, with stretch and friction, in the direction in which "
-         "you move.</p>" +
-         joint + "</section>";
+  return "<section id=\"moving\"><h2>The joint moves</h2>" + std::string(k_moving_words) + joint + "</section>";
 }
 
 std::string all_in_divs(const std::vector<Plot>& plots) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fusee/analysis/stroke.h"
 #include "fusee/base/text.h"
@@ -214,6 +215,7 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   result.breaks_at = breaking_place(result);
   result.sources = error_sources(mechanism);
   result.tolerances = tolerance_effects(mechanism, options);
+  result.synthesis = std::move(synthesis);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "cli/table.h"
 #include "fusee/base/files.h"
 #include "fusee/base/text.h"
+#include "fusee/export/analysis.h"
 #include "fusee/pipeline.h"
 
 namespace fusee::cli {
@@ -177,12 +178,15 @@ AnalysisOptions options_from(const Arguments& arguments) {
   return options;
 }
 
-/// The table as FILE's ending asks for.
-void write_table(const Arguments& arguments, const AnalysisResult& result, Reply& reply) {
+/// What FILE's ending asks for.
+void write_result(const Arguments& arguments, const MechanismFile& mechanism, const AnalysisResult& result,
+                  const AnalysisOptions& options, Reply& reply) {
   const std::optional<std::string> file = arguments.text("--out");
   if (!file) return;
-  const bool json = std::filesystem::path(*file).extension() == ".json";
-  const std::string bytes = json ? stroke_json(result.rows).dump(1) + "\n" : stroke_csv(result.rows);
+  const std::filesystem::path ending = std::filesystem::path(*file).extension();
+  const std::string bytes = ending == ".json"   ? stroke_json(result.rows).dump(1) + "\n"
+                            : ending == ".html" ? analysis_html(mechanism, result, options, reply.diagnostics)
+                                                : stroke_csv(result.rows);
   if (!arguments.has("--dry-run")) write_file(*file, bytes, arguments.has("--force"));
   reply.fields["output"] = *file;
 }
@@ -205,7 +209,7 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
   }
   add_pins_note(file, reply);
   add_findings(result, file.path, reply);
-  write_table(arguments, result, reply);
+  write_result(arguments, file, result, options, reply);
   const bool csv = arguments.has("--csv");
   reply.text = csv ? stroke_csv(result.rows)
                    : file.mechanism.name + "\n\n" + stroke_tables(result.rows, console.verbose()) + "\n" + summary(result, options);
@@ -220,26 +224,28 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Command analyze_command() {
-  return {"analyze",
-          "SPEC",
-          "the transmission and the forces over the range",
-          "Shows angles, radii, tensions, torque, stretch and stiffness over the range of\n"
-          "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
-          "model of two elastic tendons with pretension, friction at the pins and in the\n"
-          "grooves (what lies on a pulley slides as far as that lets it), in its third\n"
-          "cycle, alpha growing. The summary says what is largest, what is slack, and\n"
-          "what makes the joint miss its angle. At the ends of the range the motion turns\n"
-          "back: there both directions show the same state.",
-          {{"-o,--out", "FILE", "write the table to FILE: JSON if it ends in .json,\nelse CSV"},
-           {"--csv", "", "the table as CSV on stdout"},
-           {"--steps", "N", "steps of the table (default 60)"},
-           {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},
-           {"--samples", "N", "samples of the Monte Carlo (default 1000)"},
-           {"--seed", "N", "its seed (default 1)"}},
-          {{"fusee analyze arm.toml", "tables and summary"},
-           {"fusee analyze arm.toml --set load.tip_force_N=10", "what would a load of 10 N do?"},
-           {"fusee analyze arm.toml --csv > stroke.csv", "every row and every column, for a plot"}},
-          run_analyze};
+  return {
+      "analyze",
+      "SPEC",
+      "the transmission and the forces over the range",
+      "Shows angles, radii, tensions, torque, stretch and stiffness over the range of\n"
+      "the mechanism file SPEC: by the paper's formulas, and beside them by the full\n"
+      "model of two elastic tendons with pretension, friction at the pins and in the\n"
+      "grooves (what lies on a pulley slides as far as that lets it), in its third\n"
+      "cycle, alpha growing. The summary says what is largest, what is slack, and\n"
+      "what makes the joint miss its angle. At the ends of the range the motion turns\n"
+      "back: there both directions show the same state.",
+      {{"-o,--out", "FILE", "write to FILE: a page if it ends in .html, the table\nas JSON if in .json, else as CSV"},
+       {"--csv", "", "the table as CSV on stdout"},
+       {"--steps", "N", "steps of the table (default 60)"},
+       {"--tolerance-mm", "MM", "tolerance of every dimension (default 0.1)"},
+       {"--samples", "N", "samples of the Monte Carlo (default 1000)"},
+       {"--seed", "N", "its seed (default 1)"}},
+      {{"fusee analyze arm.toml", "tables and summary"},
+       {"fusee analyze arm.toml --set load.tip_force_N=10", "what would a load of 10 N do?"},
+       {"fusee analyze arm.toml -o arm.html", "a page on which the joint moves"},
+       {"fusee analyze arm.toml --csv > stroke.csv", "every row and every column, for a plot"}},
+      run_analyze};
 }
 
 }  // namespace fusee::cli

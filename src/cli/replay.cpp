@@ -9,6 +9,7 @@
 #include "base/staging.h"
 #include "cli/bundle_names.h"
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/recording.h"
 #include "cli/run.h"
 #include "fusee/base/files.h"
@@ -109,6 +110,7 @@ BundledOutcome replayed(const Bundle& bundle, const fs::path& folder) {
   Console console;
   Replaying access(bundle, fs::current_path());
   const Ending ending = ending_of(bundle.words, console);
+  stop_if_interrupted();
   return outcome_of(ending, access.outputs(), access.names());
 }
 

@@ -74,6 +74,7 @@ void conclude(const Bench& bench, const RunFiles& runs) {
   product.correction.identified = declared.identified;
   if (product.calibration.verdict != CalibrationVerdict::not_testable)
     product.correction = correct(declared, product.measurement, product.calibration);
+  product.rehearsal = rehearse(expected, product.measurement, product.calibration);
 }
 
 /// The person's own text while it says what the mechanism is; else every key.

@@ -62,6 +62,8 @@ class Analyze(harness.Scratch):
         self.expect("analyze arm.toml -o stroke.csv --samples 10", 6, "^$", "stroke.csv")
         self.expect("analyze arm.toml -o stroke.csv --samples 10 --force", 0)
         self.expect("analyze arm.toml -o stroke.json --samples 10", 0)
+        self.expect("analyze arm.toml -o arm.html --samples 10", 0)
+        self.assertIn("<h2>The joint moves</h2>", (self.folder / "arm.html").read_text())
         self.assertEqual(json.loads((self.folder / "stroke.json").read_text()), self.expect_json("analyze arm.toml --samples 10", 0)["rows"])
 
     def test_the_same_input_gives_the_same_bytes(self):

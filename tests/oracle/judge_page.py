@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Chromium judges report.html: what its scripts do, and what it shows.
+"""Chromium judges pages on which a joint moves: what their scripts do, and what they show.
 
-    judge_page.py build/forearm …           folders of `fusee build`
-    judge_page.py build/forearm --self-test that this judge sees a broken page
+    judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
+    judge_page.py build/forearm --self-test     that this judge sees a broken page
 
 Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is not installed.
 
@@ -59,8 +59,9 @@ AFTER = """
     });
   }
   const frame = () => new Promise(done => setTimeout(done, 100));
-  const gl = canvas.getContext("webgl2");
+  const gl = canvas && canvas.getContext("webgl2");
   found.webgl = Boolean(gl);
+  found.part = Boolean(canvas);
   const look = () => {
     const w = canvas.width, h = canvas.height;
     let pixels;
@@ -79,10 +80,24 @@ AFTER = """
     return { part: part / all, light: light / Math.max(1, part), warm: warm / all, cold: cold / all, sum };
   };
   const move = alpha => { slider.value = alpha; slider.dispatchEvent(new Event("input")); };
-  move(0); await frame();
-  found.home = look();
-  move(ALPHAS[ALPHAS.length - 1]); await frame();
-  found.end = look();
+  if (canvas) {
+    move(0); await frame();
+    found.home = look();
+    move(ALPHAS[ALPHAS.length - 1]); await frame();
+    found.end = look();
+  }
+  const effects = [...document.querySelectorAll(".effect-share input")];
+  found.off = effects.map(input => [0, 1, 2].map(share => {
+    for (const other of effects) other.value = 0;
+    input.value = share;
+    input.dispatchEvent(new Event("input"));
+    return Math.max(...[0.3, 0.5, 0.7].flatMap(at => [-1, 1].map(way => {
+      const alpha = Number(slider.min) + at * (Number(slider.max) - Number(slider.min));
+      move(alpha - way); move(alpha);
+      const c = path(scene.querySelector(".really"))[1];
+      return Math.abs(Math.atan2(c[0] - x, y - c[1]) - Math.atan2(...[0, 1].map(k => (path(scene.querySelector(".link"))[1][k] - [x, y][k]) * [1, -1][k])));
+    })));
+  }));
   found.requests = performance.getEntriesByType("resource").length;
   found.room = innerWidth;
   found.wide = document.documentElement.scrollWidth;
@@ -143,6 +158,8 @@ def faults_of_motion(found, rows, R):
 
 
 def faults_of_view(found):
+    if not found["part"]:
+        return
     home, end = found["home"], found["end"]
     if not 0.05 < home["part"] < 0.8:
         yield f"the part covers {100 * home['part']:.1f} % of the 3-D view"
@@ -158,6 +175,12 @@ def faults_of_view(found):
 WAYS = [("wide", 1200, ()), ("phone", 320, ()), ("no WebGL", 800, ("--disable-3d-apis",))]
 
 
+def faults_of_effects(found):
+    for k, (none, once, twice) in enumerate(found["off"]):
+        if not none < once < twice:
+            yield f"effect {k + 1} turned up to 0, 1 and 2 moves the joint by {none:.4f}, {once:.4f} and {twice:.4f} rad as drawn"
+
+
 def faults(page, rows, R, ways=WAYS):
     alphas = [float(row["alpha_deg"]) for row in rows]
     if len(page.encode()) > MOST_BYTES:
@@ -167,9 +190,9 @@ def faults(page, rows, R, ways=WAYS):
         if found is None:
             yield f"{name}: the page's scripts did not end"
             continue
-        if found["webgl"] == (name == "no WebGL"):
+        if found["part"] and found["webgl"] == (name == "no WebGL"):
             yield f"{name}: WebGL {found['webgl']}"
-        looks = [*found["noted"], *faults_of_motion(found, rows, R), *faults_of_view(found)]
+        looks = [*found["noted"], *faults_of_motion(found, rows, R), *faults_of_view(found), *faults_of_effects(found)]
         if found["requests"]:
             looks.append(f"{found['requests']} requests")
         if found["wide"] > found["room"]:
@@ -179,7 +202,7 @@ def faults(page, rows, R, ways=WAYS):
         quick = sorted(found["times"])[len(found["times"]) // 4]  # the others waited for whatever else this machine does
         if quick > MOST_FRAME_MS:
             looks.append(f"a frame takes {quick:.1f} ms")
-        print(f"  {name}: {quick:.2f} ms a frame, part on {100 * found['home']['part']:.0f} % of the view")
+        print(f"  {name}: {quick:.2f} ms a frame" + (f", part on {100 * found['home']['part']:.0f} % of the view" if found["part"] else ""))
         yield from (f"{name}: {look}" for look in looks)
 
 
@@ -221,10 +244,13 @@ def self_test(folder):
 def main():
     if browser() is None:
         return SKIPPED
-    folders = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
+    folder, *pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
     if "--self-test" in sys.argv:
-        return self_test(folders[0])
-    found = [f"{folder}: {fault}" for folder in folders for fault in faults(*read(folder))]
+        return self_test(folder)
+    page, rows, R = read(folder)
+    found = [f"{folder}: {fault}" for fault in faults(page, rows, R)]
+    for other in pages:
+        found += [f"{other}: {fault}" for fault in faults(pathlib.Path(other).read_text(encoding="utf-8"), rows, R)]
     print("\n".join(found))
     return 1 if found else 0
 

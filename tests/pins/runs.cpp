@@ -5,6 +5,7 @@
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/export/analysis.h"
 #include "fusee/export/paper.h"
 #include "fusee/mechanism/edit.h"
 #include "fusee/optimize/certified.h"
@@ -95,6 +96,15 @@ void add_calibrations(std::vector<PinnedRun>& all) {
   add("forearm", k_root / "profiles/forearm.toml", files_in(k_root / "profiles/measured", "forearm_", ".csv"));
 }
 
+void add_analyses(std::vector<PinnedRun>& all) {
+  for (const std::string name : {"forearm", "paper_optimum"})
+    all.push_back({"analyze/" + name, [name]() -> Outputs {
+                     const MechanismFile file = read_mechanism(k_root / "profiles" / (name + ".toml"));
+                     const AnalysisResult result = analyze(file);
+                     return {{"page.html", analysis_html(file, result, {}, result.warnings)}};
+                   }});
+}
+
 Outputs planned(const fs::path& spec) {
   PlanFilesOptions options;
   options.folder = fs::temp_directory_path() / "fusee-pins";
@@ -140,6 +150,7 @@ void add_corrected_builds(std::vector<PinnedRun>& all) {
 std::vector<PinnedRun> runs() {
   std::vector<PinnedRun> all;
   add_builds(all);
+  add_analyses(all);
   add_calibrations(all);
   add_corrected_builds(all);
   add_plans(all);

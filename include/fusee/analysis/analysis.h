@@ -83,6 +83,7 @@ struct AnalysisResult {
   std::vector<Change> advice;        ///< searched only when it does not exist
 
   std::vector<AnalysisRow> rows;
+  SynthesisResult synthesis;         ///< the curves, where they can be drawn; its stroke has the rows' places
   TensionExtreme largest_tension;    ///< full model
   Extreme largest_at_joint;          ///< of both tendons above their pins, full model: what a knot at C bears, N
   Extreme largest_paper_tension;     ///< T_b

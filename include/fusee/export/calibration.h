@@ -9,6 +9,7 @@
 #include "fusee/base/files.h"
 #include "fusee/calibration/slips.h"
 #include "fusee/correction/correction.h"
+#include "fusee/correction/rehearsal.h"
 #include "fusee/mechanism/file.h"
 
 namespace fusee {
@@ -20,6 +21,7 @@ struct CalibrationProduct {
   Calibration calibration;
   std::vector<UndoneSlip> slips;  ///< of the file or of the data, that would explain what no effect does
   Correction correction;
+  Rehearsal rehearsal;  ///< of what was found
 };
 
 std::string calibration_json(const CalibrationProduct& product);

@@ -1,0 +1,149 @@
+// The page of an analysis: the joint moves, and what it bears, what it misses its angle by, and why.
+
+#include <filesystem>
+
+#include "export/report/html.h"
+#include "export/report/moving_joint.h"
+#include "export/report/plot.h"
+#include "export/report/report_parts.h"
+#include "export/report/svg.h"
+#include "export/report/tables.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/export/analysis.h"
+
+namespace fusee {
+namespace {
+
+std::string at_words(double alpha) { return "at α = " + readable(degrees(alpha), 1) + "°"; }
+
+std::string ranges_words(const std::vector<AlphaRange>& ranges) {
+  std::string words;
+  for (const AlphaRange& range : ranges)
+    words += (words.empty() ? "α = " : ", ") + readable(degrees(range.from), 1) + "° … " +
+             readable(degrees(range.to), 1) + "°";
+  return words.empty() ? "nowhere" : words;
+}
+
+std::string key_numbers_of(const AnalysisResult& result) {
+  const TensionExtreme& most = result.largest_tension;
+  KeyNumbers numbers;
+  numbers.add("Largest tension", with_unit(most.tension, "N"),
+              std::string(most.tendon == Side::left ? "tendon 1 " : "tendon 2 ") +
+                  (most.below_pin ? "below its pin, " : "above its pin, ") + at_words(most.alpha));
+  numbers.add("By the paper’s chain", with_unit(result.largest_paper_tension.value, "N"),
+              at_words(result.largest_paper_tension.alpha));
+  if (result.strength)
+    numbers.add("The tendon bears", with_unit(result.strength->tension, "N"),
+                with_unit(result.strength->at_knot, "N") + " at a knot");
+  numbers.add("Motor torque", with_unit(result.largest_torque.value, "N mm"), at_words(result.largest_torque.alpha));
+  numbers.add("Between directions", with_unit(degrees(result.hysteresis.value), "deg"),
+              at_words(result.hysteresis.alpha));
+  numbers.add("Tendon 1 slack", ranges_words(result.slack1));
+  numbers.add("Tendon 2 slack", ranges_words(result.slack2),
+              result.taut_pretension ? "taut with tendon.pretension_N ≥ " + rounded(*result.taut_pretension, 3) : "");
+  return numbers.html();
+}
+
+// Plots ---------------------------------------------------------------------------------------------------------------
+
+template <typename Value>
+std::vector<Vec2> over_rows(const AnalysisResult& result, Value value) {
+  std::vector<Vec2> points;
+  for (const AnalysisRow& row : result.rows) points.emplace_back(degrees(row.declared.alpha), value(row));
+  return points;
+}
+
+PlotAxis axis_of(const std::string& label, const std::string& unit, double least_span) {
+  return {label, unit, {}, {}, least_span};
+}
+
+std::string plots(const AnalysisResult& result) {
+  const PlotAxis alpha = axis_of("pulley angle α", "°", 1e-6);
+  Plot tension{"Tension below the pins, α growing", alpha, axis_of("tension", "N", 0.1), {}, {}, {}};
+  tension.series = {{"tendon 1", Ink::p1, over_rows(result, [](const auto& r) { return r.rising.t1.lower; })},
+                    {"tendon 2", Ink::p2, over_rows(result, [](const auto& r) { return r.rising.t2.lower; })},
+                    {"the paper’s T_b", Ink::third, over_rows(result, [](const auto& r) { return r.paper.Tb; }), true}};
+  Plot torque{"Motor torque", alpha, axis_of("torque", "N·mm", 0.1), {}, {}, {}};
+  torque.series = {{"α growing", Ink::main, over_rows(result, [](const auto& r) { return r.rising.motor_torque; })},
+                   {"α falling", Ink::p2, over_rows(result, [](const auto& r) { return r.falling.motor_torque; })}};
+  Plot error{"Joint angle less the declared law", alpha, axis_of("Δθ", "°", 1e-3), {}, {}, {}};
+  const auto off = [](const EquilibriumPoint& point, const AnalysisRow& row) {
+    return degrees(point.theta - row.declared.theta);
+  };
+  error.series = {{"α growing", Ink::main, over_rows(result, [&](const auto& r) { return off(r.rising, r); })},
+                  {"α falling", Ink::p2, over_rows(result, [&](const auto& r) { return off(r.falling, r); })}};
+  Plot stiffness{"Stiffness about the joint, pulley held", alpha, axis_of("stiffness", "N·mm/°", 0.1), {}, {}, {}};
+  const auto per_degree = [](double per_radian) { return per_radian * radians(1); };
+  stiffness.series = {
+      {"small disturbances", Ink::main,
+       over_rows(result, [&](const auto& r) { return per_degree(r.rising.stiffness_stuck); })},
+      {"large ones", Ink::p2, over_rows(result, [&](const auto& r) { return per_degree(r.rising.stiffness); })}};
+  std::string html;
+  for (const Plot* plot : {&tension, &torque, &error, &stiffness})
+    html += "<div>" + inline_svg(plot_figure(*plot)) + "</div>\n";
+  return "<div class=\"plots\">" + html + "</div>";
+}
+
+// Tables --------------------------------------------------------------------------------------------------------------
+
+std::string angle_cell(double angle, int decimals) { return html_number_cell(readable(degrees(angle), decimals)); }
+
+std::string sources_table(const std::vector<ErrorSource>& sources) {
+  std::string rows;
+  for (const ErrorSource& source : sources)
+    rows += "<tr>" + html_cell(source.meaning) + angle_cell(source.least, 4) + angle_cell(source.most, 4) +
+            angle_cell(source.worst_at, 1) + "</tr>";
+  return html_table({"θ off the declared law by", "#from (°)", "#to (°)", "#worst at α (°)"}, rows);
+}
+
+std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
+  std::string rows;
+  for (const ToleranceEffect& effect : effects)
+    rows += "<tr>" + html_cell(effect.key) + angle_cell(effect.theta_by_derivative, 4) +
+            angle_cell(effect.theta_by_monte_carlo, 4) + angle_cell(effect.theta_at, 1) +
+            html_number_cell(readable(effect.slack_by_derivative, 4)) +
+            html_number_cell(readable(effect.slack_by_monte_carlo, 4)) + "</tr>";
+  return html_table({"tolerance of", "#θ (°)", "#sampled", "#at α (°)", "#slack of tendon 2 (mm)", "#sampled"}, rows);
+}
+
+std::string said_section(const std::vector<Diagnostic>& said) {
+  if (said.empty()) return "";
+  std::vector<std::string> lines;
+  for (const Diagnostic& diagnostic : said)
+    lines.push_back(diagnostic.message + (diagnostic.hint.empty() ? "" : " – " + diagnostic.hint));
+  return "<section class=\"warnings\">" + html_list(lines) + "</section>\n";
+}
+
+std::vector<StrokePoint> stroke_of(const AnalysisResult& result) {
+  std::vector<StrokePoint> stroke;
+  for (const AnalysisRow& row : result.rows) stroke.push_back({row.rising, row.falling});
+  return stroke;
+}
+
+}  // namespace
+
+std::string analysis_html(const MechanismFile& file, const AnalysisResult& result, const AnalysisOptions& options,
+                          const std::vector<Diagnostic>& said) {
+  const std::string moving = moving_joint(file.mechanism, result.synthesis, stroke_of(result));
+  return html_page(
+      {.title = "analysis",
+       .kicker = "Analysis",
+       .name = file.mechanism.name,
+       .source = "of <code>" + safe_text(std::filesystem::path(file.path).filename().string()) + "</code>",
+       .body = said_section(said) + html_section("numbers", "Key numbers", key_numbers_of(result)) +
+               html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +
+               html_section("forces", "Over the range", plots(result)) +
+               html_section("budget", "What makes the joint miss its angle", sources_table(result.sources)) +
+               html_section("tolerances", "Tolerances",
+                            "<p class=\"lead\">Each dimension within " + safe_text(with_unit(options.tolerance, "mm")) +
+                                " (95 %): joint angle and slack stay within these.</p>" +
+                                tolerances_table(result.tolerances)),
+       .foot =
+           "Lengths in mm, angles in degrees, forces in N. Tensions are the full model’s in its third cycle, unless "
+           "they are called the paper’s.",
+       .styles = {embedded::figure_css, embedded::page_css},
+       .scripts = {embedded::readout_js, embedded::moving_joint_js}});
+}
+
+}  // namespace fusee

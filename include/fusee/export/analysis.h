@@ -1,0 +1,19 @@
+/// \file
+/// What `fusee analyze` found, as a page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fusee/analysis/analysis.h"
+#include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/file.h"
+
+namespace fusee {
+
+/// One page that needs nothing else: the joint moves under a slider, both models' forces, the error budget. Of a law
+/// that exists over the range. `said`: what else there is to say of it, on top. The same input gives the same bytes.
+std::string analysis_html(const MechanismFile& file, const AnalysisResult& result, const AnalysisOptions& options,
+                          const std::vector<Diagnostic>& said);
+
+}  // namespace fusee

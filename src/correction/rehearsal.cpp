@@ -1,0 +1,161 @@
+#include "fusee/correction/rehearsal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/units.h"
+#include "fusee/joint/simulate.h"
+#include "fusee/mechanism/effect.h"
+
+namespace fusee {
+namespace {
+
+constexpr int k_places = 60;            ///< intervals of the stroke
+constexpr double k_pace = radians(20);  ///< of the motor, 1/s: slow, as at a bench
+constexpr double k_seen = radians(1e-3);
+
+/// None, the largest logged against +θ, and with it; of a log without loads the declared one.
+std::vector<double> loads_of(const Measurement& measurement, const Mechanism& expected) {
+  double low = 0, high = 0;
+  bool logged = false;
+  for (const Run& run : measurement.runs) {
+    logged = logged || (run.has_load && measurement.load_unit == "N");
+    for (const Sample& sample : run.samples) {
+      if (!run.has_load) continue;
+      low = std::min(low, sample.load);
+      high = std::max(high, sample.load);
+    }
+  }
+  if (!logged) return {expected.load.tip_force};
+  std::vector<double> loads{low, 0.0, high};
+  loads.erase(std::unique(loads.begin(), loads.end()), loads.end());
+  return loads;
+}
+
+/// A stroke there and back, and once more; the second is looked at.
+class Drive {
+ public:
+  Drive(const std::vector<double>& alphas, double load) : count_(alphas.size()) {
+    BenchRun run;
+    run.has_load = true;
+    double time = 0, at = 0;
+    const auto go = [&](double alpha) {
+      time += std::abs(alpha - at) / k_pace;
+      at = alpha;
+      BenchRow row;
+      row.time = time;
+      row.alpha = alpha;
+      row.load = load;
+      run.rows.push_back(row);
+    };
+    for (auto alpha = alphas.rbegin(); alpha != alphas.rend(); ++alpha) {
+      if (*alpha <= 0) go(*alpha);  // from home to the lower end
+    }
+    first_ = run.rows.size();
+    for (int cycle = 0; cycle < 2; ++cycle) {
+      std::for_each(alphas.begin(), alphas.end(), go);
+      std::for_each(alphas.rbegin(), alphas.rend(), go);
+    }
+    log_ = {run};
+  }
+
+  struct Ways {
+    std::vector<double> rising, falling;  ///< rad
+  };
+  Ways shown(const Mechanism& expected, const Imperfections& imperfections) const {
+    const std::vector<double> theta = predict(expected, imperfections, log_).front();
+    const auto from = theta.begin() + static_cast<std::ptrdiff_t>(first_ + 2 * count_);
+    const auto turn = from + static_cast<std::ptrdiff_t>(count_);
+    Ways ways{{from, turn}, {turn, turn + static_cast<std::ptrdiff_t>(count_)}};
+    std::reverse(ways.falling.begin(), ways.falling.end());
+    return ways;
+  }
+
+ private:
+  std::size_t count_;
+  std::size_t first_ = 0;
+  BenchLog log_;
+};
+
+std::vector<double> less(std::vector<double> one, const std::vector<double>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] -= other[i];
+  return one;
+}
+
+/// Nothing but so much of `effect` as was found.
+Imperfections share_of(const Effect& effect, const Imperfections& found, double share) {
+  Imperfections joint;
+  for (const EffectParameter& parameter : effect.parameters) {
+    reset(joint, parameter);
+    const double none = value_of(joint, parameter);
+    set_value(joint, parameter, none + share * (value_of(found, parameter) - none));
+  }
+  return joint;
+}
+
+std::vector<FittedParameter> numbers_of(const Effect& effect, const Imperfections& joint, const Mechanism& expected) {
+  std::vector<FittedParameter> numbers;
+  for (const EffectParameter& parameter : effect.parameters) {
+    const double value = value_of(joint, parameter);
+    FittedParameter number;
+    number.name = parameter.name;
+    number.value = parameter.shown == nullptr ? value : parameter.shown(value, expected);
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+double largest(const RehearsedShare& share) {
+  double most = 0;
+  for (const auto* way : {&share.rising, &share.falling}) {
+    for (const std::vector<double>& places : *way) {
+      for (const double angle : places) most = std::isfinite(angle) ? std::max(most, std::abs(angle)) : most;
+    }
+  }
+  return most;
+}
+
+RehearsedEffect rehearsed(const Effect& effect, const DeclaredMechanism& expected, const Imperfections& found,
+                          const std::vector<Drive>& drives) {
+  RehearsedEffect result{effect.name, {}};
+  for (const double share : k_rehearsed_shares) {
+    const Imperfections joint = share_of(effect, found, share);
+    RehearsedShare shown{numbers_of(effect, joint, expected), {}, {}};
+    for (const Drive& drive : drives) {
+      const Drive::Ways with = drive.shown(expected, joint), without = drive.shown(expected, {});
+      shown.rising.push_back(less(with.rising, without.rising));
+      shown.falling.push_back(less(with.falling, without.falling));
+    }
+    result.shares.push_back(std::move(shown));
+  }
+  return result;
+}
+
+}  // namespace
+
+Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measurement, const Calibration& calibration) {
+  Rehearsal rehearsal;
+  if (expected.transmission || calibration.effects.empty()) return rehearsal;
+  SynthesisResult synthesis = synthesise(expected, {.advice = false, .stroke_steps = k_places});
+  if (!synthesis.made()) return rehearsal;
+  std::vector<double> alphas;
+  for (const TransmissionPoint& point : synthesis.stroke) alphas.push_back(point.alpha);
+  std::vector<Drive> drives;
+  for (const double load : loads_of(measurement, expected)) {
+    Mechanism loaded = expected;
+    loaded.load.tip_force = load;
+    rehearsal.strokes.push_back({load, settled_stroke(loaded, alphas)});
+    drives.emplace_back(alphas, load);
+  }
+  for (const Effect& effect : effects(kind_of(expected))) {
+    const bool found = std::any_of(calibration.effects.begin(), calibration.effects.end(),
+                                   [&](const FoundEffect& one) { return one.name == effect.name; });
+    if (!found) continue;
+    RehearsedEffect one = rehearsed(effect, expected, calibration.identified, drives);
+    if (largest(one.shares.back()) > k_seen) rehearsal.effects.push_back(std::move(one));
+  }
+  rehearsal.synthesis = std::move(synthesis);
+  return rehearsal;
+}
+
+}  // namespace fusee
