@@ -87,12 +87,12 @@ Neighbourhood neighbourhood(const TriangleMesh& body, const TriangleMesh& tool) 
 }
 
 // The middle and the normal of a patch's largest facet.
-struct Place {
+struct PlaceOnPatch {
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
 };
 
-Place place_in(const TriangleMesh& patch) {
-  Place place;
+PlaceOnPatch place_in(const TriangleMesh& patch) {
+  PlaceOnPatch place;
   for (const auto& [ia, ib, ic] : patch.triangles) {
     const Vec3 &a = patch.vertices[ia], &b = patch.vertices[ib], &c = patch.vertices[ic];
     const Vec3 normal = (b - a).cross(c - a);
