@@ -56,7 +56,7 @@ double usual_size(const EffectParameter& number, double largest_load) {
 }
 
 Signatures::Signatures(const DeclaredMechanism& declared, const Bench& bench, double noise)
-    : declared_(declared), expected_(expected_joint(declared)), bench_(bench), noise_(noise) {
+    : expected_(expected_joint(declared)), bench_(bench), noise_(noise) {
   for (const Effect& effect : effects(kind_of(declared))) {
     const std::string reason = why_not(effect);
     if (reason.empty()) {

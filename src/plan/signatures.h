@@ -51,7 +51,6 @@ class Signatures {
   void add(const Effect& effect);
   std::string why_not(const Effect& effect) const;
 
-  const DeclaredMechanism& declared_;
   Mechanism expected_;
   const Bench& bench_;
   double noise_;
