@@ -1,4 +1,5 @@
 /// \file
+/// Work beside other work, on threads.
 #pragma once
 
 #include <future>
