@@ -57,8 +57,12 @@ BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis) 
   return resolve_layout(mechanism, synthesis);
 }
 
+// Its knots lie where the printed pulley's do, and there may be no room for larger pockets than that one has.
 BodyLayout layout_to_cut(const Product& product) {
-  return product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);
+  BodyLayout layout =
+      product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);
+  layout.pocket_radius = std::min(layout.pocket_radius, product.pulley.layout.pocket_radius);
+  return layout;
 }
 
 Contour bore_contour(const BoreLayout& bore) {

@@ -322,34 +322,6 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
   return anchor;
 }
 
-struct BestCut {
-  std::vector<Made> pieces;  // none where no variant leaves a solid
-  int variant = 0;
-};
-
-// The first that bears so much, or what bears most.
-BestCut best_cut(const PieceMaker& maker, int variants, int enough) {
-  // What is no solid has no cut, but is a bug and not a refusal.
-  auto gate = beside([&maker] { maker.demand_solids(); });
-  BestCut taken;
-  int best = k_any;
-  for (int variant = 0; variant < variants; ++variant) {
-    std::vector<Made> made = maker.cut(variant);
-    if (made.empty()) continue;
-    if (enough == k_any) {
-      taken = {std::move(made), variant};
-      break;
-    }
-    const int soundness = soundness_of(made.front().mesh);
-    if (!taken.pieces.empty() && soundness <= best) continue;
-    taken = {std::move(made), variant};
-    best = soundness;
-    if (best >= enough) break;
-  }
-  gate.get();
-  return taken;
-}
-
 // Where a closing arc is hardly longer than a mouth, the mouth may reach into the arc that the tendon winds on.
 std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const Outline& outline, double tendon_diameter) {
   const Polygon floor = parallel(outline, -0.5 * tendon_diameter);
@@ -368,6 +340,52 @@ std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const Outline
   return std::nullopt;
 }
 
+// As a variant cuts them.
+struct VariedAnchors {
+  std::vector<Anchor> anchors;
+  std::optional<Condition> cut_into;  // what is wrong with it
+};
+
+VariedAnchors varied_anchors(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
+                             int variant) {
+  VariedAnchors varied;
+  for (const PlannedAnchor& planned : plan.anchors) {
+    varied.anchors.push_back(anchor_of(planned, plan, variant));
+    const Outline& outline = planned.side == Side::left ? synthesis.p1 : synthesis.p2;
+    varied.cut_into = mouth_in_active_arc(varied.anchors.back(), outline, mechanism.tendon.diameter);
+    if (varied.cut_into) break;
+  }
+  return varied;
+}
+
+struct BestCut {
+  std::vector<Made> pieces;  // none where no variant leaves a solid
+  int variant = 0;
+};
+
+// The first of those that may be that bears so much, or what bears most.
+BestCut best_cut(const PieceMaker& maker, const std::vector<int>& variants, int enough) {
+  // What is no solid has no cut, but is a bug and not a refusal.
+  auto gate = beside([&maker] { maker.demand_solids(); });
+  BestCut taken;
+  int best = k_any;
+  for (const int variant : variants) {
+    std::vector<Made> made = maker.cut(variant);
+    if (made.empty()) continue;
+    if (enough == k_any) {
+      taken = {std::move(made), variant};
+      break;
+    }
+    const int soundness = soundness_of(made.front().mesh);
+    if (!taken.pieces.empty() && soundness <= best) continue;
+    taken = {std::move(made), variant};
+    best = soundness;
+    if (best >= enough) break;
+  }
+  gate.get();
+  return taken;
+}
+
 // Whether it prints is another question.
 Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, const Effort& effort,
                  int enough) {
@@ -375,10 +393,18 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
   pulley.conditions = plan.conditions;
   pulley.layout = plan.layout;
   if (!plan.possible()) return pulley;
+  std::vector<int> variants;
+  for (int variant = 0; variant < effort.variants; ++variant) {
+    if (!varied_anchors(mechanism, synthesis, plan, variant).cut_into) variants.push_back(variant);
+  }
+  if (variants.empty()) {
+    pulley.conditions.push_back(*varied_anchors(mechanism, synthesis, plan, 0).cut_into);
+    return pulley;
+  }
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
-  BestCut cut = best_cut(PieceMaker(mechanism, synthesis, plan, marks), effort.variants, enough);
+  BestCut cut = best_cut(PieceMaker(mechanism, synthesis, plan, marks), variants, enough);
   if (cut.pieces.empty() && !marks.empty()) {
-    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}), effort.variants, enough);
+    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}), variants, enough);
     if (!cut.pieces.empty()) plan.layout.notes.push_back("the marks would run into a tie-off: left out");
   }
   auto& [pieces, taken] = cut;
@@ -387,14 +413,7 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
     pulley.conditions.push_back(uncut_features());
     return pulley;
   }
-  for (const PlannedAnchor& planned : plan.anchors) {
-    pulley.anchors.push_back(anchor_of(planned, plan, taken));
-    const Outline& outline = planned.side == Side::left ? synthesis.p1 : synthesis.p2;
-    if (const auto cut_into = mouth_in_active_arc(pulley.anchors.back(), outline, mechanism.tendon.diameter)) {
-      pulley.conditions.push_back(*cut_into);
-      return pulley;
-    }
-  }
+  pulley.anchors = varied_anchors(mechanism, synthesis, plan, taken).anchors;
   pulley.mesh = std::move(pieces.front().mesh);
   pulley.expected_volume = pieces.front().volume;
   pulley.expected_euler = pieces.front().euler;

@@ -88,7 +88,11 @@ INSTANTIATE_TEST_SUITE_P(
         Repro{"horn_in_hub", "tests/data/repro/horn_in_hub.toml", {}, 0.01, BuildStatus::infeasible},
         Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
         Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
-        Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}}),
+        Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}},
+        Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
+        Repro{"mouth_of_a_variant",
+              "tests/data/repro/mouth_of_a_variant.toml",
+              {{"joint.range_deg", "[-29.8, 29.8]"}}}),
     [](const auto& repro) { return std::string(repro.param.name); });
 
 }  // namespace

@@ -35,6 +35,7 @@ Product egg_with_anchor() {
   anchor.pocket = {-8, -8};
   anchor.channel = {{-8.7, -8}, {-8.7, -17}, {-7.3, -17}, {-7.3, -8}};
   product.pulley.anchors = {anchor};
+  product.pulley.layout = resolve_layout(product.joint.mechanism, product.synthesis);
   return product;
 }
 
@@ -156,6 +157,21 @@ TEST(Plates, AChannelIsCutIntoItsCoreAlone) {
   };
   EXPECT_GE(x_near(-8.6), 1);
   EXPECT_GE(x_near(-7.4), 1);
+}
+
+TEST(Plates, APocketIsNoLargerThanThePrintedOne) {
+  Product product = egg_with_anchor();
+  const auto pocket_of = [&product] {
+    double diameter = 0;
+    for (const Contour& hole : layer_named(make_plates(product), "FLANGE 1").holes) {
+      if (hole.circle && (hole.circle->centre - Vec2(-8, -8)).norm() < 1e-6) diameter = hole.circle->diameter;
+    }
+    return diameter;
+  };
+  const double as_planned = pocket_of();
+  ASSERT_GT(as_planned, 1);
+  product.pulley.layout.pocket_radius *= 0.5;
+  EXPECT_LT(pocket_of(), 0.6 * as_planned);
 }
 
 TEST(Plates, AChannelThroughThePlateIsLeftOutAndSaid) {
