@@ -24,6 +24,8 @@ constexpr double k_from_point = 0.15;
 constexpr double k_floor_gap = 0.05;
 // What is skipped because it cannot have room is skipped by this share less than it could be, for rounding.
 constexpr double k_skip_margin = 1e-6;
+// So many straights are tried at most: on a pulley of 2 m with a thin tendon a refusal took half a minute.
+constexpr double k_most_straights = 400;
 // Walls are kept to a floor of about this many points: chords of a circle of 50 mm lie within 4 µm of it.
 constexpr std::size_t k_floor_points = 256;
 
@@ -50,8 +52,8 @@ class AnchorSearch {
  private:
   // True when a path with all the room wanted was found. A longer straight runs through all that a shorter one meets.
   bool try_straights(const Station& station, double turn) {
-    const double step = 0.5 * site_.width;
     const double longest = reach_ == AnchorReach::near ? k_near_fillets * site_.fillet : 2.0 * ground_.radius();
+    const double step = std::max(0.5 * site_.width, longest / k_most_straights);
     AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, 0, 0,
                     station.lap,      station.wrap};
     const Vec2 outer = path.outer(), heading = path.heading();
