@@ -126,7 +126,7 @@ def seen_in(page, alphas, width, options=()):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "page.html")
         file.write_text(frame, encoding="utf-8")
-        command = [browser(), "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", f"--user-data-dir={folder}/user",
+        command = [browser(), "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", f"--user-data-dir={folder}/user",
                    "--virtual-time-budget=20000", "--window-size=1300,1000", *options, "--dump-dom", file.as_uri()]
         text = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, timeout=120, check=False).stdout.decode()
     if '<pre id="found">' not in text:
