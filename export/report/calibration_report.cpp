@@ -211,7 +211,7 @@ std::string effects_section(const CalibrationProduct& product) {
 }
 
 std::string moving_section(const CalibrationProduct& product) {
-  const std::string joint = moving_joint(expected_joint(product.file.mechanism), product.rehearsal);
+  const std::string joint = moving_joint(product.rehearsal);
   if (joint.empty()) return "";
   return html_section("moving", "What they do",
                       "<p class=\"lead\">The joint with what was found in it, simulated in a slow stroke back and "

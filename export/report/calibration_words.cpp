@@ -69,16 +69,19 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
-std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
-  std::string name = parameter.name, unit;
+NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_unit) {
   for (const NamedUnit& known : k_units) {
-    if (!ends_with(name, known.ending)) continue;
-    name.resize(name.size() - known.ending.size());
-    unit = known.shown;
+    if (!ends_with(parameter, known.ending)) continue;
+    std::string unit(known.shown);
     if (unit == "° per ") unit += load_unit.empty() ? "unit of load" : load_unit;
-    break;
+    return {open_words(parameter.substr(0, parameter.size() - known.ending.size())), unit};
   }
-  return open_words(name) + " = " + readable_rounded(parameter.value) + unit +
+  return {open_words(parameter), ""};
+}
+
+std::string parameter_words(const FittedParameter& parameter, const std::string& load_unit) {
+  const auto [name, unit] = name_and_unit(parameter.name, load_unit);
+  return name + " = " + readable_rounded(parameter.value) + unit +
          " (95 %: " + readable_rounded(parameter.low) + " … " + readable_rounded(parameter.high) + ")" +
          (parameter.sense.empty() ? "" : ", " + parameter.sense);
 }

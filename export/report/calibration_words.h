@@ -11,6 +11,11 @@ namespace fusee {
 
 std::string open_words(const std::string& name);  ///< "tendon_stretch" → "tendon stretch"
 std::string first_upper(std::string words);
+/// "compliance" and " % per decade", as it is set behind a number, of "compliance_percent_per_decade".
+struct NameAndUnit {
+  std::string name, unit;
+};
+NameAndUnit name_and_unit(const std::string& parameter, const std::string& load_unit);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 
 /// "In 200 simulated joints without backlash, these runs would have named it in 1."; "" where none were simulated.

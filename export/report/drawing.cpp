@@ -196,6 +196,12 @@ Figure mechanism_figure(const Mechanism& mechanism, const SynthesisResult& synth
 
 // The same, to be moved -----------------------------------------------------------------------------------------------
 
+/// The place nearest to α = 0; `stroke` is not empty.
+const TransmissionPoint& home_of(const std::vector<TransmissionPoint>& stroke) {
+  return *std::min_element(stroke.begin(), stroke.end(),
+                           [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
+}
+
 Figure moving_figure(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose,
                      const std::string& title) {
   Figure figure{k_moving_width, k_moving_height, title, {}, {}};
@@ -314,11 +320,10 @@ std::vector<PolarPlace> polar_drawing(const std::vector<TransmissionPoint>& stro
   const auto tendon = [side](const TransmissionPoint& point) -> const TendonPoint& {
     return side == Side::left ? point.t1 : point.t2;
   };
-  const auto home = std::min_element(
-      stroke.begin(), stroke.end(), [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
+  const double home_normal = tendon(home_of(stroke)).lower_normal;
   std::vector<PolarPlace> places;
   for (const TransmissionPoint& point : stroke)
-    places.push_back({point.alpha, tendon(*home).lower_normal + point.alpha, tendon(point).p});
+    places.push_back({point.alpha, home_normal + point.alpha, tendon(point).p});
   return places;
 }
 
@@ -365,7 +370,9 @@ std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const Synthesi
   return figures;
 }
 
-std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pose& pose) {
+std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis) {
+  const TransmissionPoint& home = home_of(synthesis.stroke);
+  const Pose pose{home.alpha, home.theta};
   std::vector<double> thetas;
   for (const TransmissionPoint& point : synthesis.stroke) thetas.push_back(point.theta);
   const View whole = mechanism_view(mechanism, synthesis, thetas, {40, 30, k_moving_width - 80, k_moving_height - 80});

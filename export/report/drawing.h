@@ -25,10 +25,10 @@ struct Pose {
 std::vector<Figure> mechanism_figures(const Mechanism& mechanism, const SynthesisResult& synthesis,
                                       const std::vector<Pose>& poses);
 
-/// The joint at one pose, large, and its pulley beside it: two figures that moving_joint.js moves. Each has a group
+/// The joint at home, large, and its pulley beside it: two figures that moving_joint.js moves. Each has a group
 /// "scene" whose data-view is the scale in px/mm and where the frame's origin lies; tendons are groups of their own
 /// ("tendon1", "tendon2").
-std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis, const Pose& pose);
+std::vector<Figure> moving_figures(const Mechanism& mechanism, const SynthesisResult& synthesis);
 
 /// One pulley of the pair seen along its axis at home: pitch curve (active and closing arc), floor, lip, bore, anchors,
 /// dimensions.

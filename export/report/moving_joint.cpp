@@ -1,10 +1,9 @@
 #include "export/report/moving_joint.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "export/report/calibration_words.h"
 #include "export/report/drawing.h"
-#include "export/report/tables.h"
 #include "export/report/tendon_trace.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
@@ -147,28 +146,17 @@ std::string load_controls(const std::vector<LoadedStroke>& strokes) {
   return controls(slider("Load at the tip", "load", strokes.front().load, strokes.back().load, 0));
 }
 
-/// "width" of "width_deg", and "°".
-std::pair<std::string, std::string> name_and_unit(const std::string& name) {
-  const std::size_t at = name.rfind('_');
-  if (at == std::string::npos) return {name, ""};
-  std::string words = name.substr(0, at), unit = shown_unit(name.substr(at + 1));
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return {words, unit == "percent" ? "%" : unit};
-}
-
 /// A slider for how much of it there is: 1 is what was found.
 std::string effect_controls(const RehearsedEffect& effect, std::size_t number) {
   std::string units, names;
   for (const FittedParameter& parameter : effect.shares.front().parameters) {
-    const auto [words, unit] = name_and_unit(parameter.name);
+    const auto [words, unit] = name_and_unit(parameter.name, "");
     names += (names.empty() ? "" : "|") + words;
     units += (units.empty() ? "" : "|") + unit;
   }
-  std::string title = effect.name;
-  std::replace(title.begin(), title.end(), '_', ' ');
   return "<div class=\"controls effect-share\" hidden=\"hidden\" data-names=\"" + safe_text(names) +
          "\" data-units=\"" + safe_text(units) + "\">" +
-         slider(safe_text(title), "effect" + std::to_string(number), k_rehearsed_shares.front(),
+         slider(safe_text(open_words(effect.name)), "effect" + std::to_string(number), k_rehearsed_shares.front(),
                 k_rehearsed_shares.back(), 1) +
          "</div>";
 }
@@ -184,13 +172,10 @@ std::string numbers_list(bool imperfect) {
 
 std::string moving(const Mechanism& mechanism, const SynthesisResult& synthesis,
                    const std::vector<LoadedStroke>& strokes, const std::vector<RehearsedEffect>& effects) {
-  const auto home =
-      std::min_element(synthesis.stroke.begin(), synthesis.stroke.end(),
-                       [](const auto& a, const auto& b) { return std::abs(a.alpha) < std::abs(b.alpha); });
   std::string html = "<div class=\"moving\">" + alpha_controls(synthesis) + load_controls(strokes);
   for (std::size_t i = 0; i < effects.size(); ++i) html += effect_controls(effects[i], i);
   html += "<div class=\"scenes\">";
-  for (const Figure& figure : moving_figures(mechanism, synthesis, {home->alpha, home->theta}))
+  for (const Figure& figure : moving_figures(mechanism, synthesis))
     html += "<div>" + inline_svg(figure) + "</div>";
   return html + "</div>" + numbers_list(!effects.empty()) + "<script type=\"application/json\" id=\"motion\">" +
          motion_json(mechanism, synthesis, strokes, effects) + "</script></div>";
@@ -204,9 +189,9 @@ std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synt
   return moving(mechanism, synthesis, {{mechanism.load.tip_force, loaded}}, {});
 }
 
-std::string moving_joint(const Mechanism& mechanism, const Rehearsal& rehearsal) {
+std::string moving_joint(const Rehearsal& rehearsal) {
   if (rehearsal.effects.empty()) return "";
-  return moving(mechanism, rehearsal.synthesis, rehearsal.strokes, rehearsal.effects);
+  return moving(rehearsal.mechanism, rehearsal.synthesis, rehearsal.strokes, rehearsal.effects);
 }
 
 }  // namespace fusee

@@ -23,6 +23,6 @@ inline constexpr std::string_view k_moving_words =
 std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synthesis,
                          const std::vector<StrokePoint>& loaded);
 /// The same with what was found in a joint: a slider for each effect, and for the load.
-std::string moving_joint(const Mechanism& mechanism, const Rehearsal& rehearsal);
+std::string moving_joint(const Rehearsal& rehearsal);
 
 }  // namespace fusee

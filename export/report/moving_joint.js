@@ -106,6 +106,8 @@
   const mix = (a, b, u) => u ? a + u * (b - a) : a;
   const number_in = id => { const input = box.querySelector("#" + id); return input ? Number(input.value) : 0; };
 
+  const size_of = k => within(data.effects[k].shares.map(share => share.share), number_in("effect" + k));
+
   // Where the joint really is, so many times as far off that it is seen.
   const furthest = data.effects.reduce((most, effect) => most + Math.max(...["rising", "falling"].flatMap(way => effect.shares[2][way].flat()).map(Math.abs)), 0);
   const magnified = [50, 20, 10, 5, 2].find(times => times * furthest < 12) || 1;
@@ -124,9 +126,8 @@
   const show_sizes = () => {
     show("load", words(number_in("load"), 1, " N"));
     box.querySelectorAll(".effect-share").forEach((row, k) => {
-      const { i, u } = within(data.effects[k].shares.map(share => share.share), number_in("effect" + k)), shares = data.effects[k].shares;
-      const names = row.dataset.names.split("|"), units = row.dataset.units.split("|");
-      const sizes = names.map((name, n) => (names.length > 1 ? name + " " : "") + words(mix(shares[i].numbers[n] ?? NaN, u ? shares[i + 1].numbers[n] ?? NaN : 0, u), 3, units[n] && (units[n] === "°" || units[n] === "%" ? units[n] : " " + units[n])));
+      const { i, u } = size_of(k), shares = data.effects[k].shares, names = row.dataset.names.split("|"), units = row.dataset.units.split("|");
+      const sizes = names.map((name, n) => (names.length > 1 ? name + " " : "") + words(mix(shares[i].numbers[n] ?? NaN, u ? shares[i + 1].numbers[n] ?? NaN : 0, u), 3, units[n]));
       show("effect" + k, sizes.join(", "));
     });
   };
@@ -142,7 +143,7 @@
     const tensions = [[of_way("upper1"), of_way("lower1")], [of_way("upper2"), of_way("lower2")]];
     let loaded = of_way("theta");
     data.effects.forEach((effect, k) => {
-      const size = within(effect.shares.map(share => share.share), number_in("effect" + k));
+      const size = size_of(k);
       const off = at => mixed(l => between(effect.shares[at][rising ? "rising" : "falling"][l], place));
       loaded += mix(off(size.i), size.u ? off(size.i + 1) : 0, size.u);
     });

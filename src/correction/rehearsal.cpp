@@ -32,10 +32,16 @@ std::vector<double> loads_of(const Measurement& measurement, const Mechanism& ex
   return loads;
 }
 
+std::vector<double> less(std::vector<double> one, const std::vector<double>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] -= other[i];
+  return one;
+}
+
 /// A stroke there and back, and once more; the second is looked at.
 class Drive {
  public:
-  Drive(const std::vector<double>& alphas, double load) : count_(alphas.size()) {
+  Drive(const Mechanism& expected, const std::vector<double>& alphas, double load)
+      : expected_(expected), count_(alphas.size()) {
     BenchRun run;
     run.has_load = true;
     double time = 0, at = 0;
@@ -57,13 +63,21 @@ class Drive {
       std::for_each(alphas.rbegin(), alphas.rend(), go);
     }
     log_ = {run};
+    without_ = shown({});
   }
 
   struct Ways {
     std::vector<double> rising, falling;  ///< rad
   };
-  Ways shown(const Mechanism& expected, const Imperfections& imperfections) const {
-    const std::vector<double> theta = predict(expected, imperfections, log_).front();
+  /// By how much the sensor shows another angle.
+  Ways moved_by(const Imperfections& imperfections) const {
+    const Ways with = shown(imperfections);
+    return {less(with.rising, without_.rising), less(with.falling, without_.falling)};
+  }
+
+ private:
+  Ways shown(const Imperfections& imperfections) const {
+    const std::vector<double> theta = predict(expected_, imperfections, log_).front();
     const auto from = theta.begin() + static_cast<std::ptrdiff_t>(first_ + 2 * count_);
     const auto turn = from + static_cast<std::ptrdiff_t>(count_);
     Ways ways{{from, turn}, {turn, turn + static_cast<std::ptrdiff_t>(count_)}};
@@ -71,16 +85,12 @@ class Drive {
     return ways;
   }
 
- private:
+  const Mechanism& expected_;
   std::size_t count_;
   std::size_t first_ = 0;
   BenchLog log_;
+  Ways without_;
 };
-
-std::vector<double> less(std::vector<double> one, const std::vector<double>& other) {
-  for (std::size_t i = 0; i < one.size(); ++i) one[i] -= other[i];
-  return one;
-}
 
 /// Nothing but so much of `effect` as was found.
 Imperfections share_of(const Effect& effect, const Imperfections& found, double share) {
@@ -122,9 +132,9 @@ RehearsedEffect rehearsed(const Effect& effect, const DeclaredMechanism& expecte
     const Imperfections joint = share_of(effect, found, share);
     RehearsedShare shown{numbers_of(effect, joint, expected), {}, {}};
     for (const Drive& drive : drives) {
-      const Drive::Ways with = drive.shown(expected, joint), without = drive.shown(expected, {});
-      shown.rising.push_back(less(with.rising, without.rising));
-      shown.falling.push_back(less(with.falling, without.falling));
+      Drive::Ways ways = drive.moved_by(joint);
+      shown.rising.push_back(std::move(ways.rising));
+      shown.falling.push_back(std::move(ways.falling));
     }
     result.shares.push_back(std::move(shown));
   }
@@ -145,7 +155,7 @@ Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measure
     Mechanism loaded = expected;
     loaded.load.tip_force = load;
     rehearsal.strokes.push_back({load, settled_stroke(loaded, alphas)});
-    drives.emplace_back(alphas, load);
+    drives.emplace_back(expected, alphas, load);
   }
   for (const Effect& effect : effects(kind_of(expected))) {
     const bool found = std::any_of(calibration.effects.begin(), calibration.effects.end(),
@@ -154,6 +164,7 @@ Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measure
     RehearsedEffect one = rehearsed(effect, expected, calibration.identified, drives);
     if (largest(one.shares.back()) > k_seen) rehearsal.effects.push_back(std::move(one));
   }
+  rehearsal.mechanism = expected;
   rehearsal.synthesis = std::move(synthesis);
   return rehearsal;
 }

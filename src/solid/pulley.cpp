@@ -323,10 +323,9 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
 }
 
 // Where a closing arc is hardly longer than a mouth, the mouth may reach into the arc that the tendon winds on.
-std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const Outline& outline, double tendon_diameter) {
-  const Polygon floor = parallel(outline, -0.5 * tendon_diameter);
-  for (std::size_t i = 0; i < floor.size(); ++i) {
-    if (!outline.is_active(i) || !(is_inside(anchor.mouth, floor[i]) || is_inside(anchor.channel, floor[i]))) continue;
+std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const std::vector<Vec2>& active_floor) {
+  for (const Vec2& point : active_floor) {
+    if (!is_inside(anchor.mouth, point) && !is_inside(anchor.channel, point)) continue;
     Condition condition;
     condition.name = "tie_off_mouth";
     condition.ok = false;
@@ -334,7 +333,7 @@ std::optional<Condition> mouth_in_active_arc(const Anchor& anchor, const Outline
     condition.unit = "mm";
     condition.message = fmt::format(
         "{}'s tie-off has no room behind the arc that the tendon winds on: its mouth would cut into that arc at {}",
-        anchor.side == Side::left ? "P1" : "P2", place_of(Vec3(floor[i].x(), floor[i].y(), 0)));
+        anchor.side == Side::left ? "P1" : "P2", place_of(Vec3(point.x(), point.y(), 0)));
     return condition;
   }
   return std::nullopt;
@@ -346,30 +345,47 @@ struct VariedAnchors {
   std::optional<Condition> cut_into;  // what is wrong with it
 };
 
-VariedAnchors varied_anchors(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
-                             int variant) {
-  VariedAnchors varied;
-  for (const PlannedAnchor& planned : plan.anchors) {
-    varied.anchors.push_back(anchor_of(planned, plan, variant));
-    const Outline& outline = planned.side == Side::left ? synthesis.p1 : synthesis.p2;
-    varied.cut_into = mouth_in_active_arc(varied.anchors.back(), outline, mechanism.tendon.diameter);
-    if (varied.cut_into) break;
+class AnchorVariants {
+ public:
+  AnchorVariants(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan) : plan_(plan) {
+    for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+      const Polygon floor = parallel(*outline, -0.5 * mechanism.tendon.diameter);
+      std::vector<Vec2>& active = outline->side == Side::left ? floor1_ : floor2_;
+      for (std::size_t i = 0; i < floor.size(); ++i) {
+        if (outline->is_active(i)) active.push_back(floor[i]);
+      }
+    }
   }
-  return varied;
-}
+
+  VariedAnchors at(int variant) const {
+    VariedAnchors varied;
+    for (const PlannedAnchor& planned : plan_.anchors) {
+      varied.anchors.push_back(anchor_of(planned, plan_, variant));
+      varied.cut_into = mouth_in_active_arc(varied.anchors.back(), planned.side == Side::left ? floor1_ : floor2_);
+      if (varied.cut_into) break;
+    }
+    return varied;
+  }
+  bool may_be(int variant) const { return !at(variant).cut_into; }
+
+ private:
+  const BodyPlan& plan_;
+  std::vector<Vec2> floor1_, floor2_;  // that the tendons wind on
+};
 
 struct BestCut {
   std::vector<Made> pieces;  // none where no variant leaves a solid
   int variant = 0;
 };
 
-// The first of those that may be that bears so much, or what bears most.
-BestCut best_cut(const PieceMaker& maker, const std::vector<int>& variants, int enough) {
+// From a variant that may be on: the first that bears so much, or what bears most.
+BestCut best_cut(const PieceMaker& maker, const AnchorVariants& anchors, int first, int variants, int enough) {
   // What is no solid has no cut, but is a bug and not a refusal.
   auto gate = beside([&maker] { maker.demand_solids(); });
   BestCut taken;
   int best = k_any;
-  for (const int variant : variants) {
+  for (int variant = first; variant < variants; ++variant) {
+    if (variant > first && !anchors.may_be(variant)) continue;
     std::vector<Made> made = maker.cut(variant);
     if (made.empty()) continue;
     if (enough == k_any) {
@@ -393,18 +409,17 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
   pulley.conditions = plan.conditions;
   pulley.layout = plan.layout;
   if (!plan.possible()) return pulley;
-  std::vector<int> variants;
-  for (int variant = 0; variant < effort.variants; ++variant) {
-    if (!varied_anchors(mechanism, synthesis, plan, variant).cut_into) variants.push_back(variant);
-  }
-  if (variants.empty()) {
-    pulley.conditions.push_back(*varied_anchors(mechanism, synthesis, plan, 0).cut_into);
+  const AnchorVariants anchors(mechanism, synthesis, plan);
+  int first = 0;
+  while (first < effort.variants && !anchors.may_be(first)) ++first;
+  if (first == effort.variants) {
+    pulley.conditions.push_back(*anchors.at(0).cut_into);
     return pulley;
   }
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
-  BestCut cut = best_cut(PieceMaker(mechanism, synthesis, plan, marks), variants, enough);
+  BestCut cut = best_cut(PieceMaker(mechanism, synthesis, plan, marks), anchors, first, effort.variants, enough);
   if (cut.pieces.empty() && !marks.empty()) {
-    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}), variants, enough);
+    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}), anchors, first, effort.variants, enough);
     if (!cut.pieces.empty()) plan.layout.notes.push_back("the marks would run into a tie-off: left out");
   }
   auto& [pieces, taken] = cut;
@@ -413,7 +428,7 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
     pulley.conditions.push_back(uncut_features());
     return pulley;
   }
-  pulley.anchors = varied_anchors(mechanism, synthesis, plan, taken).anchors;
+  pulley.anchors = anchors.at(taken).anchors;
   pulley.mesh = std::move(pieces.front().mesh);
   pulley.expected_volume = pieces.front().volume;
   pulley.expected_euler = pieces.front().euler;

@@ -1,4 +1,5 @@
 /// \file
+/// Of triangles, for whoever asks how often a surface goes round a point.
 #pragma once
 
 #include <Eigen/Geometry>

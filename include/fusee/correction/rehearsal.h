@@ -34,6 +34,7 @@ struct RehearsedEffect {
 };
 
 struct Rehearsal {
+  Mechanism mechanism;        ///< the joint as it was expected
   SynthesisResult synthesis;  ///< of the pulley that is mounted
   std::vector<LoadedStroke> strokes;
   std::vector<RehearsedEffect> effects;  ///< those of which a slow stroke back and forth shows anything

@@ -42,7 +42,7 @@ TEST(MechanismFigures, MoveInGroupsOfTheirOwn) {
 
 TEST(MovingFigures, SayWhereTheirOriginLies) {
   const Mechanism mechanism = testing::forearm();
-  const auto figures = moving_figures(mechanism, synthesise(mechanism), {0, 0});
+  const auto figures = moving_figures(mechanism, synthesise(mechanism));
   ASSERT_EQ(figures.size(), 2u);
   for (const Figure& figure : figures) {
     pugi::xml_document document;
