@@ -1,7 +1,7 @@
 # cmake --install: the program, the library for find_package(fusee), and the profiles.
 include(CMakePackageConfigHelpers)
 set(FUSEE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/fusee)
-set(FUSEE_ROOMS base mechanism transmission profile joint analysis optimize paper measurement plan calibration correction solid export pipeline)
+set(FUSEE_ROOMS base mechanism transmission profile joint analysis optimize paper measurement plan calibration correction solid kit export pipeline)
 
 foreach(room IN LISTS FUSEE_ROOMS)
   set_target_properties(fusee_${room} PROPERTIES EXPORT_NAME ${room})

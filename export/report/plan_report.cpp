@@ -130,6 +130,8 @@ std::string key_numbers(const PlanProduct& product) {
 
 }  // namespace
 
+std::string plan_steps_html(const PlanProduct& product) { return steps_section(product) + after_section(product); }
+
 std::string plan_html(const PlanProduct& product) {
   Page page{
       .title = "measuring plan",

@@ -41,13 +41,15 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   result.pulley_knot = layout.scale * Vec3(anchor.pocket.x(), anchor.pocket.y(), z);
   result.between_knots =
       above_pulley + lower_span + wound_arc(outline, contact, exit).length + (anchor.pocket - anchor.exit).norm() + std::abs(z - groove);
-  const double ends = 2.0 * (k_knot_ratio * mechanism.tendon.diameter + k_tail);
-  result.cut = k_cut_grain * std::ceil((result.between_knots + ends) / k_cut_grain);
+  result.cut = cut_length(result.between_knots + 2.0 * tendon_end(mechanism.tendon));
   result.spare_lap = wound_arc(outline, outline.anchor_end(), exit).turn;
   return result;
 }
 
 }  // namespace
+
+double tendon_end(const Tendon& tendon) { return k_knot_ratio * tendon.diameter + k_tail; }
+double cut_length(double needed) { return k_cut_grain * std::ceil(needed / k_cut_grain); }
 
 std::vector<TendonLength> tendon_lengths(const Product& product) {
   std::vector<TendonLength> lengths;

@@ -20,6 +20,11 @@ struct TendonLength {
   double spare_lap = 0;      ///< on the groove between the anchor and the last point of contact at full pay-out, rad
 };
 
+/// What a knot and the tail to pull it tight with take of a tendon, mm.
+double tendon_end(const Tendon& tendon);
+/// The next length that is easily measured off, mm.
+double cut_length(double needed);
+
 /// Of each tendon whose pulley has an anchor.
 std::vector<TendonLength> tendon_lengths(const Product& product);
 

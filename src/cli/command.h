@@ -40,6 +40,7 @@ Command optimize_command();
 Command reproduce_command();
 Command calibrate_command();
 Command plan_command();
+Command kit_command();
 Command simulate_command();
 Command replay_command();
 

@@ -55,6 +55,48 @@ MaterialType make(const toml::table& item, MaterialType type) {
   return type;
 }
 
+BearingType make(const toml::table& item, BearingType type) {
+  type.bore = number(item, "bore_mm");
+  type.outer = number(item, "outer_mm");
+  type.width = number(item, "width_mm");
+  type.spacer = number(item, "spacer_mm");
+  return type;
+}
+
+BoardType make(const toml::table& item, BoardType type) {
+  type.size = {number(item, "size_x_mm"), number(item, "size_y_mm")};
+  type.thickness = number(item, "thickness_mm");
+  type.pitch = {number(item, "pitch_x_mm"), number(item, "pitch_y_mm")};
+  type.hole = number(item, "hole_mm");
+  type.chip = number(item, "chip_mm");
+  type.magnet = number(item, "magnet_mm");
+  type.magnet_height = number(item, "magnet_height_mm");
+  type.gap = number(item, "gap_mm");
+  return type;
+}
+
+MotorType make(const toml::table& item, MotorType type) {
+  const auto or_none = [&item](const char* key) { return item.contains(key) ? number(item, key) : 0.0; };
+  if (const toml::array* fits = item["fits"].as_array()) {
+    for (const toml::node& name : *fits) type.fits.push_back(name.value_or(std::string()));
+  }
+  type.shaft = or_none("shaft_mm");
+  type.shaft_length = or_none("shaft_length_mm");
+  type.face = or_none("face_mm");
+  type.front = number(item, "front_mm");
+  type.back = number(item, "back_mm");
+  type.side = number(item, "side_mm");
+  type.depth = number(item, "depth_mm");
+  type.pilot = number(item, "pilot_mm");
+  type.two_holes = or_none("two_holes") != 0;
+  type.hole_x = number(item, "hole_x_mm");
+  type.hole_front = number(item, "hole_front_mm");
+  type.hole_back = number(item, "hole_back_mm");
+  type.hole = number(item, "hole_mm");
+  type.head = number(item, "head_mm");
+  return type;
+}
+
 /// All [[key]] tables of one file of the catalogue.
 template <class Item>
 std::vector<Item> load(std::string_view file_name, const char* key) {
@@ -102,6 +144,21 @@ const std::vector<TendonType>& tendon_types() {
 
 const std::vector<MaterialType>& material_types() {
   static const std::vector<MaterialType> all = load<MaterialType>("materials", "material");
+  return all;
+}
+
+const std::vector<BearingType>& bearing_types() {
+  static const std::vector<BearingType> all = load<BearingType>("bearings", "bearing");
+  return all;
+}
+
+const std::vector<BoardType>& board_types() {
+  static const std::vector<BoardType> all = load<BoardType>("boards", "board");
+  return all;
+}
+
+const std::vector<MotorType>& motor_types() {
+  static const std::vector<MotorType> all = load<MotorType>("motors", "motor");
   return all;
 }
 

@@ -27,7 +27,8 @@ const std::map<std::string, int>& flow() {
 const std::map<std::string, std::set<std::string>> k_export_uses = {{"product", {}},
                                                                     {"mesh_files", {}},
                                                                     {"drawings", {"product"}},
-                                                                    {"report", {"product", "mesh_files", "drawings"}}};
+                                                                    {"report", {"product", "mesh_files", "drawings"}},
+                                                                    {"kit", {"product", "mesh_files", "drawings", "report"}}};
 /// Public headers of report beside report.h.
 const std::set<std::string> k_report_headers = {"calibration", "paper"};
 

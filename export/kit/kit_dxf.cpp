@@ -1,0 +1,195 @@
+// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. First what is engraved, then holes, then
+// outlines: what is cut free may move.
+
+#include <algorithm>
+#include <cmath>
+
+#include "export/drawings/cut_shapes.h"
+#include "export/drawings/dxf_writer.h"
+#include "export/drawings/nesting.h"
+#include "export/drawings/plates.h"
+#include "export/drawings/stroke_font.h"
+#include "fusee/base/text.h"
+#include "fusee/export/kit.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_sheet_margin = 4;
+constexpr double k_note_height = 3;
+constexpr double k_engraving_depth = 0.61;  // a slab no thicker is engraved and not cut
+constexpr double k_least_cut = 1.0;         // what a laser cuts cleanly, mm
+
+/// One shape of plate.
+struct KitPlate {
+  std::string label;
+  int count = 1;
+  DiscHull rim;
+  std::vector<DiscHull> holes;
+  std::vector<DiscHull> lines;  ///< engraved
+  double height = 0;
+};
+
+bool is_same(const DiscHull& a, const DiscHull& b) { return outline_of(a) == outline_of(b); }
+
+bool has_hole(const KitPlate& plate, const DiscHull& hull) {
+  return std::any_of(plate.holes.begin(), plate.holes.end(), [&](const DiscHull& hole) { return is_same(hole, hull); });
+}
+
+std::string capitals(std::string name) {
+  for (char& c : name) c = c == '_' ? ' ' : c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return name;
+}
+
+/// A part's slabs that are one piece each, bottom to top.
+void add_plates(std::vector<KitPlate>& plates, const KitPart& part, double thickness) {
+  const std::size_t first = plates.size();
+  for (const Slab& slab : part.body.slabs) {
+    std::vector<const SlabLoop*> rims;
+    for (const SlabLoop& loop : slab.loops) {
+      if (!loop.hole) rims.push_back(&loop);
+    }
+    if (rims.size() != 1) break;  // the tensioner's guide on the link is printed
+    KitPlate plate;
+    plate.label = capitals(part.name);
+    plate.rim = rims.front()->hull;
+    plate.height = slab.high - slab.low;
+    const bool engraved = plates.size() > first && plate.height < k_engraving_depth;
+    for (const SlabLoop& loop : slab.loops) {
+      if (!loop.hole) continue;
+      if (!engraved) plate.holes.push_back(loop.hull);
+      else if (!has_hole(plates.back(), loop.hull)) plates.back().lines.push_back(loop.hull);
+    }
+    if (engraved) plates.back().height += plate.height;
+    else plates.push_back(plate);
+  }
+  const bool many = plates.size() - first > 1;
+  for (std::size_t i = first; i < plates.size(); ++i) {
+    plates[i].count = plates_for(plates[i].height, thickness);
+    if (many) plates[i].label += " " + std::to_string(i - first + 1);
+  }
+}
+
+Contour contour_of(const DiscHull& hull, double grow) {
+  if (hull.discs.size() == 1) return circle_contour({hull.discs.front().centre, 2 * (hull.discs.front().radius + grow)});
+  return {outline_of(hull, grow), {}, 0};
+}
+
+double thinnest(const DiscHull& hull) {
+  const Box2d bounding = bounding_box(outline_of(hull));
+  return bounding.size().minCoeff();
+}
+
+/// Where the plate's name has room: from its lower left upwards.
+std::optional<Vec2> label_corner(const KitPlate& plate) {
+  Material2d material;
+  material.add_outline(outline_of(plate.rim));
+  for (const DiscHull& hole : plate.holes) material.add_hole(outline_of(hole));
+  for (const DiscHull& line : plate.lines) material.add_hole(outline_of(line));
+  const Vec2 size(stroke_text_width(plate.label, k_note_height), k_note_height);
+  const Box2d all = bounding_box(outline_of(plate.rim));
+  for (double y = all.low.y() + 1; y + size.y() < all.high.y(); y += 2) {
+    for (double x = all.low.x() + 1; x + size.x() < all.high.x(); x += 2) {
+      if (material.holds_box({x, y}, size, 1.0)) return Vec2(x, y);
+    }
+  }
+  return std::nullopt;
+}
+
+struct Placed {
+  const KitPlate* plate;
+  Vec2 shift;
+};
+
+class KitSheets {
+ public:
+  KitSheets(const std::vector<KitPlate>& plates, const Cut& cut) : sheet_(cut.sheet_width, cut.sheet_height) {
+    std::vector<Vec2> sizes;
+    std::vector<Box2d> boxes;
+    for (const KitPlate& plate : plates) {
+      for (int i = 0; i < plate.count; ++i) {
+        placed_.push_back({&plate, {0, 0}});
+        boxes.push_back(bounding_box(outline_of(plate.rim, 0.5 * cut.kerf)));
+        sizes.push_back(boxes.back().size());
+        sheet_ = sheet_.cwiseMax(sizes.back() + Vec2(2 * k_sheet_margin, 2 * k_sheet_margin));
+      }
+    }
+    const std::vector<NestedPlace> places = nest(sizes, sheet_, k_sheet_margin);
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      placed_[i].shift = places[i].corner - boxes[i].low + Vec2(places[i].sheet * (sheet_.x() + k_sheet_gap), 0);
+      count_ = std::max(count_, places[i].sheet + 1);
+    }
+  }
+
+  const std::vector<Placed>& placed() const { return placed_; }
+  void draw(DxfDocument& drawing) const {
+    for (int i = 0; i < count_; ++i) {
+      const Vec2 corner(i * (sheet_.x() + k_sheet_gap), 0);
+      drawing.closed("SHEET", rectangle(corner, corner + sheet_));
+    }
+  }
+
+ private:
+  Vec2 sheet_;
+  int count_ = 1;
+  std::vector<Placed> placed_;
+};
+
+Polygon moved(Polygon points, const Vec2& shift) {
+  for (Vec2& point : points) point += shift;
+  return points;
+}
+
+std::vector<std::string> remarks_of(const KitProduct& product, const std::vector<KitPlate>& plates) {
+  const Mechanism& mechanism = product.pulley.joint.mechanism;
+  std::vector<std::string> remarks{
+      mechanism.name + ": the test model's plates to cut, true size in mm",
+      "lines are the cutter's middle: outlines half a kerf (" + rounded(0.5 * mechanism.cut.kerf) +
+          " mm) outside, holes half a kerf inside; the square is 10 mm wide",
+      "sheets of " + rounded(mechanism.cut.plate) + " mm; plates of one name are glued one upon another"};
+  for (const KitPlate& plate : plates) {
+    for (const DiscHull& hole : plate.holes) {
+      if (thinnest(hole) - mechanism.cut.kerf < k_least_cut)
+        remarks.push_back(plate.label + ": a hole of " + rounded(thinnest(hole), 3) + " mm is left out: drill it");
+    }
+  }
+  return remarks;
+}
+
+}  // namespace
+
+std::string kit_dxf(const KitProduct& product, DxfVersion version) {
+  const Cut& cut = product.pulley.joint.mechanism.cut;
+  std::vector<KitPlate> plates;
+  for (const KitPart& part : product.plan.parts) {
+    if (part.plate) add_plates(plates, part, cut.plate);
+  }
+  const KitSheets sheets(plates, cut);
+  DxfDocument drawing;
+  drawing.layers = {{"ENGRAVE", 3},      {"CUT_INNER", 5},    {"CUT_OUTER", 1},
+                    {"SHEET", 8, false}, {"NOTES", 8, false}, {"CHECK_10MM", 9, false}};
+  drawing.remarks = remarks_of(product, plates);
+  for (const auto& [plate, shift] : sheets.placed()) {
+    for (const DiscHull& line : plate->lines)
+      drawing.open("ENGRAVE", {line.discs.front().centre + shift, line.discs.back().centre + shift});
+    if (const auto corner = label_corner(*plate)) drawing.text("ENGRAVE", plate->label, *corner + shift, k_note_height);
+  }
+  for (const auto& [plate, shift] : sheets.placed()) {
+    for (const DiscHull& hole : plate->holes) {
+      if (thinnest(hole) - cut.kerf >= k_least_cut)
+        drawing.closed("CUT_INNER", contour_of(hole, -0.5 * cut.kerf), shift);
+    }
+  }
+  for (const auto& [plate, shift] : sheets.placed())
+    drawing.closed("CUT_OUTER", moved(outline_of(plate->rim, 0.5 * cut.kerf), shift));
+  sheets.draw(drawing);
+  drawing.closed("CHECK_10MM", rectangle({0, -15}, {10, -5}));
+  double y = -5 - k_note_height;
+  for (const std::string& remark : drawing.remarks) {
+    drawing.text("NOTES", remark, {15, y}, k_note_height);
+    y -= 5;
+  }
+  return dxf_text(drawing, version);
+}
+
+}  // namespace fusee

@@ -1,0 +1,251 @@
+#include "export/kit/kit_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "export/report/tendon_trace.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_picture_width = 520, k_picture_height = 420;
+
+/// A convex thing with holes, upright or not, where it stands.
+struct DrawnSlab {
+  Polygon below, above;
+  double low = 0, high = 0;
+  std::vector<Polygon> holes;  ///< in the upper face
+  std::string kind;            ///< "kit", "kit-new", "kit-bought"
+};
+
+/// A line in space.
+struct DrawnLine {
+  std::vector<Vec3> points;
+  std::string classes;
+};
+
+/// From the front right and from above, y up the picture.
+class Projection {
+ public:
+  Vec2 operator()(const Vec2& p, double z) const {
+    const double a = radians(-24), e = radians(38);
+    const Vec2 q(p.x() * std::cos(a) - p.y() * std::sin(a), p.x() * std::sin(a) + p.y() * std::cos(a));
+    return {q.x(), -(q.y() * std::sin(e) + z * std::cos(e))};
+  }
+  Polygon operator()(const Polygon& polygon, double z) const {
+    Polygon points;
+    for (const Vec2& p : polygon) points.push_back((*this)(p, z));
+    return points;
+  }
+};
+
+/// Onto the paper.
+class Paper {
+ public:
+  void include(const Vec2& p) {
+    low_ = low_.cwiseMin(p);
+    high_ = high_.cwiseMax(p);
+  }
+  Vec2 operator()(const Vec2& p) const {
+    const Vec2 size = high_ - low_;
+    const double scale = std::min((k_picture_width - 20) / size.x(), (k_picture_height - 20) / size.y());
+    return Vec2(0.5 * k_picture_width, 0.5 * k_picture_height) + scale * (p - 0.5 * (low_ + high_));
+  }
+  std::vector<Vec2> operator()(const std::vector<Vec2>& points) const {
+    std::vector<Vec2> result;
+    for (const Vec2& p : points) result.push_back((*this)(p));
+    return thinned(result, 0.15);
+  }
+
+ private:
+  Vec2 low_{1e9, 1e9}, high_{-1e9, -1e9};
+};
+
+Polygon at_place(Polygon outline, const KitPlace& place) {
+  for (Vec2& p : outline) p = Vec2(place.turned_over ? -p.x() : p.x(), p.y()) + place.shift;
+  return outline;
+}
+
+void add_part(std::vector<DrawnSlab>& drawn, const KitPart& part, const std::string& kind) {
+  for (const KitPlace& place : part.places) {
+    for (const Slab& slab : part.body.slabs) {
+      std::vector<Polygon> holes;
+      for (const SlabLoop& loop : slab.loops) {
+        if (loop.hole) holes.push_back(at_place(outline_of(loop.hull, place.turned_over ? loop.grow_low : loop.grow_high), place));
+      }
+      bool first = true;
+      for (const SlabLoop& loop : slab.loops) {
+        if (loop.hole) continue;
+        DrawnSlab one;
+        one.below = at_place(outline_of(loop.hull, loop.grow_low), place);
+        one.above = at_place(outline_of(loop.hull, loop.grow_high), place);
+        one.low = place.z + (place.turned_over ? -slab.high : slab.low);
+        one.high = place.z + (place.turned_over ? -slab.low : slab.high);
+        if (place.turned_over) std::swap(one.below, one.above);
+        if (first) one.holes = holes;
+        first = false;
+        one.kind = kind;
+        drawn.push_back(std::move(one));
+      }
+    }
+  }
+}
+
+void add_upright(std::vector<DrawnSlab>& drawn, const DiscHull& hull, double low, double high, const std::string& kind) {
+  const Polygon outline = outline_of(hull);
+  drawn.push_back({outline, outline, low, high, {}, kind});
+}
+
+void add_motor(std::vector<DrawnSlab>& drawn, const KitProduct& product, const std::string& kind) {
+  const KitSizes& sizes = product.plan.sizes;
+  if (!sizes.motor) return;
+  const MotorType& motor = *sizes.motor;
+  const Vec2 axis = pulley_axis(product.pulley.joint.mechanism), front = sizes.motor_front;
+  const Vec2 a = axis + motor.front * front, b = axis - motor.back * front;
+  const Vec2 side(motor.side, 0);
+  add_upright(drawn, box(a.cwiseMin(b) - side, a.cwiseMax(b) + side, 1), -sizes.base - motor.depth, -sizes.base, kind);
+  const double shaft = motor.shaft > 0 ? 0.5 * motor.shaft : 3;
+  add_upright(drawn, disc(axis, shaft), -sizes.base, motor.shaft > 0 ? motor.shaft_length - sizes.base : sizes.pulley_low, kind);
+}
+
+void add_rods(std::vector<DrawnSlab>& drawn, const KitPlan& plan, const std::string& kind) {
+  const KitSizes& sizes = plan.sizes;
+  for (const KitPin& pin : plan.pins)
+    add_upright(drawn, disc(pin.place, pin.screw ? 0.5 * pin.screw->diameter : pin.radius), -sizes.base, pin.top, kind);
+  for (const Vec2& foot : plan.feet)
+    add_upright(drawn, disc(foot, 0.5 * sizes.foot->diameter), -sizes.base - 3, sizes.bracket_low + sizes.bracket + 4, kind);
+  add_upright(drawn, disc({0, 0}, 0.5 * sizes.axle->diameter), -sizes.base - 2, sizes.link_low + sizes.link + 2, kind);
+}
+
+void add_pulley(std::vector<DrawnSlab>& drawn, const KitProduct& product, const std::string& kind) {
+  const Product& pulley = product.pulley;
+  const BodyLayout& layout = pulley.pulley.layout;
+  const double d = pulley.joint.mechanism.tendon.diameter, low = product.plan.sizes.pulley_low;
+  const Vec2 axis = pulley_axis(pulley.joint.mechanism);
+  const auto add = [&](const Outline& outline, double offset, double from, double to) {
+    Polygon shape = parallel(outline, offset);
+    for (Vec2& p : shape) p += axis;
+    drawn.push_back({shape, shape, low + from, low + to, {}, kind});
+  };
+  const double lip = layout.groove_depth - 0.5 * d, gap = 0.6 * d;
+  add(pulley.synthesis.p1, lip, 0, layout.z_p1 - gap);
+  add(pulley.synthesis.p1, -0.5 * d, layout.z_p1 - gap, layout.z_p1 + gap);
+  add(pulley.synthesis.p2, lip, layout.z_p1 + gap, layout.z_p2 - gap);
+  add(pulley.synthesis.p2, -0.5 * d, layout.z_p2 - gap, layout.z_p2 + gap);
+  add(pulley.synthesis.p2, lip, layout.z_p2 + gap, layout.z_top);
+  if (layout.hub_radius > 0)
+    add_upright(drawn, disc(axis, layout.hub_radius), low + layout.z_top, low + layout.z_hub, kind);
+}
+
+std::vector<DrawnLine> tendon_lines(const KitProduct& product) {
+  std::vector<DrawnLine> lines;
+  const Mechanism& mechanism = product.pulley.joint.mechanism;
+  const KitSizes& sizes = product.plan.sizes;
+  for (const Side side : {Side::left, Side::right}) {
+    const bool left = side == Side::left;
+    const auto trace = trace_tendon(mechanism, left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
+    if (!trace) continue;
+    DrawnLine line{{}, left ? "kit-tendon p1" : "kit-tendon p2 whole"};
+    const double z = left ? sizes.z_tendon1 : sizes.z_tendon2;
+    for (const Vec2& p : trace->free_path) line.points.emplace_back(p.x(), p.y(), z);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+void draw_slab(std::string& body, const DrawnSlab& slab, const Projection& look, const Paper& paper) {
+  Polygon both = look(slab.below, slab.low);
+  const Polygon above = look(slab.above, slab.high);
+  both.insert(both.end(), above.begin(), above.end());
+  body += svg_path(slab.kind + "-side", paper(convex_hull(both)), true);
+  std::string data = path_data(paper(above), true);
+  for (const Polygon& hole : slab.holes) data += path_data(paper(look(hole, slab.high)), true);
+  body += "<path class=\"" + slab.kind + "-top\" fill-rule=\"evenodd\" d=\"" + data + "\"/>";
+}
+
+}  // namespace
+
+Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps, std::size_t last) {
+  std::vector<DrawnSlab> drawn;
+  std::vector<DrawnLine> lines;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const KitStep& step = steps[i];
+    const std::string kind = i == last ? "kit-new" : "kit", bought = i == last ? "kit-bought" : "kit";
+    for (const KitPart& part : product.plan.parts) {
+      if (std::find(step.parts.begin(), step.parts.end(), part.name) != step.parts.end()) add_part(drawn, part, kind);
+    }
+    if (step.motor) add_motor(drawn, product, bought);
+    if (step.rods) add_rods(drawn, product.plan, bought);
+    if (step.pulley) add_pulley(drawn, product, kind);
+    if (step.tendons) lines = tendon_lines(product);
+  }
+  // What stands higher hides what is below it, and at one height what is nearer.
+  const auto nearness = [](const DrawnSlab& slab) {
+    double y = 1e9;
+    for (const Vec2& p : slab.below) y = std::min(y, p.y());
+    return -y;
+  };
+  std::stable_sort(drawn.begin(), drawn.end(), [&](const DrawnSlab& a, const DrawnSlab& b) {
+    if (std::abs(a.low - b.low) > 1e-6) return a.low < b.low;
+    return nearness(a) < nearness(b);
+  });
+  const Projection look;
+  Paper paper;
+  for (const DrawnSlab& slab : drawn) {
+    for (const Vec2& p : look(slab.below, slab.low)) paper.include(p);
+    for (const Vec2& p : look(slab.above, slab.high)) paper.include(p);
+  }
+  Figure figure{k_picture_width, k_picture_height, steps[last].title, {}, {}};
+  std::size_t drawn_lines = 0;
+  for (const DrawnSlab& slab : drawn) {
+    for (; drawn_lines < lines.size() && lines[drawn_lines].points.front().z() < slab.low; ++drawn_lines) {
+      std::vector<Vec2> points;
+      for (const Vec3& p : lines[drawn_lines].points) points.push_back(look(Vec2(p.x(), p.y()), p.z()));
+      figure.body += svg_path(lines[drawn_lines].classes, paper(points));
+    }
+    draw_slab(figure.body, slab, look, paper);
+  }
+  return figure;
+}
+
+Figure kit_plan_view(const KitProduct& product) {
+  const Mechanism& mechanism = product.pulley.joint.mechanism;
+  const KitPlan& plan = product.plan;
+  Paper paper;
+  const double from = mechanism.joint.theta_min, to = mechanism.joint.theta_max;
+  std::vector<Polygon> links;
+  for (const double theta : {from, 0.0, to}) links.push_back(link_outline(plan, mechanism, theta));
+  const auto up = [](const Vec2& p) { return Vec2(p.x(), -p.y()); };
+  const auto shown = [&](const Polygon& points) {
+    std::vector<Vec2> result;
+    for (const Vec2& p : points) result.push_back(up(p));
+    return result;
+  };
+  const Polygon scale = scale_outline(plan, mechanism);
+  const Polygon base = outline_of(plan.parts.front().body.slabs.front().loops.front().hull);
+  for (const Polygon& outline : {links[0], links[1], links[2], scale, base}) {
+    for (const Vec2& p : shown(outline)) paper.include(p);
+  }
+  Figure figure{k_picture_width, k_picture_height, "From above: the link at home and at both ends of its range", {}, {}};
+  figure.body = svg_path("kit-side", paper(shown(base)), true) + svg_path("kit-top", paper(shown(scale)), true);
+  const auto circle = [&](const std::string& classes, const Vec2& place, double radius) {
+    figure.body += svg_path(classes, paper(shown(outline_of(disc(place, radius)))), true);
+  };
+  circle("kit-bought-top", pulley_axis(mechanism), plan.sizes.pulley_radius);
+  for (const KitPin& pin : plan.pins) {
+    circle("kit-new-top", pin.place, pin.collar);
+    circle("kit-bought-top", pin.place, pin.radius);
+  }
+  for (const Vec2& foot : plan.feet) circle("kit-new-top", foot, 0.5 * plan.sizes.foot->clearance + 1.2);
+  for (const Side side : {Side::left, Side::right}) {
+    const auto trace = trace_tendon(mechanism, side == Side::left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
+    if (trace) figure.body += svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));
+  }
+  for (const Polygon& link : links) figure.body += svg_path("main", paper(shown(link)), true);
+  return figure;
+}
+
+}  // namespace fusee

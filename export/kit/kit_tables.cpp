@@ -1,0 +1,127 @@
+// bom.csv, manifest.json, and the tendons' lengths.
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/output_list.h"
+#include "export/report/tendon_lengths.h"
+#include "export/tool.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/export/kit.h"
+
+namespace fusee {
+namespace {
+
+using KitJson = nlohmann::ordered_json;
+
+/// To a micrometre: the last digits of a sum tell nothing.
+double to_hand(double value) { return std::round(1000 * value) / 1000 + 0.0; }
+
+std::string csv_quoted(const std::string& words) {
+  std::string text = "\"";
+  for (const char c : words) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
+}
+
+KitJson point_json(const Vec2& point) { return {to_hand(point.x()), to_hand(point.y())}; }
+
+KitJson parts_json(const KitProduct& product) {
+  KitJson list = KitJson::array();
+  for (const KitPart& part : product.plan.parts) {
+    KitJson places = KitJson::array();
+    for (const KitPlace& place : part.places)
+      places.push_back({{"x_mm", to_hand(place.shift.x())},
+                        {"y_mm", to_hand(place.shift.y())},
+                        {"z_mm", to_hand(place.z)},
+                        {"turned_over", place.turned_over},
+                        {"on_link", place.on_link}});
+    list.push_back({{"name", part.name},
+                    {"what", part.words},
+                    {"count", part.count},
+                    {"file", kit_file_name(part, "stl")},
+                    {"also_cut", part.plate},
+                    {"places", places}});
+  }
+  return list;
+}
+
+KitJson places_json(const KitPlan& plan) {
+  const KitSizes& sizes = plan.sizes;
+  KitJson feet = KitJson::array();
+  for (const Vec2& foot : plan.feet) feet.push_back(point_json(foot));
+  return {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}},
+          {"feet_mm", feet},
+          {"pulley_z_mm", {to_hand(sizes.pulley_low), to_hand(sizes.pulley_high)}},
+          {"tendon_z_mm", {to_hand(sizes.z_tendon1), to_hand(sizes.z_tendon2)}},
+          {"scale_z_mm", to_hand(sizes.scale_low)},
+          {"link_z_mm", to_hand(sizes.link_low)},
+          {"bracket_z_mm", to_hand(sizes.bracket_low)},
+          {"motor", sizes.motor ? KitJson(sizes.motor->name) : KitJson(nullptr)},
+          {"bearing", sizes.bearing->name},
+          {"board", sizes.board->name}};
+}
+
+}  // namespace
+
+std::string kit_file_name(const KitPart& part, const std::string& ending) { return part.name + "." + ending; }
+
+std::vector<KitCut> kit_cuts(const KitProduct& product) {
+  std::vector<KitCut> cuts;
+  const double end = tendon_end(product.pulley.joint.mechanism.tendon);
+  for (const TendonLength& tendon : tendon_lengths(product.pulley)) {
+    const KitTendon& held = product.plan.tendons[tendon.side == Side::left ? 0 : 1];
+    KitCut cut;
+    cut.side = tendon.side;
+    cut.between_knots = tendon.between_knots + held.beyond;
+    cut.cut = cut_length(cut.between_knots + held.at_joint + 2 * end);
+    cuts.push_back(cut);
+  }
+  return cuts;
+}
+
+std::string bom_csv(const KitProduct& product) {
+  std::string text = "count,item,use\n";
+  for (const KitItem& item : product.plan.items)
+    text += std::to_string(item.count) + "," + csv_quoted(item.what) + "," + csv_quoted(item.use) + "\n";
+  for (const KitPart& part : product.plan.parts)
+    text += std::to_string(part.count) + "," + csv_quoted("print " + kit_file_name(part, "stl")) + "," +
+            csv_quoted(part.words) + "\n";
+  return text;
+}
+
+std::string kit_manifest_json(const KitProduct& product, const std::vector<OutputFile>& outputs) {
+  KitJson json = {{"schema", 1}, {"tool", std::string(k_tool)}};
+  json["status"] = all_ok(product.checks) ? "done" : "check_failed";
+  json["input"] = {{"file", std::filesystem::path(product.pulley.file.path).filename().string()},
+                   {"sha256", product.pulley.file.sha256}};
+  json["name"] = product.pulley.joint.mechanism.name;
+  json["places"] = places_json(product.plan);
+  json["parts"] = parts_json(product);
+  json["print"] = KitJson::array();
+  for (const KitPart& part : product.plan.parts) json["print"].push_back({{"file", kit_file_name(part, "stl")}});
+  json["tendons_at_home"] = KitJson::array();
+  for (const KitCut& cut : kit_cuts(product))
+    json["tendons_at_home"].push_back({{"tendon", cut.side == Side::left ? 1 : 2},
+                                       {"between_knots_mm", to_hand(cut.between_knots)},
+                                       {"cut_length_mm", to_hand(cut.cut)}});
+  json["buy"] = KitJson::array();
+  for (const KitItem& item : product.plan.items)
+    json["buy"].push_back({{"count", item.count}, {"item", item.what}, {"use", item.use}});
+  json["notes"] = product.plan.notes;
+  json["checks"] = KitJson::array();
+  for (const Check& check : product.checks) {
+    KitJson entry = {{"name", check.name},
+                     {"value", std::isfinite(check.value) ? KitJson(std::stod(rounded(check.value, 6))) : KitJson(nullptr)},
+                     {"limit", check.limit},
+                     {"unit", check.unit},
+                     {"ok", check.ok}};
+    if (!check.where.empty()) entry["where"] = check.where;
+    json["checks"].push_back(std::move(entry));
+  }
+  json["outputs"] = output_list(outputs);
+  return json.dump(1, ' ', false, KitJson::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fusee

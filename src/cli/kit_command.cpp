@@ -1,0 +1,134 @@
+#include <filesystem>
+#include <optional>
+
+#include "base/output_list.h"
+#include "cli/as_built.h"
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "fusee/base/text.h"
+#include "fusee/pipeline.h"
+#include "fusee/pipeline/kit.h"
+
+namespace fusee::cli {
+namespace {
+
+KitOptions kit_options_from(const Arguments& arguments) {
+  KitOptions options;
+  options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
+  const std::string version = arguments.text("--dxf").value_or("ac1015");
+  if (version != "ac1015" && version != "r12") throw UsageError("--dxf must be ac1015 or r12; '" + version + "' is not");
+  options.dxf = version == "r12" ? DxfVersion::r12 : DxfVersion::ac1015;
+  options.force = arguments.has("--force");
+  options.dry_run = arguments.has("--dry-run");
+  const std::filesystem::path spec = arguments.positionals().front();
+  options.folder = arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_kit")).string());
+  return options;
+}
+
+/// The pulley itself cannot be made: what build says of it.
+void explain_no_pulley(const MechanismFile& file, const KitOptions& options, Reply& reply) {
+  BuildOptions build_options;
+  build_options.tolerance = options.tolerance;
+  build_options.dry_run = true;
+  build_options.folder = options.folder;
+  build_options.force = true;
+  build_options.between_tries = [] { stop_if_interrupted(); };
+  const BuildResult built = build(file, build_options);
+  const bool has_curves = built.product.synthesis.made();
+  const std::vector<Condition>& conditions =
+      has_curves ? built.product.pulley.conditions : built.product.synthesis.conditions;
+  add_obstacles(file.path, conditions, reply);
+  add_advice(built.advice.alone, reply);
+  add_advice_together(built.advice.together, reply);
+  reply.exit = Exit::infeasible;
+  reply.fields["conditions"] = to_json(conditions);
+  reply.fields["advice"] = to_json(built.advice.alone);
+}
+
+std::string kit_summary(const KitResult& made, const KitOptions& options) {
+  const KitProduct& product = made.product;
+  const KitSizes& sizes = product.plan.sizes;
+  int printed = 0;
+  for (const KitPart& part : product.plan.parts) printed += part.count;
+  const Condition* tightest = nullptr;
+  for (const Condition& condition : product.plan.conditions) {
+    if (condition.unit == "mm" && (!tightest || condition.value - condition.limit < tightest->value - tightest->limit))
+      tightest = &condition;
+  }
+  std::string text = product.pulley.joint.mechanism.name + ": the rest of the test model\n";
+  text += "  parts       " + std::to_string(printed) + " to print, of " + std::to_string(product.plan.parts.size()) + " kinds; plates to cut in kit.dxf\n";
+  text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: none of the catalogue fits") + "\n";
+  text += "  joint       two bearings " + sizes.bearing->name + ", " + sizes.board->name + " over the axis\n";
+  for (const KitCut& cut : kit_cuts(product))
+    text += "  tendon " + std::string(cut.side == Side::left ? "1" : "2") + "    cut at " + fixed(cut.cut, 0) + " mm\n";
+  if (tightest)
+    text += "  tightest    " + tightest->name + ", " + fixed(tightest->value, 2) + " mm (at least " + fixed(tightest->limit, 2) + ")\n";
+  if (options.dry_run) return text + "  files       none written (--dry-run)\n";
+  if (!made.published) return text + "  files       none written: " + options.folder.string() + " keeps its earlier run\n";
+  return text + "  files       in " + options.folder.string() + ": open kit.html\n";
+}
+
+Reply run_kit(const Arguments& arguments, Console& console) {
+  KitOptions options = kit_options_from(arguments);
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
+  options.before_step = [&console](std::string_view step) {
+    stop_if_interrupted();
+    console.progress(step);
+  };
+  // Until something stands on the disk a signal ends the program where it is.
+  std::optional<InterruptsDeferred> writing;
+  options.before_writing = [&writing] {
+    writing.emplace();
+    stop_if_interrupted();
+  };
+  const KitResult made = kit(file, options);
+  writing.reset();
+  Reply reply;
+  reply.diagnostics = made.product.pulley.file.warnings;
+  if (made.ending == KitEnding::no_pulley) {
+    explain_no_pulley(file, options, reply);
+    return reply;
+  }
+  const KitPlan& plan = made.product.plan;
+  reply.fields["conditions"] = to_json(plan.conditions);
+  if (made.ending == KitEnding::no_kit) {
+    add_obstacles(file.path, plan.conditions, reply);
+    reply.exit = Exit::infeasible;
+    return reply;
+  }
+  for (const std::string& words : plan.notes) reply.diagnostics.push_back(about_file(Severity::note, file.path, words));
+  reply.text = kit_summary(made, options);
+  reply.fields["name"] = made.product.pulley.joint.mechanism.name;
+  reply.fields["folder"] = options.folder.string();
+  reply.fields["published"] = made.published;
+  reply.fields["checks"] = to_json(made.product.checks);
+  reply.fields["outputs"] = output_list(made.outputs);
+  if (made.ending == KitEnding::check_failed) {
+    reply.exit = Exit::check_failed;
+    add_failures(made.product.checks, reply);
+  }
+  return reply;
+}
+
+}  // namespace
+
+Command kit_command() {
+  return {"kit",
+          "SPEC",
+          "the rest of the test model, and how to build it",
+          "Makes what stands round the pulley of SPEC so that its joint can be built and\n"
+          "measured: base plate with pins and the motor's pattern, link with tensioner and\n"
+          "scale, spacers, encoder mount, a fit coupon: meshes that print without supports,\n"
+          "plates to cut, a list of what to buy, run files, and a page that says step by\n"
+          "step how it goes together. Where parts would meet over the range it says which,\n"
+          "and which change of which number makes room.",
+          {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_kit)"},
+           {"--tolerance-mm", "MM", "of the pulley's curves (default 0.01)"},
+           {"--dxf", "VERSION", "drawings as ac1015 (default) or r12"}},
+          {{"fusee kit arm.toml", "everything in out/arm_kit; open its kit.html"},
+           {"fusee kit arm.toml --set body.shaft=nema17-d5 -o model", "for another motor"},
+           {"fusee kit arm.toml --dry-run", "does it fit? writes nothing"}},
+          run_kit};
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,28 @@
+/// \file
+/// Internal: screws, and which go with which bearing. mm
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "fusee/kit/kit.h"
+
+namespace fusee {
+
+// Clearance: ISO 273, fine (medium for M2). Tapping into plastic: 0.85 of the thread. Heads: ISO 4762. Nuts: ISO 4032.
+inline constexpr std::array<Thread, 5> k_threads{{{"M2", 2, 2.3, 1.7, 1.9, 4.0, 1.6},
+                                                  {"M3", 3, 3.3, 2.6, 2.75, 5.5, 2.4},
+                                                  {"M4", 4, 4.3, 3.4, 3.5, 7.0, 3.2},
+                                                  {"M5", 5, 5.3, 4.3, 4.25, 8.0, 4.7},
+                                                  {"M8", 8, 8.4, 6.9, 6.5, 13.0, 6.8}}};
+
+/// The largest thread that is no thicker; the smallest where all are.
+const Thread& thread_within(double diameter);
+/// From the middle of a nut to its corner.
+double nut_corner_radius(const Thread& thread);
+/// "M3 × 16": the next length that is made.
+std::string screw_words(const Thread& thread, double length);
+/// The next length that is made, mm.
+double stock_length(double length);
+
+}  // namespace fusee

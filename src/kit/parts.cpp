@@ -1,0 +1,433 @@
+#include "kit/parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "kit/hardware.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_wall = 1.2;
+constexpr double k_engraved = 0.6;
+constexpr double k_collar_height = 2.5;
+
+SlabLoop edge(DiscHull hull) { return {std::move(hull), false, 0, 0}; }
+SlabLoop hole(DiscHull hull) { return {std::move(hull), true, 0, 0}; }
+SlabLoop round_hole(const Vec2& place, double diameter) { return hole(disc(place, 0.5 * diameter)); }
+
+DiscHull hull_of(std::vector<Disc> discs, int corners = 96) { return {std::move(discs), corners}; }
+
+/// Upright, with a hole.
+SlabBody tube(double radius, double bore, double height) {
+  return {{{0, height, {edge(disc({0, 0}, radius)), round_hole({0, 0}, bore)}}}};
+}
+
+/// The direction in which the link points at a joint angle, and to its right.
+struct LinkFrame {
+  Vec2 along, across;
+};
+LinkFrame link_frame(double theta) {
+  const Vec2 along(std::sin(theta), std::cos(theta));
+  return {along, {along.y(), -along.x()}};
+}
+
+double half_width(const KitSizes& sizes) { return 0.5 * sizes.slide_width + 2.95; }
+
+DiscHull link_hull(const KitSizes& sizes, double R) {
+  const double end = half_width(sizes) - 1;
+  std::vector<Disc> discs{{{0, 0}, sizes.hub}, {{0, -sizes.pointer + 0.8}, 0.8}};
+  for (const double x : {-1.0, 1.0}) {
+    discs.push_back({{x * sizes.cap_screws, 0}, 0.5 * k_threads.front().clearance + k_wall});
+    discs.push_back({{x * sizes.post_screws, R}, 0.5 * sizes.small->clearance + k_wall});
+    discs.push_back({{x * end, sizes.link_end - 1}, 1});
+  }
+  return hull_of(discs, 144);
+}
+
+/// It lies behind the axis, where the link's pointer is.
+DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
+  const KitSizes& sizes = plan.sizes;
+  std::vector<Disc> discs{{{0, 0}, sizes.axle_tube + 3}};
+  for (const Vec2& foot : plan.feet) discs.push_back({foot, 0.5 * sizes.foot->clearance + 3});
+  const double more = std::max(radians(8), 7 / (sizes.pointer + 7));  // half of a number
+  const double from = joint.theta_min - more, to = joint.theta_max + more;
+  const int steps = static_cast<int>(std::ceil(degrees(to - from) / 5));
+  for (int i = 0; i <= steps; ++i)
+    discs.push_back({-(sizes.pointer + k_scale_reach - 1) * link_frame(from + (to - from) * i / steps).along, 1});
+  return hull_of(discs, 180);
+}
+
+// Part by part --------------------------------------------------------------------------------------------------------
+
+class PartMaker {
+ public:
+  PartMaker(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout)
+      : plan_(plan), sizes_(plan.sizes), mechanism_(mechanism), layout_(layout), pulley_(0, -mechanism.guides.OE - mechanism.pulley.EF) {}
+
+  void make() {
+    base();
+    pins();
+    axle();
+    link();
+    sensor();
+    add({"fit_coupon", "the fit coupon: print it first", coupon_body(mechanism_), {}, 1, false});
+    tendons();
+  }
+
+ private:
+  void add(KitPart part) { plan_.parts.push_back(std::move(part)); }
+  void buy(int count, std::string what, std::string use) { plan_.items.push_back({count, std::move(what), std::move(use)}); }
+
+  void base() {
+    Slab plate{0, sizes_.base, {}};
+    std::vector<Disc> corners;
+    for (const Vec2& leg : plan_.legs) {
+      corners.push_back({leg, k_leg_radius + 1});
+      plate.loops.push_back(round_hole(leg, leg_screw().clearance));
+    }
+    plate.loops.insert(plate.loops.begin(), edge(hull_of(corners)));
+    plate.loops.push_back(round_hole({0, 0}, sizes_.axle->clearance));
+    for (const Vec2& foot : plan_.feet) plate.loops.push_back(round_hole(foot, sizes_.foot->clearance));
+    for (const KitPin& pin : plan_.pins)
+      plate.loops.push_back(round_hole(pin.place, pin.screw ? pin.screw->clearance : 2 * pin.radius));
+    for (SlabLoop& loop : motor_holes()) plate.loops.push_back(std::move(loop));
+    add({"base_plate", "base plate: joint axis, pins, motor", {{plate}}, {{{0, 0}, -sizes_.base, false, false}}, 1, true});
+    std::vector<KitPlace> legs;
+    for (const Vec2& leg : plan_.legs) legs.push_back({leg, -sizes_.base - sizes_.leg, false, false});
+    add({"leg", "leg under the base plate", tube(k_leg_radius, leg_screw().tapping, sizes_.leg), legs, 4, false});
+    buy(4, screw_words(leg_screw(), sizes_.base + 10), "legs, from above");
+    if (sizes_.motor) {
+      const MotorType& motor = *sizes_.motor;
+      buy(1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source);
+      if (motor.shaft > 0)
+        buy(motor.two_holes ? 2 : 4,
+            screw_words(thread_within(motor.hole), sizes_.base + 4) + ", flat head", "motor, from above");
+      else
+        buy(4, screw_words(thread_within(motor.hole), sizes_.base + 8) + " with nuts", "motor, from above");
+    }
+  }
+
+  const Thread& leg_screw() const { return thread_within(3); }
+
+  std::vector<SlabLoop> motor_holes() const {
+    std::vector<SlabLoop> holes;
+    const Vec2 front = sizes_.motor_front;
+    if (!sizes_.motor) {
+      const bool horn = mechanism_.body.bore == Bore::horn;
+      const double opening =
+          horn ? horn_of(mechanism_).bolt_circle + 10 : shaft_of(mechanism_, layout_) + 1;
+      holes.push_back(round_hole(pulley_, opening));
+      return holes;
+    }
+    const MotorType& motor = *sizes_.motor;
+    if (motor.pilot > 0) {
+      holes.push_back(round_hole(pulley_, motor.pilot + 0.5));
+    } else {
+      const Vec2 a = pulley_ + (motor.front + 0.3) * front, b = pulley_ - (motor.back + 0.3) * front;
+      const double side = motor.side + 0.3;
+      holes.push_back(hole(box({-side, std::min(a.y(), b.y())}, {side, std::max(a.y(), b.y())})));
+    }
+    for (const double x : {-motor.hole_x, motor.hole_x}) {
+      holes.push_back(round_hole(pulley_ + Vec2(x, 0) + motor.hole_front * front, motor.hole));
+      if (!motor.two_holes) holes.push_back(round_hole(pulley_ + Vec2(x, 0) - motor.hole_back * front, motor.hole));
+    }
+    return holes;
+  }
+
+  void pins() {
+    for (const KitPin& pin : plan_.pins) {
+      const std::string letter = pin.side == Side::left ? "b" : "d", name = pin.side == Side::left ? "B" : "D";
+      const double bore = pin.screw ? pin.screw->clearance : 2 * pin.radius + 0.2;
+      const auto collar = [&](const std::string& which, double radius, double low, double high, const std::string& words) {
+        add({"pin_" + letter + "_" + which, words, tube(radius, bore, high - low), {{pin.place, low, false, false}}, 1, false});
+      };
+      collar("spacer", pin.collar, 0, pin.gap_low, "spacer below the tendon on pin " + name);
+      if (pin.screw) {
+        collar("sleeve", pin.radius, pin.gap_low, pin.gap_high, "sleeve on which the tendon runs, pin " + name);
+        buy(1, screw_words(*pin.screw, sizes_.base + pin.top + 1) + " with nut", "pin " + name + ", from below");
+      } else {
+        buy(1, "steel rod ⌀ " + rounded(2 * pin.radius, 4) + " × " + rounded(std::ceil(sizes_.base + pin.top), 4),
+            "pin " + name + ", pressed into the base plate; its spacer glued to the plate");
+      }
+      collar("collar", pin.collar, pin.gap_high, pin.gap_high + k_collar_height, "collar above the tendon on pin " + name);
+    }
+  }
+
+  void axle() {
+    add({"axle_spacer", "spacer round the joint's axle, up to the scale",
+         tube(sizes_.axle_tube, sizes_.axle->clearance, sizes_.scale_low), {{{0, 0}, 0, false, false}}, 1, false});
+    std::vector<KitPlace> feet;
+    for (const Vec2& foot : plan_.feet) feet.push_back({foot, 0, false, false});
+    add({"foot_spacer", "spacer from base plate to scale", tube(foot_radius(), sizes_.foot->clearance, sizes_.scale_low),
+         feet, 2, false});
+    add({"scale_plate", "scale of the joint's angle, on axle and feet", scale_body(),
+         {{{0, 0}, sizes_.scale_low, false, false}}, 1, true});
+    const double ring = sizes_.link_low - sizes_.scale_low - sizes_.scale_plate + sizes_.lip;
+    add({"bearing_ring", "ring under the inner ring of the lower bearing",
+         tube(0.5 * sizes_.bearing->spacer, sizes_.axle->clearance, ring),
+         {{{0, 0}, sizes_.scale_low + sizes_.scale_plate, false, false}}, 1, false});
+    buy(2, "ball bearing " + sizes_.bearing->name + " (" + sizes_.bearing->description + ")", "joint, in the link");
+    const double stack = sizes_.base + sizes_.link_low + sizes_.link + sizes_.axle->nut_height + 1;
+    buy(1, screw_words(*sizes_.axle, stack) + " with nut", "the joint's axle, from below");
+    const double rod = sizes_.base + sizes_.bracket_low + sizes_.bracket + 2 * sizes_.foot->nut_height + 4;
+    buy(2, "threaded rod " + std::string(sizes_.foot->name) + " × " + rounded(std::ceil(rod), 4) + " with 2 nuts each",
+        "feet of scale and bracket");
+  }
+
+  double foot_radius() const { return 0.5 * sizes_.foot->clearance + k_wall; }
+
+  SlabBody scale_body() const {
+    const SlabLoop rim = edge(scale_hull(plan_, mechanism_.joint));
+    std::vector<SlabLoop> through{round_hole({0, 0}, sizes_.axle->clearance)};
+    for (const Vec2& foot : plan_.feet) through.push_back(round_hole(foot, sizes_.foot->clearance));
+    Slab lower{0, sizes_.scale_plate - k_engraved, {rim}}, upper{lower.high, sizes_.scale_plate, {rim}};
+    lower.loops.insert(lower.loops.end(), through.begin(), through.end());
+    upper.loops.insert(upper.loops.end(), through.begin(), through.end());
+    for (DiscHull& line : graduation()) upper.loops.push_back(hole(std::move(line)));
+    return {{lower, upper}};
+  }
+
+  /// Lines every `graduation`, longer ones with a number as often as there is room.
+  std::vector<DiscHull> graduation() const {
+    std::vector<DiscHull> lines;
+    const double step = sizes_.graduation, tip = sizes_.pointer;
+    int numbered = 10;
+    while (radians(numbered) * (tip + 7) < 11) numbered += 10;
+    const int first = static_cast<int>(std::ceil(mechanism_.joint.theta_min / step - 1e-6)) - 1;
+    const int last = static_cast<int>(std::floor(mechanism_.joint.theta_max / step + 1e-6)) + 1;
+    for (int i = first; i <= last; ++i) {
+      const int angle = static_cast<int>(std::lround(degrees(i * step)));
+      const Vec2 out = -link_frame(i * step).along;
+      const bool is_long = angle % 10 == 0;
+      lines.push_back(slot((tip + 1) * out, (tip + (is_long ? 4.2 : 2.8)) * out, 0.3));
+      if (angle % numbered != 0) continue;
+      for (DiscHull& stroke : number_strokes(angle, (tip + 7) * out, -out)) lines.push_back(std::move(stroke));
+    }
+    return lines;
+  }
+
+  void link() {
+    const double R = mechanism_.joint.R, top = sizes_.link;
+    const Thread& small = *sizes_.small;
+    const SlabLoop rim = edge(link_hull(sizes_, R));
+    std::vector<SlabLoop> through{round_hole({0, R}, 2 * sizes_.post + 0.2)};
+    for (const double x : {-1.0, 1.0}) {
+      through.push_back(round_hole({x * sizes_.cap_screws, 0}, k_threads.front().tapping));
+      through.push_back(round_hole({x * sizes_.post_screws, R}, small.tapping));
+    }
+    Slab lip{0, sizes_.lip, {rim, round_hole({0, 0}, lip_hole())}};
+    Slab seat{sizes_.lip, top, {rim, round_hole({0, 0}, sizes_.bearing->outer)}};
+    for (Slab* slab : {&lip, &seat}) slab->loops.insert(slab->loops.end(), through.begin(), through.end());
+    const double inner = 0.5 * sizes_.slide_width + 0.25, outer = half_width(sizes_) - 0.5, end = sizes_.link_end;
+    const double wall_inner = 0.5 * small.clearance;
+    Slab rails{top, top + 4, {}}, walls{top + 4, top + tensioner_height(small), {}};
+    for (const double x : {-1.0, 1.0}) {
+      const auto upright = [x](double from, double to, double low, double high) {
+        return edge(box({x > 0 ? from : -to, low}, {x > 0 ? to : -from, high}, 0.4));
+      };
+      rails.loops.push_back(upright(inner, outer, slide_start(), end - 6));
+      rails.loops.push_back(upright(wall_inner, outer, end - 5, end - 1));
+      walls.loops.push_back(upright(wall_inner, outer, end - 5, end - 1));
+    }
+    add({"link", "link of length R, on both bearings, with the tensioner's guide", {{lip, seat, rails, walls}},
+         {{{0, 0}, sizes_.link_low, false, true}}, 1, true});
+    post();
+    slide();
+  }
+
+  double lip_hole() const { return sizes_.bearing->outer - std::min(2.0, 0.5 * (sizes_.bearing->outer - sizes_.bearing->spacer)); }
+  double slide_start() const { return mechanism_.joint.R + sizes_.post + 2.5; }
+
+  /// It hangs down from its flange, and is printed standing on it.
+  void post() {
+    const Thread& small = *sizes_.small;
+    const double top = sizes_.link_low + sizes_.link + sizes_.flange;
+    const double cone = sizes_.post - sizes_.waist, mouth = 0.4;
+    const double waist = top - sizes_.z_tendon2 - 0.5 * sizes_.tendon_gap, below = waist + sizes_.tendon_gap;
+    const double end = top - sizes_.post_low;
+    const SlabLoop bore = round_hole({0, 0}, 2 * sizes_.bore), stem = edge(disc({0, 0}, sizes_.post));
+    std::vector<Disc> plate{{{0, 0}, sizes_.post + 1}};
+    Slab flange{0, sizes_.flange, {bore}};
+    for (const double x : {-1.0, 1.0}) {
+      plate.push_back({{x * sizes_.post_screws, 0}, small.head_radius + 0.6});
+      flange.loops.push_back(round_hole({x * sizes_.post_screws, 0}, small.clearance));
+    }
+    flange.loops.push_back(edge(hull_of(plate, 72)));
+    SlabLoop narrow = stem, widening = stem, widened = bore;
+    narrow.grow_low = narrow.grow_high = widening.grow_low = -cone;
+    widened.grow_high = mouth;
+    const double chamfer = end - mouth;
+    add({"post", "post at C: tendon 2 is tied round it, tendon 1 goes up through it",
+         {{flange,
+           {sizes_.flange, waist, {stem, bore}},
+           {waist, below, {narrow, bore}},
+           {below, below + cone, {widening, bore}},
+           {below + cone, chamfer, {stem, bore}},
+           {chamfer, end, {stem, widened}}}},
+         {{{0, mechanism_.joint.R}, top, true, true}}, 1, false});
+    buy(2, screw_words(small, sizes_.flange + std::min(sizes_.link, 10.0)), "post, into the link");
+  }
+
+  void slide() {
+    const Thread& small = *sizes_.small;
+    const SlideLengths lengths = slide_lengths(small);
+    const double half = 0.5 * sizes_.slide_width, inner = 0.5 * small.clearance, floor = 2;
+    const double top = tensioner_axis(small) + 0.5 * small.nut;
+    Slab lower{0, floor, {edge(box({-half, 0}, {half, lengths.whole()}, 0.8)), round_hole({0, 0.5 * lengths.clamp}, small.tapping)}};
+    Slab upper{floor, top, {}};
+    const double back = lengths.clamp, nut = back + lengths.back, front = nut + lengths.nut;
+    for (const double x : {-1.0, 1.0}) {
+      for (const auto& [low, high] : {std::pair{back, nut}, {front, lengths.whole() - 0.15}})
+        upper.loops.push_back(edge(box({x > 0 ? inner : -half + 0.15, low}, {x > 0 ? half - 0.15 : -inner, high}, 0.3)));
+    }
+    add({"tensioner_slide", "tensioner: the slide that tendon 1 is clamped to", {{lower, upper}},
+         {{{0, slide_start()}, sizes_.link_low + sizes_.link, false, true}}, 1, false});
+    buy(1, screw_words(small, sizes_.travel + lengths.front + lengths.nut + lengths.back + 6) + " with nut",
+        "tensioner: through the wall at the link's end, the nut in the slide");
+    buy(1, screw_words(small, 6) + " with washer", "clamps tendon 1 on the slide");
+  }
+
+  void sensor() {
+    const BoardType& board = *sizes_.board;
+    const Thread& screw = k_threads.front();
+    std::vector<Disc> shape{{{0, 0}, sizes_.cap}};
+    std::vector<SlabLoop> screws;
+    for (const double x : {-1.0, 1.0}) {
+      shape.push_back({{x * sizes_.cap_screws, 0}, 0.5 * screw.clearance + k_wall});
+      screws.push_back(round_hole({x * sizes_.cap_screws, 0}, screw.clearance));
+    }
+    const SlabLoop rim = edge(hull_of(shape, 72));
+    Slab web{0, sizes_.web, {rim, round_hole({0, 0}, board.magnet + 0.1)}};
+    Slab room{sizes_.web, sizes_.cap_height, {rim, round_hole({0, 0}, 2 * sizes_.recess)}};
+    for (Slab* slab : {&web, &room}) slab->loops.insert(slab->loops.end(), screws.begin(), screws.end());
+    const double link_top = sizes_.link_low + sizes_.link;
+    add({"magnet_cap", "cap on the link: holds the bearings, and the magnet over the axis", {{web, room}},
+         {{{0, 0}, link_top + sizes_.cap_height, true, true}}, 1, false});
+    buy(2, screw_words(screw, sizes_.cap_height + 6), "magnet cap, into the link");
+    buy(1, "magnet ⌀ " + rounded(board.magnet) + " × " + rounded(board.magnet_height) + ", magnetised across",
+        "in the magnet cap, flush");
+    std::vector<KitPlace> feet;
+    for (const Vec2& foot : plan_.feet) feet.push_back({foot, sizes_.scale_low + sizes_.scale_plate, false, false});
+    add({"foot_tube", "spacer from scale to bracket",
+         tube(foot_radius(), sizes_.foot->clearance, sizes_.bracket_low - sizes_.scale_low - sizes_.scale_plate), feet, 2, false});
+    bracket();
+  }
+
+  void bracket() {
+    const BoardType& board = *sizes_.board;
+    std::vector<Disc> shape;
+    std::vector<KitPlace> spacers;
+    Slab plate{0, sizes_.bracket, {}};
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        const Vec2 place(x * board.pitch.x(), y * board.pitch.y());
+        shape.push_back({place, 0.5 * board.hole + 2});
+        plate.loops.push_back(round_hole(place, board.hole));
+        spacers.push_back({place, sizes_.bracket_low - 3, false, false});
+      }
+    }
+    for (const Vec2& foot : plan_.feet) {
+      shape.push_back({foot, foot_radius() + 1});
+      plate.loops.push_back(round_hole(foot, sizes_.foot->clearance));
+    }
+    plate.loops.push_back(edge(hull_of(shape)));
+    add({"board_spacer", "spacer between bracket and board", tube(0.5 * board.hole + k_wall, board.hole, 3), spacers, 4, false});
+    add({"bracket", "bracket: the board hangs under it, chip down", {{plate}}, {{{0, 0}, sizes_.bracket_low, false, false}}, 1, true});
+    buy(1, board.name + ": " + board.description, "reads the joint's angle; as assumed: " + board.source);
+    buy(4, screw_words(thread_within(board.hole), sizes_.bracket + 3 + board.thickness + 4) + " with nuts", "board, under the bracket");
+  }
+
+  void tendons() {
+    const Thread& small = *sizes_.small;
+    const double top = sizes_.link_low + sizes_.link + sizes_.flange;
+    plan_.tendons[0] = {Side::left, top - sizes_.post_low + slide_start() - mechanism_.joint.R + 0.5 * slide_lengths(small).clamp,
+                        3 * k_pi * small.diameter};
+    plan_.tendons[1] = {Side::right, 0, k_two_pi * sizes_.waist};
+  }
+
+  KitPlan& plan_;
+  const KitSizes& sizes_;
+  const Mechanism& mechanism_;
+  const BodyLayout& layout_;
+  Vec2 pulley_;
+};
+
+}  // namespace
+
+SlideLengths slide_lengths(const Thread& thread) {
+  return {2 * thread.head_radius + 1.5, 2.5, thread.nut_height + 0.5, 3.0};
+}
+
+double tensioner_axis(const Thread& thread) { return 2.3 + nut_corner_radius(thread); }
+double tensioner_height(const Thread& thread) { return tensioner_axis(thread) + thread.head_radius; }
+
+std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2& up) {
+  // Seven strokes a digit: top, upper left, upper right, middle, lower left, lower right, bottom.
+  constexpr std::array<unsigned, 10> k_digits{0b1110111, 0b0010010, 0b1011101, 0b1011011, 0b0111010,
+                                              0b1101011, 0b1101111, 0b1010010, 0b1111111, 0b1111011};
+  constexpr double k_half_width = 0.9, k_half_height = 1.8, k_short = 0.65, k_pitch = 3.0, k_radius = 0.3;
+  const double w = k_half_width - k_short, x = k_half_width, y = k_half_height;
+  const std::array<std::pair<Vec2, Vec2>, 7> strokes{{{{-w, y}, {w, y}},
+                                                      {{-x, k_short}, {-x, y - k_short}},
+                                                      {{x, k_short}, {x, y - k_short}},
+                                                      {{-w, 0}, {w, 0}},
+                                                      {{-x, k_short - y}, {-x, -k_short}},
+                                                      {{x, k_short - y}, {x, -k_short}},
+                                                      {{-w, -y}, {w, -y}}}};
+  const std::string text = std::to_string(number);
+  const Vec2 right(up.y(), -up.x());
+  std::vector<DiscHull> hulls;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const unsigned lit = text[i] == '-' ? 0b0001000U : k_digits[static_cast<std::size_t>(text[i] - '0')];
+    const double shift = k_pitch * (static_cast<double>(i) - 0.5 * static_cast<double>(text.size() - 1));
+    for (std::size_t k = 0; k < strokes.size(); ++k) {
+      if ((lit >> (6 - k) & 1U) == 0) continue;
+      const auto at = [&](const Vec2& p) { return Vec2(middle + (p.x() + shift) * right + p.y() * up); };
+      hulls.push_back(slot(at(strokes[k].first), at(strokes[k].second), k_radius));
+    }
+  }
+  return hulls;
+}
+
+void make_parts(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout) {
+  PartMaker(plan, mechanism, layout).make();
+}
+
+Polygon link_outline(const KitPlan& plan, const Mechanism& mechanism, double theta) {
+  const LinkFrame frame = link_frame(theta);
+  Polygon outline = outline_of(link_hull(plan.sizes, mechanism.joint.R));
+  for (Vec2& point : outline) point = point.x() * frame.across + point.y() * frame.along;
+  return outline;
+}
+
+Polygon scale_outline(const KitPlan& plan, const Mechanism& mechanism) {
+  return outline_of(scale_hull(plan, mechanism.joint));
+}
+
+TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
+  // What the coupon shows is what the printer does by itself.
+  if (part.places.empty()) return mesh_of(part.body);
+  return mesh_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}), layout.scale);
+}
+
+double printed_volume(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
+  if (part.places.empty()) return volume_of(part.body);
+  return volume_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}), layout.scale);
+}
+
+TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta) {
+  TriangleMesh mesh = mesh_of(part.body);
+  const LinkFrame frame = link_frame(place.on_link ? theta : 0);
+  for (Vec3& v : mesh.vertices) {
+    if (place.turned_over) v = {-v.x(), v.y(), -v.z()};
+    const Vec2 p(v.x() + place.shift.x(), v.y() + place.shift.y());
+    const Vec2 turned_to = p.x() * frame.across + p.y() * frame.along;
+    v = {turned_to.x(), turned_to.y(), v.z() + place.z};
+  }
+  return mesh;
+}
+
+}  // namespace fusee

@@ -1,0 +1,502 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/kit/kit.h"
+#include "fusee/transmission/transmission.h"
+#include "kit/hardware.h"
+#include "kit/parts.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+constexpr double k_clear = 0.5;       // between what moves past each other: a desktop printer is right to 0.2 mm
+constexpr double k_wall = 1.2;        // three lines of a 0.4 mm nozzle
+constexpr int k_places = 49;          // of the stroke that distances are looked at in
+constexpr double k_collar_height = 2.5;
+constexpr double k_least_pin = 0.5;   // the thinnest rod that is sold as one is of 1 mm
+
+/// A rod that shops have, mm.
+bool is_stock_rod(double diameter) {
+  constexpr std::array k_rods{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0};
+  return std::any_of(k_rods.begin(), k_rods.end(), [=](double rod) { return std::abs(rod - diameter) < 0.02; });
+}
+
+/// Below 0 within; beyond it no more than the true distance.
+double outside_of(const Polygon& convex, const Vec2& point) {
+  double most = -k_infinite;
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    const Vec2 &a = convex[i], edge = convex[(i + 1) % convex.size()] - a;
+    most = std::max(most, cross(point - a, edge) / edge.norm());
+  }
+  return most;
+}
+
+double distance_to_path(const std::vector<Vec2>& path, const Vec2& point) {
+  double least = k_infinite;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    least = std::min(least, distance_to_segment(point, path[i], path[i + 1]));
+  return least;
+}
+
+/// Of a tendon's centre line, from C to where it meets its pulley.
+std::vector<Vec2> tendon_path(const Mechanism& mechanism, const TransmissionPoint& at, Side side) {
+  const double rho = mechanism.guide_pitch_radius(), sign = mirror_sign(side);
+  const PinPlace place = pin_place(mechanism, side, rho);
+  const TendonPoint& tendon = side == Side::left ? at.t1 : at.t2;
+  const Vec2 pin(sign * place.pin().x(), place.pin().y());
+  return {mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)), pin + rho * unit(tendon.upper_normal),
+          pin + rho * unit(tendon.lower_normal), place.pulley_axis() + tendon.p * unit(tendon.lower_normal)};
+}
+
+/// The mechanism's places and paths, looked up once.
+struct Scene {
+  const Mechanism& mechanism;
+  Vec2 pulley;
+  std::array<Vec2, 2> pins;
+  std::vector<TransmissionPoint> stroke;
+  std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of either tendon, at each place of the stroke
+  double longest = 0;  ///< free length of a tendon, mm
+
+  explicit Scene(const Mechanism& given) : mechanism(given) {
+    const Transmission transmission(mechanism);
+    const PinPlace place = pin_place(mechanism, Side::left, 0);
+    pulley = place.pulley_axis();
+    for (const Side side : {Side::left, Side::right}) {
+      const PinPlace own = pin_place(mechanism, side, 0);
+      pins[side == Side::left ? 0 : 1] = {mirror_sign(side) * own.pin().x(), own.pin().y()};
+    }
+    for (int i = 0; i < k_places; ++i) {
+      const double share = static_cast<double>(i) / (k_places - 1);
+      stroke.push_back(transmission.at_alpha(transmission.alpha_min() +
+                                             share * (transmission.alpha_max() - transmission.alpha_min())));
+      for (const Side side : {Side::left, Side::right})
+        paths[side == Side::left ? 0 : 1].push_back(tendon_path(mechanism, stroke.back(), side));
+      longest = std::max({longest, stroke.back().t1.length, stroke.back().t2.length});
+    }
+  }
+};
+
+/// A value over the stroke where it is least.
+struct Least {
+  double value = k_infinite;
+  double alpha = 0;
+  void see(double other, double where) {
+    if (other < value) *this = {other, where};
+  }
+};
+
+// Sizes ---------------------------------------------------------------------------------------------------------------
+
+const MotorType* motor_for(const Mechanism& mechanism, const BodyLayout& layout) {
+  const Body& body = mechanism.body;
+  const bool horn = body.bore == Bore::horn;
+  const std::string& name = horn ? body.horn : body.shaft;
+  const auto named = [&](const MotorType& motor) {
+    return std::find(motor.fits.begin(), motor.fits.end(), name) != motor.fits.end();
+  };
+  for (const MotorType& motor : motor_types()) {
+    if (named(motor)) return &motor;
+  }
+  if (horn || body.bore == Bore::hex || body.bore == Bore::square) return nullptr;
+  const double shaft = shaft_of(mechanism, layout);
+  for (const MotorType& motor : motor_types()) {
+    if (motor.shaft > 0 && std::abs(motor.shaft - shaft) < 0.05) return &motor;
+  }
+  return nullptr;
+}
+
+void size_axle(KitSizes& sizes, const BearingType& bearing) {
+  sizes.bearing = &bearing;
+  sizes.axle = &thread_within(bearing.bore);
+  sizes.foot = &thread_within(bearing.bore >= 5 ? 4 : bearing.bore);
+  sizes.small = &thread_within(bearing.bore >= 5 ? 3 : 2);
+  sizes.base = bearing.bore >= 5 ? 6 : 4;
+  sizes.axle_tube = std::max(0.5 * sizes.axle->clearance + k_wall, 0.5 * bearing.spacer);
+}
+
+void size_pulley(KitSizes& sizes, const Mechanism& mechanism, const SynthesisResult& synthesis,
+                 const BodyLayout& layout) {
+  const double lip = layout.groove_depth - 0.5 * mechanism.tendon.diameter;
+  for (const Outline* outline : {&synthesis.p1, &synthesis.p2})
+    sizes.pulley_radius = std::max(sizes.pulley_radius, circumradius(parallel(*outline, lip)));
+  sizes.pulley_radius = std::max(sizes.pulley_radius, layout.hub_radius);
+  sizes.motor = motor_for(mechanism, layout);
+  const double heads = sizes.motor ? sizes.motor->head + 0.5 : 0.0;
+  sizes.pulley_low = std::max(1.5, heads);
+  if (sizes.motor && sizes.motor->face > 0) sizes.pulley_low = std::max(sizes.motor->face - sizes.base, heads);
+  sizes.pulley_high = sizes.pulley_low + layout.z_hub;
+  sizes.z_tendon1 = sizes.pulley_low + layout.z_p1;
+  sizes.z_tendon2 = sizes.pulley_low + layout.z_p2;
+  sizes.tendon_gap = mechanism.tendon.diameter + 1.0;
+}
+
+KitPin pin_of(const KitSizes& sizes, const Scene& scene, Side side) {
+  const Guides& guides = scene.mechanism.guides;
+  KitPin pin;
+  pin.side = side;
+  pin.place = scene.pins[side == Side::left ? 0 : 1];
+  pin.radius = guides.radius;
+  const double height = side == Side::left ? sizes.z_tendon1 : sizes.z_tendon2;
+  pin.gap_low = height - 0.5 * sizes.tendon_gap;
+  pin.gap_high = height + 0.5 * sizes.tendon_gap;
+  for (const Thread& thread : k_threads) {
+    if (thread.diameter >= 3 && thread.clearance + 2 * k_wall <= 2 * guides.radius) pin.screw = &thread;
+  }
+  const double inner = pin.screw ? 0.5 * pin.screw->clearance : guides.radius + 0.1;
+  pin.collar = std::max(guides.radius + std::max(scene.mechanism.tendon.diameter, 0.8), inner + k_wall);
+  pin.top = pin.gap_high + k_collar_height + (pin.screw ? pin.screw->nut_height + 1 : 0);
+  return pin;
+}
+
+void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
+  const Mechanism& mechanism = scene.mechanism;
+  const double R = mechanism.joint.R, d = mechanism.tendon.diameter;
+  const BearingType& bearing = *sizes.bearing;
+  const Thread &small = *sizes.small, &cap_screw = k_threads.front();
+  sizes.scale_low = std::max(pins_top, sizes.pulley_high) + 1.5;
+  sizes.scale_plate = 3;
+  sizes.lip = k_wall;
+  sizes.link_low = sizes.scale_low + sizes.scale_plate + 1.5;
+  sizes.link = sizes.lip + 2 * bearing.width;
+  sizes.recess = std::max(nut_corner_radius(*sizes.axle), 0.5 * sizes.board->magnet) + 0.6;
+  sizes.cap_screws = std::max(0.5 * bearing.outer, sizes.recess) + 0.5 * cap_screw.clearance + 0.9;
+  sizes.cap = sizes.recess + k_wall;
+  sizes.hub = 0.5 * bearing.outer + 2.2;
+  sizes.web = sizes.board->magnet_height;
+  sizes.cap_height = sizes.web + sizes.axle->nut_height + 2.0;
+  sizes.bore = std::max(0.5 * d + 0.25, 0.6);
+  sizes.waist = std::max(sizes.bore + 1.0, 0.5 * bearing.bore);
+  sizes.post = sizes.waist + 0.8;
+  sizes.post_low = sizes.z_tendon1 + 0.5 * d;
+  sizes.flange = 3;
+  sizes.post_screws = sizes.post + 0.5 * small.tapping + 1.6;
+  sizes.slide_width = 2 * nut_corner_radius(small) + 4;
+  sizes.slide = slide_lengths(small).whole();
+  sizes.travel = std::clamp(0.03 * scene.longest, 5.0, 15.0);
+  sizes.link_end = R + sizes.post + 2.5 + sizes.slide + sizes.travel + 5;
+  sizes.pointer = std::clamp(0.45 * R, 16.0, 45.0);
+  for (const double step : {1.0, 2.0, 5.0, 10.0}) {
+    sizes.graduation = radians(step);
+    if (sizes.graduation * sizes.pointer >= 1.4) break;
+  }
+  const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
+  const BoardType& board = *sizes.board;
+  sizes.bracket_low = magnet + board.gap + board.chip + board.thickness + 3;
+  sizes.bracket = 4;
+  sizes.leg = (sizes.motor ? sizes.motor->depth : 20) + 5;
+  sizes.motor_front = {0, scene.pulley.y() > 0 ? -1.0 : 1.0};
+}
+
+// Distances -----------------------------------------------------------------------------------------------------------
+
+class Conditions {
+ public:
+  explicit Conditions(KitPlan& plan) : plan_(plan) {}
+  /// `short_by` is put for "{}" in `change`.
+  void at_least(const std::string& name, const Least& found, double limit, const std::string& what,
+                const std::string& change) {
+    Condition condition;
+    condition.name = name;
+    condition.value = found.value;
+    condition.limit = limit;
+    condition.alpha = found.alpha;
+    condition.unit = "mm";
+    condition.ok = found.value >= limit;
+    if (!condition.ok) {
+      std::string hint = change;
+      if (const auto place = hint.find("{}"); place != std::string::npos)
+        hint.replace(place, 2, trimmed_fixed(std::ceil(10 * (limit - found.value)) / 10, 1) + " mm");
+      condition.message = what + ": " + rounded(found.value, 3) + " mm are left, " + rounded(limit, 3) +
+                          " mm are needed (α = " + rounded(degrees(found.alpha), 3) + "°); " + hint;
+    }
+    plan_.conditions.push_back(condition);
+  }
+
+ private:
+  KitPlan& plan_;
+};
+
+/// Of a tendon to a round thing.
+Least tendon_past(const Scene& scene, int tendon, const Vec2& place, double radius) {
+  Least least;
+  for (std::size_t i = 0; i < scene.stroke.size(); ++i)
+    least.see(distance_to_path(scene.paths[tendon][i], place) - radius - 0.5 * scene.mechanism.tendon.diameter,
+              scene.stroke[i].alpha);
+  return least;
+}
+
+Least post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, double radius) {
+  Least least;
+  for (const TransmissionPoint& at : scene.stroke)
+    least.see((scene.mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)) - place).norm() - sizes.post - radius,
+              at.alpha);
+  return least;
+}
+
+void look_at_axle(Conditions& look, const Scene& scene, const KitPlan& plan) {
+  const KitSizes& sizes = plan.sizes;
+  const Vec2 axis(0, 0);
+  const auto fixed = [](double value) { return Least{value, 0}; };
+  look.at_least("axle_beside_pulley", fixed(scene.pulley.norm() - sizes.pulley_radius - sizes.axle_tube), k_clear,
+                "the joint's axle stands in the pulley",
+                "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
+                    " by {}, or a smaller pulley (pulley.r1_mm, body.groove_depth_mm)");
+  for (const int tendon : {0, 1}) {
+    look.at_least("axle_beside_tendon_" + std::to_string(tendon + 1),
+                  tendon_past(scene, tendon, axis, sizes.axle_tube), k_clear,
+                  "tendon " + std::to_string(tendon + 1) + " meets the joint's axle",
+                  std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") +
+                      " larger by {}, or a smaller range (joint.range_deg)");
+    look.at_least(std::string("axle_beside_pin_") + (tendon == 0 ? "B" : "D"),
+                  fixed(scene.pins[tendon].norm() - sizes.axle_tube - plan.pins[tendon].collar), k_clear,
+                  std::string("pin ") + (tendon == 0 ? "B" : "D") + " stands in the joint's axle",
+                  std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") + " larger by {}");
+  }
+  if (sizes.motor) {
+    const double along = scene.pulley.norm() - sizes.motor->front;
+    look.at_least("axle_beside_motor", fixed(along - sizes.axle->head_radius), k_clear,
+                  "the screw of the joint's axle stands in the motor (" + sizes.motor->name + ")",
+                  "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
+                      " by {}, or a smaller motor (body.shaft, body.horn)");
+  }
+}
+
+void look_at_pins(Conditions& look, const Scene& scene, const KitPlan& plan) {
+  const KitSizes& sizes = plan.sizes;
+  for (const int pin : {0, 1}) {
+    const KitPin& own = plan.pins[pin];
+    const std::string name(1, pin == 0 ? 'B' : 'D'), key = pin == 0 ? "guides.EB_mm" : "guides.ED_mm";
+    look.at_least("pin_" + name + "_beside_pulley",
+                  {(own.place - scene.pulley).norm() - own.collar - sizes.pulley_radius, 0}, k_clear,
+                  "pin " + name + " stands in the pulley", "pulley.EF_mm larger by {}, or " + key + " larger");
+    look.at_least("pin_" + name + "_beside_post", post_past(scene, sizes, own.place, own.collar), k_clear,
+                  "the post at C meets pin " + name, key + " larger by {}, or a smaller range (joint.range_deg)");
+    look.at_least("pin_" + name + "_beside_tendon_" + (pin == 0 ? "2" : "1"),
+                  tendon_past(scene, 1 - pin, own.place, own.collar), k_clear,
+                  std::string("tendon ") + (pin == 0 ? "2" : "1") + " meets pin " + name, key + " larger by {}");
+    look.at_least("pin_" + name + "_low_collar", {own.gap_low, 0}, 0.6,
+                  "there is no room for a collar below the tendon on pin " + name,
+                  "body.flange_thickness_mm larger by {}");
+    if (sizes.motor && own.screw) {
+      const Vec2 off = own.place - scene.pulley;
+      const double beside = std::max(std::abs(off.x()) - sizes.motor->side,
+                                     off.dot(sizes.motor_front) - sizes.motor->front);
+      look.at_least("pin_" + name + "_beside_motor", {beside - own.screw->head_radius, 0}, k_clear,
+                    "the screw of pin " + name + " stands in the motor (" + sizes.motor->name + ")",
+                    "pulley.EF_mm larger by {}");
+    }
+  }
+  look.at_least("pins_apart", {(scene.pins[0] - scene.pins[1]).norm() - plan.pins[0].collar - plan.pins[1].collar, 0},
+                k_clear, "both pins stand in each other", "guides.EB_mm and guides.ED_mm larger by {}");
+}
+
+void look_at_link(Conditions& look, const Scene& scene, const KitPlan& plan) {
+  const KitSizes& sizes = plan.sizes;
+  const double R = scene.mechanism.joint.R;
+  look.at_least("post_beside_pulley", post_past(scene, sizes, scene.pulley, sizes.pulley_radius), k_clear,
+                "the post at C meets the pulley", "pulley.EF_mm or joint.length_mm larger by {}");
+  look.at_least("post_beside_axle", {R - sizes.post - sizes.axle_tube, 0}, k_clear, "the post at C meets the axle",
+                "joint.length_mm larger by {}");
+  look.at_least("post_beside_magnet", {R - (sizes.post + 1) - sizes.cap, 0}, k_clear,
+                "the post at C meets the magnet's cap", "joint.length_mm larger by {}");
+  look.at_least("post_beside_bearing", {R - sizes.post - 0.5 * sizes.bearing->outer, 0}, k_wall,
+                "the hole for the post at C meets the bearing", "joint.length_mm larger by {}");
+  const double waist_low = sizes.z_tendon2 - 0.5 * sizes.tendon_gap - (sizes.post - sizes.waist);
+  look.at_least("tendons_apart_on_post", {waist_low - sizes.post_low, 0}, k_clear,
+                "both tendons are too near each other to be tied to one post", "body.flange_thickness_mm larger by {}");
+  const Polygon scale = scale_outline(plan, scene.mechanism);
+  Least post;
+  for (const TransmissionPoint& at : scene.stroke)
+    post.see(outside_of(scale, R * Vec2(std::sin(at.theta), std::cos(at.theta))) - sizes.post, at.alpha);
+  look.at_least("post_beside_scale", post, k_clear, "the post at C meets the scale",
+                "joint.length_mm larger by {}, or a smaller range (joint.range_deg)");
+  const double magnet = sizes.link_low + sizes.link + sizes.cap_height;
+  look.at_least("tensioner_below_board",
+                {magnet + sizes.board->gap - sizes.link_low - sizes.link - tensioner_height(*sizes.small), 0}, k_clear,
+                "the tensioner meets the board", "another board (profiles/catalogue/boards.toml)");
+  look.at_least("scale_over_pins", {sizes.scale_low - std::max(plan.pins[0].top, plan.pins[1].top), 0}, k_clear,
+                "a pin meets the scale", "");
+  look.at_least("scale_over_pulley", {sizes.scale_low - sizes.pulley_high, 0}, k_clear, "the pulley meets the scale", "");
+  look.at_least("link_over_scale", {sizes.link_low - sizes.scale_low - sizes.scale_plate, 0}, k_clear,
+                "the link meets the scale", "");
+  look.at_least("tendon_1_over_base", {sizes.z_tendon1 - 0.5 * scene.mechanism.tendon.diameter -
+                                           (sizes.motor ? sizes.motor->head : 0.0), 0},
+                k_clear, "tendon 1 meets the motor's screws", "body.flange_thickness_mm larger by {}");
+}
+
+// Feet ----------------------------------------------------------------------------------------------------------------
+
+double foot_radius(const KitSizes& sizes) { return 0.5 * sizes.foot->clearance + k_wall; }
+
+/// The room round a place for a foot, less what it needs.
+class FootRoom {
+ public:
+  FootRoom(const Scene& scene, const KitPlan& plan) : scene_(scene), plan_(plan) {
+    for (const TransmissionPoint& at : scene.stroke) links_.push_back(link_outline(plan, scene.mechanism, at.theta));
+  }
+
+  bool holds(const Vec2& place) const {
+    const KitSizes& sizes = plan_.sizes;
+    const double own = foot_radius(sizes) + k_clear + 0.3;
+    if (on_scale(place, own)) return false;
+    if (place.norm() < 0.5 * sizes.board->size.norm() + own + 1) return false;
+    if ((place - scene_.pulley).norm() < sizes.pulley_radius + own) return false;
+    for (const KitPin& pin : plan_.pins) {
+      if ((place - pin.place).norm() < pin.collar + 1 + own) return false;
+    }
+    if (sizes.motor && in_motor(place)) return false;
+    for (const auto& paths : scene_.paths) {
+      for (const auto& path : paths) {
+        if (distance_to_path(path, place) < own + 0.5 * scene_.mechanism.tendon.diameter + 0.5) return false;
+      }
+    }
+    return std::all_of(links_.begin(), links_.end(),
+                       [&](const Polygon& link) { return outside_of(link, place) > own; });
+  }
+
+ private:
+  /// Behind the axis, where the scale's lines are.
+  bool on_scale(const Vec2& place, double own) const {
+    const double theta = std::atan2(-place.x(), -place.y()), more = radians(15);
+    return place.norm() < plan_.sizes.pointer + k_scale_reach + own && theta > scene_.mechanism.joint.theta_min - more &&
+           theta < scene_.mechanism.joint.theta_max + more;
+  }
+
+  bool in_motor(const Vec2& place) const {
+    const MotorType& motor = *plan_.sizes.motor;
+    const Vec2 off = place - scene_.pulley;
+    const double along = off.dot(plan_.sizes.motor_front), room = nut_corner_radius(*plan_.sizes.foot) + 1;
+    return std::abs(off.x()) < std::max(motor.side, motor.hole_x + motor.hole) + room &&
+           along < std::max(motor.front, motor.hole_front + motor.hole) + room &&
+           along > -std::max(motor.back, motor.hole_back + motor.hole) - room;
+  }
+
+  const Scene& scene_;
+  const KitPlan& plan_;
+  std::vector<Polygon> links_;
+};
+
+/// The nearest place to the joint's axis, on the right (+1) or on the left.
+std::optional<Vec2> foot_on(const FootRoom& room, double side, double reach) {
+  for (double radius = 8; radius < reach; radius += 1) {
+    for (int step = 0; step < 21; ++step) {
+      // From straight to the side, in turn below and above it.
+      const double angle = radians(step % 2 ? -5.0 * ((step + 1) / 2) : 2.0 * (step / 2));
+      const Vec2 place = radius * Vec2(side * std::cos(angle), std::sin(angle));
+      if (room.holds(place)) return place;
+    }
+  }
+  return std::nullopt;
+}
+
+// Base ----------------------------------------------------------------------------------------------------------------
+
+/// All that stands on the base plate or under it, with its radius.
+std::vector<Disc> on_base(const Scene& scene, const KitPlan& plan) {
+  const KitSizes& sizes = plan.sizes;
+  std::vector<Disc> all{{{0, 0}, sizes.axle_tube}, {scene.pulley, 8}};
+  for (const KitPin& pin : plan.pins) all.push_back({pin.place, pin.collar});
+  for (const Vec2& foot : plan.feet) all.push_back({foot, nut_corner_radius(*sizes.foot) + 1});
+  if (sizes.motor) {
+    const MotorType& motor = *sizes.motor;
+    for (const double x : {-1.0, 1.0}) {
+      for (const double along : {std::max(motor.front, motor.hole_front + 4), -std::max(motor.back, motor.hole_back + 4)})
+        all.push_back({scene.pulley + Vec2(x * motor.side, 0) + along * sizes.motor_front, 0});
+    }
+  }
+  return all;
+}
+
+void place_legs(const Scene& scene, KitPlan& plan) {
+  Vec2 low(k_infinite, k_infinite), high = -low;
+  for (const Disc& thing : on_base(scene, plan)) {
+    low = low.cwiseMin(thing.centre - Vec2(thing.radius, thing.radius));
+    high = high.cwiseMax(thing.centre + Vec2(thing.radius, thing.radius));
+  }
+  const double out = k_leg_radius + 1;
+  low -= Vec2(out, out);
+  high += Vec2(out, out);
+  plan.legs = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+}
+
+KitPlan with_bearing(const Scene& scene, const SynthesisResult& synthesis, const BodyLayout& layout,
+                     const BearingType& bearing) {
+  KitPlan plan;
+  KitSizes& sizes = plan.sizes;
+  sizes.board = &board_types().front();
+  size_axle(sizes, bearing);
+  size_pulley(sizes, scene.mechanism, synthesis, layout);
+  plan.pins = {pin_of(sizes, scene, Side::left), pin_of(sizes, scene, Side::right)};
+  size_link(sizes, scene, std::max(plan.pins[0].top, plan.pins[1].top));
+  Conditions look(plan);
+  look.at_least("pin_radius", {scene.mechanism.guides.radius, 0}, k_least_pin,
+                "a pin so thin cannot be made", "guides.radius_mm " + rounded(k_least_pin) + " or more");
+  look_at_axle(look, scene, plan);
+  look_at_pins(look, scene, plan);
+  const FootRoom room(scene, plan);
+  const double reach = 60 + 2.5 * std::max(scene.mechanism.joint.R, scene.pulley.norm() + sizes.pulley_radius);
+  for (const double side : {-1.0, 1.0}) {
+    if (const auto place = foot_on(room, side, reach)) plan.feet.push_back(*place);
+  }
+  look.at_least("feet", {static_cast<double>(plan.feet.size()), 0}, 2,
+                "there is no place for the feet of scale and bracket beside link, tendons and pulley",
+                "a smaller range (joint.range_deg) or a longer pulley.EF_mm");
+  plan.conditions.back().unit = "1";
+  look_at_link(look, scene, plan);
+  place_legs(scene, plan);
+  plan.status = failed_of(plan.conditions).empty() ? KitStatus::made : KitStatus::impossible;
+  return plan;
+}
+
+void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout) {
+  const KitSizes& sizes = plan.sizes;
+  if (!sizes.motor) {
+    plan.notes.push_back("no motor of the catalogue has this " +
+                         std::string(mechanism.body.bore == Bore::horn ? "horn" : "shaft") +
+                         ": the base plate has only a hole for it; hold yours so that the pulley's lower face stands " +
+                         rounded(sizes.pulley_low, 3) + " mm above the plate, or add it to profiles/catalogue/motors.toml");
+  } else if (sizes.motor->shaft > 0) {
+    const double needed = sizes.base + sizes.pulley_low +
+                          (layout.set_screw.present ? layout.set_screw.z + 1.5 : 0.5 * layout.z_hub);
+    if (needed > sizes.motor->shaft_length)
+      plan.notes.push_back("the motor's shaft has to reach " + rounded(std::ceil(needed), 3) + " mm above its face, " +
+                           rounded(sizes.motor->shaft_length, 3) + " mm are usual: buy one with a long shaft" +
+                           (layout.set_screw.present ? ", or set body.hub_height_mm = 0 and press the pulley on" : ""));
+  }
+  for (const KitPin& pin : plan.pins) {
+    if (!pin.screw && !is_stock_rod(2 * pin.radius))
+      plan.notes.push_back("no shop has rods of " + rounded(2 * pin.radius, 4) + " mm: take the shank of a drill for pin " +
+                           (pin.side == Side::left ? "B" : "D"));
+  }
+}
+
+}  // namespace
+
+double shaft_of(const Mechanism& mechanism, const BodyLayout& layout) {
+  if (mechanism.body.bore_diameter > 0) return mechanism.body.bore_diameter;
+  const double within = layout.bore.circle ? layout.bore.circle->diameter : 2 * layout.bore.radius;
+  return within - mechanism.material.hole_compensation;
+}
+
+KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout) {
+  const Scene scene(mechanism);
+  const std::vector<BearingType>& all = bearing_types();
+  KitPlan plan;
+  for (const BearingType& bearing : all) {
+    // Wider than a third of R is clumsy.
+    if (bearing.outer > mechanism.joint.R / 3 && &bearing != &all.back()) continue;
+    plan = with_bearing(scene, synthesis, layout, bearing);
+    if (plan.made()) break;
+  }
+  if (!plan.made()) return plan;
+  add_notes(plan, mechanism, layout);
+  make_parts(plan, mechanism, layout);
+  return plan;
+}
+
+}  // namespace fusee

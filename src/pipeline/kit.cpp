@@ -1,0 +1,159 @@
+#include "fusee/pipeline/kit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/beside.h"
+#include "fusee/analysis/plausibility.h"
+#include "fusee/export/mesh_files.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/pipeline.h"
+#include "fusee/solid/print.h"
+#include "pipeline/agreement.h"
+
+namespace fusee {
+namespace {
+
+void say(const KitOptions& options, std::string_view what) {
+  if (options.before_step) options.before_step(what);
+}
+
+/// A file of ours that cannot be read back is nobody's bad input.
+TriangleMesh read_back(const OutputFile& file) {
+  try {
+    return read_mesh(file.bytes, file.name);
+  } catch (const InputError& error) {
+    throw Bug(std::string("what was written cannot be used: ") + error.what());
+  }
+}
+
+/// A part's files, and what was found of them.
+struct MadePart {
+  std::vector<OutputFile> files;
+  std::vector<Check> checks;
+};
+
+MadePart made(const KitPart& part, const KitProduct& product) {
+  const Mechanism& mechanism = product.pulley.joint.mechanism;
+  const BodyLayout& layout = product.pulley.pulley.layout;
+  const TriangleMesh mesh = printed_mesh(part, mechanism, layout);
+  const std::string name = mechanism.name + ", " + part.name;
+  MadePart result;
+  result.files = {{kit_file_name(part, "stl"), stl_bytes(mesh, name)},
+                  {kit_file_name(part, "3mf"), threemf_bytes(mesh, name)}};
+  const TriangleMesh written = read_back(result.files[0]);
+  result.checks = check_mesh(written);
+  // Rounding moves a corner by half of a float's last place: its area by that.
+  const double volume = printed_volume(part, mechanism, layout);
+  result.checks.push_back(at_most("volume_error", std::abs(enclosed_volume(written) / volume - 1), 1e-4, "1"));
+  if (!mechanism.print.supports) {
+    PrintLimits limits;
+    limits.overhang = mechanism.print.overhang;
+    for (Check& check : check_print(written, limits)) result.checks.push_back(std::move(check));
+  }
+  for (Check& check : same_mesh(mesh, read_back(result.files[1]))) {
+    check.name = "3mf_" + check.name;
+    result.checks.push_back(std::move(check));
+  }
+  for (Check& check : result.checks) check.name = part.name + "_" + check.name;
+  return result;
+}
+
+void make_files(KitResult& result, const KitOptions& options) {
+  KitProduct& product = result.product;
+  say(options, "making parts");
+  auto drawing = beside([&] { return kit_dxf(product, options.dxf); });
+  std::vector<std::future<MadePart>> parts;
+  for (const KitPart& part : product.plan.parts) parts.push_back(beside([&] { return made(part, product); }));
+  product.checks = kit_fit_checks(product.plan);
+  for (auto& part : parts) {
+    MadePart one = part.get();
+    result.outputs.insert(result.outputs.end(), one.files.begin(), one.files.end());
+    product.checks.insert(product.checks.end(), one.checks.begin(), one.checks.end());
+  }
+  result.outputs.push_back({"kit.dxf", drawing.get()});
+  for (Check& check : check_drawing(read_dxf(result.outputs.back().bytes, "kit.dxf"))) {
+    check.name = "kit_dxf_" + check.name;
+    product.checks.push_back(std::move(check));
+  }
+  say(options, "writing the page");
+  result.outputs.push_back({"bom.csv", bom_csv(product)});
+  result.outputs.push_back({"kit.html", kit_html(product)});
+  for (std::size_t i = 0; i < product.bench.plan.steps.size(); ++i) {
+    if (product.bench.plan.steps[i].run)
+      result.outputs.push_back({run_file_name(product.bench.plan, i), run_csv(product.bench, i)});
+  }
+  result.outputs.push_back({"manifest.json", kit_manifest_json(product, result.outputs)});
+}
+
+/// Curves and body; false where there is none.
+bool design(Product& product, const KitOptions& options) {
+  say(options, "finding the pulley");
+  product.synthesis = synthesise(product.joint.mechanism, {.tolerance = options.tolerance, .advice = false});
+  if (!product.synthesis.made()) return false;
+  draw_for_making(product.synthesis, product.joint.outline);
+  product.pulley = make_pulley(product.joint.mechanism, product.synthesis);
+  return product.pulley.made();
+}
+
+constexpr int k_most_kit_runs = 99;
+
+/// Files that a kit can have: a part of an earlier one does not belong to this.
+std::vector<std::string> kit_names(const KitPlan& plan) {
+  std::vector<std::string> names{"kit.dxf", "bom.csv", "kit.html", "manifest.json"};
+  for (const KitPart& part : plan.parts) {
+    for (const char* ending : {"stl", "3mf"}) names.push_back(kit_file_name(part, ending));
+  }
+  for (int i = 1; i <= k_most_kit_runs; ++i) names.push_back("run_" + std::to_string(i) + ".csv");
+  for (const char* sleeve : {"pin_b_sleeve", "pin_d_sleeve"}) {
+    for (const char* ending : {".stl", ".3mf"}) names.push_back(std::string(sleeve) + ending);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<Check> kit_fit_checks(const KitPlan& plan) {
+  std::vector<Check> checks;
+  for (const Condition& condition : plan.conditions)
+    checks.push_back(at_least("fit_" + condition.name, condition.value, condition.limit, condition.unit, condition.message));
+  return checks;
+}
+
+KitResult kit(const MechanismFile& file, const KitOptions& options) {
+  KitResult result;
+  KitProduct& product = result.product;
+  product.pulley.file = with_doubts(file);
+  product.pulley.joint = as_it_is(file.mechanism);
+  OutputFolder target(options.folder, options.force);
+  target.claim({"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work: a refusal should not cost a wait
+  if (!design(product.pulley, options)) {
+    result.ending = KitEnding::no_pulley;
+    return result;
+  }
+  const Mechanism& mechanism = product.pulley.joint.mechanism;
+  say(options, "placing parts");
+  product.plan = plan_kit(mechanism, product.pulley.synthesis, product.pulley.pulley.layout);
+  if (!product.plan.made()) {
+    result.ending = KitEnding::no_kit;
+    return result;
+  }
+  const PlanOptions bench;
+  auto planned = beside([&] { return plan_runs(file.mechanism, bench); });
+  target.claim(kit_names(product.plan));
+  product.pulley.holding = tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);
+  product.bench = {product.pulley.file, bench.noise, bench.minutes, planned.get()};
+  make_files(result, options);
+  result.ending = all_ok(product.checks) ? KitEnding::done : KitEnding::check_failed;
+  if (options.dry_run) return result;
+  if (result.ending != KitEnding::done && target.has_earlier_run() && !options.force) return result;
+  say(options, "publishing");
+  if (options.before_writing) options.before_writing();
+  for (const OutputFile& output : result.outputs) target.stage(output);
+  target.withdraw(kit_names(product.plan));
+  target.publish();
+  result.published = true;
+  return result;
+}
+
+}  // namespace fusee
