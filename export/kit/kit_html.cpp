@@ -42,7 +42,7 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   base.motor = true;
   base.words = {"Screw a leg under each corner of the base plate, from above."};
   if (sizes.motor)
-    base.words.push_back("Screw the motor (" + sizes.motor->name + ") under the plate, flat heads above" +
+    base.words.push_back("Screw the motor (" + sizes.motor->name + ") under the plate, low heads above" +
                          (sizes.motor->shaft > 0 ? "." : ", its horn up; turn its horn so that 0 of the motor is home."));
   else
     base.words.push_back("Hold your motor under the plate, its axis in the large hole.");

@@ -104,7 +104,7 @@ class PartMaker {
       buy(1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source);
       if (motor.shaft > 0)
         buy(motor.two_holes ? 2 : 4,
-            screw_words(thread_within(motor.hole), sizes_.base + 4) + ", flat head", "motor, from above");
+            screw_words(thread_within(motor.hole), sizes_.base + 4) + " with low head", "motor, from above");
       else
         buy(4, screw_words(thread_within(motor.hole), sizes_.base + 8) + " with nuts", "motor, from above");
     }
@@ -248,6 +248,7 @@ class PartMaker {
     const double cone = sizes_.post - sizes_.waist, mouth = 0.4;
     const double waist = top - sizes_.z_tendon2 - 0.5 * sizes_.tendon_gap, below = waist + sizes_.tendon_gap;
     const double end = top - sizes_.post_low;
+    const double rise = cone * steepness();
     const SlabLoop bore = round_hole({0, 0}, 2 * sizes_.bore), stem = edge(disc({0, 0}, sizes_.post));
     std::vector<Disc> plate{{{0, 0}, sizes_.post + 1}};
     Slab flange{0, sizes_.flange, {bore}};
@@ -264,12 +265,14 @@ class PartMaker {
          {{flange,
            {sizes_.flange, waist, {stem, bore}},
            {waist, below, {narrow, bore}},
-           {below, below + cone, {widening, bore}},
-           {below + cone, chamfer, {stem, bore}},
+           {below, below + rise, {widening, bore}},
+           {below + rise, chamfer, {stem, bore}},
            {chamfer, end, {stem, widened}}}},
          {{{0, mechanism_.joint.R}, top, true, true}}, 1, false});
     buy(2, screw_words(small, sizes_.flange + std::min(sizes_.link, 10.0)), "post, into the link");
   }
+
+  double steepness() const { return post_steepness(mechanism_); }
 
   void slide() {
     const Thread& small = *sizes_.small;
@@ -359,6 +362,11 @@ class PartMaker {
 
 SlideLengths slide_lengths(const Thread& thread) {
   return {2 * thread.head_radius + 1.5, 2.5, thread.nut_height + 0.5, 3.0};
+}
+
+// At the slope that a printer bears slicers round the last layer the wrong way: PrusaSlicer takes 45° for less than 46°.
+double post_steepness(const Mechanism& mechanism) {
+  return std::tan(std::clamp(mechanism.print.overhang + radians(8), radians(53), radians(80)));
 }
 
 double tensioner_axis(const Thread& thread) { return 2.3 + nut_corner_radius(thread); }

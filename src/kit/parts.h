@@ -22,6 +22,9 @@ double tensioner_height(const Thread& thread);
 /// Diameter of the motor's shaft.
 double shaft_of(const Mechanism& mechanism, const BodyLayout& layout);
 
+/// Of the cone on the post, below tendon 2.
+double post_steepness(const Mechanism& mechanism);
+
 /// Fills parts, items and tendons of a plan whose conditions hold.
 void make_parts(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout);
 

@@ -306,7 +306,8 @@ void look_at_link(Conditions& look, const Scene& scene, const KitPlan& plan) {
                 "the post at C meets the magnet's cap", "joint.length_mm larger by {}");
   look.at_least("post_beside_bearing", {R - sizes.post - 0.5 * sizes.bearing->outer, 0}, k_wall,
                 "the hole for the post at C meets the bearing", "joint.length_mm larger by {}");
-  const double waist_low = sizes.z_tendon2 - 0.5 * sizes.tendon_gap - (sizes.post - sizes.waist);
+  const double waist_low = sizes.z_tendon2 - 0.5 * sizes.tendon_gap -
+                           post_steepness(scene.mechanism) * (sizes.post - sizes.waist) - 0.4;
   look.at_least("tendons_apart_on_post", {waist_low - sizes.post_low, 0}, k_clear,
                 "both tendons are too near each other to be tied to one post", "body.flange_thickness_mm larger by {}");
   const Polygon scale = scale_outline(plan, scene.mechanism);

@@ -58,6 +58,34 @@ TEST(Catalogue, ShaftsAreRoundOrFlattened) {
   EXPECT_EQ(find_shaft("none"), nullptr);
 }
 
+// A test model's parts go together: a bearing on its screw, a board's holes on it, screws beside what they hold.
+TEST(Catalogue, BearingsBoardsAndMotorsAreWhatTheyCouldBe) {
+  double outer = 1e9;
+  for (const BearingType& type : bearing_types()) {
+    EXPECT_LT(type.bore, type.spacer) << type.name;
+    EXPECT_LT(type.spacer, type.outer) << type.name;
+    EXPECT_LT(type.outer, outer) << type.name << ": the largest first";
+    outer = type.outer;
+  }
+  for (const BoardType& type : board_types()) {
+    EXPECT_TRUE(((type.pitch.array() + type.hole) < type.size.array()).all()) << type.name;
+    EXPECT_GT(type.pitch.norm(), type.magnet + type.hole) << type.name;
+    EXPECT_GT(type.gap, 0) << type.name;
+  }
+  for (const MotorType& type : motor_types()) {
+    EXPECT_NE(type.shaft > 0, type.face > 0) << type.name << ": a shaft or a horn";
+    EXPECT_FALSE(type.fits.empty()) << type.name;
+    for (const std::string& name : type.fits)
+      EXPECT_TRUE(find_shaft(name) != nullptr || find_horn(name) != nullptr) << type.name << " " << name;
+    if (type.pilot > 0) {
+      EXPECT_GT(std::hypot(type.hole_x, type.hole_front), 0.5 * (type.pilot + type.hole)) << type.name;
+    } else {
+      EXPECT_GT(type.hole_front - 0.5 * type.hole, type.front) << type.name;
+      EXPECT_GT(type.hole_back - 0.5 * type.hole, type.back) << type.name;
+    }
+  }
+}
+
 TEST(Catalogue, TendonsArePhysical) {
   ASSERT_FALSE(tendon_types().empty());
   for (const TendonType& type : tendon_types()) {

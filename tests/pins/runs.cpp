@@ -10,6 +10,7 @@
 #include "fusee/mechanism/edit.h"
 #include "fusee/optimize/certified.h"
 #include "fusee/pipeline.h"
+#include "fusee/pipeline/kit.h"
 
 namespace fusee::pins {
 namespace {
@@ -112,6 +113,14 @@ Outputs planned(const fs::path& spec) {
   return plan(read_mechanism(spec), options).outputs;
 }
 
+Outputs kits(const fs::path& spec, DxfVersion dxf) {
+  KitOptions options;
+  options.folder = fs::temp_directory_path() / "fusee-pins";
+  options.dry_run = true;
+  options.dxf = dxf;
+  return kit(read_mechanism(spec), options).outputs;
+}
+
 /// A measured run driven once more, with play, an encoder off its axis and noise; and with the corrected pulley.
 Outputs simulated() {
   const fs::path log = k_root / "profiles/measured/forearm_2.csv";
@@ -129,6 +138,11 @@ Outputs simulated() {
 void add_plans(std::vector<PinnedRun>& all) {
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml"))
     all.push_back({"plan/" + spec.stem().string(), [spec] { return planned(spec); }});
+  for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
+    // One drawing for an old cutter stands for all.
+    const DxfVersion dxf = spec.stem() == "unsymmetric" ? DxfVersion::r12 : DxfVersion::ac1015;
+    all.push_back({"kit/" + spec.stem().string(), [spec, dxf] { return kits(spec, dxf); }});
+  }
   all.push_back({"simulate/forearm", simulated});
 }
 

@@ -17,6 +17,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
+#include "fusee/kit/kit.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/pipeline.h"
 
@@ -153,6 +154,19 @@ struct NoAdvice {};
 
 enum class End { made, refused, bad_input };
 
+/// What the pulley is for stands round it, or is refused with what to change.
+void expect_kit_or_reasons(const Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const KitPlan plan = plan_kit(mechanism, product.synthesis, product.pulley.layout);
+  for (const Condition& condition : plan.conditions) EXPECT_EQ(condition.ok, condition.message.empty()) << condition.name;
+  EXPECT_EQ(plan.made(), failed_of(plan.conditions).empty());
+  EXPECT_EQ(plan.made(), !plan.parts.empty());
+  for (const KitPart& part : plan.parts) {
+    const double volume = printed_volume(part, mechanism, product.pulley.layout);
+    EXPECT_NEAR(enclosed_volume(printed_mesh(part, mechanism, product.pulley.layout)) / volume, 1, 1e-4) << part.name;
+  }
+}
+
 /// `read` gives the mechanism: bad input is an end too.
 template <typename Read>
 End end_of(Read read, double tolerance) {
@@ -164,7 +178,9 @@ End end_of(Read read, double tolerance) {
     const BuildResult built = build(read(), options);
     for (const Check& check : built.product.checks)
       EXPECT_TRUE(check.ok) << check.name << " " << check.value << ", limit " << check.limit << "; " << check.where;
-    return built.status == BuildStatus::infeasible ? End::refused : End::made;
+    if (built.status == BuildStatus::infeasible) return End::refused;
+    expect_kit_or_reasons(built.product);
+    return End::made;
   } catch (const NoAdvice&) {
     return End::refused;
   } catch (const InputError&) {

@@ -1,0 +1,293 @@
+// A kit, put together: as meshes, cut at many heights, at places of the stroke. Nothing here knows the sizes that the plan
+// looked at: only what stands where, and the tendons' paths as they are found on the sampled outlines.
+#include "fusee/kit/kit.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "export/report/tendon_trace.h"
+#include "fusee/base/units.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/pipeline.h"
+#include "fusee/pipeline/kit.h"
+
+namespace {
+
+using namespace fusee;
+using ::testing::HasSubstr;
+
+struct Model {
+  Mechanism mechanism;
+  SynthesisResult synthesis;
+  Pulley pulley;
+  KitPlan plan;
+};
+
+Model model_of(const std::string& profile, const std::vector<Setting>& settings = {}) {
+  const MechanismFile file =
+      read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (profile + ".toml"), settings);
+  const JointAsItIs joint = as_it_is(file.mechanism);
+  Model model{joint.mechanism, synthesise(joint.mechanism, {.advice = false}), {}, {}};
+  draw_for_making(model.synthesis, joint.outline);
+  model.pulley = make_pulley(joint.mechanism, model.synthesis);
+  model.plan = plan_kit(joint.mechanism, model.synthesis, model.pulley.layout);
+  return model;
+}
+
+bool is_inside(const std::vector<Polygon>& loops, const Vec2& point) {
+  bool inside = false;
+  for (const Polygon& loop : loops) {
+    for (std::size_t i = 0, k = loop.size() - 1; i < loop.size(); k = i++) {
+      if ((loop[i].y() > point.y()) == (loop[k].y() > point.y())) continue;
+      const double t = (point.y() - loop[i].y()) / (loop[k].y() - loop[i].y());
+      if (point.x() < loop[i].x() + t * (loop[k].x() - loop[i].x())) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+/// From a section to a line's points; 0 within it.
+double distance(const std::vector<Polygon>& loops, const std::vector<Vec2>& points) {
+  double least = 1e9;
+  for (const Vec2& point : points) {
+    if (is_inside(loops, point)) return 0;
+    for (const Polygon& loop : loops) least = std::min(least, distance_to_edges(loop, point));
+  }
+  return least;
+}
+
+/// Points half a millimetre apart.
+std::vector<Vec2> dotted(const std::vector<Vec2>& path, bool closed) {
+  std::vector<Vec2> dots;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < path.size(); ++i) {
+    const Vec2 &a = path[i], &b = path[(i + 1) % path.size()];
+    const int steps = std::max(1, static_cast<int>((b - a).norm() / 0.5));
+    for (int k = 0; k <= steps; ++k) dots.push_back(a + (b - a) * k / steps);
+  }
+  return dots;
+}
+
+TriangleMesh pulley_standing(const Model& model, double alpha) {
+  TriangleMesh mesh = model.pulley.mesh;
+  const Vec2 axis = pulley_axis(model.mechanism);
+  for (Vec3& v : mesh.vertices) {
+    v /= model.pulley.layout.scale;
+    const Vec2 at = axis + turned(Vec2(v.x(), v.y()), -alpha);
+    v = {at.x(), at.y(), v.z() + model.plan.sizes.pulley_low};
+  }
+  return mesh;
+}
+
+struct Standing {
+  std::string name;
+  TriangleMesh mesh;
+  bool moves = false;
+};
+
+std::vector<Standing> put_together(const Model& model, double theta, double alpha) {
+  std::vector<Standing> all;
+  for (const KitPart& part : model.plan.parts) {
+    for (const KitPlace& place : part.places) all.push_back({part.name, standing(part, place, theta), place.on_link});
+  }
+  all.push_back({"pulley", pulley_standing(model, alpha), true});
+  return all;
+}
+
+class Kit : public ::testing::TestWithParam<const char*> {};
+
+/// Parts that touch each other: they are screwed together, or turn on each other's bearing.
+bool may_touch(const std::string& a, const std::string& b) {
+  static const std::set<std::set<std::string>> pairs{{"link", "post"}, {"link", "magnet_cap"}, {"link", "tensioner_slide"}};
+  return pairs.count({a, b}) != 0;
+}
+
+TEST_P(Kit, NothingThatMovesMeetsWhatItIsNotFixedTo) {
+  const Model model = model_of(GetParam());
+  ASSERT_TRUE(model.plan.made());
+  const auto& stroke = model.synthesis.stroke;
+  for (const std::size_t place : {std::size_t{0}, stroke.size() / 3, stroke.size() / 2, stroke.size() - 1}) {
+    const std::vector<Standing> all = put_together(model, stroke[place].theta, stroke[place].alpha);
+    const double low = -model.plan.sizes.base, high = model.plan.sizes.bracket_low + 6;
+    for (double z = low + 0.23; z < high; z += 1.37) {
+      std::vector<std::vector<Polygon>> cuts;
+      for (const Standing& part : all) {
+        const Bounds box = bounds(part.mesh);
+        cuts.push_back(box.low.z() < z && z < box.high.z() ? section(part.mesh, z) : std::vector<Polygon>());
+      }
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].moves || cuts[i].empty()) continue;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+          if (i == k || cuts[k].empty() || may_touch(all[i].name, all[k].name)) continue;
+          // Rings lie in the link's own bore.
+          if (all[k].name == "bearing_ring") continue;
+          for (const Polygon& loop : cuts[i])
+            EXPECT_GT(distance(cuts[k], dotted(loop, true)), 0.4)
+                << all[i].name << " meets " << all[k].name << " at z = " << z << ", theta = " << degrees(stroke[place].theta);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Kit, TendonsRunFree) {
+  const Model model = model_of(GetParam());
+  ASSERT_TRUE(model.plan.made());
+  const auto& stroke = model.synthesis.stroke;
+  for (const std::size_t place : {std::size_t{0}, stroke.size() / 3, stroke.size() / 2, stroke.size() - 1}) {
+    const std::vector<Standing> all = put_together(model, stroke[place].theta, stroke[place].alpha);
+    for (const Side side : {Side::left, Side::right}) {
+      const bool left = side == Side::left;
+      const auto trace = trace_tendon(model.mechanism, left ? model.synthesis.p1 : model.synthesis.p2,
+                                      stroke[place].alpha, stroke[place].theta);
+      ASSERT_TRUE(trace);
+      std::vector<Vec2> line = trace->free_path;
+      line.pop_back();  // it lies in its groove from there
+      const Vec2 last = line.back(), groove = trace->take_off;
+      line.push_back(last + 0.8 * (groove - last));
+      // Without the end that is tied to the post.
+      const Vec2 first = line.front(), pin = line[1];
+      line.front() = first + (pin - first).normalized() * (model.plan.sizes.post + 1);
+      const double z = left ? model.plan.sizes.z_tendon1 : model.plan.sizes.z_tendon2;
+      for (const double height : {z - 0.5 * model.mechanism.tendon.diameter, z, z + 0.5 * model.mechanism.tendon.diameter}) {
+        for (const Standing& part : all) {
+          if (part.name == "pulley" || part.name == (left ? "pin_b_sleeve" : "pin_d_sleeve")) continue;
+          EXPECT_GT(distance(section(part.mesh, height), dotted(line, false)), 0.5 * model.mechanism.tendon.diameter + 0.2)
+              << part.name << " touches tendon " << (left ? 1 : 2) << " at theta = " << degrees(stroke[place].theta);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Kit, ThePinsAreWhereTheMechanismHasThem) {
+  const Model model = model_of(GetParam());
+  for (const KitPin& pin : model.plan.pins) {
+    EXPECT_NEAR((pin.place - pin_centre(model.mechanism, pin.side)).norm(), 0, 1e-9);
+    // The tendon's plane lies in the middle between the collars, in the groove's plane of the pulley that stands there.
+    const double groove = pin.side == Side::left ? model.pulley.layout.z_p1 : model.pulley.layout.z_p2;
+    EXPECT_NEAR(0.5 * (pin.gap_low + pin.gap_high), model.plan.sizes.pulley_low + groove, 1e-9);
+  }
+  // The plate has their holes.
+  const KitPart& base = model.plan.parts.front();
+  const auto loops = section(mesh_of(base.body), 1.0);
+  for (const KitPin& pin : model.plan.pins) EXPECT_FALSE(is_inside(loops, pin.place));
+  EXPECT_FALSE(is_inside(loops, Vec2(0, 0)));
+  EXPECT_FALSE(is_inside(loops, pulley_axis(model.mechanism)));
+}
+
+TEST_P(Kit, ThePostStandsAtC) {
+  const Model model = model_of(GetParam());
+  for (const KitPart& part : model.plan.parts) {
+    if (part.name != "post") continue;
+    for (const TransmissionPoint& at : {model.synthesis.stroke.front(), model.synthesis.stroke.back()}) {
+      const TriangleMesh mesh = standing(part, part.places.front(), at.theta);
+      EXPECT_NEAR(bounds(mesh).low.z(), model.plan.sizes.post_low, 1e-4);
+      const auto loops = section(mesh, model.plan.sizes.z_tendon2);
+      ASSERT_EQ(loops.size(), 2u);  // waist and bore
+      Vec2 middle(0, 0);
+      for (const Vec2& point : loops[0]) middle += point / static_cast<double>(loops[0].size());
+      EXPECT_NEAR((middle - attachment(model.mechanism, at.theta)).norm(), 0, 0.02);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Kit, ::testing::Values("forearm", "finger", "wrist_exo"));
+
+// ---- what is refused says what to change ----------------------------------------------------------------------------
+
+std::string reasons(const KitPlan& plan) {
+  std::string text;
+  for (const Condition& condition : failed_of(plan.conditions)) text += condition.name + ": " + condition.message + "\n";
+  return text;
+}
+
+TEST(Kit, APinWithoutThicknessIsRefused) {
+  const Model model = model_of("forearm", {{"guides.radius_mm", "0"}});
+  EXPECT_FALSE(model.plan.made());
+  EXPECT_TRUE(model.plan.parts.empty());
+  EXPECT_THAT(reasons(model.plan), HasSubstr("guides.radius_mm 0.5 or more"));
+}
+
+TEST(Kit, AnAxleInThePulleyIsRefusedAndTheAdviceHelps) {
+  const Model model = model_of("forearm", {{"pulley.EF_mm", "60"}});
+  ASSERT_TRUE(model.pulley.made());
+  EXPECT_FALSE(model.plan.made());
+  EXPECT_THAT(reasons(model.plan), HasSubstr("pulley.EF_mm larger by"));
+  EXPECT_TRUE(model_of("forearm", {{"pulley.EF_mm", "80"}}).plan.made());
+}
+
+TEST(Kit, ASmallFingerHasSmallBearings) {
+  const Model model = model_of("finger");
+  ASSERT_TRUE(model.plan.made());
+  EXPECT_LT(model.plan.sizes.bearing->outer, model.mechanism.joint.R / 3);
+}
+
+// ---- the coupon -----------------------------------------------------------------------------------------------------
+
+TEST(Kit, TheCouponHasFiveOfEach) {
+  const Model model = model_of("forearm");
+  const TriangleMesh mesh = mesh_of(coupon_body(model.mechanism));
+  for (const Check& check : check_mesh(mesh)) EXPECT_TRUE(check.ok) << check.name << " " << check.where;
+  std::vector<double> bores;
+  std::size_t pegs = 0;
+  for (const Polygon& loop : section(mesh, 1.0)) {
+    Vec2 middle(0, 0);
+    for (const Vec2& point : loop) middle += point / static_cast<double>(loop.size());
+    if (middle.y() > 40) bores.push_back(2 * distance_to_edges(loop, middle));
+    pegs += signed_area(loop) > 0 && middle.y() < 15 ? 1 : 0;
+  }
+  std::sort(bores.begin(), bores.end());
+  ASSERT_EQ(bores.size(), 5u);
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(bores[static_cast<std::size_t>(i)], 5 + 0.1 * i, 0.03);
+  EXPECT_EQ(pegs, 5u);
+  for (const CouponReading& reading : coupon_readings(model.mechanism)) {
+    const std::string key = reading.key.substr(0, reading.key.find(' '));
+    if (key.find('.') != std::string::npos) EXPECT_NE(find_field(key), nullptr) << key;
+  }
+}
+
+// ---- the verb -------------------------------------------------------------------------------------------------------
+
+TEST(Kit, EveryPartIsCheckedAsItWasWritten) {
+  KitOptions options;
+  options.dry_run = true;
+  options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
+  const KitResult made = kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/paper_optimum.toml"), options);
+  EXPECT_EQ(made.ending, KitEnding::done);
+  EXPECT_FALSE(made.published);
+  for (const Check& check : made.product.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
+  for (const KitPart& part : made.product.plan.parts) {
+    for (const char* what : {"_closed", "_overhang", "_volume_error", "_3mf_deviation"})
+      EXPECT_TRUE(std::any_of(made.product.checks.begin(), made.product.checks.end(),
+                              [&](const Check& check) { return check.name == part.name + what; }))
+          << part.name << what;
+  }
+  EXPECT_EQ(made.outputs.back().name, "manifest.json");
+}
+
+TEST(Kit, ATendonIsCutForAllItsWay) {
+  KitOptions options;
+  options.dry_run = true;
+  options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
+  const KitResult made = kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/forearm.toml"), options);
+  const Product& product = made.product.pulley;
+  for (const KitCut& cut : kit_cuts(made.product)) {
+    const bool left = cut.side == Side::left;
+    const Outline& outline = left ? product.synthesis.p1 : product.synthesis.p2;
+    const auto trace = trace_tendon(product.joint.mechanism, outline, 0, 0);
+    // Up the post, and along the link to the slide's screw.
+    double way = trace->free_length;
+    if (left) {
+      const KitSizes& sizes = made.product.plan.sizes;
+      way += sizes.link_low + sizes.link + sizes.flange - sizes.post_low;
+      way += 2.5 + sizes.post;
+    }
+    EXPECT_GT(cut.between_knots, way);
+    EXPECT_LT(cut.between_knots, way + 1.5 * perimeter(parallel(outline, 0)));
+    EXPECT_GT(cut.cut, cut.between_knots + 100);
+  }
+}
+
+}  // namespace
