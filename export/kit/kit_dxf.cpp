@@ -1,5 +1,5 @@
-// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. First what is engraved, then holes, then
-// outlines: what is cut free may move.
+// kit.dxf: base plate, scale, link and bracket as plates to cut, nested on sheets. First what is engraved, then holes,
+// then outlines: what is cut free may move.
 
 #include <algorithm>
 #include <cmath>
@@ -57,11 +57,15 @@ void add_plates(std::vector<KitPlate>& plates, const KitPart& part, double thick
     const bool engraved = plates.size() > first && plate.height < k_engraving_depth;
     for (const SlabLoop& loop : slab.loops) {
       if (!loop.hole) continue;
-      if (!engraved) plate.holes.push_back(loop.hull);
-      else if (!has_hole(plates.back(), loop.hull)) plates.back().lines.push_back(loop.hull);
+      if (!engraved)
+        plate.holes.push_back(loop.hull);
+      else if (!has_hole(plates.back(), loop.hull))
+        plates.back().lines.push_back(loop.hull);
     }
-    if (engraved) plates.back().height += plate.height;
-    else plates.push_back(plate);
+    if (engraved)
+      plates.back().height += plate.height;
+    else
+      plates.push_back(plate);
   }
   const bool many = plates.size() - first > 1;
   for (std::size_t i = first; i < plates.size(); ++i) {
@@ -71,7 +75,8 @@ void add_plates(std::vector<KitPlate>& plates, const KitPart& part, double thick
 }
 
 Contour contour_of(const DiscHull& hull, double grow) {
-  if (hull.discs.size() == 1) return circle_contour({hull.discs.front().centre, 2 * (hull.discs.front().radius + grow)});
+  if (hull.discs.size() == 1)
+    return circle_contour({hull.discs.front().centre, 2 * (hull.discs.front().radius + grow)});
   return {outline_of(hull, grow), {}, 0};
 }
 

@@ -19,17 +19,19 @@ namespace {
 std::string mm(double value, int decimals = 1) { return readable(value, decimals) + "\u00a0mm"; }
 
 const KitPart* part_named(const KitPlan& plan, const std::string& name) {
-  const auto found = std::find_if(plan.parts.begin(), plan.parts.end(), [&](const KitPart& part) { return part.name == name; });
+  const auto found =
+      std::find_if(plan.parts.begin(), plan.parts.end(), [&](const KitPart& part) { return part.name == name; });
   return found == plan.parts.end() ? nullptr : &*found;
 }
 
 /// "tendon_1: from the left outer side": where on the pulley each leaves, and which way it is wound.
 std::string winding_words(Side side) {
-  return side == Side::left
-             ? "P1, the lower groove. Seen from above it leaves the pulley on its left, and is wound counter-clockwise from "
-               "there round the lower side"
-             : "P2, the upper groove. Seen from above it leaves the pulley on its right, and is wound clockwise from there "
-               "round the lower side";
+  return side == Side::left ? "P1, the lower groove. Seen from above it leaves the pulley on its left, and is wound "
+                              "counter-clockwise from "
+                              "there round the lower side"
+                            : "P2, the upper groove. Seen from above it leaves the pulley on its right, and is wound "
+                              "clockwise from there "
+                              "round the lower side";
 }
 
 std::vector<KitStep> steps_of(const KitProduct& product) {
@@ -42,8 +44,9 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   base.motor = true;
   base.words = {"Screw a leg under each corner of the base plate, from above."};
   if (sizes.motor)
-    base.words.push_back("Screw the motor (" + sizes.motor->name + ") under the plate, low heads above" +
-                         (sizes.motor->shaft > 0 ? "." : ", its horn up; turn its horn so that 0 of the motor is home."));
+    base.words.push_back(
+        "Screw the motor (" + sizes.motor->name + ") under the plate, low heads above" +
+        (sizes.motor->shaft > 0 ? "." : ", its horn up; turn its horn so that 0 of the motor is home."));
   else
     base.words.push_back("Hold your motor under the plate, its axis in the large hole.");
   steps.push_back(base);
@@ -59,20 +62,23 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
     }
     pins.words.push_back(
         "Pin " + name + (pin.side == Side::left ? " (left): " : " (right): ") +
-        (pin.screw ? "the " + std::string(pin.screw->name) + " screw from below, then spacer, sleeve and collar, and the nut."
-                   : "press the rod in from above, flush below; glue the spacer to the plate, and the collar " +
-                         readable(sizes.tendon_gap, 1) + " mm above it."));
+        (pin.screw
+             ? "the " + std::string(pin.screw->name) + " screw from below, then spacer, sleeve and collar, and the nut."
+             : "press the rod in from above, flush below; glue the spacer to the plate, and the collar " +
+                   readable(sizes.tendon_gap, 1) + " mm above it."));
   }
-  pins.words.push_back("The axle's screw (" + std::string(sizes.axle->name) + ") from below, its spacer over it; both threaded rods (" +
-                       std::string(sizes.foot->name) + ") with a nut below, their spacers over them.");
+  pins.words.push_back("The axle's screw (" + std::string(sizes.axle->name) +
+                       ") from below, its spacer over it; both threaded rods (" + std::string(sizes.foot->name) +
+                       ") with a nut below, their spacers over them.");
   steps.push_back(pins);
 
   KitStep pulley;
   pulley.title = "Pulley";
   pulley.pulley = true;
-  pulley.words = {"Tie both tendons to the pulley first (see Tendons), then put it on the motor, P1 down, its lower face " +
-                      mm(sizes.pulley_low) + " above the plate.",
-                  "Turn it so that its home mark points to the joint's axis side (+y, to C) when the motor stands at 0."};
+  pulley.words = {
+      "Tie both tendons to the pulley first (see Tendons), then put it on the motor, P1 down, its lower face " +
+          mm(sizes.pulley_low) + " above the plate.",
+      "Turn it so that its home mark points to the joint's axis side (+y, to C) when the motor stands at 0."};
   steps.push_back(pulley);
 
   KitStep scale;
@@ -94,11 +100,14 @@ std::vector<KitStep> steps_of(const KitProduct& product) {
   tendons.title = "Tendons and tensioner";
   tendons.parts = {"tensioner_slide"};
   tendons.tendons = true;
-  tendons.words = {"Tendon 2 over pin D, between its collars, to the post: a bowline round its waist, free to turn.",
-                   "Tendon 1 over pin B to the post's mouth, up through it, along the link, once round the slide's screw and "
-                   "under its washer.",
-                   "The tensioner's screw through the wall at the link's end into the nut in the slide: turn it until, at home, tendon 1 "
-                   "carries " + readable_rounded(product.pulley.joint.mechanism.tendon.pretension, 3) + " N."};
+  tendons.words = {
+      "Tendon 2 over pin D, between its collars, to the post: a bowline round its waist, free to turn.",
+      "Tendon 1 over pin B to the post's mouth, up through it, along the link, once round the slide's screw and "
+      "under its washer.",
+      "The tensioner's screw through the wall at the link's end into the nut in the slide: turn it until, at home, "
+      "tendon 1 "
+      "carries " +
+          readable_rounded(product.pulley.joint.mechanism.tendon.pretension, 3) + " N."};
   steps.push_back(tendons);
 
   KitStep sensor;
@@ -117,9 +126,11 @@ std::string pictures(const KitProduct& product) {
   for (std::size_t i = 0; i < steps.size(); ++i)
     html += "<div><h3>" + std::to_string(i + 1) + ". " + safe_text(steps[i].title) + "</h3>" +
             inline_svg(kit_picture(product, steps, i)) + html_list(steps[i].words, "ol") + "</div>";
-  return html_section("assembly", "Step by step",
-                      "<p class=\"lead\">Drawn from the parts themselves. What comes to it is coloured: blue is printed, sand is "
-                      "bought.</p><div class=\"pictures\">" + html + "</div>");
+  return html_section(
+      "assembly", "Step by step",
+      "<p class=\"lead\">Drawn from the parts themselves. What comes to it is coloured: blue is printed, sand is "
+      "bought.</p><div class=\"pictures\">" +
+          html + "</div>");
 }
 
 std::string tendon_section(const KitProduct& product) {
@@ -127,22 +138,29 @@ std::string tendon_section(const KitProduct& product) {
   for (const KitCut& cut : kit_cuts(product)) {
     const bool left = cut.side == Side::left;
     const auto tendon = tendon_lengths(product.pulley);
-    const auto own = std::find_if(tendon.begin(), tendon.end(), [&](const TendonLength& one) { return one.side == cut.side; });
+    const auto own =
+        std::find_if(tendon.begin(), tendon.end(), [&](const TendonLength& one) { return one.side == cut.side; });
     rows += "<tr>" + html_cell(left ? "Tendon 1" : "Tendon 2") +
             html_cell(left ? "P1 → pin B → the post’s mouth → slide" : "P2 → pin D → round the post") +
             html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
             html_number_cell(readable(degrees(own->spare_lap), 0) + "°") + html_cell(winding_words(cut.side)) + "</tr>";
   }
-  return html_section(
-      "tendons", "Tendons",
-      html_table({"", "path", "# taut, at home", "# cut at", "# left on the pulley at full pay-out", "which way it is wound"}, rows) +
-          "<p class=\"hint\">Taut: from the knot on the pulley to C, and for tendon 1 on through the post to the slide’s screw. "
-          "The cut holds that, what is wound round screw or post, both knots and a tail of 50 mm at each end, rounded up to 5 "
-          "mm.</p>" +
-          html_list({"On the pulley: a figure-eight knot in each tendon’s end, pulled into its pocket; the other spare hole of each groove "
-                     "stays empty.",
-                     "On the post: a bowline, which does not draw shut, so that the loop turns on the post and pulls through C.",
-                     "On the slide: one turn and a half round the screw, clamped by its washer; cut the tail only after the first load."}));
+  return html_section("tendons", "Tendons",
+                      html_table({"", "path", "# taut, at home", "# cut at", "# left on the pulley at full pay-out",
+                                  "which way it is wound"},
+                                 rows) +
+                          "<p class=\"hint\">Taut: from the knot on the pulley to C, and for tendon 1 on through the "
+                          "post to the slide’s screw. "
+                          "The cut holds that, what is wound round screw or post, both knots and a tail of 50 mm at "
+                          "each end, rounded up to 5 "
+                          "mm.</p>" +
+                          html_list({"On the pulley: a figure-eight knot in each tendon’s end, pulled into its pocket; "
+                                     "the other spare hole of each groove "
+                                     "stays empty.",
+                                     "On the post: a bowline, which does not draw shut, so that the loop turns on the "
+                                     "post and pulls through C.",
+                                     "On the slide: one turn and a half round the screw, clamped by its washer; cut "
+                                     "the tail only after the first load."}));
 }
 
 std::string parts_section(const KitProduct& product) {
@@ -151,18 +169,22 @@ std::string parts_section(const KitProduct& product) {
     const Bounds box_of = bounds(mesh_of(part.body));
     const Vec3 size = box_of.high - box_of.low;
     rows += "<tr>" + html_number_cell(std::to_string(part.count)) + html_cell(part.words) +
-            html_number_cell(readable(size.x(), 1) + " × " + readable(size.y(), 1) + " × " + readable(size.z(), 1) + " mm") +
+            html_number_cell(readable(size.x(), 1) + " × " + readable(size.y(), 1) + " × " + readable(size.z(), 1) +
+                             " mm") +
             html_cell(kit_file_name(part, "stl") + (part.plate ? ", kit.dxf" : "")) + "</tr>";
   }
-  return html_section("parts", "To print, or to cut",
-                      "<p class=\"lead\">As they lie in their files, without supports; each as .3mf too. The pulley itself is made by "
-                      "<code>fusee build</code>.</p>" + html_table({"#", "part", "# size", "file"}, rows));
+  return html_section(
+      "parts", "To print, or to cut",
+      "<p class=\"lead\">As they lie in their files, without supports; each as .3mf too. The pulley itself is made by "
+      "<code>fusee build</code>.</p>" +
+          html_table({"#", "part", "# size", "file"}, rows));
 }
 
 std::string items_section(const KitProduct& product) {
   std::string rows;
   for (const KitItem& item : product.plan.items)
-    rows += "<tr>" + html_number_cell(std::to_string(item.count)) + html_cell(item.what) + html_cell(item.use) + "</tr>";
+    rows +=
+        "<tr>" + html_number_cell(std::to_string(item.count)) + html_cell(item.what) + html_cell(item.use) + "</tr>";
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   rows += "<tr>" + html_number_cell("2") + html_cell("tendon ⌀ " + rounded(mechanism.tendon.diameter) + " mm") +
           html_cell("see Tendons") + "</tr>";
@@ -174,7 +196,8 @@ std::string coupon_section(const Mechanism& mechanism) {
   for (const CouponReading& reading : coupon_readings(mechanism))
     rows += "<tr>" + html_cell(reading.what) + html_cell(reading.read) + html_cell(reading.key) + "</tr>";
   return html_section("coupon", "First: the fit coupon",
-                      "<p class=\"lead\">Print fit_coupon.stl on its own. Its columns are numbered 0 to 4; write what it shows into the "
+                      "<p class=\"lead\">Print fit_coupon.stl on its own. Its columns are numbered 0 to 4; write what "
+                      "it shows into the "
                       "mechanism file, then run <code>fusee kit</code> and <code>fusee build</code> again.</p>" +
                           html_table({"look at", "read", "write"}, rows));
 }
@@ -199,7 +222,8 @@ std::string key_section(const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   KeyNumbers numbers;
   numbers.add("Link R = OC", mm(mechanism.joint.R));
-  numbers.add("Range", readable(degrees(mechanism.joint.theta_min), 1) + "° … " + readable(degrees(mechanism.joint.theta_max), 1) + "°");
+  numbers.add("Range", readable(degrees(mechanism.joint.theta_min), 1) + "° … " +
+                           readable(degrees(mechanism.joint.theta_max), 1) + "°");
   numbers.add("Scale", readable(degrees(sizes.graduation), 0) + "°", "from line to line");
   numbers.add("Tendons above the base", mm(sizes.z_tendon1) + ", " + mm(sizes.z_tendon2));
   numbers.add("Motor", sizes.motor ? sizes.motor->name : "your own");
@@ -212,15 +236,16 @@ std::string key_section(const KitProduct& product) {
 
 std::string kit_html(const KitProduct& product) {
   std::string notes;
-  if (!product.plan.notes.empty()) notes = "<section class=\"warnings\">" + html_list(product.plan.notes) + "</section>";
+  if (!product.plan.notes.empty())
+    notes = "<section class=\"warnings\">" + html_list(product.plan.notes) + "</section>";
   const std::string spec = std::filesystem::path(product.pulley.file.path).filename().string();
   Page page{.title = "test model",
             .kicker = "Test model",
             .name = product.pulley.joint.mechanism.name,
             .source = "for <code>" + safe_text(spec) + "</code>",
-            .body = notes + key_section(product) + coupon_section(product.pulley.joint.mechanism) + parts_section(product) +
-                    items_section(product) + pictures(product) + tendon_section(product) + fit_section(product) +
-                    plan_steps_html(product.bench),
+            .body = notes + key_section(product) + coupon_section(product.pulley.joint.mechanism) +
+                    parts_section(product) + items_section(product) + pictures(product) + tendon_section(product) +
+                    fit_section(product) + plan_steps_html(product.bench),
             .foot = "Lengths in mm. What was not measured is said to be assumed.",
             .styles = {embedded::page_css, embedded::plan_css, embedded::kit_css, embedded::figure_css},
             .scripts = {}};

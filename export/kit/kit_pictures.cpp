@@ -74,7 +74,8 @@ void add_part(std::vector<DrawnSlab>& drawn, const KitPart& part, const std::str
     for (const Slab& slab : part.body.slabs) {
       std::vector<Polygon> holes;
       for (const SlabLoop& loop : slab.loops) {
-        if (loop.hole) holes.push_back(at_place(outline_of(loop.hull, place.turned_over ? loop.grow_low : loop.grow_high), place));
+        if (loop.hole)
+          holes.push_back(at_place(outline_of(loop.hull, place.turned_over ? loop.grow_low : loop.grow_high), place));
       }
       bool first = true;
       for (const SlabLoop& loop : slab.loops) {
@@ -94,7 +95,8 @@ void add_part(std::vector<DrawnSlab>& drawn, const KitPart& part, const std::str
   }
 }
 
-void add_upright(std::vector<DrawnSlab>& drawn, const DiscHull& hull, double low, double high, const std::string& kind) {
+void add_upright(std::vector<DrawnSlab>& drawn, const DiscHull& hull, double low, double high,
+                 const std::string& kind) {
   const Polygon outline = outline_of(hull);
   drawn.push_back({outline, outline, low, high, {}, kind});
 }
@@ -108,7 +110,8 @@ void add_motor(std::vector<DrawnSlab>& drawn, const KitProduct& product, const s
   const Vec2 side(motor.side, 0);
   add_upright(drawn, box(a.cwiseMin(b) - side, a.cwiseMax(b) + side, 1), -sizes.base - motor.depth, -sizes.base, kind);
   const double shaft = motor.shaft > 0 ? 0.5 * motor.shaft : 3;
-  add_upright(drawn, disc(axis, shaft), -sizes.base, motor.shaft > 0 ? motor.shaft_length - sizes.base : sizes.pulley_low, kind);
+  add_upright(drawn, disc(axis, shaft), -sizes.base,
+              motor.shaft > 0 ? motor.shaft_length - sizes.base : sizes.pulley_low, kind);
 }
 
 void add_rods(std::vector<DrawnSlab>& drawn, const KitPlan& plan, const std::string& kind) {
@@ -116,7 +119,8 @@ void add_rods(std::vector<DrawnSlab>& drawn, const KitPlan& plan, const std::str
   for (const KitPin& pin : plan.pins)
     add_upright(drawn, disc(pin.place, pin.screw ? 0.5 * pin.screw->diameter : pin.radius), -sizes.base, pin.top, kind);
   for (const Vec2& foot : plan.feet)
-    add_upright(drawn, disc(foot, 0.5 * sizes.foot->diameter), -sizes.base - 3, sizes.bracket_low + sizes.bracket + 4, kind);
+    add_upright(drawn, disc(foot, 0.5 * sizes.foot->diameter), -sizes.base - 3, sizes.bracket_low + sizes.bracket + 4,
+                kind);
   add_upright(drawn, disc({0, 0}, 0.5 * sizes.axle->diameter), -sizes.base - 2, sizes.link_low + sizes.link + 2, kind);
 }
 
@@ -229,7 +233,8 @@ Figure kit_plan_view(const KitProduct& product) {
   for (const Polygon& outline : {links[0], links[1], links[2], scale, base}) {
     for (const Vec2& p : shown(outline)) paper.include(p);
   }
-  Figure figure{k_picture_width, k_picture_height, "From above: the link at home and at both ends of its range", {}, {}};
+  Figure figure{
+      k_picture_width, k_picture_height, "From above: the link at home and at both ends of its range", {}, {}};
   figure.body = svg_path("kit-side", paper(shown(base)), true) + svg_path("kit-top", paper(shown(scale)), true);
   const auto circle = [&](const std::string& classes, const Vec2& place, double radius) {
     figure.body += svg_path(classes, paper(shown(outline_of(disc(place, radius)))), true);
@@ -241,8 +246,11 @@ Figure kit_plan_view(const KitProduct& product) {
   }
   for (const Vec2& foot : plan.feet) circle("kit-new-top", foot, 0.5 * plan.sizes.foot->clearance + 1.2);
   for (const Side side : {Side::left, Side::right}) {
-    const auto trace = trace_tendon(mechanism, side == Side::left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
-    if (trace) figure.body += svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));
+    const auto trace =
+        trace_tendon(mechanism, side == Side::left ? product.pulley.synthesis.p1 : product.pulley.synthesis.p2, 0, 0);
+    if (trace)
+      figure.body +=
+          svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));
   }
   for (const Polygon& link : links) figure.body += svg_path("main", paper(shown(link)), true);
   return figure;

@@ -112,11 +112,12 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
   json["notes"] = product.plan.notes;
   json["checks"] = KitJson::array();
   for (const Check& check : product.checks) {
-    KitJson entry = {{"name", check.name},
-                     {"value", std::isfinite(check.value) ? KitJson(std::stod(rounded(check.value, 6))) : KitJson(nullptr)},
-                     {"limit", check.limit},
-                     {"unit", check.unit},
-                     {"ok", check.ok}};
+    KitJson entry = {
+        {"name", check.name},
+        {"value", std::isfinite(check.value) ? KitJson(std::stod(rounded(check.value, 6))) : KitJson(nullptr)},
+        {"limit", check.limit},
+        {"unit", check.unit},
+        {"ok", check.ok}};
     if (!check.where.empty()) entry["where"] = check.where;
     json["checks"].push_back(std::move(entry));
   }

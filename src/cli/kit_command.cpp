@@ -16,12 +16,14 @@ KitOptions kit_options_from(const Arguments& arguments) {
   KitOptions options;
   options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
   const std::string version = arguments.text("--dxf").value_or("ac1015");
-  if (version != "ac1015" && version != "r12") throw UsageError("--dxf must be ac1015 or r12; '" + version + "' is not");
+  if (version != "ac1015" && version != "r12")
+    throw UsageError("--dxf must be ac1015 or r12; '" + version + "' is not");
   options.dxf = version == "r12" ? DxfVersion::r12 : DxfVersion::ac1015;
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   const std::filesystem::path spec = arguments.positionals().front();
-  options.folder = arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_kit")).string());
+  options.folder =
+      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_kit")).string());
   return options;
 }
 
@@ -56,15 +58,18 @@ std::string kit_summary(const KitResult& made, const KitOptions& options) {
       tightest = &condition;
   }
   std::string text = product.pulley.joint.mechanism.name + ": the rest of the test model\n";
-  text += "  parts       " + std::to_string(printed) + " to print, of " + std::to_string(product.plan.parts.size()) + " kinds; plates to cut in kit.dxf\n";
+  text += "  parts       " + std::to_string(printed) + " to print, of " + std::to_string(product.plan.parts.size()) +
+          " kinds; plates to cut in kit.dxf\n";
   text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: none of the catalogue fits") + "\n";
   text += "  joint       two bearings " + sizes.bearing->name + ", " + sizes.board->name + " over the axis\n";
   for (const KitCut& cut : kit_cuts(product))
     text += "  tendon " + std::string(cut.side == Side::left ? "1" : "2") + "    cut at " + fixed(cut.cut, 0) + " mm\n";
   if (tightest)
-    text += "  tightest    " + tightest->name + ", " + fixed(tightest->value, 2) + " mm (at least " + fixed(tightest->limit, 2) + ")\n";
+    text += "  tightest    " + tightest->name + ", " + fixed(tightest->value, 2) + " mm (at least " +
+            fixed(tightest->limit, 2) + ")\n";
   if (options.dry_run) return text + "  files       none written (--dry-run)\n";
-  if (!made.published) return text + "  files       none written: " + options.folder.string() + " keeps its earlier run\n";
+  if (!made.published)
+    return text + "  files       none written: " + options.folder.string() + " keeps its earlier run\n";
   return text + "  files       in " + options.folder.string() + ": open kit.html\n";
 }
 

@@ -100,10 +100,10 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
 }  // namespace
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {new_command(),      explain_command(),   analyze_command(),
-                                           build_command(),    check_command(),     rewind_command(),
-                                           optimize_command(), reproduce_command(), calibrate_command(),
-                                           plan_command(),     kit_command(),       simulate_command(),  replay_command()};
+  static const std::vector<Command> all = {
+      new_command(),    explain_command(),  analyze_command(),   build_command(),     check_command(),
+      rewind_command(), optimize_command(), reproduce_command(), calibrate_command(), plan_command(),
+      kit_command(),    simulate_command(), replay_command()};
   return all;
 }
 

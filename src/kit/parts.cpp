@@ -65,7 +65,11 @@ DiscHull scale_hull(const KitPlan& plan, const Joint& joint) {
 class PartMaker {
  public:
   PartMaker(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout)
-      : plan_(plan), sizes_(plan.sizes), mechanism_(mechanism), layout_(layout), pulley_(0, -mechanism.guides.OE - mechanism.pulley.EF) {}
+      : plan_(plan),
+        sizes_(plan.sizes),
+        mechanism_(mechanism),
+        layout_(layout),
+        pulley_(0, -mechanism.guides.OE - mechanism.pulley.EF) {}
 
   void make() {
     base();
@@ -79,7 +83,9 @@ class PartMaker {
 
  private:
   void add(KitPart part) { plan_.parts.push_back(std::move(part)); }
-  void buy(int count, std::string what, std::string use) { plan_.items.push_back({count, std::move(what), std::move(use)}); }
+  void buy(int count, std::string what, std::string use) {
+    plan_.items.push_back({count, std::move(what), std::move(use)});
+  }
 
   void base() {
     Slab plate{0, sizes_.base, {}};
@@ -94,7 +100,12 @@ class PartMaker {
     for (const KitPin& pin : plan_.pins)
       plate.loops.push_back(round_hole(pin.place, pin.screw ? pin.screw->clearance : 2 * pin.radius));
     for (SlabLoop& loop : motor_holes()) plate.loops.push_back(std::move(loop));
-    add({"base_plate", "base plate: joint axis, pins, motor", {{plate}}, {{{0, 0}, -sizes_.base, false, false}}, 1, true});
+    add({"base_plate",
+         "base plate: joint axis, pins, motor",
+         {{plate}},
+         {{{0, 0}, -sizes_.base, false, false}},
+         1,
+         true});
     std::vector<KitPlace> legs;
     for (const Vec2& leg : plan_.legs) legs.push_back({leg, -sizes_.base - sizes_.leg, false, false});
     add({"leg", "leg under the base plate", tube(k_leg_radius, leg_screw().tapping, sizes_.leg), legs, 4, false});
@@ -103,8 +114,8 @@ class PartMaker {
       const MotorType& motor = *sizes_.motor;
       buy(1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source);
       if (motor.shaft > 0)
-        buy(motor.two_holes ? 2 : 4,
-            screw_words(thread_within(motor.hole), sizes_.base + 4) + " with low head", "motor, from above");
+        buy(motor.two_holes ? 2 : 4, screw_words(thread_within(motor.hole), sizes_.base + 4) + " with low head",
+            "motor, from above");
       else
         buy(4, screw_words(thread_within(motor.hole), sizes_.base + 8) + " with nuts", "motor, from above");
     }
@@ -117,8 +128,7 @@ class PartMaker {
     const Vec2 front = sizes_.motor_front;
     if (!sizes_.motor) {
       const bool horn = mechanism_.body.bore == Bore::horn;
-      const double opening =
-          horn ? horn_of(mechanism_).bolt_circle + 10 : shaft_of(mechanism_, layout_) + 1;
+      const double opening = horn ? horn_of(mechanism_).bolt_circle + 10 : shaft_of(mechanism_, layout_) + 1;
       holes.push_back(round_hole(pulley_, opening));
       return holes;
     }
@@ -141,8 +151,14 @@ class PartMaker {
     for (const KitPin& pin : plan_.pins) {
       const std::string letter = pin.side == Side::left ? "b" : "d", name = pin.side == Side::left ? "B" : "D";
       const double bore = pin.screw ? pin.screw->clearance : 2 * pin.radius + 0.2;
-      const auto collar = [&](const std::string& which, double radius, double low, double high, const std::string& words) {
-        add({"pin_" + letter + "_" + which, words, tube(radius, bore, high - low), {{pin.place, low, false, false}}, 1, false});
+      const auto collar = [&](const std::string& which, double radius, double low, double high,
+                              const std::string& words) {
+        add({"pin_" + letter + "_" + which,
+             words,
+             tube(radius, bore, high - low),
+             {{pin.place, low, false, false}},
+             1,
+             false});
       };
       collar("spacer", pin.collar, 0, pin.gap_low, "spacer below the tendon on pin " + name);
       if (pin.screw) {
@@ -152,23 +168,35 @@ class PartMaker {
         buy(1, "steel rod ⌀ " + rounded(2 * pin.radius, 4) + " × " + rounded(std::ceil(sizes_.base + pin.top), 4),
             "pin " + name + ", pressed into the base plate; its spacer glued to the plate");
       }
-      collar("collar", pin.collar, pin.gap_high, pin.gap_high + k_collar_height, "collar above the tendon on pin " + name);
+      collar("collar", pin.collar, pin.gap_high, pin.gap_high + k_collar_height,
+             "collar above the tendon on pin " + name);
     }
   }
 
   void axle() {
-    add({"axle_spacer", "spacer round the joint's axle, up to the scale",
-         tube(sizes_.axle_tube, sizes_.axle->clearance, sizes_.scale_low), {{{0, 0}, 0, false, false}}, 1, false});
+    add({"axle_spacer",
+         "spacer round the joint's axle, up to the scale",
+         tube(sizes_.axle_tube, sizes_.axle->clearance, sizes_.scale_low),
+         {{{0, 0}, 0, false, false}},
+         1,
+         false});
     std::vector<KitPlace> feet;
     for (const Vec2& foot : plan_.feet) feet.push_back({foot, 0, false, false});
-    add({"foot_spacer", "spacer from base plate to scale", tube(foot_radius(), sizes_.foot->clearance, sizes_.scale_low),
-         feet, 2, false});
-    add({"scale_plate", "scale of the joint's angle, on axle and feet", scale_body(),
-         {{{0, 0}, sizes_.scale_low, false, false}}, 1, true});
+    add({"foot_spacer", "spacer from base plate to scale",
+         tube(foot_radius(), sizes_.foot->clearance, sizes_.scale_low), feet, 2, false});
+    add({"scale_plate",
+         "scale of the joint's angle, on axle and feet",
+         scale_body(),
+         {{{0, 0}, sizes_.scale_low, false, false}},
+         1,
+         true});
     const double ring = sizes_.link_low - sizes_.scale_low - sizes_.scale_plate + sizes_.lip;
-    add({"bearing_ring", "ring under the inner ring of the lower bearing",
+    add({"bearing_ring",
+         "ring under the inner ring of the lower bearing",
          tube(0.5 * sizes_.bearing->spacer, sizes_.axle->clearance, ring),
-         {{{0, 0}, sizes_.scale_low + sizes_.scale_plate, false, false}}, 1, false});
+         {{{0, 0}, sizes_.scale_low + sizes_.scale_plate, false, false}},
+         1,
+         false});
     buy(2, "ball bearing " + sizes_.bearing->name + " (" + sizes_.bearing->description + ")", "joint, in the link");
     const double stack = sizes_.base + sizes_.link_low + sizes_.link + sizes_.axle->nut_height + 1;
     buy(1, screw_words(*sizes_.axle, stack) + " with nut", "the joint's axle, from below");
@@ -232,13 +260,19 @@ class PartMaker {
       rails.loops.push_back(upright(wall_inner, outer, end - 5, end - 1));
       walls.loops.push_back(upright(wall_inner, outer, end - 5, end - 1));
     }
-    add({"link", "link of length R, on both bearings, with the tensioner's guide", {{lip, seat, rails, walls}},
-         {{{0, 0}, sizes_.link_low, false, true}}, 1, true});
+    add({"link",
+         "link of length R, on both bearings, with the tensioner's guide",
+         {{lip, seat, rails, walls}},
+         {{{0, 0}, sizes_.link_low, false, true}},
+         1,
+         true});
     post();
     slide();
   }
 
-  double lip_hole() const { return sizes_.bearing->outer - std::min(2.0, 0.5 * (sizes_.bearing->outer - sizes_.bearing->spacer)); }
+  double lip_hole() const {
+    return sizes_.bearing->outer - std::min(2.0, 0.5 * (sizes_.bearing->outer - sizes_.bearing->spacer));
+  }
   double slide_start() const { return mechanism_.joint.R + sizes_.post + 2.5; }
 
   /// It hangs down from its flange, and is printed standing on it.
@@ -261,14 +295,17 @@ class PartMaker {
     narrow.grow_low = narrow.grow_high = widening.grow_low = -cone;
     widened.grow_high = mouth;
     const double chamfer = end - mouth;
-    add({"post", "post at C: tendon 2 is tied round it, tendon 1 goes up through it",
+    add({"post",
+         "post at C: tendon 2 is tied round it, tendon 1 goes up through it",
          {{flange,
            {sizes_.flange, waist, {stem, bore}},
            {waist, below, {narrow, bore}},
            {below, below + rise, {widening, bore}},
            {below + rise, chamfer, {stem, bore}},
            {chamfer, end, {stem, widened}}}},
-         {{{0, mechanism_.joint.R}, top, true, true}}, 1, false});
+         {{{0, mechanism_.joint.R}, top, true, true}},
+         1,
+         false});
     buy(2, screw_words(small, sizes_.flange + std::min(sizes_.link, 10.0)), "post, into the link");
   }
 
@@ -279,15 +316,23 @@ class PartMaker {
     const SlideLengths lengths = slide_lengths(small);
     const double half = 0.5 * sizes_.slide_width, inner = 0.5 * small.clearance, floor = 2;
     const double top = tensioner_axis(small) + 0.5 * small.nut;
-    Slab lower{0, floor, {edge(box({-half, 0}, {half, lengths.whole()}, 0.8)), round_hole({0, 0.5 * lengths.clamp}, small.tapping)}};
+    Slab lower{
+        0,
+        floor,
+        {edge(box({-half, 0}, {half, lengths.whole()}, 0.8)), round_hole({0, 0.5 * lengths.clamp}, small.tapping)}};
     Slab upper{floor, top, {}};
     const double back = lengths.clamp, nut = back + lengths.back, front = nut + lengths.nut;
     for (const double x : {-1.0, 1.0}) {
       for (const auto& [low, high] : {std::pair{back, nut}, {front, lengths.whole() - 0.15}})
-        upper.loops.push_back(edge(box({x > 0 ? inner : -half + 0.15, low}, {x > 0 ? half - 0.15 : -inner, high}, 0.3)));
+        upper.loops.push_back(
+            edge(box({x > 0 ? inner : -half + 0.15, low}, {x > 0 ? half - 0.15 : -inner, high}, 0.3)));
     }
-    add({"tensioner_slide", "tensioner: the slide that tendon 1 is clamped to", {{lower, upper}},
-         {{{0, slide_start()}, sizes_.link_low + sizes_.link, false, true}}, 1, false});
+    add({"tensioner_slide",
+         "tensioner: the slide that tendon 1 is clamped to",
+         {{lower, upper}},
+         {{{0, slide_start()}, sizes_.link_low + sizes_.link, false, true}},
+         1,
+         false});
     buy(1, screw_words(small, sizes_.travel + lengths.front + lengths.nut + lengths.back + 6) + " with nut",
         "tensioner: through the wall at the link's end, the nut in the slide");
     buy(1, screw_words(small, 6) + " with washer", "clamps tendon 1 on the slide");
@@ -307,15 +352,20 @@ class PartMaker {
     Slab room{sizes_.web, sizes_.cap_height, {rim, round_hole({0, 0}, 2 * sizes_.recess)}};
     for (Slab* slab : {&web, &room}) slab->loops.insert(slab->loops.end(), screws.begin(), screws.end());
     const double link_top = sizes_.link_low + sizes_.link;
-    add({"magnet_cap", "cap on the link: holds the bearings, and the magnet over the axis", {{web, room}},
-         {{{0, 0}, link_top + sizes_.cap_height, true, true}}, 1, false});
+    add({"magnet_cap",
+         "cap on the link: holds the bearings, and the magnet over the axis",
+         {{web, room}},
+         {{{0, 0}, link_top + sizes_.cap_height, true, true}},
+         1,
+         false});
     buy(2, screw_words(screw, sizes_.cap_height + 6), "magnet cap, into the link");
     buy(1, "magnet ⌀ " + rounded(board.magnet) + " × " + rounded(board.magnet_height) + ", magnetised across",
         "in the magnet cap, flush");
     std::vector<KitPlace> feet;
     for (const Vec2& foot : plan_.feet) feet.push_back({foot, sizes_.scale_low + sizes_.scale_plate, false, false});
     add({"foot_tube", "spacer from scale to bracket",
-         tube(foot_radius(), sizes_.foot->clearance, sizes_.bracket_low - sizes_.scale_low - sizes_.scale_plate), feet, 2, false});
+         tube(foot_radius(), sizes_.foot->clearance, sizes_.bracket_low - sizes_.scale_low - sizes_.scale_plate), feet,
+         2, false});
     bracket();
   }
 
@@ -337,16 +387,24 @@ class PartMaker {
       plate.loops.push_back(round_hole(foot, sizes_.foot->clearance));
     }
     plate.loops.push_back(edge(hull_of(shape)));
-    add({"board_spacer", "spacer between bracket and board", tube(0.5 * board.hole + k_wall, board.hole, 3), spacers, 4, false});
-    add({"bracket", "bracket: the board hangs under it, chip down", {{plate}}, {{{0, 0}, sizes_.bracket_low, false, false}}, 1, true});
+    add({"board_spacer", "spacer between bracket and board", tube(0.5 * board.hole + k_wall, board.hole, 3), spacers, 4,
+         false});
+    add({"bracket",
+         "bracket: the board hangs under it, chip down",
+         {{plate}},
+         {{{0, 0}, sizes_.bracket_low, false, false}},
+         1,
+         true});
     buy(1, board.name + ": " + board.description, "reads the joint's angle; as assumed: " + board.source);
-    buy(4, screw_words(thread_within(board.hole), sizes_.bracket + 3 + board.thickness + 4) + " with nuts", "board, under the bracket");
+    buy(4, screw_words(thread_within(board.hole), sizes_.bracket + 3 + board.thickness + 4) + " with nuts",
+        "board, under the bracket");
   }
 
   void tendons() {
     const Thread& small = *sizes_.small;
     const double top = sizes_.link_low + sizes_.link + sizes_.flange;
-    plan_.tendons[0] = {Side::left, top - sizes_.post_low + slide_start() - mechanism_.joint.R + 0.5 * slide_lengths(small).clamp,
+    plan_.tendons[0] = {Side::left,
+                        top - sizes_.post_low + slide_start() - mechanism_.joint.R + 0.5 * slide_lengths(small).clamp,
                         3 * k_pi * small.diameter};
     plan_.tendons[1] = {Side::right, 0, k_two_pi * sizes_.waist};
   }
@@ -364,7 +422,8 @@ SlideLengths slide_lengths(const Thread& thread) {
   return {2 * thread.head_radius + 1.5, 2.5, thread.nut_height + 0.5, 3.0};
 }
 
-// At the slope that a printer bears slicers round the last layer the wrong way: PrusaSlicer takes 45° for less than 46°.
+// At the slope that a printer bears slicers round the last layer the wrong way: PrusaSlicer takes 45° for less than
+// 46°.
 double post_steepness(const Mechanism& mechanism) {
   return std::tan(std::clamp(mechanism.print.overhang + radians(8), radians(53), radians(80)));
 }
@@ -418,12 +477,14 @@ Polygon scale_outline(const KitPlan& plan, const Mechanism& mechanism) {
 TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
   // What the coupon shows is what the printer does by itself.
   if (part.places.empty()) return mesh_of(part.body);
-  return mesh_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}), layout.scale);
+  return mesh_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}),
+                 layout.scale);
 }
 
 double printed_volume(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
   if (part.places.empty()) return volume_of(part.body);
-  return volume_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}), layout.scale);
+  return volume_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}),
+                   layout.scale);
 }
 
 TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta) {

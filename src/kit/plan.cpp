@@ -14,11 +14,11 @@ namespace fusee {
 namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
-constexpr double k_clear = 0.5;       // between what moves past each other: a desktop printer is right to 0.2 mm
-constexpr double k_wall = 1.2;        // three lines of a 0.4 mm nozzle
-constexpr int k_places = 49;          // of the stroke that distances are looked at in
+constexpr double k_clear = 0.5;  // between what moves past each other: a desktop printer is right to 0.2 mm
+constexpr double k_wall = 1.2;   // three lines of a 0.4 mm nozzle
+constexpr int k_places = 49;     // of the stroke that distances are looked at in
 constexpr double k_collar_height = 2.5;
-constexpr double k_least_pin = 0.5;   // the thinnest rod that is sold as one is of 1 mm
+constexpr double k_least_pin = 0.5;  // the thinnest rod that is sold as one is of 1 mm
 
 /// A rod that shops have, mm.
 bool is_stock_rod(double diameter) {
@@ -60,7 +60,7 @@ struct Scene {
   std::array<Vec2, 2> pins;
   std::vector<TransmissionPoint> stroke;
   std::array<std::vector<std::vector<Vec2>>, 2> paths;  ///< of either tendon, at each place of the stroke
-  double longest = 0;  ///< free length of a tendon, mm
+  double longest = 0;                                   ///< free length of a tendon, mm
 
   explicit Scene(const Mechanism& given) : mechanism(given) {
     const Transmission transmission(mechanism);
@@ -233,8 +233,9 @@ Least tendon_past(const Scene& scene, int tendon, const Vec2& place, double radi
 Least post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, double radius) {
   Least least;
   for (const TransmissionPoint& at : scene.stroke)
-    least.see((scene.mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)) - place).norm() - sizes.post - radius,
-              at.alpha);
+    least.see(
+        (scene.mechanism.joint.R * Vec2(std::sin(at.theta), std::cos(at.theta)) - place).norm() - sizes.post - radius,
+        at.alpha);
   return least;
 }
 
@@ -247,9 +248,8 @@ void look_at_axle(Conditions& look, const Scene& scene, const KitPlan& plan) {
                 "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
                     " by {}, or a smaller pulley (pulley.r1_mm, body.groove_depth_mm)");
   for (const int tendon : {0, 1}) {
-    look.at_least("axle_beside_tendon_" + std::to_string(tendon + 1),
-                  tendon_past(scene, tendon, axis, sizes.axle_tube), k_clear,
-                  "tendon " + std::to_string(tendon + 1) + " meets the joint's axle",
+    look.at_least("axle_beside_tendon_" + std::to_string(tendon + 1), tendon_past(scene, tendon, axis, sizes.axle_tube),
+                  k_clear, "tendon " + std::to_string(tendon + 1) + " meets the joint's axle",
                   std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") +
                       " larger by {}, or a smaller range (joint.range_deg)");
     look.at_least(std::string("axle_beside_pin_") + (tendon == 0 ? "B" : "D"),
@@ -284,8 +284,8 @@ void look_at_pins(Conditions& look, const Scene& scene, const KitPlan& plan) {
                   "body.flange_thickness_mm larger by {}");
     if (sizes.motor && own.screw) {
       const Vec2 off = own.place - scene.pulley;
-      const double beside = std::max(std::abs(off.x()) - sizes.motor->side,
-                                     off.dot(sizes.motor_front) - sizes.motor->front);
+      const double beside =
+          std::max(std::abs(off.x()) - sizes.motor->side, off.dot(sizes.motor_front) - sizes.motor->front);
       look.at_least("pin_" + name + "_beside_motor", {beside - own.screw->head_radius, 0}, k_clear,
                     "the screw of pin " + name + " stands in the motor (" + sizes.motor->name + ")",
                     "pulley.EF_mm larger by {}");
@@ -306,8 +306,8 @@ void look_at_link(Conditions& look, const Scene& scene, const KitPlan& plan) {
                 "the post at C meets the magnet's cap", "joint.length_mm larger by {}");
   look.at_least("post_beside_bearing", {R - sizes.post - 0.5 * sizes.bearing->outer, 0}, k_wall,
                 "the hole for the post at C meets the bearing", "joint.length_mm larger by {}");
-  const double waist_low = sizes.z_tendon2 - 0.5 * sizes.tendon_gap -
-                           post_steepness(scene.mechanism) * (sizes.post - sizes.waist) - 0.4;
+  const double waist_low =
+      sizes.z_tendon2 - 0.5 * sizes.tendon_gap - post_steepness(scene.mechanism) * (sizes.post - sizes.waist) - 0.4;
   look.at_least("tendons_apart_on_post", {waist_low - sizes.post_low, 0}, k_clear,
                 "both tendons are too near each other to be tied to one post", "body.flange_thickness_mm larger by {}");
   const Polygon scale = scale_outline(plan, scene.mechanism);
@@ -322,11 +322,12 @@ void look_at_link(Conditions& look, const Scene& scene, const KitPlan& plan) {
                 "the tensioner meets the board", "another board (profiles/catalogue/boards.toml)");
   look.at_least("scale_over_pins", {sizes.scale_low - std::max(plan.pins[0].top, plan.pins[1].top), 0}, k_clear,
                 "a pin meets the scale", "");
-  look.at_least("scale_over_pulley", {sizes.scale_low - sizes.pulley_high, 0}, k_clear, "the pulley meets the scale", "");
+  look.at_least("scale_over_pulley", {sizes.scale_low - sizes.pulley_high, 0}, k_clear, "the pulley meets the scale",
+                "");
   look.at_least("link_over_scale", {sizes.link_low - sizes.scale_low - sizes.scale_plate, 0}, k_clear,
                 "the link meets the scale", "");
-  look.at_least("tendon_1_over_base", {sizes.z_tendon1 - 0.5 * scene.mechanism.tendon.diameter -
-                                           (sizes.motor ? sizes.motor->head : 0.0), 0},
+  look.at_least("tendon_1_over_base",
+                {sizes.z_tendon1 - 0.5 * scene.mechanism.tendon.diameter - (sizes.motor ? sizes.motor->head : 0.0), 0},
                 k_clear, "tendon 1 meets the motor's screws", "body.flange_thickness_mm larger by {}");
 }
 
@@ -364,8 +365,8 @@ class FootRoom {
   /// Behind the axis, where the scale's lines are.
   bool on_scale(const Vec2& place, double own) const {
     const double theta = std::atan2(-place.x(), -place.y()), more = radians(15);
-    return place.norm() < plan_.sizes.pointer + k_scale_reach + own && theta > scene_.mechanism.joint.theta_min - more &&
-           theta < scene_.mechanism.joint.theta_max + more;
+    return place.norm() < plan_.sizes.pointer + k_scale_reach + own &&
+           theta > scene_.mechanism.joint.theta_min - more && theta < scene_.mechanism.joint.theta_max + more;
   }
 
   bool in_motor(const Vec2& place) const {
@@ -406,7 +407,8 @@ std::vector<Disc> on_base(const Scene& scene, const KitPlan& plan) {
   if (sizes.motor) {
     const MotorType& motor = *sizes.motor;
     for (const double x : {-1.0, 1.0}) {
-      for (const double along : {std::max(motor.front, motor.hole_front + 4), -std::max(motor.back, motor.hole_back + 4)})
+      for (const double along :
+           {std::max(motor.front, motor.hole_front + 4), -std::max(motor.back, motor.hole_back + 4)})
         all.push_back({scene.pulley + Vec2(x * motor.side, 0) + along * sizes.motor_front, 0});
     }
   }
@@ -435,8 +437,8 @@ KitPlan with_bearing(const Scene& scene, const SynthesisResult& synthesis, const
   plan.pins = {pin_of(sizes, scene, Side::left), pin_of(sizes, scene, Side::right)};
   size_link(sizes, scene, std::max(plan.pins[0].top, plan.pins[1].top));
   Conditions look(plan);
-  look.at_least("pin_radius", {scene.mechanism.guides.radius, 0}, k_least_pin,
-                "a pin so thin cannot be made", "guides.radius_mm " + rounded(k_least_pin) + " or more");
+  look.at_least("pin_radius", {scene.mechanism.guides.radius, 0}, k_least_pin, "a pin so thin cannot be made",
+                "guides.radius_mm " + rounded(k_least_pin) + " or more");
   look_at_axle(look, scene, plan);
   look_at_pins(look, scene, plan);
   const FootRoom room(scene, plan);
@@ -457,13 +459,13 @@ KitPlan with_bearing(const Scene& scene, const SynthesisResult& synthesis, const
 void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout) {
   const KitSizes& sizes = plan.sizes;
   if (!sizes.motor) {
-    plan.notes.push_back("no motor of the catalogue has this " +
-                         std::string(mechanism.body.bore == Bore::horn ? "horn" : "shaft") +
-                         ": the base plate has only a hole for it; hold yours so that the pulley's lower face stands " +
-                         rounded(sizes.pulley_low, 3) + " mm above the plate, or add it to profiles/catalogue/motors.toml");
+    plan.notes.push_back(
+        "no motor of the catalogue has this " + std::string(mechanism.body.bore == Bore::horn ? "horn" : "shaft") +
+        ": the base plate has only a hole for it; hold yours so that the pulley's lower face stands " +
+        rounded(sizes.pulley_low, 3) + " mm above the plate, or add it to profiles/catalogue/motors.toml");
   } else if (sizes.motor->shaft > 0) {
-    const double needed = sizes.base + sizes.pulley_low +
-                          (layout.set_screw.present ? layout.set_screw.z + 1.5 : 0.5 * layout.z_hub);
+    const double needed =
+        sizes.base + sizes.pulley_low + (layout.set_screw.present ? layout.set_screw.z + 1.5 : 0.5 * layout.z_hub);
     if (needed > sizes.motor->shaft_length)
       plan.notes.push_back("the motor's shaft has to reach " + rounded(std::ceil(needed), 3) + " mm above its face, " +
                            rounded(sizes.motor->shaft_length, 3) + " mm are usual: buy one with a long shaft" +
@@ -471,8 +473,8 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layo
   }
   for (const KitPin& pin : plan.pins) {
     if (!pin.screw && !is_stock_rod(2 * pin.radius))
-      plan.notes.push_back("no shop has rods of " + rounded(2 * pin.radius, 4) + " mm: take the shank of a drill for pin " +
-                           (pin.side == Side::left ? "B" : "D"));
+      plan.notes.push_back("no shop has rods of " + rounded(2 * pin.radius, 4) +
+                           " mm: take the shank of a drill for pin " + (pin.side == Side::left ? "B" : "D"));
   }
 }
 

@@ -116,7 +116,8 @@ std::vector<std::string> kit_names(const KitPlan& plan) {
 std::vector<Check> kit_fit_checks(const KitPlan& plan) {
   std::vector<Check> checks;
   for (const Condition& condition : plan.conditions)
-    checks.push_back(at_least("fit_" + condition.name, condition.value, condition.limit, condition.unit, condition.message));
+    checks.push_back(
+        at_least("fit_" + condition.name, condition.value, condition.limit, condition.unit, condition.message));
   return checks;
 }
 
@@ -126,7 +127,8 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
   product.pulley.file = with_doubts(file);
   product.pulley.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
-  target.claim({"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work: a refusal should not cost a wait
+  target.claim(
+      {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work: a refusal should not cost a wait
   if (!design(product.pulley, options)) {
     result.ending = KitEnding::no_pulley;
     return result;

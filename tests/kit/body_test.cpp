@@ -13,7 +13,9 @@ namespace {
 using namespace fusee;
 
 /// Area of a regular polygon with its corners on the circle.
-double area_of_circle(int corners, double radius) { return 0.5 * corners * radius * radius * std::sin(k_two_pi / corners); }
+double area_of_circle(int corners, double radius) {
+  return 0.5 * corners * radius * radius * std::sin(k_two_pi / corners);
+}
 
 void expect_solid(const SlabBody& body) {
   const TriangleMesh mesh = mesh_of(body);

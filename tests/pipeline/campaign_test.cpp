@@ -158,7 +158,8 @@ enum class End { made, refused, bad_input };
 void expect_kit_or_reasons(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const KitPlan plan = plan_kit(mechanism, product.synthesis, product.pulley.layout);
-  for (const Condition& condition : plan.conditions) EXPECT_EQ(condition.ok, condition.message.empty()) << condition.name;
+  for (const Condition& condition : plan.conditions)
+    EXPECT_EQ(condition.ok, condition.message.empty()) << condition.name;
   EXPECT_EQ(plan.made(), failed_of(plan.conditions).empty());
   EXPECT_EQ(plan.made(), !plan.parts.empty());
   for (const KitPart& part : plan.parts) {

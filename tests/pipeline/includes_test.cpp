@@ -24,11 +24,12 @@ const std::map<std::string, int>& flow() {
 
 /// What each inner room of export may use of export beside itself. The value Product stands between the meshes, which
 /// know no pulley, and all that is made of one. (tool.h, what fusee calls itself, is everybody's.)
-const std::map<std::string, std::set<std::string>> k_export_uses = {{"product", {}},
-                                                                    {"mesh_files", {}},
-                                                                    {"drawings", {"product"}},
-                                                                    {"report", {"product", "mesh_files", "drawings"}},
-                                                                    {"kit", {"product", "mesh_files", "drawings", "report"}}};
+const std::map<std::string, std::set<std::string>> k_export_uses = {
+    {"product", {}},
+    {"mesh_files", {}},
+    {"drawings", {"product"}},
+    {"report", {"product", "mesh_files", "drawings"}},
+    {"kit", {"product", "mesh_files", "drawings", "report"}}};
 /// Public headers of report beside report.h.
 const std::set<std::string> k_report_headers = {"calibration", "paper"};
 

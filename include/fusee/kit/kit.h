@@ -1,10 +1,10 @@
 /// \file
 /// The rest of a test model: what stands round a pulley so that its joint can be held in the hand, as plain values.
 ///
-/// The kit's frame is the mechanism's, z up from the top of the base plate. From below: motor | base plate | tendon 1 at
-/// `z_tendon1`, tendon 2 at `z_tendon2`, between collars on the pins | scale plate, over pins and pulley | link, on two
-/// ball bearings, its post hanging down at C to both tendons | magnet | board | bracket. So nothing that moves with the
-/// link meets a pin or the pulley, but the post, which stays within the plane's room (`conditions`). mm, rad
+/// The kit's frame is the mechanism's, z up from the top of the base plate. From below: motor | base plate | tendon 1
+/// at `z_tendon1`, tendon 2 at `z_tendon2`, between collars on the pins | scale plate, over pins and pulley | link, on
+/// two ball bearings, its post hanging down at C to both tendons | magnet | board | bracket. So nothing that moves with
+/// the link meets a pin or the pulley, but the post, which stays within the plane's room (`conditions`). mm, rad
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ namespace fusee {
 struct Thread {
   std::string_view name;
   double diameter = 0;
-  double clearance = 0;   ///< diameter of the hole that it passes
-  double tapping = 0;     ///< of the hole that it cuts its thread into
+  double clearance = 0;  ///< diameter of the hole that it passes
+  double tapping = 0;    ///< of the hole that it cuts its thread into
   double head_radius = 0;
-  double nut = 0;         ///< across flats
+  double nut = 0;  ///< across flats
   double nut_height = 0;
 };
 
@@ -39,7 +39,7 @@ struct KitPin {
   double collar = 0;              ///< outer radius of the collars below and above it
   double gap_low = 0;             ///< heights between which the tendon runs
   double gap_high = 0;
-  double top = 0;                 ///< of all that stands there
+  double top = 0;  ///< of all that stands there
 };
 
 /// Part of the kit's heights and radii, resolved.
@@ -53,24 +53,25 @@ struct KitSizes {
   double pulley_high = 0;
   double pulley_radius = 0;  ///< of the circle about its axis that its flanges keep within
   double z_tendon1 = 0, z_tendon2 = 0;
-  double tendon_gap = 0;     ///< between collars
-  double axle_tube = 0;      ///< outer radius
-  double scale_low = 0, scale_plate = 0;  ///< the scale plate's lower face and thickness
-  double pointer = 0;        ///< radius of the link's pointer
-  double graduation = 0;     ///< of the scale, rad
+  double tendon_gap = 0;                   ///< between collars
+  double axle_tube = 0;                    ///< outer radius
+  double scale_low = 0, scale_plate = 0;   ///< the scale plate's lower face and thickness
+  double pointer = 0;                      ///< radius of the link's pointer
+  double graduation = 0;                   ///< of the scale, rad
   double link_low = 0, lip = 0, link = 0;  ///< the link's lower face, its lip below the bearings, its thickness
-  double hub = 0;            ///< radius of its hub
-  double cap = 0, cap_height = 0, web = 0, recess = 0;  ///< magnet cap: radius, height, web, radius of the room for the nut
-  double cap_screws = 0;     ///< radius on which they stand
-  double post = 0, waist = 0, bore = 0;  ///< radii of the post at C: outside, where tendon 2 is tied, inside
-  double post_low = 0;       ///< its mouth, at tendon 1
-  double flange = 0;         ///< thickness of the post's flange on top of the link
-  double post_screws = 0;    ///< ± from C, across the link
+  double hub = 0;                          ///< radius of its hub
+  double cap = 0, cap_height = 0, web = 0,
+         recess = 0;                              ///< magnet cap: radius, height, web, radius of the room for the nut
+  double cap_screws = 0;                          ///< radius on which they stand
+  double post = 0, waist = 0, bore = 0;           ///< radii of the post at C: outside, where tendon 2 is tied, inside
+  double post_low = 0;                            ///< its mouth, at tendon 1
+  double flange = 0;                              ///< thickness of the post's flange on top of the link
+  double post_screws = 0;                         ///< ± from C, across the link
   double slide = 0, slide_width = 0, travel = 0;  ///< tensioner: length and width of the slide, how far it moves
-  double link_end = 0;       ///< y of the link's end at home
+  double link_end = 0;                            ///< y of the link's end at home
   double bracket_low = 0, bracket = 0;
-  double leg = 0;            ///< height of the legs
-  Vec2 motor_front{0, 1};    ///< direction of the motor's front
+  double leg = 0;          ///< height of the legs
+  Vec2 motor_front{0, 1};  ///< direction of the motor's front
 };
 
 /// Where a part stands: turned over about y first where it lies so on the printer, then turned about z, then shifted.
@@ -82,9 +83,9 @@ struct KitPlace {
 };
 
 struct KitPart {
-  std::string name;   ///< "base_plate": of its files
-  std::string words;  ///< what it is
-  SlabBody body;      ///< as it lies on the printer, the size that is wanted
+  std::string name;              ///< "base_plate": of its files
+  std::string words;             ///< what it is
+  SlabBody body;                 ///< as it lies on the printer, the size that is wanted
   std::vector<KitPlace> places;  ///< one a piece; none: it is no part of the model (the coupon)
   int count = 1;
   bool plate = false;  ///< may be cut from sheets as well: its slabs are upright
@@ -100,7 +101,7 @@ struct KitItem {
 /// A tendon of the kit: beyond the knots that a pulley's tendon has.
 struct KitTendon {
   Side side = Side::left;
-  double beyond = 0;  ///< from C to its end at the joint, along the tendon
+  double beyond = 0;    ///< from C to its end at the joint, along the tendon
   double at_joint = 0;  ///< what its fastening there takes, mm
 };
 

@@ -67,13 +67,14 @@ struct BoardType {
   double thickness = 0;
   Vec2 pitch{0, 0};  ///< between its four holes
   double hole = 0;
-  double chip = 0;  ///< how far the chip stands above the board
+  double chip = 0;    ///< how far the chip stands above the board
   double magnet = 0;  ///< diameter of the disc, magnetised across
   double magnet_height = 0;
   double gap = 0;  ///< between magnet and chip
 };
 
-/// What turns a test model's pulley, about its shaft's axis, the face that lies against a plate from below at height 0. mm
+/// What turns a test model's pulley, about its shaft's axis, the face that lies against a plate from below at height 0.
+/// mm
 struct MotorType {
   std::string name;
   std::string description;
@@ -88,8 +89,8 @@ struct MotorType {
   double pilot = 0;               ///< diameter of the round boss on it; 0: the body itself comes up through the plate
   bool two_holes = false;         ///< its screws stand at ±x; else at ±x, to the front and to the back
   double hole_x = 0, hole_front = 0, hole_back = 0;
-  double hole = 0;                ///< diameter
-  double head = 0;                ///< height of the screws' heads
+  double hole = 0;  ///< diameter
+  double head = 0;  ///< height of the screws' heads
 };
 
 const std::vector<HornType>& horns();
