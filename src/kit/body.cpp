@@ -168,7 +168,8 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
     for (SlabLoop& loop : changed.loops) {
       if (!loop.hole) continue;
       const double least = least_radius(loop.hull);
-      const double more = std::max(0.5 * trim.hole, 0.1 - least) + least * (1 / std::cos(k_pi / loop.hull.corners) - 1);
+      const double wider = std::max(0.5 * trim.hole, 0.1 - least);
+      const double more = wider + (least + wider) * (1 / std::cos(k_pi / loop.hull.corners) - 1);
       loop.grow_low += more;
       loop.grow_high += more;
     }

@@ -109,7 +109,7 @@ class PartMaker {
     std::vector<KitPlace> legs;
     for (const Vec2& leg : plan_.legs) legs.push_back({leg, -sizes_.base - sizes_.leg, false, false});
     add({"leg", "leg under the base plate", tube(k_leg_radius, leg_screw().tapping, sizes_.leg), legs, 4, false});
-    buy(4, screw_words(leg_screw(), sizes_.base + 10), "legs, from above");
+    buy(4, screw_words(leg_screw(), sizes_.base + 10) + " with low head", "legs, from above");
     if (sizes_.motor) {
       const MotorType& motor = *sizes_.motor;
       buy(1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source);

@@ -239,6 +239,15 @@ Least post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, do
   return least;
 }
 
+/// From the motor's body and its screws to a place, in the plane: below 0 within.
+double beside_motor(const MotorType& motor, const Scene& scene, const KitSizes& sizes, const Vec2& place) {
+  const Vec2 off = place - scene.pulley;
+  const double along = off.dot(sizes.motor_front);
+  return std::max({std::abs(off.x()) - std::max(motor.side, motor.hole_x + motor.hole),
+                   along - std::max(motor.front, motor.hole_front + motor.hole),
+                   -along - std::max(motor.back, motor.hole_back + motor.hole)});
+}
+
 void look_at_axle(Conditions& look, const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   const Vec2 axis(0, 0);
@@ -258,8 +267,8 @@ void look_at_axle(Conditions& look, const Scene& scene, const KitPlan& plan) {
                   std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") + " larger by {}");
   }
   if (sizes.motor) {
-    const double along = scene.pulley.norm() - sizes.motor->front;
-    look.at_least("axle_beside_motor", fixed(along - sizes.axle->head_radius), k_clear,
+    const double beside = beside_motor(*sizes.motor, scene, sizes, axis);
+    look.at_least("axle_beside_motor", fixed(beside - sizes.axle->head_radius), k_clear,
                   "the screw of the joint's axle stands in the motor (" + sizes.motor->name + ")",
                   "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
                       " by {}, or a smaller motor (body.shaft, body.horn)");
@@ -282,12 +291,10 @@ void look_at_pins(Conditions& look, const Scene& scene, const KitPlan& plan) {
     look.at_least("pin_" + name + "_low_collar", {own.gap_low, 0}, 0.6,
                   "there is no room for a collar below the tendon on pin " + name,
                   "body.flange_thickness_mm larger by {}");
-    if (sizes.motor && own.screw) {
-      const Vec2 off = own.place - scene.pulley;
-      const double beside =
-          std::max(std::abs(off.x()) - sizes.motor->side, off.dot(sizes.motor_front) - sizes.motor->front);
-      look.at_least("pin_" + name + "_beside_motor", {beside - own.screw->head_radius, 0}, k_clear,
-                    "the screw of pin " + name + " stands in the motor (" + sizes.motor->name + ")",
+    if (sizes.motor) {
+      const double radius = own.screw ? own.screw->head_radius : own.radius + k_wall;
+      look.at_least("pin_" + name + "_beside_motor", {beside_motor(*sizes.motor, scene, sizes, own.place) - radius, 0},
+                    k_clear, "pin " + name + " stands in the motor (" + sizes.motor->name + ")",
                     "pulley.EF_mm larger by {}");
     }
   }
@@ -351,7 +358,8 @@ class FootRoom {
     for (const KitPin& pin : plan_.pins) {
       if ((place - pin.place).norm() < pin.collar + 1 + own) return false;
     }
-    if (sizes.motor && in_motor(place)) return false;
+    if (sizes.motor && beside_motor(*sizes.motor, scene_, sizes, place) < nut_corner_radius(*sizes.foot) + 1)
+      return false;
     for (const auto& paths : scene_.paths) {
       for (const auto& path : paths) {
         if (distance_to_path(path, place) < own + 0.5 * scene_.mechanism.tendon.diameter + 0.5) return false;
@@ -367,15 +375,6 @@ class FootRoom {
     const double theta = std::atan2(-place.x(), -place.y()), more = radians(15);
     return place.norm() < plan_.sizes.pointer + k_scale_reach + own &&
            theta > scene_.mechanism.joint.theta_min - more && theta < scene_.mechanism.joint.theta_max + more;
-  }
-
-  bool in_motor(const Vec2& place) const {
-    const MotorType& motor = *plan_.sizes.motor;
-    const Vec2 off = place - scene_.pulley;
-    const double along = off.dot(plan_.sizes.motor_front), room = nut_corner_radius(*plan_.sizes.foot) + 1;
-    return std::abs(off.x()) < std::max(motor.side, motor.hole_x + motor.hole) + room &&
-           along < std::max(motor.front, motor.hole_front + motor.hole) + room &&
-           along > -std::max(motor.back, motor.hole_back + motor.hole) - room;
   }
 
   const Scene& scene_;
@@ -471,6 +470,12 @@ void add_notes(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layo
                            rounded(sizes.motor->shaft_length, 3) + " mm are usual: buy one with a long shaft" +
                            (layout.set_screw.present ? ", or set body.hub_height_mm = 0 and press the pulley on" : ""));
   }
+  constexpr double k_usual_bed = 220;
+  const Vec2 base = plan.legs[2] - plan.legs[0] + Vec2(2 * k_leg_radius + 2, 2 * k_leg_radius + 2);
+  if (base.maxCoeff() > k_usual_bed)
+    plan.notes.push_back("the base plate is " + rounded(std::ceil(base.x()), 4) + " × " +
+                         rounded(std::ceil(base.y()), 4) +
+                         " mm, larger than the bed of most printers: cut it (kit.dxf)");
   for (const KitPin& pin : plan.pins) {
     if (!pin.screw && !is_stock_rod(2 * pin.radius))
       plan.notes.push_back("no shop has rods of " + rounded(2 * pin.radius, 4) +

@@ -268,7 +268,7 @@ TEST(KitOfOne, EveryPartIsCheckedAsItWasWritten) {
   for (const Check& check : made.product.checks)
     EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.where;
   for (const KitPart& part : made.product.plan.parts) {
-    for (const char* what : {"_closed", "_overhang", "_volume_error", "_3mf_deviation"})
+    for (const char* what : {"_open_edges", "_overhang", "_volume_error", "_3mf_deviation"})
       EXPECT_TRUE(std::any_of(made.product.checks.begin(), made.product.checks.end(),
                               [&](const Check& check) { return check.name == part.name + what; }))
           << part.name << what;

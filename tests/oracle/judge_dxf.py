@@ -1,7 +1,7 @@
 """ezdxf as a judge: each DXF must load and audit with no error and nothing to mend, in mm, and hold nothing but closed contours where something
 is cut. What is round must be round: bores, dowel holes, knot pockets and a horn's screws circles, the shaft's part of D and keyway bores one
 arc about the axis; centres and diameters are held against pulley.scad and the manifest, which know nothing of drawings.
-Usage: judge_dxf.py FOLDER   with profile.dxf, plates.dxf, pulley.scad, manifest.json; or judge_dxf.py FOLDER --self-test: that this judge sees
+Usage: judge_dxf.py FILE.dxf   any drawing; judge_dxf.py FOLDER   with profile.dxf, plates.dxf, pulley.scad, manifest.json; or judge_dxf.py FOLDER --self-test: that this judge sees
 a polygon in a circle's place, a wrong diameter and a shifted centre.   Prints what is wrong; exit 1 when anything is, 77 without ezdxf."""
 import argparse
 import json
@@ -170,6 +170,9 @@ def read(folder):
 
 
 def faults(folder):
+    if folder.suffix == ".dxf":
+        yield from drawing_faults(ezdxf.readfile(folder))
+        return
     profile, plates = read(folder)
     for name, document in (("profile.dxf", profile), ("plates.dxf", plates)):
         yield from (f"{name}: {fault}" for fault in drawing_faults(document))

@@ -3,6 +3,7 @@
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
     judge_page.py build/forearm --self-test     that this judge sees a broken page
+    judge_page.py --still page.html …           pages without scripts: nothing asked for, nothing too wide, pictures that show
 
 Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is not installed.
 
@@ -109,6 +110,17 @@ AFTER = """
 """
 
 
+# Of a page on which nothing moves.
+STILL = """
+(() => {
+  const found = { noted, requests: performance.getEntriesByType("resource").length, room: innerWidth, wide: document.documentElement.scrollWidth };
+  found.pictures = [...document.querySelectorAll("svg")].map(svg => ({
+    width: svg.getBoundingClientRect().width, drawn: svg.querySelectorAll("path,line,circle").length, named: Boolean(svg.querySelector("title") || svg.getAttribute("aria-label"))}));
+  parent.document.body.append(Object.assign(parent.document.createElement("pre"), { id: "found", textContent: JSON.stringify(found) }));
+})();
+"""
+
+
 def browser():
     return next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
 
@@ -117,10 +129,10 @@ def script(words):
     return f"<script>//<![CDATA[\n{words}\n//]]></script>"
 
 
-def seen_in(page, alphas, width, options=()):
-    """What AFTER found on the page."""
+def seen_in(page, alphas, width, options=(), after=AFTER):
+    """What `after` found on the page."""
     page = page.replace("<head>", "<head>" + script(BEFORE), 1)
-    page = page.replace("</body>", script(AFTER.replace("ALPHAS", json.dumps(alphas))) + "</body>", 1)
+    page = page.replace("</body>", script(after.replace("ALPHAS", json.dumps(alphas))) + "</body>", 1)
     # In a frame: a window of Chromium's is never narrower than 500 px.
     frame = f'<!DOCTYPE html><body><iframe width="{width}" height="900" srcdoc="{html.escape(page)}"></iframe></body>'
     with tempfile.TemporaryDirectory() as folder:
@@ -208,6 +220,29 @@ def faults(page, rows, R, ways=WAYS):
         yield from (f"{name}: {look}" for look in looks)
 
 
+def still_faults(page):
+    if "<script" in page:
+        yield "has a script"
+    if len(page.encode()) > MOST_BYTES:
+        yield f"{len(page.encode())} bytes"
+    page = page.replace("default-src 'none'", "default-src 'none'; script-src 'unsafe-inline'", 1)  # for this judge's own
+    for width in (320, 1200):
+        found = seen_in(page, [], width, (), STILL)
+        if found is None:
+            yield f"{width} px: the page was not shown"
+            continue
+        yield from (f"{width} px: {note}" for note in found["noted"])
+        if found["requests"]:
+            yield f"{width} px: {found['requests']} requests"
+        if found["wide"] > found["room"]:
+            yield f"{width} px: {found['wide']} px wide in a window of {found['room']}"
+        if not found["pictures"]:
+            yield f"{width} px: no picture"
+        for picture in found["pictures"]:
+            if picture["width"] < 100 or picture["drawn"] < 5 or not picture["named"]:
+                yield f"{width} px: a picture that shows little: {picture}"
+
+
 def read(folder):
     folder = pathlib.Path(folder)
     with open(folder / "transmission.csv", encoding="utf-8") as lines:
@@ -246,6 +281,11 @@ def self_test(folder):
 def main():
     if browser() is None:
         return SKIPPED
+    if "--still" in sys.argv:
+        pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
+        found = [f"{page}: {fault}" for page in pages for fault in still_faults(pathlib.Path(page).read_text(encoding="utf-8"))]
+        print("\n".join(found))
+        return 1 if found else 0
     folder, *pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
     if "--self-test" in sys.argv:
         return self_test(folder)

@@ -1,0 +1,87 @@
+"""`fusee kit` as a person meets it: a model to build, or which parts would meet and what to change."""
+
+import csv
+import hashlib
+import io
+import json
+import os
+import re
+import unittest
+
+import harness
+
+RATIO = 'schema = 1\nname = "joint"\n[transmission]\nkind = "ratio"\nratio = 4.0\n'
+
+
+class Kit(harness.Scratch):
+    def test_it_leaves_parts_a_drawing_a_list_and_a_page(self):
+        document = self.expect_json("kit arm.toml -o model", 0)
+        files = self.files("model")
+        manifest = json.loads(files["manifest.json"])
+        self.assertEqual(manifest["status"], "done")
+        self.assertTrue(all(check["ok"] for check in manifest["checks"]))
+        self.assertEqual({output["file"] for output in manifest["outputs"]}, set(files) - {"manifest.json"})
+        for output in manifest["outputs"]:
+            self.assertEqual(hashlib.sha256(files[output["file"]]).hexdigest(), output["sha256"])
+        for part in manifest["parts"]:
+            self.assertIn(part["file"], files)
+            self.assertIn(part["file"].replace(".stl", ".3mf"), files)
+        for name in ["base_plate", "link", "post", "tensioner_slide", "magnet_cap", "bracket", "scale_plate", "fit_coupon"]:
+            self.assertIn(name + ".stl", files)
+        self.assertTrue({"kit.dxf", "kit.html", "bom.csv", "run_1.csv"} <= set(files))
+        self.assertEqual(document["published"], True)
+        page = files["kit.html"].decode()
+        self.assertNotRegex(page, r'(src|href)=|http://(?!www\.w3\.org)|https://|<script')
+        # What the page says is what the document says.
+        for tendon in manifest["tendons_at_home"]:
+            self.assertIn(f"{tendon['cut_length_mm']:.0f}\u00a0mm", page)
+        for row in csv.DictReader(io.StringIO(files["bom.csv"].decode())):
+            self.assertGreater(int(row["count"]), 0)
+        self.expect("check model/link.stl", 0, "valid")
+        self.expect("check model/kit.dxf", 0, "valid")
+
+    def test_same_input_same_bytes(self):
+        self.expect("kit arm.toml -o one", 0)
+        os.environ["TZ"] = "Pacific/Chatham"
+        self.expect("kit arm.toml -o two", 0)
+        self.assertEqual(self.files("one"), self.files("two"))
+
+    def test_dry_run_leaves_nothing(self):
+        self.expect("kit arm.toml --dry-run", 0, r"none written \(--dry-run\)")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["arm.toml"])
+
+    def test_parts_that_would_meet_are_refused_with_what_to_change(self):
+        self.expect("kit arm.toml --set pulley.EF_mm=60 -o model", 4, "^$", r"pulley\.EF_mm larger by")
+        self.assertFalse((self.folder / "model").exists())
+        document = self.expect_json("kit arm.toml --set guides.radius_mm=0", 4)
+        failed = [condition for condition in document["conditions"] if not condition["ok"]]
+        self.assertTrue(any("guides.radius_mm" in condition["message"] for condition in failed))
+
+    def test_a_pulley_that_cannot_be_made_is_refused_as_build_does(self):
+        self.expect("kit arm.toml --set pulley.r1_mm=25 -o model", 4, "^$", "it would be possible with")
+        self.assertFalse((self.folder / "model").exists())
+
+    def test_a_joint_that_is_not_this_mechanism_is_bad_input(self):
+        (self.folder / "ratio.toml").write_text(RATIO)
+        self.assertEqual(self.run_fusee("kit ratio.toml").returncode, self.run_fusee("build ratio.toml").returncode)
+
+    def test_what_somebody_changed_is_kept(self):
+        self.expect("kit arm.toml -o model", 0)
+        (self.folder / "model/link.stl").write_text("mine")
+        self.expect("kit arm.toml -o model", 6, "^$", "link.stl")
+        self.assertEqual((self.folder / "model/link.stl").read_text(), "mine")
+        self.expect("kit arm.toml -o model --force", 0)
+
+    def test_another_pin_leaves_no_sleeve_of_the_earlier_one(self):
+        self.expect("kit arm.toml -o model --set guides.radius_mm=4", 0)
+        self.assertIn("pin_b_sleeve.stl", self.files("model"))
+        self.expect("kit arm.toml -o model", 0)
+        self.assertNotIn("pin_b_sleeve.stl", self.files("model"))
+
+    def test_it_can_be_packed_and_run_again(self):
+        self.expect("kit arm.toml -o model --bundle bug.zip", 0)
+        self.expect("replay bug.zip", 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=harness.arguments())
