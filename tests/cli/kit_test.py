@@ -5,8 +5,6 @@ import hashlib
 import io
 import json
 import os
-import re
-import unittest
 
 import harness
 
@@ -63,7 +61,7 @@ class Kit(harness.Scratch):
 
     def test_a_joint_that_is_not_this_mechanism_is_bad_input(self):
         (self.folder / "ratio.toml").write_text(RATIO)
-        self.assertEqual(self.run_fusee("kit ratio.toml").returncode, self.run_fusee("build ratio.toml").returncode)
+        self.assertEqual(self.fusee("kit ratio.toml").returncode, self.fusee("build ratio.toml").returncode)
 
     def test_what_somebody_changed_is_kept(self):
         self.expect("kit arm.toml -o model", 0)
@@ -84,4 +82,4 @@ class Kit(harness.Scratch):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=harness.arguments())
+    harness.main()
