@@ -289,8 +289,7 @@ std::vector<Condition> obstacles_of(const MechanismFile& file, const BuildOption
   const JointAsItIs joint = as_it_is(file.mechanism);
   if (const auto obstacle = obstacle_to(joint.mechanism))
     return {*obstacle};  // most fail early, and what is cheap to see comes first
-  SynthesisResult synthesis =
-      synthesise(joint.mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
+  SynthesisResult synthesis = synthesise(joint.mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
   if (!synthesis.made()) return failed_of(synthesis.conditions);
   draw_for_making(synthesis, joint.outline);
   std::vector<Condition> obstacles = body_obstacles(joint.mechanism, synthesis);

@@ -177,8 +177,7 @@ class Adviser {
   std::vector<Change> together() {
     std::vector<std::size_t> helpful(turns_.size());
     std::iota(helpful.begin(), helpful.end(), std::size_t{0});
-    std::stable_sort(helpful.begin(), helpful.end(),
-                     [this](std::size_t a, std::size_t b) { return helps_[a] > helps_[b]; });
+    std::stable_sort(helpful.begin(), helpful.end(), [this](std::size_t a, std::size_t b) { return helps_[a] > helps_[b]; });
     helpful.resize(std::min(helpful.size(), k_helpful));
     double before = 0;
     for (double step = 2 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {

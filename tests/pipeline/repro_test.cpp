@@ -90,8 +90,9 @@ INSTANTIATE_TEST_SUITE_P(
         Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
         Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}},
         Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
-        Repro{
-            "mouth_of_a_variant", "tests/data/repro/mouth_of_a_variant.toml", {{"joint.range_deg", "[-29.8, 29.8]"}}}),
+        Repro{"mouth_of_a_variant",
+              "tests/data/repro/mouth_of_a_variant.toml",
+              {{"joint.range_deg", "[-29.8, 29.8]"}}}),
     [](const auto& repro) { return std::string(repro.param.name); });
 
 }  // namespace

@@ -40,11 +40,10 @@ struct Advice {
   bool empty() const { return alone.empty() && together.empty(); }
 };
 
-/// For each number of the joint, guides, pulley and tendon that the law uses, and for `more_keys` (to which 0 is no
-/// number): steps outwards from its value, all of them a little further each time, within the bounds of the field
-/// table, until a few hold; then halves its way back to the border and rounds to three digits on the safe side. Where
-/// no number does alone, those that help most are turned in pairs. Numbers of `more_keys` are the easier ones to
-/// change: they are turned three times as far.
+/// For each number of the joint, guides, pulley and tendon that the law uses, and for `more_keys` (to which 0 is no number): steps
+/// outwards from its value, all of them a little further each time, within the bounds of the field table, until a few hold;
+/// then halves its way back to the border and rounds to three digits on the safe side. Where no number does alone, those
+/// that help most are turned in pairs. Numbers of `more_keys` are the easier ones to change: they are turned three times as far.
 Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys = {});
 
 /// Of find_advice() what does alone, where all that is known of a mechanism is whether it is possible.
