@@ -77,7 +77,7 @@ class BodyAdviser {
     // Where there are no curves, no number of the body alone would help.
     const std::vector<std::string> keys =
         obstacle_to(mechanism_) ? std::vector<std::string>{} : written_keys(mechanism_);
-    const Advice numbers = find_advice(mechanism_, judge_, keys);
+    const Advice numbers = find_advice(mechanism_, judge_, keys, advice.alone.size());
     advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
     for (const std::string& key : keys) {
       if (advice.alone.empty() && key.starts_with("body.")) add_automatic(advice.alone, key);
@@ -122,7 +122,7 @@ class BodyAdviser {
 }  // namespace
 
 std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  return failed_of(plan_body(mechanism, synthesis, {WrapChoice::nearest}).conditions);
+  return failed_of(plan_body(mechanism, synthesis, {.wrap = WrapChoice::nearest, .conditions_alone = true}).conditions);
 }
 
 std::vector<Condition> obstacles(const Mechanism& mechanism) {
