@@ -283,7 +283,7 @@ class Adviser {
   void learn(Learned& learned, const std::vector<Condition>& left) {
     if (first_.empty()) first_ = judge_.obstacles(mechanism_);
     learned.help = std::max(learned.help, weight(first_) - weight(left));
-    if (!judge_.made) return;
+    if (!judge_.is_dear) return;
     std::vector<Condition> as_before = left;
     std::erase_if(as_before, [this](const Condition& condition) {
       return std::none_of(first_.begin(), first_.end(),

@@ -31,6 +31,8 @@ struct Judge {
   /// The whole making, asked for what is about to be given, with the very numbers that will be read. Empty: obstacles
   /// are all there is.
   std::function<bool(const Mechanism&)> made = {};
+  /// A look takes long: numbers that do not help are asked less often the further they are turned.
+  bool is_dear = false;
 };
 
 /// What would make a mechanism possible: changes each of which does alone, the nearest first; or two that do together.
