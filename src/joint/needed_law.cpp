@@ -29,17 +29,18 @@ constexpr int k_rows_beyond = 4;  ///< the same distance apart, at each end
 bool gives_way(const Imperfections& at) {
   return at.tendon.stretch != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
 }
-/// The declared law as rows, both ends of the range among them, a little beyond them where it goes on. Empty where it
-/// does not exist.
+/// The declared law as rows, both ends of the range among them, a little beyond them where it goes on: past the end of
+/// a table all θ have one α, but for rounding. Empty where it does not exist.
 std::vector<LawRow> declared_rows(const Mechanism& declared) {
   const Transmission law(declared);
   if (law.dead_centre()) return {};
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
+  const double least_step = 1e-9 * (law.alpha(high) - law.alpha(low));
   std::vector<LawRow> rows;
   for (int i = -k_rows_beyond; i <= k_law_rows + k_rows_beyond; ++i) {
     const double theta = (low * (k_law_rows - i) + high * i) / k_law_rows;
     const LawRow row{law.alpha(theta), theta};
-    if (!std::isfinite(row.alpha) || (!rows.empty() && row.alpha <= rows.back().alpha)) continue;
+    if (!std::isfinite(row.alpha) || (!rows.empty() && !(row.alpha > rows.back().alpha + least_step))) continue;
     rows.push_back(row);
   }
   return rows;

@@ -161,6 +161,9 @@ Polygon outline_of(const DiscHull& hull, double grow) {
   return points;
 }
 
+// No screw and no pin is as thin.
+constexpr double k_finest_hole = 0.4;  // radius
+
 SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
   SlabBody result;
   for (const Slab& slab : body.slabs) {
@@ -168,6 +171,8 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
     for (SlabLoop& loop : changed.loops) {
       if (!loop.hole) continue;
       const double least = least_radius(loop.hull);
+      // Lines are engraved for the eye: they stay as far apart as they are.
+      if (least < k_finest_hole) continue;
       const double wider = std::max(0.5 * trim.hole, 0.1 - least);
       const double more = wider + (least + wider) * (1 / std::cos(k_pi / loop.hull.corners) - 1);
       loop.grow_low += more;

@@ -283,28 +283,76 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
   }
 }
 
-/// Curves and body of the joint as it is, without a mesh.
-std::vector<Condition> obstacles_of(const MechanismFile& file, const BuildOptions& options) {
-  if (options.between_tries) options.between_tries();
-  const JointAsItIs joint = as_it_is(file.mechanism);
-  if (const auto obstacle = obstacle_to(joint.mechanism))
-    return {*obstacle};  // most fail early, and what is cheap to see comes first
-  SynthesisResult synthesis = synthesise(joint.mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
-  if (!synthesis.made()) return failed_of(synthesis.conditions);
-  draw_for_making(synthesis, joint.outline);
-  std::vector<Condition> obstacles = body_obstacles(joint.mechanism, synthesis);
-  const auto floor = [&joint](const Outline& outline) {
-    return parallel(outline, -0.5 * joint.mechanism.tendon.diameter);
-  };
-  const std::vector<Condition> wound =
-      failed_of(windable(joint.mechanism, [&] { rewind(joint.mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
-  obstacles.insert(obstacles.end(), wound.begin(), wound.end());
-  return obstacles;
+/// Of a mechanism that is tried: the joint as it is, and its curves or why there are none.
+struct Curves {
+  JointAsItIs joint;
+  SynthesisResult synthesis;
+  std::vector<Condition> obstacles;
+};
+
+Curves curves_of(const DeclaredMechanism& declared) {
+  Curves curves{as_it_is(declared), {}, {}};
+  const Mechanism& mechanism = curves.joint.mechanism;
+  if (const auto obstacle = obstacle_to(mechanism)) {
+    curves.obstacles = {*obstacle};  // most fail early, and what is cheap to see comes first
+    return curves;
+  }
+  curves.synthesis =
+      synthesise(mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
+  curves.obstacles = failed_of(curves.synthesis.conditions);
+  if (curves.obstacles.empty()) draw_for_making(curves.synthesis, curves.joint.outline);
+  return curves;
 }
 
+/// The quick look at mechanisms that are hardly different from a file's: curves and body of the joint as it is, without
+/// a mesh. What differs in its body alone has the file's curves.
+class Look {
+ public:
+  Look(const MechanismFile& file, const BuildOptions& options)
+      : file_(file), options_(options), own_(curves_of(file.mechanism)) {}
+
+  std::vector<Condition> operator()(const Mechanism& changed) const {
+    if (options_.between_tries) options_.between_tries();
+    if (!has_own_curves(changed)) return obstacles(curves_of(with_declared(file_, changed).mechanism));
+    Curves curves = own_;
+    curves.joint.mechanism.body = changed.body;
+    curves.joint.mechanism.horn = changed.horn;
+    curves.joint.mechanism.print = changed.print;
+    return obstacles(curves);
+  }
+
+ private:
+  /// A flange's reach says how finely curves are drawn.
+  bool has_own_curves(const Mechanism& changed) const {
+    if (changed.groove_depth() != file_.mechanism.groove_depth()) return false;
+    Mechanism with_own_body = changed;
+    with_own_body.body = file_.mechanism.body;
+    with_own_body.horn = file_.mechanism.horn;
+    with_own_body.print = file_.mechanism.print;
+    return with_own_body == static_cast<const Mechanism&>(file_.mechanism);
+  }
+
+  static std::vector<Condition> obstacles(const Curves& curves) {
+    if (!curves.obstacles.empty()) return curves.obstacles;
+    const Mechanism& mechanism = curves.joint.mechanism;
+    const SynthesisResult& synthesis = curves.synthesis;
+    const auto of_body = body_obstacles(mechanism, synthesis);
+    if (!of_body.empty()) return of_body;
+    const auto floor = [&mechanism](const Outline& outline) {
+      return parallel(outline, -0.5 * mechanism.tendon.diameter);
+    };
+    return failed_of(windable(mechanism, [&] { rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
+  }
+
+  const MechanismFile& file_;
+  const BuildOptions& options_;
+  Curves own_;
+};
+
 Advice advice_for(const MechanismFile& file, const BuildOptions& options) {
+  const Look look(file, options);
   return body_advice(file.mechanism,
-                     {[&](const Mechanism& changed) { return obstacles_of(with_declared(file, changed), options); },
+                     {[&](const Mechanism& changed) { return look(changed); },
                       [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); }});
 }
 

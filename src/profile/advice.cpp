@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <numeric>
 #include <optional>
+#include <utility>
 
+#include "base/beside.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/profile/synthesis.h"
@@ -51,15 +52,21 @@ std::vector<Dial> range_dials(const Mechanism& mechanism) {
   if (field == nullptr) return {};
   const double low = number_of(mechanism, *field);
   const double high = number_of(mechanism, *field, 1);
-  Dial both{"joint.range_deg", "the range", "deg", high, 0.5, field->most, high, {}};
+  double least = field->least, most = field->most;
+  if (mechanism.pulley.law == Law::table && !mechanism.pulley.rows.empty()) {
+    // Past its rows a table says nothing.
+    least = std::max(least, degrees(mechanism.pulley.rows.front().theta));
+    most = std::min(most, degrees(mechanism.pulley.rows.back().theta));
+  }
+  Dial both{"joint.range_deg", "the range", "deg", high, 0.5, std::min(most, -least), high, {}};
   both.turn = [field](Mechanism& changed, double value) {
     set_number(changed, *field, 0, -value);
     set_number(changed, *field, 1, value);
   };
   if (std::abs(low + high) < 1e-9) return {both};
-  Dial lower{"joint.range_deg[0]", "the range's lower end", "deg", low, field->least, 0.0, std::abs(low), {}};
+  Dial lower{"joint.range_deg[0]", "the range's lower end", "deg", low, least, 0.0, std::abs(low), {}};
   lower.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 0, value); };
-  Dial upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, field->most, std::abs(high), {}};
+  Dial upper{"joint.range_deg[1]", "the range's upper end", "deg", high, 0.0, most, std::abs(high), {}};
   upper.turn = [field](Mechanism& changed, double value) { set_number(changed, *field, 1, value); };
   return {lower, upper};
 }
@@ -140,34 +147,38 @@ constexpr std::size_t k_helpful = 4;
 /// The search for one mechanism.
 class Adviser {
  public:
-  Adviser(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys)
-      : mechanism_(mechanism), judge_(judge), dials_(dials(mechanism, more_keys)) {
-    enough_ = judge.made ? k_enough_made : k_enough;
+  Adviser(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys, std::size_t enough)
+      : mechanism_(mechanism), judge_(judge), dials_(dials(mechanism, more_keys)), enough_(enough) {
     for (const Dial& dial : dials_) {
       if (!(dial.scale > 0)) continue;
       for (const double direction : {-1.0, 1.0}) turns_.push_back({&dial, direction});
     }
-    helps_.resize(turns_.size(), 0.0);
+    learned_.resize(turns_.size());
   }
 
   /// All dials a step further at a time: the nearest changes are found first, and a dial that has one is left alone.
   std::vector<Change> alone() {
     std::vector<Change> found;
     std::vector<const Dial*> done;
-    double before = 0;
-    for (double step = k_first_step; step < k_last_step && found.size() < enough_ && may_look();
-         before = step, step *= k_step_ratio) {
+    for (double step = k_first_step; step < k_last_step && found.size() < enough_ && may_look(); step *= k_step_ratio) {
+      const std::vector<std::size_t> asked = asked_at(step, done);
+      std::vector<Mechanism> there;
+      for (const std::size_t t : asked) there.push_back(turned({turns_[t]}, {turns_[t].at(step)}));
+      const std::vector<std::vector<Condition>> left = look_at(there);
       std::vector<Candidate> here;
-      for (std::size_t t = 0; t < turns_.size(); ++t) {
-        const Turn& turn = turns_[t];
-        if (turn.ends_before(step, before) || std::count(done.begin(), done.end(), turn.dial) > 0) continue;
-        if (!may_look() || !holds(t, step)) continue;
-        // A dial that is not proven here is not tried again: each proof is a whole making.
-        done.push_back(turn.dial);
-        here.push_back(near_border({turn}, before, step));
+      for (std::size_t i = 0; i < asked.size(); ++i) {
+        Learned& learned = learned_[asked[i]];
+        const double before = std::exchange(learned.step, step);
+        const Turn& turn = turns_[asked[i]];
+        if (!left[i].empty()) {
+          learn(learned, left[i]);
+        } else if (std::count(done.begin(), done.end(), turn.dial) == 0) {
+          // A dial that is not proven here is not tried again: each proof is a whole making.
+          done.push_back(turn.dial);
+          here.push_back(Candidate{{turn}, before, step, step, 0, {}});
+        }
       }
-      std::stable_sort(here.begin(), here.end(),
-                       [](const Candidate& a, const Candidate& b) { return a.distance() < b.distance(); });
+      sort_by_border(here, enough_ - found.size());
       for (const Candidate& proven : made_of(here, enough_ - found.size())) found.push_back(proven.changes().front());
     }
     return found;
@@ -177,15 +188,16 @@ class Adviser {
   std::vector<Change> together() {
     std::vector<std::size_t> helpful(turns_.size());
     std::iota(helpful.begin(), helpful.end(), std::size_t{0});
-    std::stable_sort(helpful.begin(), helpful.end(), [this](std::size_t a, std::size_t b) { return helps_[a] > helps_[b]; });
+    std::stable_sort(helpful.begin(), helpful.end(),
+                     [this](std::size_t a, std::size_t b) { return learned_[a].help > learned_[b].help; });
     helpful.resize(std::min(helpful.size(), k_helpful));
     double before = 0;
     for (double step = 2 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {
       for (std::size_t i = 0; i < helpful.size(); ++i) {
         for (std::size_t j = i + 1; j < helpful.size(); ++j) {
           const std::vector<Turn> both{turns_[helpful[i]], turns_[helpful[j]]};
-          if (both[0].dial == both[1].dial || !is_clear(turned(both, values(both, step)))) continue;
-          const std::vector<Candidate> proven = made_of({near_border(both, before, step)}, 1);
+          if (both[0].dial == both[1].dial || !may_look() || !is_clear(turned(both, values(both, step)))) continue;
+          const std::vector<Candidate> proven = made_of({Candidate{both, before, step, step, 0, {}}}, 1);
           if (!proven.empty()) return proven.front().changes();
           if (makings_ >= k_most_makings) return {};
         }
@@ -195,28 +207,49 @@ class Adviser {
   }
 
  private:
-  /// Turns of dials, and the numbers to try: near the border first, then where the search had stood.
+  /// Turns of dials between a step that does not do and one that does, as near to each other as was looked for.
   struct Candidate {
     std::vector<Turn> turns;
-    std::vector<std::vector<double>> tries;
+    double bad = 0, good = 0, far = 0;
+    int begun = 0;           ///< of the numbers to try: near the border, then where the search had stood
+    std::vector<double> to;  ///< what is tried, or was last
 
-    double distance() const {
-      return tries.empty() ? 0.0
-                           : std::abs(tries.front().front() - turns.front().dial->value) / turns.front().dial->scale;
+    double distance(double step) const {
+      const Turn& turn = turns.front();
+      return std::abs(turn.at(step) - turn.dial->value) / turn.dial->scale;
     }
+    bool is_at_border() const { return good - bad <= k_border; }
     std::vector<Change> changes() const {
       std::vector<Change> all;
-      for (std::size_t i = 0; i < turns.size(); ++i) all.push_back(change(*turns[i].dial, tries.front()[i]));
+      for (std::size_t i = 0; i < turns.size(); ++i) all.push_back(change(*turns[i].dial, to[i]));
       return all;
     }
   };
+  /// What is known of a turn by now.
+  struct Learned {
+    double step = 0;  ///< that it was last looked at
+    double help = 0;  ///< by how much it brought what fails down
+    int waits = 0;    ///< steps that are left out before it is looked at again
+    int waited = 0;   ///< that were, the last time
+  };
 
   bool may_look() const { return looks_ < k_most_looks; }
-  std::vector<Condition> look_at(const Mechanism& changed) {
+  bool is_clear(const Mechanism& changed) {
     ++looks_;
-    return judge_.obstacles(changed);
+    return judge_.obstacles(changed).empty();
   }
-  bool is_clear(const Mechanism& changed) { return may_look() && look_at(changed).empty(); }
+  /// None knows of another: where a look is dear, half of them on a thread of their own.
+  std::vector<std::vector<Condition>> look_at(const std::vector<Mechanism>& changed) {
+    std::vector<std::vector<Condition>> left(changed.size());
+    const auto every_other = [&](std::size_t first) {
+      for (std::size_t i = first; i < changed.size(); i += 2) left[i] = judge_.obstacles(changed[i]);
+    };
+    looks_ += static_cast<int>(changed.size());
+    auto others = beside([&every_other] { every_other(1); }, judge_.made && changed.size() > 1);
+    every_other(0);
+    others.get();
+    return left;
+  }
 
   static std::vector<double> values(const std::vector<Turn>& turns, double step) {
     std::vector<double> all;
@@ -229,12 +262,35 @@ class Adviser {
     return changed;
   }
 
-  /// Also learns what the turn is good for where it is not enough.
-  bool holds(std::size_t turn, double step) {
-    const std::vector<Condition> left = look_at(turned({turns_[turn]}, {turns_[turn].at(step)}));
+  /// The turns that are looked at where all are turned by `step`.
+  std::vector<std::size_t> asked_at(double step, const std::vector<const Dial*>& done) {
+    std::vector<std::size_t> asked;
+    for (std::size_t t = 0; t < turns_.size(); ++t) {
+      if (std::count(done.begin(), done.end(), turns_[t].dial) > 0 || turns_[t].ends_before(step, learned_[t].step))
+        continue;
+      if (learned_[t].waits > 0) {
+        --learned_[t].waits;
+      } else {
+        asked.push_back(t);
+      }
+    }
+    asked.resize(std::min(asked.size(), static_cast<std::size_t>(k_most_looks - looks_)));
+    return asked;
+  }
+
+  /// What the turn is good for where it is not enough. One that brings nothing down where a look is dear is asked again
+  /// at longer and longer intervals: further on something else may give way.
+  void learn(Learned& learned, const std::vector<Condition>& left) {
     if (first_.empty()) first_ = judge_.obstacles(mechanism_);
-    helps_[turn] = std::max(helps_[turn], weight(first_) - weight(left));
-    return left.empty();
+    learned.help = std::max(learned.help, weight(first_) - weight(left));
+    if (!judge_.is_dear) return;
+    std::vector<Condition> as_before = left;
+    std::erase_if(as_before, [this](const Condition& condition) {
+      return std::none_of(first_.begin(), first_.end(),
+                          [&condition](const Condition& first) { return first.name == condition.name; });
+    });
+    learned.waited = weight(as_before) < weight(first_) ? 0 : learned.waited + 1;
+    learned.waits = learned.waited;
   }
   /// A condition counts for itself and for what it fails by, in its limit's size.
   static double weight(const std::vector<Condition>& left) {
@@ -246,65 +302,88 @@ class Adviser {
     return sum;
   }
 
-  /// Halves its way back from `good` towards `bad`, and rounds to the safe side: there, and where the search had stood.
-  Candidate near_border(const std::vector<Turn>& turns, double bad, double good) {
-    const double far = good;
-    while (good - bad > k_border && may_look()) {
-      const double middle = 0.5 * (bad + good);
-      (is_clear(turned(turns, values(turns, middle))) ? good : bad) = middle;
+  /// Each halfway back towards its border.
+  void halve(const std::vector<Candidate*>& candidates) {
+    std::vector<Mechanism> middles;
+    for (const Candidate* candidate : candidates)
+      middles.push_back(turned(candidate->turns, values(candidate->turns, 0.5 * (candidate->bad + candidate->good))));
+    const std::vector<std::vector<Condition>> left = look_at(middles);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      Candidate& candidate = *candidates[i];
+      (left[i].empty() ? candidate.good : candidate.bad) = 0.5 * (candidate.bad + candidate.good);
     }
-    Candidate candidate{turns, {}};
-    for (const double step : {good, far}) {
+  }
+
+  /// In the order of their borders, as far as the first `wanted` go: the others are looked at no longer than they may
+  /// be among these.
+  void sort_by_border(std::vector<Candidate>& candidates, std::size_t wanted) {
+    while (!candidates.empty()) {
+      std::stable_sort(candidates.begin(), candidates.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.distance(a.good) < b.distance(b.good); });
+      const Candidate& last = candidates[std::min(candidates.size(), wanted) - 1];
+      std::vector<Candidate*> open;
+      for (Candidate& candidate : candidates) {
+        if (!candidate.is_at_border() && candidate.distance(candidate.bad) <= last.distance(last.good))
+          open.push_back(&candidate);
+      }
+      if (open.empty() || !may_look()) return;
+      halve(open);
+    }
+  }
+
+  /// The next numbers to try, in three digits on the safe side; false where there are none.
+  bool take_next(Candidate& candidate) {
+    while (!candidate.is_at_border() && may_look()) halve({&candidate});
+    while (candidate.begun < 2) {
+      const double step = candidate.begun++ == 0 ? candidate.good : candidate.far;
       for (const std::size_t digit : {std::size_t{0}, std::size_t{1}}) {
         std::vector<double> to;
         bool is_new = true;
-        for (const Turn& turn : turns) {
+        for (const Turn& turn : candidate.turns) {
           to.push_back(in_three_digits(turn.at(step), turn.direction)[digit]);
           is_new = is_new && to.back() != turn.dial->value && to.back() >= turn.dial->least && to.back() <= turn.dial->most;
         }
-        if (!is_new || !judge_.obstacles(turned(turns, to)).empty()) continue;
-        if (candidate.tries.empty() || candidate.tries.back() != to) candidate.tries.push_back(to);
-        break;  // the other rounding differs by too little to be worth a making
+        if (!is_new || !judge_.obstacles(turned(candidate.turns, to)).empty()) continue;
+        if (to == candidate.to) break;  // and the other rounding differs by too little to be worth a making
+        candidate.to = to;
+        return true;
       }
     }
-    return candidate;
+    return false;
   }
 
-  /// The first `wanted` that are made, each with what was made alone in its tries. Two makings at a time; which are
-  /// begun does not depend on how long each takes.
+  /// The first `wanted` that are made, each with what was made. Two makings at a time; which are begun does not depend
+  /// on how long each takes.
   std::vector<Candidate> made_of(std::vector<Candidate> candidates, std::size_t wanted) {
     std::vector<Candidate> proven;
-    std::erase_if(candidates, [](const Candidate& candidate) { return candidate.tries.empty(); });
-    while (!candidates.empty() && proven.size() < wanted) {
-      if (judge_.made && makings_ >= k_most_makings) break;
-      const std::size_t count = std::min({candidates.size(), wanted - proven.size(), std::size_t{2}});
-      const std::vector<bool> made = make_first(candidates, count);
-      std::vector<Candidate> rest;
-      for (std::size_t i = 0; i < candidates.size(); ++i) {
-        Candidate& candidate = candidates[i];
-        if (i < count && made[i]) {
-          candidate.tries.resize(1);
-          proven.push_back(std::move(candidate));
-          continue;
-        }
-        if (i < count) candidate.tries.erase(candidate.tries.begin());
-        if (!candidate.tries.empty()) rest.push_back(std::move(candidate));
+    while (proven.size() < wanted && !(judge_.made && makings_ >= k_most_makings)) {
+      std::vector<Candidate> tried, later;
+      for (Candidate& candidate : candidates) {
+        const bool is_full = tried.size() == std::min(wanted - proven.size(), std::size_t{2});
+        if (is_full)
+          later.push_back(std::move(candidate));
+        else if (take_next(candidate))
+          tried.push_back(std::move(candidate));
       }
-      candidates = std::move(rest);
+      if (tried.empty()) break;
+      const std::vector<bool> made = make(tried);
+      candidates.clear();
+      for (std::size_t i = 0; i < tried.size(); ++i) (made[i] ? proven : candidates).push_back(std::move(tried[i]));
+      candidates.insert(candidates.end(), later.begin(), later.end());
     }
     return proven;
   }
 
-  /// Of the first try of each of the first `count` candidates.
-  std::vector<bool> make_first(const std::vector<Candidate>& candidates, std::size_t count) {
-    if (!judge_.made) return std::vector<bool>(count, true);
+  std::vector<bool> make(const std::vector<Candidate>& candidates) {
+    if (!judge_.made) return std::vector<bool>(candidates.size(), true);
     std::vector<std::future<bool>> begun;
-    for (std::size_t i = 0; i < count; ++i, ++makings_) {
-      const auto policy = i + 1 < count ? std::launch::async : std::launch::deferred;
-      begun.push_back(std::async(policy, judge_.made, turned(candidates[i].turns, candidates[i].tries.front())));
+    for (std::size_t i = 0; i < candidates.size(); ++i, ++makings_) {
+      begun.push_back(
+          beside([this, changed = turned(candidates[i].turns, candidates[i].to)] { return judge_.made(changed); },
+                 i + 1 < candidates.size()));
     }
-    std::vector<bool> made(count);
-    for (std::size_t i = count; i-- > 0;) made[i] = begun[i].get();  // the last one in this thread
+    std::vector<bool> made(candidates.size());
+    for (std::size_t i = candidates.size(); i-- > 0;) made[i] = begun[i].get();  // the last one in this thread
     return made;
   }
 
@@ -314,9 +393,9 @@ class Adviser {
   const Judge& judge_;
   std::vector<Dial> dials_;
   std::vector<Turn> turns_;
-  std::vector<double> helps_;  ///< of each turn: by how much it brought what fails down
+  std::vector<Learned> learned_;  ///< of each turn
   std::vector<Condition> first_;
-  std::size_t enough_ = 0;
+  std::size_t enough_;
   int looks_ = 0;
   int makings_ = 0;
 };
@@ -328,11 +407,14 @@ std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::funct
   const Judge judge{[&possible](const Mechanism& changed) {
     return possible(changed) ? std::vector<Condition>{} : std::vector<Condition>(1);
   }};
-  return Adviser(mechanism, judge, more_keys).alone();
+  return Adviser(mechanism, judge, more_keys, k_enough).alone();
 }
 
-Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys) {
-  Adviser adviser(mechanism, judge, more_keys);
+Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys,
+                   std::size_t known) {
+  const std::size_t enough = judge.made ? k_enough_made : k_enough;
+  if (known >= enough) return {};
+  Adviser adviser(mechanism, judge, more_keys, enough - known);
   Advice advice{adviser.alone(), {}};
   if (advice.alone.empty()) advice.together = adviser.together();
   return advice;

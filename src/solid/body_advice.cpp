@@ -75,9 +75,10 @@ class BodyAdviser {
       if (std::any_of(failed.begin(), failed.end(), is_about)) add_word(advice.alone, words);
     }
     // Where there are no curves, no number of the body alone would help.
-    const std::vector<std::string> keys =
-        obstacle_to(mechanism_) ? std::vector<std::string>{} : written_keys(mechanism_);
-    const Advice numbers = find_advice(mechanism_, judge_, keys);
+    Judge judge = judge_;
+    judge.is_dear = !obstacle_to(mechanism_);  // a body is planned
+    const std::vector<std::string> keys = judge.is_dear ? written_keys(mechanism_) : std::vector<std::string>{};
+    const Advice numbers = find_advice(mechanism_, judge, keys, advice.alone.size());
     advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
     for (const std::string& key : keys) {
       if (advice.alone.empty() && key.starts_with("body.")) add_automatic(advice.alone, key);
@@ -122,7 +123,7 @@ class BodyAdviser {
 }  // namespace
 
 std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis) {
-  return failed_of(plan_body(mechanism, synthesis, {WrapChoice::nearest}).conditions);
+  return failed_of(plan_body(mechanism, synthesis, {.wrap = WrapChoice::nearest, .conditions_alone = true}).conditions);
 }
 
 std::vector<Condition> obstacles(const Mechanism& mechanism) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "fusee/mechanism/catalogue.h"
 #include "solid/bore.h"
 #include "solid/conditions.h"
 #include "solid/dowels.h"
@@ -62,8 +63,10 @@ class Planner {
     plan.anchors = tie_offs_.all(plan.layout, wound);
     turn_set_screw(plan);
     roof_pockets(plan.layout);
-    if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
     plan.conditions = conditions_of(mechanism_, synthesis_, plan.layout, rims_, tie_offs_.rooms(plan.layout, wound));
+    if (wishes_.conditions_alone && !plan.possible()) return plan;
+    if (plan.layout.parts == Parts::two) plan.layout.dowels = choose_dowels(mechanism_, plan);
+    if (wishes_.conditions_alone && find_screw(mechanism_.body.clamp_screw) == nullptr) return plan;
     const std::vector<Condition> of_tails = place_tails(plan, mechanism_, wishes_.rejected);
     plan.conditions.insert(plan.conditions.end(), of_tails.begin(), of_tails.end());
     return plan;
@@ -183,6 +186,13 @@ BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis,
   if (mechanism.print.parts != Parts::automatic) return plan_on(base_in(mechanism.print.parts));
   const BodyLayout whole = base_in(Parts::one);
   if (whole.middle_cone <= k_highest_cone) return plan_on(whole);
+  if (wishes.conditions_alone) {
+    // What can be one print needs no pins.
+    BodyPlan one = plan_on(whole);
+    if (one.possible()) return one;
+    BodyPlan two = plan_on(base_in(Parts::two));
+    return two.possible() && is_located(two.layout) ? two : one;
+  }
   BodyPlan two = plan_on(base_in(Parts::two));
   if (two.possible() && is_located(two.layout)) return two;
   BodyPlan one = plan_on(whole);

@@ -131,8 +131,8 @@ class TailPlacer {
 
   bool is_free(const TailSlot& slot, Side side, const std::vector<Bar>& at_face) const {
     const double half = 0.5 * slot.width, wall = layout_.min_wall;
-    const Polygon& floor = side == Side::left ? floor1_ : floor2_;
-    if (depth_inside(floor, slot.to) < half + wall) return false;
+    const ConvexSides& floor = side == Side::left ? floor1_ : floor2_;
+    if (floor.depth_of(slot.to) < half + wall) return false;
     const auto clear = [&](const Bar& bar) {
       return std::all_of(at_face.begin(), at_face.end(), [&](const Bar& other) { return gap(bar, other) >= wall; });
     };
@@ -143,7 +143,7 @@ class TailPlacer {
   // The pilot hole goes deep: it keeps clear of all that is cut into either pulley.
   bool takes_pilot(const TailSlot& slot) const {
     const double radius = circumradius(polyhole(slot.pilot_diameter, Vec2::Zero())), wall = layout_.min_wall;
-    if (std::min(depth_inside(floor1_, slot.to), depth_inside(floor2_, slot.to)) < radius + wall) return false;
+    if (std::min(floor1_.depth_of(slot.to), floor2_.depth_of(slot.to)) < radius + wall) return false;
     std::vector<Bar> bars{{Vec2::Zero(), Vec2::Zero(), layout_.bore.radius}};
     add_holes(bars);
     for (const PlannedAnchor& anchor : plan_.anchors) {
@@ -160,8 +160,7 @@ class TailPlacer {
   double d_;
   double compensation_;
   const Screw* screw_;
-  const Polygon& floor1_;
-  const Polygon& floor2_;
+  ConvexSides floor1_, floor2_;
 };
 
 Condition clamp_condition(const std::string& screw, Side side, bool placed) {

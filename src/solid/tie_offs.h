@@ -76,6 +76,9 @@ struct TieOffWishes {
   WrapChoice wrap = WrapChoice::furthest;
   std::vector<Rejection> rejected = {};  ///< what is not to be planned again
   double mouth_lean = k_steep_lean;
+  /// Whether there is any plan is all that is asked: what a failed condition makes needless, and slots for tails that
+  /// no condition speaks of, are not looked for.
+  bool conditions_alone = false;
 };
 
 /// Refers to what it is made from.

@@ -63,6 +63,14 @@ TEST(KitBody, TrimmedHolesTakeTheCircleThatIsWanted) {
   EXPECT_NEAR(made.slabs[0].loops[0].grow_low, -0.4, 1e-12);
 }
 
+// Seen in a random design: two strokes of a digit grew into each other by the holes' compensation.
+TEST(KitBody, EngravedLinesStayApart) {
+  const SlabBody plate{{{0, 4, {{box({-10, -10}, {10, 10}, 1)},
+                                {slot({-2, 0}, {-0.46, 0}, 0.3), true},
+                                {slot({0.46, 0}, {2, 0}, 0.3), true}}}}};
+  expect_solid(trimmed(plate, {1, 0.5, 0}));
+}
+
 TEST(KitBody, AThinWallKeepsAThinFoot) {
   const SlabBody tube{{{0, 4, {{disc({0, 0}, 2)}, {disc({0, 0}, 1.6), true}}}}};
   expect_solid(trimmed(tube, {1, 0.2, 0.8}));

@@ -89,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
         Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
         Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}},
+        Repro{"range_past_table", "tests/data/repro/range_past_table.toml", {}, 0.01, BuildStatus::infeasible},
         Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
         Repro{"mouth_of_a_variant",
               "tests/data/repro/mouth_of_a_variant.toml",

@@ -25,11 +25,14 @@ struct Change {
 
 /// How a changed mechanism is judged while advice is searched for.
 struct Judge {
-  /// The conditions that do not hold; none: it can be made as far as a quick look tells. Asked hundreds of times.
+  /// The conditions that do not hold; none: it can be made as far as a quick look tells. Asked hundreds of times, and
+  /// where there is something to make, from two threads.
   std::function<std::vector<Condition>(const Mechanism&)> obstacles;
   /// The whole making, asked for what is about to be given, with the very numbers that will be read. Empty: obstacles
   /// are all there is.
   std::function<bool(const Mechanism&)> made = {};
+  /// A look takes long: numbers that do not help are asked less often the further they are turned.
+  bool is_dear = false;
 };
 
 /// What would make a mechanism possible: changes each of which does alone, the nearest first; or two that do together.
@@ -40,11 +43,13 @@ struct Advice {
   bool empty() const { return alone.empty() && together.empty(); }
 };
 
-/// For each number of the joint, guides, pulley and tendon that the law uses, and for `more_keys` (to which 0 is no number): steps
-/// outwards from its value, all of them a little further each time, within the bounds of the field table, until a few hold;
-/// then halves its way back to the border and rounds to three digits on the safe side. Where no number does alone, those
-/// that help most are turned in pairs. Numbers of `more_keys` are the easier ones to change: they are turned three times as far.
-Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys = {});
+/// For each number of the joint, guides, pulley and tendon that the law uses, and for `more_keys` (to which 0 is no
+/// number): steps outwards from its value, all of them a little further each time, within the bounds of the field
+/// table, until a few hold; then halves its way back to the border and rounds to three digits on the safe side. Where
+/// no number does alone, those that help most are turned in pairs. Numbers of `more_keys` are the easier ones to
+/// change: they are turned three times as far. So many changes as are `known` already are not looked for.
+Advice find_advice(const Mechanism& mechanism, const Judge& judge, const std::vector<std::string>& more_keys = {},
+                   std::size_t known = 0);
 
 /// Of find_advice() what does alone, where all that is known of a mechanism is whether it is possible.
 std::vector<Change> nearest_changes(const Mechanism& mechanism, const std::function<bool(const Mechanism&)>& possible,
