@@ -114,11 +114,16 @@ class PartMaker {
       const MotorType& motor = *sizes_.motor;
       buy(1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source);
       if (motor.shaft > 0)
-        buy(motor.two_holes ? 2 : 4, screw_words(thread_within(motor.hole), sizes_.base + 4) + " with low head",
+        buy(motor.two_holes ? 2 : 4, motor_screw(motor, sizes_.base + 4) + " with low head",
             "motor, from above");
       else
-        buy(4, screw_words(thread_within(motor.hole), sizes_.base + 8) + " with nuts", "motor, from above");
+        buy(4, motor_screw(motor, sizes_.base + 8) + " with nuts", "motor, from above");
     }
+  }
+
+  static std::string motor_screw(const MotorType& motor, double length) {
+    if (motor.hole < k_threads.front().diameter) return "M1.6 × " + rounded(stock_length(length));
+    return screw_words(thread_within(motor.hole), length);
   }
 
   const Thread& leg_screw() const { return thread_within(3); }
