@@ -30,12 +30,17 @@ struct Option {
   std::string_view value;  ///< "DIR"; "" for a switch
   std::string_view meaning;
   bool repeatable = false;
+  std::string_view choices = {};  ///< "ac1015 r12": the words that it takes, where they are few
 
   std::string_view name() const { return flags.substr(flags.rfind(',') + 1); }
 };
 
 /// The options that every command takes, before or after its name.
 const std::vector<Option>& common_options();
+/// All that a command takes: its own, and those.
+std::vector<Option> options_of(const Command& command);
+/// The parts between separators that are not empty.
+std::vector<std::string> split(std::string_view text, char separator);
 
 class Arguments {
  public:

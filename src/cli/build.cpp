@@ -227,7 +227,7 @@ Command build_command() {
   std::vector<Option> options = {
       {"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>)"},
       {"--tolerance-mm", "MM", "how far facets may stray from the curve (default 0.01)"},
-      {"--dxf", "VERSION", "drawings as ac1015 (default) or r12"},
+      {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"},
   };
   for (const Option& option : limit_options()) options.push_back(option);
   return {"build",

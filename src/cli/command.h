@@ -42,8 +42,12 @@ Command calibrate_command();
 Command plan_command();
 Command simulate_command();
 Command replay_command();
+Command completion_command();
+Command manual_command();
 
 /// All of them, in the order in which a person meets them.
 const std::vector<Command>& commands();
+/// Throws UsageError with the nearest name.
+const Command& find_known_command(const std::string& name);
 
 }  // namespace fusee::cli

@@ -27,6 +27,18 @@ std::string option_lines(const std::vector<Option>& options) {
 
 }  // namespace
 
+const std::vector<ExitWords>& exit_words() {
+  static const std::vector<ExitWords> all = {{Exit::done, "done"},
+                                             {Exit::bug, "a bug in fusee"},
+                                             {Exit::usage, "wrong usage"},
+                                             {Exit::bad_input, "bad input"},
+                                             {Exit::infeasible, "no such pulley can be made"},
+                                             {Exit::check_failed, "made but a check failed"},
+                                             {Exit::cannot_write, "an output exists or cannot be written"},
+                                             {Exit::interrupted, "interrupted"}};
+  return all;
+}
+
 std::string main_help() {
   std::string text =
       "fusee: from a tendon-driven joint to the pulley that drives it, checked and\n"
@@ -48,9 +60,13 @@ std::string main_help() {
       "  fusee build arm.toml                 the pulley and its report, in out/arm\n"
       "  fusee explain pulley.r1_mm           what a key of that file means\n"
       "\n"
-      "exit codes: 0 done, 1 a bug in fusee, 2 wrong usage, 3 bad input, 4 no such\n"
-      "pulley can be made, 5 made but a check failed, 6 an output exists or cannot be\n"
-      "written, 130 interrupted. 'fusee COMMAND --help' says more about a command.\n";
+      "exit codes:\n";
+  for (const ExitWords& one : exit_words()) {
+    std::string code = std::to_string(static_cast<int>(one.exit));
+    code.resize(5, ' ');
+    text += "  " + code + std::string(one.words) + "\n";
+  }
+  text += "\n'fusee COMMAND --help' says more about a command.\n";
   return text;
 }
 

@@ -8,6 +8,13 @@
 
 namespace fusee::cli {
 
+/// What an exit code means.
+struct ExitWords {
+  Exit exit;
+  std::string_view words;
+};
+const std::vector<ExitWords>& exit_words();
+
 std::string main_help();
 std::string command_help(const Command& command);
 

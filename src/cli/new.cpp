@@ -4,19 +4,11 @@
 namespace fusee::cli {
 namespace {
 
-/// The first comment of a template says what it is.
-std::string first_comment(std::string_view text) {
-  std::string_view line = text.substr(0, text.find('\n'));
-  if (line.empty() || line[0] != '#') return {};
-  line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
-  return std::string(line);
-}
-
 Reply list_templates() {
   Reply reply;
   reply.fields["templates"] = Json::array();
   for (const Template& known : templates()) {
-    const std::string about = first_comment(known.text);
+    const std::string about = first_comment(known);
     reply.text += std::string(known.name) + (about.empty() ? "" : "\n    " + about) + "\n";
     reply.fields["templates"].push_back({{"name", known.name}, {"about", about}});
   }

@@ -95,7 +95,7 @@ Command optimize_command() {
           "allow it the optimum is proven; the answer says how far from it any design can\n"
           "be, and which other designs are as good. NEW.toml is your file with new numbers.",
           {{"-o,--out", "NEW.toml", "write the mechanism with its new numbers"},
-           {"--method", "NAME", "certified, ga or pareto (default: what can prove most)"},
+           {"--method", "NAME", "certified, ga or pareto (default: what can prove most)", false, "certified ga pareto"},
            {"--then", "OBJECTIVE", "choose by this among designs that tie (certified)"},
            {"--seed", "N", "of ga and pareto (default 1)"},
            {"--population", "N", "designs in a generation (default 48)"},

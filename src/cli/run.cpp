@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <new>
 
 #include "cli/command.h"
@@ -16,15 +18,24 @@ namespace {
 
 constexpr const char* k_version = FUSEE_VERSION;
 
-const Command& find_known_command(const std::string& name) {
+/// The first mechanism file of this folder by name; "" where there is none.
+std::string mechanism_here() {
   std::vector<std::string> names;
-  for (const Command& command : commands()) {
-    if (command.name == name) return command;
-    names.emplace_back(command.name);
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(".", failed)) {
+    if (names.size() < 100 && entry.path().extension() == ".toml" && entry.is_regular_file(failed))
+      names.push_back(entry.path().filename().string());
   }
-  const std::string nearest = nearest_word(name, names);
-  throw UsageError("unknown command '" + name + "'",
-                   nearest.empty() ? "'fusee --help' lists the commands" : "did you mean 'fusee " + nearest + "'?");
+  std::sort(names.begin(), names.end());
+  const auto found = std::find_if(names.begin(), names.end(), [](const std::string& name) {
+    std::ifstream file(name);
+    std::string line;
+    for (int i = 0; i < 100 && std::getline(file, line); ++i) {
+      if (line.rfind("schema", 0) == 0) return true;
+    }
+    return false;
+  });
+  return found == names.end() ? "" : *found;
 }
 
 Reply help_reply(const std::string& text) {
@@ -42,10 +53,18 @@ Reply version_reply() {
   return reply;
 }
 
+/// For someone who types the name to see what happens.
+std::string what_to_type_next() {
+  const std::string spec = mechanism_here();
+  return (spec.empty() ? "begin with 'fusee new forearm > arm.toml', then 'fusee build arm.toml'"
+                       : "'fusee build " + spec + "' makes its pulley") +
+         std::string("; 'fusee --help' lists the commands");
+}
+
 Reply without_command(const std::vector<std::string>& words) {
   if (has_switch(words, "--help") || has_switch(words, "-h")) return help_reply(main_help());
   if (has_switch(words, "--version")) return version_reply();
-  throw UsageError("no command given", "'fusee --help' lists the commands");
+  throw UsageError("no command given", what_to_type_next());
 }
 
 Reply answer(std::vector<std::string> words, std::string& command_name, Console& console) {
@@ -99,11 +118,22 @@ Reply guarded_answer(const std::vector<std::string>& words, std::string& command
 
 }  // namespace
 
+const Command& find_known_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) {
+    if (command.name == name) return command;
+    names.emplace_back(command.name);
+  }
+  const std::string nearest = nearest_word(name, names);
+  throw UsageError("unknown command '" + name + "'",
+                   nearest.empty() ? "'fusee --help' lists the commands" : "did you mean 'fusee " + nearest + "'?");
+}
+
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {new_command(),      explain_command(),   analyze_command(),
-                                           build_command(),    check_command(),     rewind_command(),
-                                           optimize_command(), reproduce_command(), calibrate_command(),
-                                           plan_command(),     simulate_command(),  replay_command()};
+  static const std::vector<Command> all = {
+      new_command(),      explain_command(),  analyze_command(),    build_command(),     check_command(),
+      rewind_command(),   optimize_command(), reproduce_command(),  calibrate_command(), plan_command(),
+      simulate_command(), replay_command(),   completion_command(), manual_command()};
   return all;
 }
 

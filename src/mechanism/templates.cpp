@@ -10,6 +10,13 @@ std::vector<Template> templates() {
   return all;
 }
 
+std::string first_comment(const Template& known) {
+  std::string_view line = known.text.substr(0, known.text.find('\n'));
+  if (line.empty() || line[0] != '#') return {};
+  line.remove_prefix(std::min(line.find_first_not_of("# "), line.size()));
+  return std::string(line);
+}
+
 std::string_view find_template(std::string_view name) {
   std::vector<std::string> names;
   std::string list;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "fusee/export/mesh_files.h"
+#include "fusee/export/report.h"
 #include "fusee/pipeline.h"
 
 namespace {
@@ -78,6 +79,16 @@ void whole_build(benchmark::State& state) {
   std::filesystem::remove_all(folder);
 }
 BENCHMARK(whole_build)->Unit(benchmark::kMillisecond);
+
+/// The page beside a build, with the joint that moves in it.
+void page(benchmark::State& state) {
+  BuildOptions options;
+  options.dry_run = true;
+  options.folder = "unused";
+  const BuildResult built = build(paper(), options);
+  for (auto _ : state) benchmark::DoNotOptimize(report_html(built.product));
+}
+BENCHMARK(page)->Unit(benchmark::kMillisecond);
 
 // Finer and finer facets of the same part.
 void build_by_tolerance(benchmark::State& state) {

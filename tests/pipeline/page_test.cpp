@@ -1,4 +1,4 @@
-// src/README.md, the page of the code, is held against the code.
+// src/README.md, the page of the code, is held against the code, and the pages that name equations and tests too.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -90,6 +90,39 @@ std::vector<std::string> untrue_in(const std::string& page) {
 
 TEST(Page, NamesOnlyWhatThereIs) { EXPECT_THAT(untrue_in(text_of("src/README.md")), IsEmpty()); }
 
+bool is_test(const std::string& name) {
+  static const std::regex pattern("[A-Z][A-Za-z]+\\.[A-Za-z_]+");
+  return std::regex_match(name, pattern);
+}
+
+bool there_is_test(const std::string& name) {
+  static const std::vector<Source> tests = sources_under({"tests"});
+  const std::string suite = name.substr(0, name.find('.')), test = name.substr(name.find('.') + 1);
+  return std::any_of(tests.begin(), tests.end(), [&](const Source& source) {
+    return source.text.find("(" + suite + ", " + test + ")") != std::string::npos;
+  });
+}
+
+/// Of what a page for users names in backticks, what is ours to keep true: files, functions, tests.
+std::vector<std::string> untrue_for_users_in(const std::string& page) {
+  std::vector<std::string> words;
+  for (const std::string& passage : passages_of(page)) {
+    const std::vector<std::string> names = named_in(passage);
+    for (const std::string& name : names) {
+      if (is_test(name) && !there_is_test(name)) words.push_back("there is no test " + name);
+      const bool ours = is_function(name) || (is_path(name) && name.find(' ') == std::string::npos);
+      const std::string why = ours ? why_untrue(name, names) : "";
+      if (!why.empty()) words.push_back(why);
+    }
+  }
+  return words;
+}
+
+TEST(Page, OfThePhysicsNamesOnlyWhatThereIs) {
+  EXPECT_THAT(untrue_for_users_in(text_of("profiles/physics.md")), IsEmpty());
+  EXPECT_THAT(untrue_for_users_in(text_of("profiles/guarantees.md")), IsEmpty());
+}
+
 TEST(Page, HasEveryRoomInTheOrderOfTheFlow) {
   static const std::regex row("^\\| `([a-z]+)` \\|");
   std::vector<std::string> rooms;
@@ -106,6 +139,8 @@ TEST(Page, IsSeenToBeUntrue) {
               ElementsAre("no file named beside read_file() has it"));
   EXPECT_THAT(untrue_in("`src/base/nowhere.cpp`\n\n`Mechanism`, `Mechanizm`\n```\n`fenced`\n```\n"),
               ElementsAre("there is no src/base/nowhere.cpp", "nothing is called Mechanizm"));
+  EXPECT_THAT(untrue_for_users_in("`Page.IsSeenToBeUntrue` `Page.IsNot` `law = 1/2` `src/base/nowhere.cpp`"),
+              ElementsAre("there is no test Page.IsNot", "there is no src/base/nowhere.cpp"));
   // It calls it, and that is not where a reader finds it.
   EXPECT_THAT(untrue_in("`synthesise()` in `src/pipeline/build.cpp`"),
               ElementsAre("no file named beside synthesise() has it"));

@@ -60,6 +60,8 @@ struct Template {
   std::string_view text;
 };
 std::vector<Template> templates();
+/// What it says of itself.
+std::string first_comment(const Template& known);
 /// The text of one. InputError with the nearest name.
 std::string_view find_template(std::string_view name);
 

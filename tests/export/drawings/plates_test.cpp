@@ -50,14 +50,17 @@ const PlateLayer& layer_named(const Plates& plates, const std::string& name) {
   return *found;
 }
 
+const PlateLayer& layer_named(Plates&&, const std::string&) = delete;  // it would not live long enough
+
 TEST(Plates, KerfIsExact) {
   const Plates plates = make_plates(product_of(testing::circle(16), testing::circle(20)));
   // Edges, not corners, are what a kerf is measured from: the floor's facets lie at 15.5·cos(π/240).
   const double facet = 15.5 * std::cos(k_pi / 240);
   EXPECT_NEAR(distance_to_edges(layer_named(plates, "P1 CORE").cut_outer[0], {0, 0}), facet + 0.1, 1e-9);
-  const Contour& cut = layer_named(plates, "P1 CORE").cut_holes[0];
+  const PlateLayer& core = layer_named(plates, "P1 CORE");
+  const Contour& cut = core.cut_holes[0];
   for (const Vec2& p : cut.points) EXPECT_NEAR(p.norm(), 2.9, 1e-3);
-  const Contour& whole = layer_named(plates, "P1 CORE").holes[0];
+  const Contour& whole = core.holes[0];
   EXPECT_NEAR(distance_to_edges(cut.points, {0, 0}), distance_to_edges(whole.points, {0, 0}) - 0.1, 1e-9);
   ASSERT_TRUE(cut.circle && whole.circle);
   EXPECT_NEAR(cut.circle->diameter, 5.8, 1e-12);
@@ -134,7 +137,8 @@ TEST(Plates, TeethAreCutWhereTheKerfIsNotWiderThanThey) {
   Mechanism& mechanism = product.joint.mechanism;
   mechanism.body.bore = Bore::horn;
   mechanism.horn = {.spline_teeth = 12, .spline_diameter = 18, .spline_depth = 1.5};
-  const Polygon coarse = layer_named(make_plates(product), "P1 CORE").cut_holes[0].points;
+  const Plates coarse_plates = make_plates(product);
+  const Polygon coarse = layer_named(coarse_plates, "P1 CORE").cut_holes[0].points;
   ASSERT_EQ(coarse.size(), 4u * 12);
   EXPECT_NEAR(circumradius(coarse), 9 - 0.1, 0.05);
   mechanism.horn = {.spline_teeth = 25, .spline_diameter = 5.92, .spline_depth = 0.3};
@@ -163,7 +167,8 @@ TEST(Plates, APocketIsNoLargerThanThePrintedOne) {
   Product product = egg_with_anchor();
   const auto pocket_of = [&product] {
     double diameter = 0;
-    for (const Contour& hole : layer_named(make_plates(product), "FLANGE 1").holes) {
+    const Plates plates = make_plates(product);
+    for (const Contour& hole : layer_named(plates, "FLANGE 1").holes) {
       if (hole.circle && (hole.circle->centre - Vec2(-8, -8)).norm() < 1e-6) diameter = hole.circle->diameter;
     }
     return diameter;
@@ -179,8 +184,9 @@ TEST(Plates, AChannelThroughThePlateIsLeftOutAndSaid) {
   product.pulley.anchors[0].channel = {{-8.7, -30}, {-7.3, -30}, {-7.3, 30}, {-8.7, 30}};
   const Plates plates = make_plates(product);
   EXPECT_THAT(plates.notes, Contains(HasSubstr("it would cut the plate in two")));
+  const Plates whole = make_plates(egg());
   EXPECT_DOUBLE_EQ(signed_area(layer_named(plates, "P1 CORE").outer[0]),
-                   signed_area(layer_named(make_plates(egg()), "P1 CORE").outer[0]));
+                   signed_area(layer_named(whole, "P1 CORE").outer[0]));
 }
 
 class PlatesDrawing : public ::testing::TestWithParam<DxfVersion> {};

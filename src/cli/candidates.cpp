@@ -1,0 +1,153 @@
+#include "cli/candidates.h"
+
+#include <algorithm>
+
+#include "cli/command.h"
+#include "fusee/mechanism/file.h"
+
+namespace fusee::cli {
+namespace {
+
+/// Words as a shell takes a line apart, quotes and backslashes undone; the last is the one that is being typed.
+std::vector<std::string> words_of(std::string_view line) {
+  std::vector<std::string> words = {""};
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote == 0 && (c == ' ' || c == '\t')) {
+      if (!words.back().empty()) words.emplace_back();
+    } else if (c == '\\' && quote != '\'' && i + 1 < line.size()) {
+      words.back() += line[++i];
+    } else if (quote != 0 ? c == quote : c == '\'' || c == '"') {
+      quote = quote == 0 ? c : 0;
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+std::string one_line(std::string_view meaning) {
+  std::string text(meaning);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+const Option* option_named(const std::vector<Option>& options, const std::string& word) {
+  const auto found = std::find_if(options.begin(), options.end(), [&word](const Option& option) {
+    const std::vector<std::string> flags = split(option.flags, ',');
+    return std::find(flags.begin(), flags.end(), word) != flags.end();
+  });
+  return found == options.end() ? nullptr : &*found;
+}
+
+Json fields_of_a_mechanism() { return Json::parse(explain_json(""))["fields"]; }
+
+/// "pulley.law=compensate" where a key takes one of a few words, else "pulley.r1_mm=".
+Candidates settings(const std::string& typed) {
+  Candidates found;
+  const std::string key = typed.substr(0, typed.find('='));
+  const bool wants_value = key.size() < typed.size();
+  for (const Json& field : fields_of_a_mechanism()) {
+    const std::string name = field["name"];
+    if (!wants_value) {
+      found.words.push_back({name + "=", field["meaning"]});
+    } else if (name == key && field.contains("choices")) {
+      for (const Json& choice : field["choices"]) found.words.push_back({key + "=" + choice.get<std::string>(), ""});
+    }
+  }
+  found.goes_on = !wants_value;
+  return found;
+}
+
+Candidates keys() {
+  Candidates found;
+  for (const Json& field : fields_of_a_mechanism()) found.words.push_back({field["name"], field["meaning"]});
+  return found;
+}
+
+Candidates names_of_commands() {
+  Candidates found;
+  for (const Command& command : commands())
+    found.words.push_back({std::string(command.name), std::string(command.summary)});
+  return found;
+}
+
+Candidates names_of_templates() {
+  Candidates found;
+  for (const Template& known : templates()) found.words.push_back({std::string(known.name), first_comment(known)});
+  return found;
+}
+
+Candidates files(const std::string& ending = "") {
+  Candidates found;
+  found.files = true;
+  found.ending = ending;
+  return found;
+}
+
+Candidates values(const Option& option, const std::string& typed) {
+  if (option.value == "KEY=VALUE") return settings(typed);
+  if (option.value == "FILE" || option.value == "DIR") return files();
+  if (option.value.ends_with(".toml")) return files(".toml");
+  Candidates found;
+  for (const std::string& word : split(option.choices, ' ')) found.words.push_back({word, ""});
+  return found;
+}
+
+Candidates names_of_options(const std::vector<Option>& options) {
+  Candidates found;
+  for (const Option& option : options) found.words.push_back({std::string(option.name()), one_line(option.meaning)});
+  return found;
+}
+
+/// The n-th word of "SPEC RUN.csv..." is of a kind that its name tells.
+Candidates arguments(const Command& command, std::size_t n) {
+  const std::vector<std::string> expected = split(command.positionals, ' ');
+  if (expected.empty() || (n >= expected.size() && !command.positionals.ends_with("..."))) return {};
+  const std::string& name = expected[std::min(n, expected.size() - 1)];
+  const auto is = [&name](const char* word) { return name.find(word) != std::string::npos; };
+  if (is("TEMPLATE")) return names_of_templates();
+  if (is("KEY")) return keys();
+  if (is("COMMAND")) return names_of_commands();
+  if (is("SHELL")) return {{{"bash", ""}, {"zsh", ""}, {"fish", ""}}, false, "", false};
+  if (is("SPEC")) return files(".toml");
+  if (is(".csv")) return files(".csv");
+  return files();
+}
+
+/// All that may stand there, whatever has been typed of it.
+Candidates all_at(const std::vector<std::string>& words, const std::string& typed) {
+  const std::vector<std::string> before(words.begin(), words.end() - 1);
+  const auto at = find_command(before);
+  const auto known = std::find_if(commands().begin(), commands().end(),
+                                  [&](const Command& command) { return at && command.name == before[*at]; });
+  if (at && known == commands().end()) return {};
+  const std::vector<Option> options = at ? options_of(*known) : common_options();
+  const Option* waiting = before.empty() ? nullptr : option_named(options, before.back());
+  if (waiting != nullptr && !waiting->value.empty()) return values(*waiting, typed);
+  if (typed.rfind('-', 0) == 0) return names_of_options(options);
+  if (!at) return names_of_commands();
+  std::size_t n = 0;
+  for (std::size_t i = *at + 1; i < before.size(); ++i) {
+    const Option* option = option_named(options, before[i]);
+    if (option != nullptr && !option->value.empty()) ++i;
+    n += option == nullptr && before[i].rfind('-', 0) != 0 ? 1 : 0;
+  }
+  return arguments(*known, n);
+}
+
+}  // namespace
+
+Candidates candidates(std::string_view line) {
+  std::vector<std::string> words = words_of(line);
+  if (words.size() < 2) return {};  // the program's own name
+  words.erase(words.begin());
+  Candidates found = all_at(words, words.back());
+  found.words.erase(std::remove_if(found.words.begin(), found.words.end(),
+                                   [&](const Candidate& one) { return one.word.rfind(words.back(), 0) != 0; }),
+                    found.words.end());
+  return found;
+}
+
+}  // namespace fusee::cli

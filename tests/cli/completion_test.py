@@ -1,0 +1,136 @@
+"""What shells offer at the Tab key, asked of the shells themselves; pages for man(1); what fusee says when nothing is asked of it."""
+
+import json
+import shutil
+import subprocess
+import unittest
+
+import harness
+
+
+def commands():
+    text = subprocess.run([harness.PROGRAM, "--help"], capture_output=True, check=True).stdout.decode()
+    return [line.split()[0] for line in text.split("commands:\n")[1].split("\n\n")[0].splitlines()]
+
+
+class Candidates(harness.Scratch):
+    def offered(self, line):
+        return [word.split("\t")[0] for word in self.fusee(["completion", "candidates", line]).stdout.decode().splitlines()]
+
+    def test_commands(self):
+        self.assertEqual(self.offered("fusee "), commands())
+        self.assertEqual(self.offered("fusee bu"), ["build"])
+        self.assertEqual(self.offered("fusee -q bu"), ["build"])
+        self.assertEqual(self.offered("fus"), [])
+        self.assertEqual(self.offered("fusee nonsense "), [])
+
+    def test_options_are_those_of_the_command(self):
+        self.assertEqual(self.offered("fusee build --d"), ["--dxf", "--dry-run"])
+        self.assertNotIn("--dxf", self.offered("fusee check -"))
+
+    def test_words_that_an_option_takes(self):
+        self.assertEqual(self.offered("fusee build arm.toml --dxf "), ["ac1015", "r12"])
+        self.assertEqual(self.offered("fusee optimize --method p"), ["pareto"])
+        self.assertEqual(self.offered("fusee build --out "), [":files"])
+
+    def test_keys_and_their_words(self):
+        self.assertEqual(self.offered("fusee build --set pulley.r1"), [":open", "pulley.r1_mm="])
+        self.assertEqual(self.offered("fusee build arm.toml --set pulley.law=c"), ["pulley.law=compensate"])
+        self.assertEqual(self.offered("fusee build --set 'pulley.law=c"), ["pulley.law=compensate"])
+        self.assertEqual(self.offered("fusee explain joint.le"), ["joint.length_mm"])
+
+    def test_arguments_by_their_place(self):
+        self.assertEqual(self.offered("fusee build "), [":files.toml"])
+        self.assertEqual(self.offered("fusee build arm.toml "), [])
+        self.assertEqual(self.offered("fusee calibrate --hold-out a.csv arm.toml b.csv "), [":files.csv"])
+        self.assertIn("forearm", self.offered("fusee new "))
+        self.assertEqual(self.offered("fusee completion "), ["bash", "zsh", "fish"])
+
+    def test_says_what_words_mean(self):
+        document = json.loads(self.fusee(["completion", "candidates", "fusee new fing", "--json"]).stdout)
+        self.assertEqual([one["word"] for one in document["candidates"]], ["finger"])
+        self.assertTrue(document["candidates"][0]["meaning"])
+
+    def test_any_line(self):
+        for line in ["", " ", "'", "\\", "fusee \"", "fusee --set", "fusee " + "x " * 5000, "fusee build \\\\\\", "fusee é\t\x01"]:
+            self.fusee(["completion", "candidates", line] if line else ["completion", "candidates"])
+
+    def test_another_shell(self):
+        self.expect("completion tcsh", 2, err="bash, zsh, fish")
+
+
+class Shells(harness.Scratch):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "notes.txt").write_text("")
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/fusee").symlink_to(harness.PROGRAM)
+        self.environment = {**harness.ENVIRONMENT, "PATH": f"{self.folder}/bin:/usr/bin:/bin", "HOME": str(self.folder)}
+
+    def run_in(self, shell, script):
+        done = subprocess.run([shell, "-c", script], cwd=self.folder, env=self.environment, capture_output=True, timeout=60)
+        self.assertEqual(done.stderr.decode(), "")
+        return done.stdout.decode().split("\n")[:-1]
+
+    def in_bash(self, *words):
+        line = " ".join(words)
+        # Where bash breaks words: at "=" too.
+        broken = [part for word in words for part in (word.replace("=", "\n=\n").split("\n") if "=" in word else [word])]
+        quoted = " ".join(f"'{part}'" for part in broken)
+        return self.run_in("bash", f"source <(fusee completion bash); compopt() {{ :; }}; COMP_WORDS=({quoted}) COMP_CWORD={len(broken) - 1} COMP_LINE='{line}' COMP_POINT={len(line)};"
+                           '_fusee fusee; printf "%s\\n" "${COMPREPLY[@]}"')
+
+    def test_bash(self):
+        self.assertEqual(self.in_bash("fusee", "bu"), ["build"])
+        self.assertEqual(self.in_bash("fusee", "build", "a"), ["arm.toml"])
+        self.assertEqual(self.in_bash("fusee", "build", "n"), [""])
+        self.assertEqual(self.in_bash("fusee", "build", "--set", "pulley.law=co"), ["compensate"])
+        self.assertEqual(self.in_bash("fusee", "build", "--set", "pulley.r1"), ["pulley.r1_mm="])
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
+    def test_fish(self):
+        def offered(line):
+            return [word.split("\t")[0] for word in self.run_in("fish", f"fusee completion fish | source; complete -C '{line}'")]
+        self.assertEqual(offered("fusee bu"), ["build"])
+        self.assertEqual(offered("fusee build arm"), ["arm.toml"])
+        self.assertEqual(offered("fusee build --set pulley.law=co"), ["pulley.law=compensate"])
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
+    def test_zsh(self):
+        # Its own widgets stand in a terminal only; what they are given is seen through functions of their names.
+        def offered(*words):
+            quoted = " ".join(f"'{word}'" for word in words)
+            return self.run_in("zsh", "compdef() { :; }; _describe() { shift; print -l -- ${(P)1}; }; _files() { print -- files $2; }; source <(fusee completion zsh);"
+                               f"words=({quoted}) CURRENT={len(words)}; _fusee")
+        self.assertEqual([word.split(":")[0] for word in offered("fusee", "bu")], ["build"])
+        self.assertEqual(offered("fusee", "build", "a"), ["files *.toml(-.)"])
+        self.assertEqual(offered("fusee", "build", "--set", "pulley.law=co"), ["pulley.law=compensate"])
+
+
+class Manual(harness.Scratch):
+    def test_every_command_has_a_page_that_troff_reads(self):
+        for command in ["", *commands()]:
+            page = self.fusee(["manual", command] if command else ["manual"]).stdout
+            self.assertTrue(page.startswith(b".TH FUSEE"))
+            if shutil.which("groff"):
+                done = subprocess.run(["groff", "-man", "-ww", "-Kutf8", "-Tutf8", "-z"], input=page, capture_output=True, check=True)
+                self.assertEqual(done.stderr.decode(), "", command)
+
+    def test_build_makes_them_all(self):
+        listed = (harness.SOURCE / "src/cli/CMakeLists.txt").read_text().split("set(FUSEE_COMMANDS ")[1].split(")")[0].split()
+        self.assertEqual(sorted(commands()), listed)
+
+    def test_of_nothing(self):
+        self.expect("manual biuld", 2, err="did you mean 'fusee build'")
+
+
+class Alone(harness.Scratch):
+    def test_says_what_to_type_next(self):
+        self.expect("", 2, err="fusee build arm.toml")
+        (self.folder / "arm.toml").unlink()
+        (self.folder / "other.toml").write_text("[project]\n")
+        self.expect("", 2, err="fusee new forearm > arm.toml")
+
+
+if __name__ == "__main__":
+    harness.main()
