@@ -372,12 +372,13 @@ class Look {
   mutable std::atomic<double> largest_ = 0;
 };
 
-Advice advice_for(const MechanismFile& file, const BuildOptions& options) {
+Advice advice_for(const Product& product, const BuildOptions& options) {
+  const MechanismFile& file = product.file;
   const Look look(file, options);
   const Judge judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
                     .made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); },
                     .makings = [&] { return look.makings(); }};
-  return body_advice(file.mechanism, judge);
+  return body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
 void write_and_check(Workshop& shop) {
@@ -416,7 +417,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   if (!design(result.product, options)) {
     result.status = BuildStatus::infeasible;
     announce(options, "looking for what would make it possible");
-    result.advice = advice_for(result.product.file, options);
+    result.advice = advice_for(result.product, options);
     return result;
   }
   if (options.dry_run) {
