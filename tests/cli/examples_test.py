@@ -16,14 +16,14 @@ class Examples(harness.Scratch):
 
     def test_all(self):
         (self.folder / "arm.toml").unlink()  # the examples make their own
-        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "plan", "simulate", "replay", "completion", "manual"]:
+        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "plan", "kit", "simulate", "replay", "completion", "manual"]:
             for line in self.examples(command):
                 with self.subTest(line):
                     done = subprocess.run(["bash", "-c", line], cwd=self.folder, env=harness.ENVIRONMENT, capture_output=True, timeout=120)
                     self.assertEqual(done.returncode, 0, done.stderr.decode())
 
     def test_help_fits_a_terminal(self):
-        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "calibrate", "plan", "simulate", "replay", "completion", "manual"]:
+        for command in ["", "new", "explain", "analyze", "build", "check", "rewind", "optimize", "reproduce", "calibrate", "plan", "kit", "simulate", "replay", "completion", "manual"]:
             for line in self.fusee(f"{command} --help").stdout.decode().splitlines():
                 self.assertLessEqual(len(line), 80, line)
 
