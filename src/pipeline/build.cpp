@@ -1,7 +1,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <future>
@@ -45,6 +47,9 @@ class TemporaryFolder {
 // is made with the tolerance that was asked for.
 constexpr double k_trial_tolerance = 0.05;
 constexpr int k_trial_steps = 36;
+// As many points of outlines are made for advice: a making of 200, as most have, takes a quarter of a second, and its
+// time grows in proportion (campaign of seed 210002).
+constexpr double k_points_for_advice = 2400;
 
 // No file of ours is larger.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
@@ -113,6 +118,7 @@ bool design(Product& product, const BuildOptions& options, TieOffSearch search =
   announce(options, "finding both pitch curves");
   SynthesisOptions synthesis_options;
   synthesis_options.tolerance = options.tolerance;
+  synthesis_options.drawn_out = -product.joint.outline.offset;
   synthesis_options.advice = false;  // it is searched for with the body
   product.synthesis = synthesise(mechanism, synthesis_options);
   if (!product.synthesis.made()) return false;
@@ -321,6 +327,12 @@ class Look {
     return obstacles(curves);
   }
 
+  /// That its largest part leaves time for.
+  int makings() const {
+    const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.tolerance / largest_));
+    return static_cast<int>(k_points_for_advice * turn / k_two_pi);
+  }
+
  private:
   /// A flange's reach says how finely curves are drawn.
   bool has_own_curves(const Mechanism& changed) const {
@@ -332,28 +344,41 @@ class Look {
     return with_own_body == static_cast<const Mechanism&>(file_.mechanism);
   }
 
-  static std::vector<Condition> obstacles(const Curves& curves) {
+  std::vector<Condition> obstacles(const Curves& curves) const {
     if (!curves.obstacles.empty()) return curves.obstacles;
     const Mechanism& mechanism = curves.joint.mechanism;
     const SynthesisResult& synthesis = curves.synthesis;
     const auto of_body = body_obstacles(mechanism, synthesis);
     if (!of_body.empty()) return of_body;
+    for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+      for (const OutlinePoint& point : outline->points) see_size(point.position.norm());
+    }
     const auto floor = [&mechanism](const Outline& outline) {
       return parallel(outline, -0.5 * mechanism.tendon.diameter);
     };
     return failed_of(windable(mechanism, [&] { rewind(mechanism, floor(synthesis.p1), floor(synthesis.p2)); }));
   }
 
+  void see_size(double reach) const {
+    double known = largest_;
+    while (reach > known && !largest_.compare_exchange_weak(known, reach)) {
+    }
+  }
+
   const MechanismFile& file_;
   const BuildOptions& options_;
   Curves own_;
+  /// Of all that had room for a body: from the axis to an outline's furthest point, mm.
+  mutable std::atomic<double> largest_ = 0;
 };
 
-Advice advice_for(const MechanismFile& file, const BuildOptions& options) {
+Advice advice_for(const Product& product, const BuildOptions& options) {
+  const MechanismFile& file = product.file;
   const Look look(file, options);
-  return body_advice(file.mechanism,
-                     {[&](const Mechanism& changed) { return look(changed); },
-                      [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); }});
+  const Judge judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
+                    .made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); },
+                    .makings = [&] { return look.makings(); }};
+  return body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 
 void write_and_check(Workshop& shop) {
@@ -392,7 +417,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   if (!design(result.product, options)) {
     result.status = BuildStatus::infeasible;
     announce(options, "looking for what would make it possible");
-    result.advice = advice_for(result.product.file, options);
+    result.advice = advice_for(result.product, options);
     return result;
   }
   if (options.dry_run) {

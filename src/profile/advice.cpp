@@ -199,7 +199,7 @@ class Adviser {
           if (both[0].dial == both[1].dial || !may_look() || !is_clear(turned(both, values(both, step)))) continue;
           const std::vector<Candidate> proven = made_of({Candidate{both, before, step, step, 0, {}}}, 1);
           if (!proven.empty()) return proven.front().changes();
-          if (makings_ >= k_most_makings) return {};
+          if (makings_left() == 0) return {};
         }
       }
     }
@@ -356,10 +356,11 @@ class Adviser {
   /// on how long each takes.
   std::vector<Candidate> made_of(std::vector<Candidate> candidates, std::size_t wanted) {
     std::vector<Candidate> proven;
-    while (proven.size() < wanted && !(judge_.made && makings_ >= k_most_makings)) {
+    while (proven.size() < wanted && makings_left() > 0) {
+      const std::size_t at_once = std::min({wanted - proven.size(), makings_left(), std::size_t{2}});
       std::vector<Candidate> tried, later;
       for (Candidate& candidate : candidates) {
-        const bool is_full = tried.size() == std::min(wanted - proven.size(), std::size_t{2});
+        const bool is_full = tried.size() == at_once;
         if (is_full)
           later.push_back(std::move(candidate));
         else if (take_next(candidate))
@@ -372,6 +373,12 @@ class Adviser {
       candidates.insert(candidates.end(), later.begin(), later.end());
     }
     return proven;
+  }
+
+  std::size_t makings_left() const {
+    if (!judge_.made) return k_enough;
+    const int most = judge_.makings ? std::clamp(judge_.makings(), 1, k_most_makings) : k_most_makings;
+    return static_cast<std::size_t>(std::max(0, most - makings_));
   }
 
   std::vector<bool> make(const std::vector<Candidate>& candidates) {

@@ -12,8 +12,10 @@ constexpr double k_largest_turn = radians(2.0);
 constexpr double k_probe = radians(0.2);
 /// Directions nearer than this are one: a strip between them would be a sliver.
 constexpr double k_smallest_turn = radians(0.1);
-/// Chords that turn by no more are not halved.
+/// Chords that turn by no more are not halved; and, where a large part asks for finer ones, none whose half is shorter
+/// than this, mm: beside a bridge of 0.2 m a chord that turns by 0.02° has a sagitta of 9 µm.
 constexpr double k_finest_turn = radians(0.02);
+constexpr double k_shortest_half = 0.02;
 
 /// P1's curve in the world: the mirror image of its right-hand image.
 CurvePoint mirrored(const PitchCurve& image, double psi) {
@@ -45,6 +47,13 @@ double longest_chord(const PitchCurve& left, const PitchCurve& right, const Samp
     furthest = std::max({furthest, mirrored(left, psi).position().norm(), right.at(psi).position().norm()});
   }
   return 4.0 * furthest + 2.0 * options.reach;
+}
+
+/// What rounding to a mesh's floats takes off the tolerance, out there. Within a quarter of a metre it is less than
+/// what is left for it elsewhere.
+double lost_in_floats(double reach, double tolerance) {
+  constexpr double k_left_for_it = 1e-5;
+  return std::clamp(reach * 0x1p-24 * std::sqrt(2.0) - k_left_for_it, 0.0, 0.5 * tolerance);
 }
 
 /// Directions from `begin` up to (not with) `end`, as dense as the curves ask.
@@ -94,8 +103,10 @@ std::size_t nearest(const std::vector<double>& directions, double psi) {
 
 /// Beside the bridge over a hollow a drawn curve bends within a probe: chords there are halved until none has more sagitta, as
 /// an arc, than is allowed.
-void halve_coarse_chords(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
-  constexpr int k_halvings = 8;
+void halve_coarse_chords(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right,
+                         double longest, const SamplingOptions& options) {
+  constexpr int k_halvings = 12;
+  const double reach = 0.25 * longest, finest = std::min(k_finest_turn, 2.0 * k_shortest_half / reach);
   for (int pass = 0; pass < k_halvings; ++pass) {
     std::vector<double> finer;
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -103,7 +114,7 @@ void halve_coarse_chords(std::vector<double>& directions, const PitchCurve& left
       finer.push_back(here);
       const double chord = std::max((right.at(next).position() - right.at(here).position()).norm(),
                                     (mirrored(left, next).position() - mirrored(left, here).position()).norm());
-      if (next - here > k_finest_turn && chord * (next - here) / 8.0 > options.tolerance) finer.push_back(0.5 * (here + next));
+      if (next - here > finest && chord * (next - here) / 8.0 > options.tolerance) finer.push_back(0.5 * (here + next));
     }
     if (finer.size() == directions.size()) return;
     directions = std::move(finer);
@@ -114,7 +125,7 @@ OutlinePoint outline_point(const CurvePoint& curve) { return {curve.psi, curve.p
 
 }  // namespace
 
-std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& options) {
+std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, const SamplingOptions& asked) {
   const std::array<double, 4> ends{right.active_begin(), right.active_end(), k_pi - left.active_end(), k_pi - left.active_begin()};
   std::vector<double> wanted(ends.begin(), ends.end());
   for (const double psi : right.straight_directions()) wanted.insert(wanted.end(), {psi - k_smallest_turn, psi + k_smallest_turn});
@@ -122,14 +133,15 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
     wanted.insert(wanted.end(), {k_pi - psi - k_smallest_turn, k_pi - psi + k_smallest_turn});
   }
   const std::vector<double> mandatory = kept_apart(std::move(wanted));
-  const double longest = longest_chord(left, right, options);
+  const double longest = longest_chord(left, right, asked);
+  const SamplingOptions options{asked.tolerance - lost_in_floats(0.25 * longest, asked.tolerance), asked.reach};
   std::vector<double> directions;
   for (std::size_t i = 0; i < mandatory.size(); ++i) {
     const double end = i + 1 < mandatory.size() ? mandatory[i + 1] : mandatory.front() + k_two_pi;
     append_directions(directions, left, right, mandatory[i], end, longest, options);
   }
 
-  halve_coarse_chords(directions, left, right, options);
+  halve_coarse_chords(directions, left, right, longest, options);
 
   std::array<Outline, 2> outlines;
   outlines[0] = {Side::left, {}, nearest(directions, ends[2]), nearest(directions, ends[3])};

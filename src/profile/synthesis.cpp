@@ -47,7 +47,7 @@ void draw(SynthesisResult& result, const Mechanism& mechanism, const Attempt& at
   result.warnings = bend_warnings(mechanism, attempt);
   const auto curve1 = pitch_curve(mechanism, *attempt.sides[0], result.warnings);
   const auto curve2 = pitch_curve(mechanism, *attempt.sides[1], result.warnings);
-  auto outlines = sample(*curve1, *curve2, {options.tolerance, flange_reach(mechanism)});
+  auto outlines = sample(*curve1, *curve2, {options.tolerance, std::max(flange_reach(mechanism), options.drawn_out)});
   result.p1 = std::move(outlines[0]);
   result.p2 = std::move(outlines[1]);
 }

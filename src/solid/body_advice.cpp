@@ -59,7 +59,12 @@ const std::vector<Words>& words_of_printing() {
 
 class BodyAdviser {
  public:
-  BodyAdviser(const Mechanism& mechanism, const Judge& judge) : mechanism_(mechanism), judge_(judge) {}
+  BodyAdviser(const Mechanism& mechanism, const Judge& judge, Parts refused)
+      : mechanism_(mechanism),
+        judge_(judge),
+        refused_(refused == Parts::one   ? "one"
+                 : refused == Parts::two ? "two"
+                                         : "") {}
 
   Advice all() const {
     Advice advice;
@@ -100,7 +105,7 @@ class BodyAdviser {
     const auto written = std::find(words.words.begin(), words.words.end(), from);
     for (auto word = written == words.words.end() ? words.words.begin() : written + 1; word != words.words.end(); ++word) {
       field.set_text(changed, *word);
-      if (*word == from || !helps(changed)) continue;
+      if (*word == from || *word == refused_ || !helps(changed)) continue;
       const char* quote = field.kind == FieldKind::boolean ? "" : "\"";
       changes.push_back({words.key, 0, 0, {}, fmt::format("{} = {}{}{}", words.key, quote, *word, quote), from, std::string(*word)});
       return;
@@ -118,6 +123,7 @@ class BodyAdviser {
 
   const Mechanism& mechanism_;
   const Judge& judge_;
+  std::string_view refused_;  ///< a word of print.parts
 };
 
 }  // namespace
@@ -131,6 +137,8 @@ std::vector<Condition> obstacles(const Mechanism& mechanism) {
   return synthesis.made() ? body_obstacles(mechanism, synthesis) : failed_of(synthesis.conditions);
 }
 
-Advice body_advice(const Mechanism& mechanism, const Judge& judge) { return BodyAdviser(mechanism, judge).all(); }
+Advice body_advice(const Mechanism& mechanism, const Judge& judge, Parts refused) {
+  return BodyAdviser(mechanism, judge, refused).all();
+}
 
 }  // namespace fusee

@@ -77,7 +77,7 @@ class Face {
   void occupy(const Bar& bar) { bars_.push_back(bar); }
 
   bool is_free(const Bar& bar) const {
-    const double depth = std::min(depth_inside(rim_, bar.a), depth_inside(rim_, bar.b)) - bar.radius;
+    const double depth = std::min(rim_.depth_of(bar.a), rim_.depth_of(bar.b)) - bar.radius;
     if (depth < k_margin + edge_) return false;
     return std::all_of(bars_.begin(), bars_.end(), [&bar](const Bar& other) { return gap(bar, other) >= k_margin; });
   }
@@ -87,7 +87,7 @@ class Face {
     double low = 0, high = 1e4;
     for (int k = 0; k < 50; ++k) {
       const double middle = 0.5 * (low + high);
-      (depth_inside(rim_, {0.0, middle}) > 0 ? low : high) = middle;
+      (rim_.depth_of({0.0, middle}) > 0 ? low : high) = middle;
     }
     return low - edge_;
   }
@@ -95,7 +95,7 @@ class Face {
   bool on_top() const { return on_top_; }
 
  private:
-  const Polygon& rim_;
+  ConvexSides rim_;
   bool on_top_;
   double edge_ = 0;
   std::vector<Bar> bars_;

@@ -89,11 +89,13 @@ INSTANTIATE_TEST_SUITE_P(
         Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
         Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
         Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}},
+        Repro{"drawn_far_out", "tests/data/repro/drawn_far_out.toml", {}, 0.00685},
+        Repro{"floats_of_a_giant", "tests/data/repro/floats_of_a_giant.toml", {}, 0.00262},
+        Repro{"bridge_of_a_giant", "tests/data/repro/bridge_of_a_giant.toml", {}, 0.00434, BuildStatus::infeasible},
         Repro{"range_past_table", "tests/data/repro/range_past_table.toml", {}, 0.01, BuildStatus::infeasible},
         Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
-        Repro{"mouth_of_a_variant",
-              "tests/data/repro/mouth_of_a_variant.toml",
-              {{"joint.range_deg", "[-29.8, 29.8]"}}}),
+        Repro{
+            "mouth_of_a_variant", "tests/data/repro/mouth_of_a_variant.toml", {{"joint.range_deg", "[-29.8, 29.8]"}}}),
     [](const auto& repro) { return std::string(repro.param.name); });
 
 }  // namespace

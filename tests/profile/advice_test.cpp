@@ -108,5 +108,50 @@ TEST(Advice, WhatIsNotMadeAtItsBorderIsTriedFurtherOn) {
   EXPECT_LE(advice.alone.front().to, 11.9);
 }
 
+TEST(Advice, WhereALookIsDearHopelessTurnsAreAskedLess) {
+  const auto looks_of = [](bool is_dear, double wanted_r1, std::string& text) {
+    std::atomic<int> looks = 0;
+    const Judge judge{.obstacles = [&](const Mechanism& m) { return ++looks, fails_by(m.pulley.r1 - wanted_r1); },
+                      .made = [](const Mechanism&) { return true; },
+                      .is_dear = is_dear};
+    text = advice_sentence(find_advice(testing::forearm(), judge).alone);
+    return looks.load();
+  };
+  std::string text, of_dear;
+  EXPECT_LT(3 * looks_of(true, -1, of_dear), 2 * looks_of(false, -1, text));
+  EXPECT_EQ(of_dear, "");
+  // One that helps is asked at each step, so that its border is found all the same.
+  looks_of(true, 8, of_dear);
+  looks_of(false, 8, text);
+  EXPECT_EQ(text, "make r1 ≤ 8 mm");
+  EXPECT_EQ(of_dear, text);
+}
+
+TEST(Advice, NoMoreIsMadeThanIsLeftToBeMade) {
+  std::atomic<int> made = 0;
+  Judge judge{.obstacles = [](const Mechanism& m) { return fails_by(std::min(m.pulley.r1 - 12, 93 - m.pulley.EF)); },
+              .made = [&](const Mechanism&) { return ++made, true; }};
+  EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 2U);
+  EXPECT_EQ(find_advice(testing::forearm(), judge, {}, 1).alone.size(), 1U);
+  EXPECT_TRUE(find_advice(testing::forearm(), judge, {}, 2).empty());
+  judge.makings = [] { return 1; };
+  made = 0;
+  EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 1U);
+  EXPECT_EQ(made, 1);
+}
+
+TEST(Advice, ARangeStaysWithinItsTable) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.pulley.law = Law::table;
+  for (int row = -4; row <= 4; ++row) mechanism.pulley.rows.push_back({radians(20.0 * row), radians(8.0 * row)});
+  double widest = 0;
+  const auto changes = nearest_changes(mechanism, [&](const Mechanism& m) {
+    widest = std::max(widest, m.joint.theta_max);
+    return false;
+  });
+  EXPECT_TRUE(changes.empty());
+  EXPECT_NEAR(degrees(widest), 32.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace fusee

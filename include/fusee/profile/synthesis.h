@@ -15,6 +15,9 @@ namespace fusee {
 struct SynthesisOptions {
   /// Largest sagitta between the polygon and the curve, on the pitch curve and on every curve parallel to it up to the flange. mm
   double tolerance = 0.01;
+  /// By how much the curves will be drawn further out before they are made (draw_for_making): the tolerance holds there
+  /// too. mm
+  double drawn_out = 0;
   /// Search for changes of single numbers that would make an infeasible mechanism feasible.
   bool advice = true;
   /// Number of steps of the stroke table.
