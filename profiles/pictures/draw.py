@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the README's pictures: each profile's part as its report shows it, and the report's page.
+"""Draws the README's pictures: each profile's part as its report shows it, the report's page, and the test model.
 
     profiles/pictures/draw.py build/release/fusee [folder, this one without it]
 
@@ -25,6 +25,10 @@ alpha.value = 0.6 * alpha.max;
 alpha.dispatchEvent(new Event("input"));
 //]]></script>"""
 
+# The last step of the kit's page: the whole test model.
+ASSEMBLED = """<style>header,.warnings,main section:not(#assembly),#assembly h2,#assembly .lead,.pictures>*:not(:last-child),.pictures h3,.pictures ol,footer{display:none!important}
+section{border:0!important}.pictures{display:block!important}.pictures svg{width:760px;max-width:none}</style>"""
+
 
 def browser():
     found = next((path for path in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if path), None)
@@ -47,10 +51,13 @@ def main():
         with tempfile.TemporaryDirectory() as made:
             subprocess.run([fusee, "build", profile, "-o", made + "/out", "-q"], stdout=subprocess.DEVNULL, check=True)
             page = pathlib.Path(made, "out/report.html").read_text(encoding="utf-8")
+            subprocess.run([fusee, "kit", profile, "-o", made + "/kit", "-q"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+            kit = pathlib.Path(made, "kit/kit.html").read_text(encoding="utf-8")
         large = profile.stem == "paper_optimum"
         drawn(page, ALONE, "960,540" if large else "420,340", folder / f"{profile.stem}.png")
         if large:
             drawn(page, MOVED, "1000,1150", folder / "page.png")
+            drawn(kit, ASSEMBLED, "860,680", folder / "kit.png")
 
 
 if __name__ == "__main__":
