@@ -131,7 +131,7 @@ Command kit_command() {
            {"--tolerance-mm", "MM", "of the pulley's curves (default 0.01)"},
            {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"}},
           {{"fusee kit arm.toml", "everything in out/arm_kit; open its kit.html"},
-           {"fusee kit arm.toml --set body.shaft=nema17-d5 -o model", "for another motor"},
+           {"fusee kit arm.toml --dxf r12 -o model", "drawings for an old cutter"},
            {"fusee kit arm.toml --dry-run", "does it fit? writes nothing"}},
           run_kit};
 }

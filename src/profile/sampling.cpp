@@ -102,7 +102,7 @@ std::size_t nearest(const std::vector<double>& directions, double psi) {
 }
 
 /// Beside the bridge over a hollow a drawn curve bends within a probe: chords there are halved until none has more sagitta, as
-/// an arc, than is allowed.
+/// an arc, than is allowed, or there are as many as a curve may have.
 void halve_coarse_chords(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right,
                          double longest, const SamplingOptions& options) {
   constexpr int k_halvings = 12;
@@ -116,7 +116,7 @@ void halve_coarse_chords(std::vector<double>& directions, const PitchCurve& left
                                     (mirrored(left, next).position() - mirrored(left, here).position()).norm());
       if (next - here > finest && chord * (next - here) / 8.0 > options.tolerance) finer.push_back(0.5 * (here + next));
     }
-    if (finer.size() == directions.size()) return;
+    if (finer.size() == directions.size() || static_cast<double>(finer.size()) > k_most_chords) return;
     directions = std::move(finer);
   }
 }
