@@ -8,13 +8,15 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "cli/interrupt.h"
+
 namespace fusee::cli {
 namespace {
 
 bool write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EINTR && !is_interrupted()) continue;  // nobody reads, and somebody has had enough
     if (written <= 0) return false;
     text.remove_prefix(static_cast<std::size_t>(written));
   }

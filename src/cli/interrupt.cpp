@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <exception>
 #include <string_view>
 
 namespace fusee::cli {
@@ -50,7 +51,9 @@ void catch_interrupts(bool json) {
 }
 
 InterruptsDeferred::InterruptsDeferred() { deferred = 1; }
-InterruptsDeferred::~InterruptsDeferred() { deferred = 0; }
+InterruptsDeferred::~InterruptsDeferred() {
+  if (std::uncaught_exceptions() > 0) deferred = 0;
+}
 
 void leave_interrupted() { leave(); }
 

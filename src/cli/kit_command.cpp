@@ -98,6 +98,9 @@ Reply run_kit(const Arguments& arguments, Console& console) {
   reply.fields["conditions"] = to_json(plan.conditions);
   if (made.ending == KitEnding::no_kit) {
     add_obstacles(file.path, plan.conditions, reply);
+    add_advice(made.advice.alone, reply);
+    add_advice_together(made.advice.together, reply);
+    reply.fields["advice"] = to_json(made.advice.alone);
     reply.exit = Exit::infeasible;
     return reply;
   }

@@ -18,7 +18,6 @@ constexpr double k_clear = 0.5;  // between what moves past each other: a deskto
 constexpr double k_wall = 1.2;   // three lines of a 0.4 mm nozzle
 constexpr int k_places = 49;     // of the stroke that distances are looked at in
 constexpr double k_collar_height = 2.5;
-constexpr double k_least_pin = 0.5;  // the thinnest rod that is sold as one is of 1 mm
 
 /// A rod that shops have, mm.
 bool is_stock_rod(double diameter) {

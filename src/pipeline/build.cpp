@@ -17,6 +17,7 @@
 #include "fusee/pipeline.h"
 #include "fusee/solid/print.h"
 #include "pipeline/agreement.h"
+#include "pipeline/design.h"
 
 namespace fusee {
 namespace {
@@ -43,10 +44,6 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// While advice is searched for the curves are drawn no finer than this, mm, and the stroke needs no table: what is advised
-// is made with the tolerance that was asked for.
-constexpr double k_trial_tolerance = 0.05;
-constexpr int k_trial_steps = 36;
 // As many points of outlines are made for advice: a making of 200, as most have, takes a quarter of a second, and its
 // time grows in proportion (campaign of seed 210002).
 constexpr double k_points_for_advice = 2400;
@@ -91,50 +88,6 @@ struct Workshop {
     }
   }
 };
-
-/// What the paper's equations draw may be so far from what large pins or thick tendons need that no tendon can be wound
-/// on it at all: `wind` throws. What the exact method draws always can: there it would be a bug.
-template <typename Wind>
-std::vector<Condition> windable(const Mechanism& mechanism, Wind wind) {
-  if (mechanism.pulley.method != Method::paper) return {};
-  Condition condition;
-  condition.name = "can_be_wound";
-  condition.value = condition.limit = 1;
-  condition.unit = "1";
-  try {
-    wind();
-  } catch (const InputError& error) {
-    condition.ok = false;
-    condition.value = 0;
-    condition.message =
-        "as the paper's equations draw it (pulley.method = \"paper\"), " + error.diagnostics().front().message;
-  }
-  return {condition};
-}
-
-/// False when no such pulley can be made.
-bool design(Product& product, const BuildOptions& options, TieOffSearch search = TieOffSearch::thorough) {
-  const Mechanism& mechanism = product.joint.mechanism;
-  announce(options, "finding both pitch curves");
-  SynthesisOptions synthesis_options;
-  synthesis_options.tolerance = options.tolerance;
-  synthesis_options.drawn_out = -product.joint.outline.offset;
-  synthesis_options.advice = false;  // it is searched for with the body
-  product.synthesis = synthesise(mechanism, synthesis_options);
-  if (!product.synthesis.made()) return false;
-  draw_for_making(product.synthesis, product.joint.outline);
-  announce(options, "making the body");
-  auto cut_layout = beside([&] { return layout_to_cut(mechanism, product.synthesis); });
-  product.pulley = make_pulley(mechanism, product.synthesis, search);
-  product.cut_layout = cut_layout.get();
-  if (!product.pulley.made()) return false;
-  for (const Condition& condition :
-       windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
-    product.pulley.conditions.push_back(condition);
-    if (!condition.ok) product.pulley.status = PulleyStatus::impossible;
-  }
-  return product.pulley.made();
-}
 
 /// The Draco file and what was found of it.
 DracoFile write_parts(Workshop& shop) {
@@ -245,12 +198,6 @@ void write_texts(Workshop& shop) {
   shop.stage("manifest.json", shop.take(manifest));
 }
 
-/// What is tried stands in place of what was declared; what was found to be otherwise stays.
-MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
-  static_cast<Mechanism&>(file.mechanism) = changed;
-  return file;
-}
-
 /// Curves, body and plates with the checks that a design can fail; the other files say the same. Nothing is written.
 bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   Product product;
@@ -260,7 +207,7 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   quietly.before_step = [&options](std::string_view) {
     if (options.between_tries) options.between_tries();
   };
-  if (!design(product, quietly, TieOffSearch::brief)) return false;
+  if (!design(product, quietly.tolerance, quietly.before_step, TieOffSearch::brief)) return false;
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
   announce(quietly, "checking its mesh");
@@ -287,27 +234,6 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
   } catch (const InputError&) {
     return false;
   }
-}
-
-/// Of a mechanism that is tried: the joint as it is, and its curves or why there are none.
-struct Curves {
-  JointAsItIs joint;
-  SynthesisResult synthesis;
-  std::vector<Condition> obstacles;
-};
-
-Curves curves_of(const DeclaredMechanism& declared) {
-  Curves curves{as_it_is(declared), {}, {}};
-  const Mechanism& mechanism = curves.joint.mechanism;
-  if (const auto obstacle = obstacle_to(mechanism)) {
-    curves.obstacles = {*obstacle};  // most fail early, and what is cheap to see comes first
-    return curves;
-  }
-  curves.synthesis =
-      synthesise(mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
-  curves.obstacles = failed_of(curves.synthesis.conditions);
-  if (curves.obstacles.empty()) draw_for_making(curves.synthesis, curves.joint.outline);
-  return curves;
 }
 
 /// The quick look at mechanisms that are hardly different from a file's: curves and body of the joint as it is, without
@@ -414,7 +340,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   target.claim(output_names());  // before the work: a refusal should not cost a wait
-  if (!design(result.product, options)) {
+  if (!design(result.product, options.tolerance, options.before_step)) {
     result.status = BuildStatus::infeasible;
     announce(options, "looking for what would make it possible");
     result.advice = advice_for(result.product, options);

@@ -5,11 +5,13 @@
 
 #include "base/beside.h"
 #include "fusee/analysis/plausibility.h"
+#include "fusee/base/text.h"
 #include "fusee/export/mesh_files.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 #include "fusee/solid/print.h"
 #include "pipeline/agreement.h"
+#include "pipeline/design.h"
 
 namespace fusee {
 namespace {
@@ -86,14 +88,45 @@ void make_files(KitResult& result, const KitOptions& options) {
   result.outputs.push_back({"manifest.json", kit_manifest_json(product, result.outputs)});
 }
 
-/// Curves and body; false where there is none.
-bool design(Product& product, const KitOptions& options) {
-  say(options, "finding the pulley");
-  product.synthesis = synthesise(product.joint.mechanism, {.tolerance = options.tolerance, .advice = false});
-  if (!product.synthesis.made()) return false;
-  draw_for_making(product.synthesis, product.joint.outline);
-  product.pulley = make_pulley(product.joint.mechanism, product.synthesis);
-  return product.pulley.made();
+/// What curves, body or model lack.
+std::vector<Condition> obstacles_to_kit(const DeclaredMechanism& declared) {
+  const Curves curves = curves_of(declared);
+  if (!curves.obstacles.empty()) return curves.obstacles;
+  const Mechanism& mechanism = curves.joint.mechanism;
+  if (const auto of_body = body_obstacles(mechanism, curves.synthesis); !of_body.empty()) return of_body;
+  return failed_of(plan_kit(mechanism, curves.synthesis, resolve_layout(mechanism, curves.synthesis)).conditions);
+}
+
+KitPlan plan_of(const Product& pulley) {
+  return plan_kit(pulley.joint.mechanism, pulley.synthesis, pulley.pulley.layout);
+}
+
+/// With the very numbers that are advised. One that makes the file bad input is no advice.
+bool has_kit(const MechanismFile& file, double tolerance) {
+  try {
+    Product pulley;
+    pulley.file = file;
+    pulley.joint = as_it_is(file.mechanism);
+    return design(pulley, tolerance, {}, TieOffSearch::brief) && plan_of(pulley).made();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// What would make room for a model whose pulley can be made.
+Advice advice_for_kit(const MechanismFile& file, const KitOptions& options) {
+  const Judge judge{
+      .obstacles = [&](const Mechanism& changed) { return obstacles_to_kit(with_declared(file, changed).mechanism); },
+      .made = [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.tolerance); }};
+  Advice advice = find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
+  // No step leads away from a pin that is a point.
+  if (Mechanism thicker = file.mechanism; thicker.guides.radius == 0) {
+    thicker.guides.radius = k_least_pin;
+    const std::string radius = shortest(k_least_pin);
+    if (judge.made(thicker))
+      advice.alone.push_back({"guides.radius_mm", 0, k_least_pin, "mm", "guides.radius_mm ≥ " + radius + " mm"});
+  }
+  return advice;
 }
 
 constexpr int k_most_kit_runs = 99;
@@ -129,15 +162,17 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
   OutputFolder target(options.folder, options.force);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work: a refusal should not cost a wait
-  if (!design(product.pulley, options)) {
+  if (!design(product.pulley, options.tolerance, options.before_step)) {
     result.ending = KitEnding::no_pulley;
     return result;
   }
   const Mechanism& mechanism = product.pulley.joint.mechanism;
   say(options, "placing parts");
-  product.plan = plan_kit(mechanism, product.pulley.synthesis, product.pulley.pulley.layout);
+  product.plan = plan_of(product.pulley);
   if (!product.plan.made()) {
     result.ending = KitEnding::no_kit;
+    say(options, "looking for what would make room");
+    result.advice = advice_for_kit(file, options);
     return result;
   }
   const PlanOptions bench;

@@ -55,6 +55,13 @@ class Kit(harness.Scratch):
         failed = [condition for condition in document["conditions"] if not condition["ok"]]
         self.assertTrue(any("guides.radius_mm" in condition["message"] for condition in failed))
 
+    def test_advice_is_true(self):
+        for change in ("pulley.EF_mm=60", "guides.radius_mm=0"):
+            document = self.expect_json(f"kit arm.toml --set {change}", 4)
+            self.assertTrue(document["advice"], change)
+            for advised in document["advice"]:
+                self.expect(f"kit arm.toml --set {change} --set {advised['key']}={advised['to']!r} --dry-run", 0)
+
     def test_a_pulley_that_cannot_be_made_is_refused_as_build_does(self):
         self.expect("kit arm.toml --set pulley.r1_mm=25 -o model", 4, "^$", "it would be possible with")
         self.assertFalse((self.folder / "model").exists())

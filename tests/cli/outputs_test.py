@@ -354,7 +354,7 @@ class Kill(harness.Scratch):
             if process.returncode == -number:
                 continue  # so early that the program had not begun
             self.assertEqual(harness.json.loads(out)["exit"], process.returncode)
-            self.assertEqual(self.files("out/arm"), later if process.returncode == 0 else earlier)
+            self.assertEqual(self.files("out/arm"), later if process.returncode == 0 else earlier, (delay, process.returncode))
             if process.returncode == 0:
                 self.build()
 
@@ -363,6 +363,30 @@ class Kill(harness.Scratch):
 
     def test_terminated(self):
         self.interrupt(signal.SIGTERM)
+
+    def test_interrupted_when_all_is_in_place(self):
+        """The files are there and nobody reads what is said of them: 130 would say that they are the earlier ones."""
+        later = self.build("later", "--set pulley.r1_mm=15")
+        self.build()
+        reading, writing = os.pipe()
+        os.set_blocking(writing, False)
+        with self.assertRaises(BlockingIOError):
+            while True:
+                os.write(writing, b" " * 4096)
+        os.set_blocking(writing, True)
+        process = subprocess.Popen([harness.PROGRAM, "build", "arm.toml", "--set", "pulley.r1_mm=15", "--json"],
+                                   cwd=self.folder, env=harness.ENVIRONMENT, stdout=writing, stderr=subprocess.PIPE)
+        for _ in range(1000):
+            time.sleep(0.02)
+            if self.files("out/arm") == later:
+                break
+        time.sleep(0.2)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        os.close(reading), os.close(writing)
+        self.assertEqual(process.returncode, 6, err)
+        self.assertIn(b"could not be written to stdout", err)
+        self.assertEqual(self.files("out/arm"), later)
 
     def test_two_at_once(self):
         runs = [self.start("-o both"), self.start("-o both")]

@@ -122,6 +122,9 @@ struct KitPlan {
   bool made() const { return status == KitStatus::made; }
 };
 
+/// The radius of the thinnest pin that a kit has, mm: no rod is sold as one below 1 mm.
+inline constexpr double k_least_pin = 0.5;
+
 /// Of a joint whose pulley can be made.
 KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout);
 

@@ -1,0 +1,78 @@
+#include "pipeline/design.h"
+
+#include "base/beside.h"
+#include "fusee/export/drawings.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/pipeline.h"
+
+namespace fusee {
+namespace {
+
+// While advice is searched for the curves are drawn no finer than this, mm, and the stroke needs no table: what is advised
+// is made with the tolerance that was asked for.
+constexpr double k_trial_tolerance = 0.05;
+constexpr int k_trial_steps = 36;
+
+}  // namespace
+
+std::vector<Condition> windable(const Mechanism& mechanism, const std::function<void()>& wind) {
+  if (mechanism.pulley.method != Method::paper) return {};
+  Condition condition;
+  condition.name = "can_be_wound";
+  condition.value = condition.limit = 1;
+  condition.unit = "1";
+  try {
+    wind();
+  } catch (const InputError& error) {
+    condition.ok = false;
+    condition.value = 0;
+    condition.message =
+        "as the paper's equations draw it (pulley.method = \"paper\"), " + error.diagnostics().front().message;
+  }
+  return {condition};
+}
+
+bool design(Product& product, double tolerance, const std::function<void(std::string_view step)>& before_step,
+            TieOffSearch search) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  if (before_step) before_step("finding both pitch curves");
+  SynthesisOptions synthesis_options;
+  synthesis_options.tolerance = tolerance;
+  synthesis_options.drawn_out = -product.joint.outline.offset;
+  synthesis_options.advice = false;  // it is searched for with the body
+  product.synthesis = synthesise(mechanism, synthesis_options);
+  if (!product.synthesis.made()) return false;
+  draw_for_making(product.synthesis, product.joint.outline);
+  if (before_step) before_step("making the body");
+  auto cut_layout = beside([&] { return layout_to_cut(mechanism, product.synthesis); });
+  product.pulley = make_pulley(mechanism, product.synthesis, search);
+  product.cut_layout = cut_layout.get();
+  if (!product.pulley.made()) return false;
+  for (const Condition& condition :
+       windable(mechanism, [&] { rewind_made(product.joint, product.pulley.layout, product.pulley.mesh); })) {
+    product.pulley.conditions.push_back(condition);
+    if (!condition.ok) product.pulley.status = PulleyStatus::impossible;
+  }
+  return product.pulley.made();
+}
+
+MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
+  static_cast<Mechanism&>(file.mechanism) = changed;
+  return file;
+}
+
+Curves curves_of(const DeclaredMechanism& declared) {
+  Curves curves{as_it_is(declared), {}, {}};
+  const Mechanism& mechanism = curves.joint.mechanism;
+  if (const auto obstacle = obstacle_to(mechanism)) {
+    curves.obstacles = {*obstacle};  // most fail early, and what is cheap to see comes first
+    return curves;
+  }
+  curves.synthesis =
+      synthesise(mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
+  curves.obstacles = failed_of(curves.synthesis.conditions);
+  if (curves.obstacles.empty()) draw_for_making(curves.synthesis, curves.joint.outline);
+  return curves;
+}
+
+}  // namespace fusee
