@@ -31,6 +31,8 @@ constexpr double k_drawn = 1e-6;         // mm: to which a drawing's coordinates
 
 constexpr auto k_contour_layers =
     std::to_array<std::string_view>({"CUT_OUTER", "CUT_INNER", "P1_PITCH", "P2_PITCH", "P1_FLOOR", "P2_FLOOR", "BORE"});
+constexpr std::string_view k_as_declared =
+    "BORE";  // of a pulley's profile: as narrow as its shaft, and nothing to cut plates by
 constexpr auto k_frame_layers = std::to_array<std::string_view>({"CHECK_10MM", "SHEET"});
 
 template <std::size_t n>
@@ -315,7 +317,7 @@ Check check_smallest_feature(const Paths& contours) {
   double least = std::numeric_limits<double>::infinity();
   const DrawingPath* narrow = nullptr;
   for (const DrawingPath* path : contours) {
-    if (!path->closed) continue;
+    if (!path->closed || path->layer == k_as_declared) continue;
     const double width = least_width(path->points);
     if (width >= least) continue;
     least = width;

@@ -143,7 +143,7 @@ std::string analysis_html(const MechanismFile& file, const AnalysisResult& resul
            "Lengths in mm, angles in degrees, forces in N. Tensions are the full model’s in its third cycle, unless "
            "they are called the paper’s.",
        .styles = {embedded::figure_css, embedded::page_css},
-       .scripts = {embedded::readout_js, embedded::moving_joint_js}});
+       .scripts = {embedded::readout_js, joint_script(file.mechanism)}});
 }
 
 }  // namespace fusee

@@ -375,7 +375,7 @@ std::string calibration_report_html(const CalibrationProduct& product) {
             .body = verdict_section(calibration) + slips_section(product),
             .foot = "Angles in degrees at the joint, lengths in mm, forces in N.",
             .styles = {embedded::figure_css, embedded::page_css, embedded::calibration_css},
-            .scripts = {embedded::readout_js, embedded::moving_joint_js}};
+            .scripts = {embedded::readout_js, joint_script(product.file.mechanism)}};
   if (calibration.verdict != CalibrationVerdict::not_testable) {
     page.body += key_numbers(product) + action_section(product) + effects_section(product) + moving_section(product) +
                  residuals_section(product) + rest_section(product) + figures_section(product) +

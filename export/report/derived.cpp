@@ -10,6 +10,7 @@ bool is_same(const Field& field, const DeclaredMechanism& a, const DeclaredMecha
     case FieldKind::number:
       return field.get(a, 0) == field.get(b, 0);
     case FieldKind::range:
+    case FieldKind::point:
       return field.get(a, 0) == field.get(b, 0) && field.get(a, 1) == field.get(b, 1);
     case FieldKind::choice:
     case FieldKind::text:
@@ -39,6 +40,8 @@ std::string field_words(const Field& field, const DeclaredMechanism& mechanism) 
   if (field.kind == FieldKind::number) return rounded(field.get(mechanism, 0)) + unit;
   if (field.kind == FieldKind::range)
     return rounded(field.get(mechanism, 0)) + " to " + rounded(field.get(mechanism, 1)) + unit;
+  if (field.kind == FieldKind::point)
+    return "[" + rounded(field.get(mechanism, 0)) + ", " + rounded(field.get(mechanism, 1)) + "]" + unit;
   return field.get_text(mechanism);
 }
 

@@ -101,7 +101,10 @@ View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis
     view.include(pin_centre(mechanism, side), mechanism.guide_pitch_radius() + 0.5 * mechanism.tendon.diameter);
   }
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
-  for (const double theta : thetas) view.include(attachment(mechanism, theta));
+  if (mechanism.joint.drum_radius > 0) view.include({0, 0}, mechanism.drum_pitch_radius());
+  for (const double theta : thetas) {
+    for (const Side side : {Side::left, Side::right}) view.include(attachment(mechanism, side, theta));
+  }
   return fitted(view, frame);
 }
 
@@ -143,7 +146,16 @@ std::string tendon_group(const TendonTrace& trace, const View& view, const Mecha
 
 std::string joint_group(const Mechanism& mechanism, const View& view, double theta) {
   const Vec2 joint = view({0, 0});
-  const Vec2 end = view(attachment(mechanism, theta));
+  const Vec2 end = view(attachment(mechanism, Side::left, theta));
+  if (!mechanism.joint.is_plain()) {
+    const Vec2 other = view(attachment(mechanism, Side::right, theta));
+    std::string svg;
+    if (mechanism.joint.drum_radius > 0)
+      svg = svg_circle("metal drum", joint, mechanism.joint.drum_radius * view.scale);
+    return svg + "<g class=\"joint-link\">" + svg_path("link", {end, joint, other}) + "</g>" +
+           svg_circle("metal", joint, 5) + svg_circle("take-off at-c", end, 3.5) +
+           svg_circle("take-off at-c2", other, 3.5);
+  }
   return "<g class=\"joint-link\">" + svg_line("link", joint, end) + "</g>" + svg_circle("metal", joint, 5) +
          svg_circle("take-off at-c", end, 3.5);
 }
@@ -152,15 +164,23 @@ std::string pins(const Mechanism& mechanism, const View& view) {
   std::string svg;
   for (const Side side : {Side::left, Side::right}) {
     svg += svg_circle("metal", view(pin_centre(mechanism, side)), std::max(1.5, mechanism.guides.radius * view.scale));
+    if (mechanism.guides.kind == GuideKind::idler)
+      svg += svg_circle("metal", view(pin_centre(mechanism, side)), mechanism.guides.bearing_radius * view.scale);
   }
   return svg;
 }
 
 std::string point_names(const Mechanism& mechanism, const View& view, double theta) {
   const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
-  const Vec2 c = view(attachment(mechanism, theta));
-  const Vec2 away(std::sin(theta), -std::cos(theta));
-  return svg_words("halo middle name-c", c + 15 * away + Vec2(0, 4), "C") +
+  const Vec2 beside = 15 * Vec2(std::sin(theta), -std::cos(theta)) + Vec2(0, 4);
+  const Vec2 c = view(attachment(mechanism, Side::left, theta)),
+             other = view(attachment(mechanism, Side::right, theta));
+  const bool plain = mechanism.joint.is_plain(), apart = !plain && (other - c).norm() > 1;
+  return svg_words("halo middle name-c", c + beside,
+                   plain   ? "C"
+                   : apart ? "A1"
+                           : "A1, A2") +
+         (apart ? svg_words("halo middle name-c2", other + beside, "A2") : "") +
          svg_words("halo", view({0, 0}) + Vec2(9, 5), "O") +
          svg_words("halo middle", view(pin_centre(mechanism, Side::left)) + Vec2(gap, 5), "B") +
          svg_words("halo middle", view(pin_centre(mechanism, Side::right)) + Vec2(-gap, 5), "D") +

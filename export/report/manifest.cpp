@@ -40,6 +40,7 @@ Json field_value(const Field& field, const DeclaredMechanism& mechanism) {
     case FieldKind::number:
       return number(field.get(mechanism, 0));
     case FieldKind::range:
+    case FieldKind::point:
       return {as_written(field.get(mechanism, 0)), as_written(field.get(mechanism, 1))};
     case FieldKind::choice:
     case FieldKind::text:
@@ -60,6 +61,7 @@ Json mechanism_json(const DeclaredMechanism& mechanism) {
   Json tables = Json::object();
   for (const Field& field : fields()) {
     if (!is_used(field, mechanism) || field.table == "transmission") continue;
+    if (field.is_set != nullptr && !field.is_set(mechanism)) continue;
     Json& table = field.table.empty() ? tables : tables[std::string(field.table)];
     table[std::string(field.key)] = field_value(field, mechanism);
   }

@@ -4,6 +4,7 @@
 
 #include "export/report/calibration_words.h"
 #include "export/report/drawing.h"
+#include "export/report/report_parts.h"
 #include "export/report/tendon_trace.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
@@ -99,6 +100,25 @@ std::string json_effect(const RehearsedEffect& effect) {
   return text + "]}";
 }
 
+/// Where a tendon ends, and over which angle it lies on the drum at home: less than nothing while it is free of it.
+std::string json_end(const Mechanism& mechanism, Side side) {
+  const PinPlace place = pin_place(mechanism, side, mechanism.guide_pitch_radius());
+  double lies = -1e3, normal = 0;
+  if (const auto leaves = lift_off(place)) {
+    lies = *leaves;
+    const double on_drum = upper_span(place, *leaves - 1.0).normal;
+    normal = side == Side::right ? on_drum : k_pi - on_drum;
+  }
+  return "{\"at\":" + json_point(attachment(mechanism, side, 0.0)) + ",\"lies\":" + json_number(lies, 6) +
+         ",\"normal\":" + json_number(normal, 6) + "}";
+}
+
+std::string json_ends(const Mechanism& mechanism) {
+  if (mechanism.joint.is_plain()) return "";
+  return "\"drum\":" + json_number(mechanism.drum_pitch_radius(), 6) + ",\"ends\":[" + json_end(mechanism, Side::left) +
+         "," + json_end(mechanism, Side::right) + "],";
+}
+
 std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synthesis,
                         const std::vector<LoadedStroke>& strokes, const std::vector<RehearsedEffect>& effects) {
   const std::vector<TransmissionPoint>& stroke = synthesis.stroke;
@@ -106,7 +126,7 @@ std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synth
     return json_numbers(key, stroke, decimals, value) + ",";
   };
   return "{\"R\":" + json_number(mechanism.joint.R, 6) + ",\"rho\":" + json_number(mechanism.guide_pitch_radius(), 6) +
-         ",\"axis\":" + json_point(pulley_axis(mechanism)) + ",\"pins\":[" +
+         "," + json_ends(mechanism) + "\"axis\":" + json_point(pulley_axis(mechanism)) + ",\"pins\":[" +
          json_point(pin_centre(mechanism, Side::left)) + "," + json_point(pin_centre(mechanism, Side::right)) +
          "],\"outlines\":[" + json_outline(synthesis.p1) + "," + json_outline(synthesis.p2) + "]," +
          numbers("alpha", 6, [](const TransmissionPoint& point) { return degrees(point.alpha); }) +
@@ -187,6 +207,33 @@ std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synt
                          const std::vector<StrokePoint>& loaded) {
   if (synthesis.stroke.empty() || loaded.size() != synthesis.stroke.size() || synthesis.p1.points.size() < 3) return "";
   return moving(mechanism, synthesis, {{mechanism.load.tip_force, loaded}}, {});
+}
+
+namespace {
+
+/// Lines that end in `//=` and a word are for joints of that word alone.
+std::string lines_for(std::string_view word) {
+  std::string script;
+  std::string_view rest = embedded::moving_joint_js;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(end);
+    const std::size_t mark = line.rfind(" //=");
+    if (mark == std::string_view::npos) {
+      script += line;
+    } else if (line.substr(mark + 4, line.size() - mark - 5) == word) {
+      script += std::string(line.substr(0, mark)) + "\n";
+    }
+  }
+  return script;
+}
+
+}  // namespace
+
+std::string_view joint_script(const Mechanism& mechanism) {
+  static const std::string plain = lines_for("plain"), drum = lines_for("drum");
+  return mechanism.joint.is_plain() ? plain : drum;
 }
 
 std::string moving_joint(const Rehearsal& rehearsal) {

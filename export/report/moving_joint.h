@@ -19,10 +19,12 @@ inline constexpr std::string_view k_moving_words =
     "stretch and friction, in the direction in which you move.</p>";
 
 /// HTML of a section's inside. `loaded`: the declared load's cycle at each place of the synthesis' stroke. "" where
-/// there is nothing to move. Needs moving_joint.js, and page.css.
+/// there is nothing to move. Needs joint_script() of this mechanism, and page.css.
 std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synthesis,
                          const std::vector<StrokePoint>& loaded);
 /// The same with what was found in a joint: a slider for each effect, and for the load.
 std::string moving_joint(const Rehearsal& rehearsal);
+/// moving_joint.js for this joint: of a plain one, all but the lines for drums and attachments.
+std::string_view joint_script(const Mechanism& mechanism);
 
 }  // namespace fusee

@@ -1,5 +1,6 @@
 // The joint moves: from the slider's α, θ by the declared law; then both tendons as taut strings over pins and pulley,
 // by geometry alone (export/report/tendon_trace.cpp does the same). Lengths in mm, angles in degrees.
+// A line that ends in a mark is on pages of joints without, or with, a drum or attachments of their own: joint_script(). //=source
 (() => {
   const box = document.querySelector(".moving");
   if (!box) return;
@@ -35,14 +36,19 @@
     const d = add(point, pin, -1);
     return Math.atan2(d[1], d[0]) + (above ? -sign : sign) * Math.acos(data.rho / Math.hypot(...d));
   };
-  const arc = (centre, from, to) => {
+  const arc = (centre, from, to) => { //=plain
+  const arc = (centre, from, to, radius = data.rho) => { //=drum
     const steps = Math.max(1, Math.ceil(Math.abs(to - from) / (4 * radian)));
-    return Array.from({ length: steps + 1 }, (_, k) => add(centre, unit(from + (to - from) * k / steps), data.rho));
+    return Array.from({ length: steps + 1 }, (_, k) => add(centre, unit(from + (to - from) * k / steps), data.rho)); //=plain
+    return Array.from({ length: steps + 1 }, (_, k) => add(centre, unit(from + (to - from) * k / steps), radius)); //=drum
   };
   // The three stretches of a tendon: C to the middle of the pin, on to the take-off, and what is wound.
   const tendon_at = (which, alpha, theta) => {
     const { sign, end, points } = data.outlines[which], pin = data.pins[which], n = points.length;
-    const c = [data.R * Math.sin(theta), data.R * Math.cos(theta)], upper = tangent(pin, c, true, sign);
+    const c = [data.R * Math.sin(theta), data.R * Math.cos(theta)], upper = tangent(pin, c, true, sign); //=plain
+    const own = data.ends[which], c = turned(own.at, -theta), lies = own.lies - sign * theta; //=drum
+    const upper = lies > 0 ? own.normal : tangent(pin, c, true, sign); //=drum
+    const over = lies > 0 ? arc([0, 0], upper + sign * lies, upper, data.drum) : []; //=drum
     const on_pulley = k => add(data.axis, turned(points[k], -alpha));
     const reference = tangent(pin, data.axis, false, sign);
     let first = 0, outermost = -Infinity;
@@ -53,7 +59,8 @@
     const wrap = nearer(tangent(pin, on_pulley(first), false, sign) - upper), middle = upper + wrap / 2;
     const wound = [], step = sign < 0 ? 1 : n - 1;
     for (let k = first, left = n; left > 0; k = (k + step) % n, left--) { wound.push(on_pulley(k)); if (k === end) break; }
-    return { upper: [c, ...arc(pin, upper, middle)], lower: [...arc(pin, middle, upper + wrap), wound[0]], wound };
+    return { upper: [c, ...over, ...arc(pin, upper, middle)], lower: [...arc(pin, middle, upper + wrap), wound[0]], wound }; //=drum
+    return { upper: [c, ...arc(pin, upper, middle)], lower: [...arc(pin, middle, upper + wrap), wound[0]], wound }; //=plain
   };
 
   const svg = (name, parent, attributes) => {
@@ -86,7 +93,12 @@
     const c = tendons[0].upper[0];
     for (const scene of scenes) {
       const px = scene.px, [gx, gy] = px(data.axis), at_c = px(c);
-      scene.link.setAttribute("d", path_of([px([0, 0]), at_c]));
+      scene.link.setAttribute("d", path_of([px([0, 0]), at_c])); //=plain
+      const other = px(tendons[1].upper[0]); //=drum
+      scene.link.setAttribute("d", path_of([at_c, px([0, 0]), other])); //=drum
+      move(scene.c.parentNode.querySelector(".at-c2"), other); //=drum
+      const second = scene.name.parentNode.querySelector(".name-c2"); //=drum
+      if (second) move(second, add(other, [15 * Math.sin(t), 4 - 15 * Math.cos(t)]), ["x", "y"]); //=drum
       move(scene.c, at_c);
       move(scene.name, add(at_c, [15 * Math.sin(t), 4 - 15 * Math.cos(t)]), ["x", "y"]);
       scene.pulley.setAttribute("transform", `rotate(${alpha.toFixed(3)} ${gx.toFixed(2)} ${gy.toFixed(2)})`);
@@ -117,7 +129,8 @@
   }
   const draw_off = (theta, loaded) => {
     for (const scene of scenes.filter(one => one.really)) {
-      const t = (theta + magnified * (loaded - theta)) * radian, c = [data.R * Math.sin(t), data.R * Math.cos(t)];
+      const t = (theta + magnified * (loaded - theta)) * radian, c = [data.R * Math.sin(t), data.R * Math.cos(t)]; //=plain
+      const t = (theta + magnified * (loaded - theta)) * radian, c = turned(data.ends[0].at, -t); //=drum
       scene.really.setAttribute("d", Number.isFinite(t) ? path_of([scene.px([0, 0]), scene.px(c)]) : "");
       scene.says.textContent = magnified > 1 ? `dashed: ${magnified} times as far off` : "dashed: where it is";
       move(scene.says, scene.px([0, -0.16 * data.R]), ["x", "y"]);

@@ -158,6 +158,14 @@ std::string key_numbers(const Product& product) {
   const Guides& guides = mechanism.guides;
   KeyNumbers numbers;
   numbers.add("R = OC", with_unit(mechanism.joint.R, "mm", 6));
+  if (mechanism.joint.drum_radius > 0) numbers.add("Drum radius", with_unit(mechanism.joint.drum_radius, "mm", 6));
+  const auto add_end = [&numbers](const char* name, const std::optional<Attachment>& end) {
+    if (end)
+      numbers.add(name, readable_rounded(end->across, 6) + ", " + readable_rounded(end->along, 6) + " mm",
+                  "across, along OC");
+  };
+  add_end("Tendon 1 ends at", mechanism.joint.attachment1);
+  add_end("Tendon 2 ends at", mechanism.joint.attachment2);
   numbers.add("Joint angle θ",
               range_words({degrees(mechanism.joint.theta_min), degrees(mechanism.joint.theta_max)}, 1, "°"));
   numbers.add("EB, ED", readable_rounded(guides.EB, 6) + ", " + readable_rounded(guides.ED, 6) + " mm");
@@ -166,7 +174,13 @@ std::string key_numbers(const Product& product) {
               : guides.OE > 0 ? "pins below the joint"
                               : "");
   numbers.add("EF", with_unit(mechanism.pulley.EF, "mm", 6));
-  numbers.add("Pin radius", with_unit(guides.radius, "mm"), "μ " + readable_rounded(guides.mu, 3));
+  if (guides.kind == GuideKind::idler) {
+    numbers.add(
+        "Idler radius", with_unit(guides.radius, "mm"),
+        "bearing " + with_unit(guides.bearing_radius, "mm") + ", μ " + readable_rounded(guides.bearing_friction, 3));
+  } else {
+    numbers.add("Pin radius", with_unit(guides.radius, "mm"), "μ " + readable_rounded(guides.mu, 3));
+  }
   add_law(numbers, product);
   numbers.add("Tendon", "⌀ " + with_unit(mechanism.tendon.diameter, "mm"),
               readable_rounded(mechanism.tendon.modulus / 1000, 3) + " GPa");
@@ -441,7 +455,7 @@ std::string report_html(const Product& product) {
                                               {"page_css", std::string(embedded::page_css)},
                                               {"readout_js", std::string(embedded::readout_js)},
                                               {"viewer_js", std::string(embedded::viewer_js)},
-                                              {"moving_joint_js", std::string(embedded::moving_joint_js)},
+                                              {"moving_joint_js", std::string(joint_script(product.joint.mechanism))},
                                               {"source", source_words(product.file)},
                                               {"verdict_class", verdict.style},
                                               {"verdict_sign", verdict.sign},

@@ -36,7 +36,7 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   const double above_pulley = tendon.length - tendon.lower_reach;
   TendonLength result;
   result.side = anchor.side;
-  result.joint_knot = attachment(mechanism, 0.0);
+  result.joint_knot = attachment(mechanism, anchor.side, 0.0);
   const double groove = left ? layout.z_p1 : layout.z_p2, z = anchor.seat ? anchor.seat->z : groove;
   result.pulley_knot = layout.scale * Vec3(anchor.pocket.x(), anchor.pocket.y(), z);
   result.between_knots =

@@ -90,8 +90,11 @@ Vec2 pin_centre(const Mechanism& mechanism, Side side) {
   return side == Side::left ? Vec2(-guides.EB, -guides.OE) : Vec2(guides.ED, -guides.OE - guides.D_below_B);
 }
 
-Vec2 attachment(const Mechanism& mechanism, double theta) {
-  return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
+Vec2 attachment(const Mechanism& mechanism, Side side, double theta) {
+  if (mechanism.joint.is_plain()) return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
+  const PinPlace place = pin_place(mechanism, side, mechanism.guide_pitch_radius());
+  const double angle = theta + mirror_sign(side) * place.twist;
+  return place.R * Vec2(std::sin(angle), std::cos(angle));
 }
 
 // The tendon as a taut string over what is drawn: first the tangent from C to the pin, then the common tangent of the
@@ -104,8 +107,20 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
   const double rho = mechanism.guide_pitch_radius();
   const Vec2 pin = pin_centre(mechanism, outline.side);
   TendonTrace trace;
-  trace.attachment = attachment(mechanism, theta);
-  const double upper = tangent_normal(pin, rho, trace.attachment, true, sign);
+  trace.attachment = attachment(mechanism, outline.side, theta);
+  double upper = tangent_normal(pin, rho, trace.attachment, true, sign);
+  std::vector<Vec2> over_drum;
+  double above = 0;
+  if (mechanism.joint.drum_radius > 0) {
+    const PinPlace place = pin_place(mechanism, outline.side, rho);
+    const UpperSpan span = upper_span(place, sign * theta);
+    if (span.on_drum > 0) {
+      const auto world = [sign](double normal) { return sign > 0 ? normal : k_pi - normal; };
+      upper = world(span.normal);
+      over_drum = arc({0, 0}, place.drum, world(span.end_normal), upper);
+      above = (over_drum.front() - trace.attachment).norm() + place.drum * span.on_drum;
+    }
+  }
   const auto contact = pulley_contact(mechanism, outline, alpha);
   if (!std::isfinite(upper) || !contact) return std::nullopt;
   // Wrap is positive when the tendon lies on the pin: the normal turns clockwise on the right on its way down.
@@ -117,10 +132,12 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
     trace.wound_path.push_back(axis + turned(outline.points[i].position, -alpha));
   }
   trace.take_off = trace.wound_path.front();
+  const Vec2 from = over_drum.empty() ? trace.attachment : over_drum.back();
   trace.free_path = arc(pin, rho, upper, upper - sign * wrap);
+  trace.free_path.insert(trace.free_path.begin(), over_drum.begin(), over_drum.end());
   trace.free_path.insert(trace.free_path.begin(), trace.attachment);
   trace.free_path.push_back(trace.take_off);
-  trace.free_length = (trace.onto_pin - trace.attachment).norm() + rho * wrap + (trace.take_off - trace.off_pin).norm();
+  trace.free_length = above + (trace.onto_pin - from).norm() + rho * wrap + (trace.take_off - trace.off_pin).norm();
   trace.wound_length = length_of(trace.wound_path);
   return trace;
 }

@@ -16,8 +16,8 @@ namespace fusee {
 Vec2 pulley_axis(const Mechanism& mechanism);
 /// B or D.
 Vec2 pin_centre(const Mechanism& mechanism, Side side);
-/// C.
-Vec2 attachment(const Mechanism& mechanism, double theta);
+/// Where a tendon ends: C, or its own attachment.
+Vec2 attachment(const Mechanism& mechanism, Side side, double theta);
 
 /// One tendon at one place of the stroke, in the frame of the mechanism: C → pin → pulley → along the groove to
 /// `wound_to`.
@@ -25,11 +25,11 @@ Vec2 attachment(const Mechanism& mechanism, double theta);
 /// Found on the sampled outline by geometry alone (tangents to circles and polygons), not from the transmission's
 /// formulas.
 struct TendonTrace {
-  Vec2 attachment;               ///< C
+  Vec2 attachment;               ///< C, or the tendon's own
   Vec2 onto_pin;                 ///< tangent point of the upper span
   Vec2 off_pin;                  ///< tangent point of the lower span
   Vec2 take_off;                 ///< where it leaves the pulley
-  std::vector<Vec2> free_path;   ///< C … take_off, with the arc over the pin
+  std::vector<Vec2> free_path;   ///< attachment … take_off, with the arcs over drum and pin
   std::vector<Vec2> wound_path;  ///< take_off … the anchor's end of the active arc
   double free_length = 0;        ///< exact on the pin's arc, mm
   double wound_length = 0;       ///< along the polygon, mm

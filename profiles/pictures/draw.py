@@ -51,9 +51,10 @@ def main():
         with tempfile.TemporaryDirectory() as made:
             subprocess.run([fusee, "build", profile, "-o", made + "/out", "-q"], stdout=subprocess.DEVNULL, check=True)
             page = pathlib.Path(made, "out/report.html").read_text(encoding="utf-8")
-            subprocess.run([fusee, "kit", profile, "-o", made + "/kit", "-q"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
-            kit = pathlib.Path(made, "kit/kit.html").read_text(encoding="utf-8")
-        large = profile.stem == "paper_optimum"
+            large = profile.stem == "paper_optimum"
+            if large:
+                subprocess.run([fusee, "kit", profile, "-o", made + "/kit", "-q"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+                kit = pathlib.Path(made, "kit/kit.html").read_text(encoding="utf-8")
         drawn(page, ALONE, "960,540" if large else "420,340", folder / f"{profile.stem}.png")
         if large:
             drawn(page, MOVED, "1000,1150", folder / "page.png")

@@ -6,6 +6,7 @@
 #include "base/normal_numbers.h"
 #include "fusee/analysis/analysis.h"
 #include "fusee/analysis/stroke.h"
+#include "fusee/transmission/guide_friction.h"
 #include "transmission/alpha_range.h"
 
 namespace fusee {
@@ -75,7 +76,7 @@ ErrorSource full_model(const char* name, const char* meaning, const Mechanism& m
 
 ErrorSource full_stretch(const Mechanism& mechanism) {
   Mechanism smooth = mechanism;
-  smooth.guides.mu = 0;
+  smooth.guides = without_friction(smooth.guides);
   return full_model("stretch", "stretch of both tendons, no friction at the pins", smooth, 0.5, 0.5);
 }
 
@@ -159,17 +160,23 @@ std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const
   const RigidJoint joint(made, real);
   const double sigma = 0.5 * options.tolerance;
   NormalNumbers numbers(options.seed);
+  const auto next = [&] {
+    if (options.between_samples) options.between_samples();
+    return sigma * numbers.next();
+  };
   Spread all{std::vector<double>(alphas.size(), 0.0), std::vector<double>(alphas.size(), 0.0)};
   std::vector<ToleranceEffect> effects;
-  for (const Dimension& dimension : dimensions()) {
+  const std::vector<Dimension> lengths = dimensions(real);
+  for (const Dimension& dimension : lengths) {
     const Spread derived = by_derivative(alphas, joint, dimension, options.tolerance);
-    const Spread sampled = spread_of(alphas, joint, options.samples, [&] { return altered(made, real, dimension, sigma * numbers.next()); });
+    const Spread sampled =
+        spread_of(alphas, joint, options.samples, [&] { return altered(made, real, dimension, next()); });
     effects.push_back(effect(std::string(dimension.key), alphas, derived, sampled));
     add_squares(all, derived);
   }
   const Spread sampled = spread_of(alphas, joint, options.samples, [&] {
     std::vector<double> changes;
-    for (std::size_t i = 0; i < dimensions().size(); ++i) changes.push_back(sigma * numbers.next());
+    for (std::size_t i = 0; i < lengths.size(); ++i) changes.push_back(next());
     return altered(made, real, changes);
   });
   effects.push_back(effect("all", alphas, all, sampled));

@@ -35,8 +35,21 @@ namespace {
 Vec2 upper_direction(const PinPlace& pin, double theta) { return turned_left(unit(upper_span(pin, theta).normal)); }
 Vec2 lower_direction(const LowerPath& lower) { return turned_left(unit(lower.normal)); }
 
+/// From the tendon's end away from the joint's pin or drum: of what it lies on last.
+Vec2 end_direction(const PinPlace& pin, double theta) { return turned_left(unit(upper_span(pin, theta).end_normal)); }
 double by_length(const PinPlace& pin, const LowerPath&, Side, double theta, double) {
-  return upper_direction(pin, theta).dot(Vec2(std::sin(theta), std::cos(theta)));
+  return pin.at_C ? end_direction(pin, theta).dot(Vec2(std::sin(theta), std::cos(theta))) : 0.0;
+}
+/// The ends stand still in the link.
+double by_drum(const PinPlace& pin, const LowerPath&, Side, double theta, double) {
+  return upper_span(pin, theta).on_drum;
+}
+/// Of the mechanism's own axes: in the left tendon's image across goes the other way.
+template <Side moved, bool is_across>
+double by_end(const PinPlace& pin, const LowerPath&, Side side, double theta, double) {
+  if (side != moved || pin.at_C) return 0.0;
+  const Vec2 across(std::cos(theta), -std::sin(theta)), along(std::sin(theta), std::cos(theta));
+  return end_direction(pin, theta).dot(is_across ? Vec2(mirror_sign(side) * across) : along);
 }
 template <Side moved>
 double by_pin(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double) {
@@ -49,10 +62,16 @@ double by_pin_radius(const PinPlace& pin, const LowerPath& lower, Side, double t
 }
 double by_offset(const PinPlace&, const LowerPath& lower, Side, double, double alpha) { return lower.normal + alpha; }
 double by_diameter(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double alpha) {
-  return 0.5 * (by_pin_radius(pin, lower, side, theta, alpha) + by_offset(pin, lower, side, theta, alpha));
+  return 0.5 * (by_pin_radius(pin, lower, side, theta, alpha) + by_offset(pin, lower, side, theta, alpha) +
+                upper_span(pin, theta).on_drum);
 }
 
 void alter_length(Alteration& joint, double by) { joint.mounted.joint.R += by; }
+void alter_drum(Alteration& joint, double by) { joint.mounted.joint.drum_radius += by; }
+template <std::optional<Attachment> Joint::*end, double Attachment::*axis>
+void alter_end(Alteration& joint, double by) {
+  (joint.mounted.joint.*end).value().*axis += by;
+}
 void alter_left(Alteration& joint, double by) { joint.mounted.guides.EB += by; }
 void alter_right(Alteration& joint, double by) { joint.mounted.guides.ED += by; }
 void alter_height(Alteration& joint, double by) { joint.mounted.guides.OE += by; }
@@ -69,15 +88,23 @@ RigidJoint joint_of(const MadePulleys& made, const Alteration& joint) { return {
 
 }  // namespace
 
-const std::vector<Dimension>& dimensions() {
-  static const std::vector<Dimension> all = {{"joint.length_mm", alter_length, by_length},
-                                             {"guides.EB_mm", alter_left, by_pin<Side::left>},
-                                             {"guides.ED_mm", alter_right, by_pin<Side::right>},
-                                             {"guides.OE_mm", alter_height, by_height},
-                                             {"guides.radius_mm", alter_radius, by_pin_radius},
-                                             {"pulley.EF_mm", alter_pulley_place, by_pulley_place},
-                                             {"tendon.diameter_mm", alter_diameter, by_diameter},
-                                             {"print_offset", alter_offset, by_offset}};
+std::vector<Dimension> dimensions(const Mechanism& mechanism) {
+  std::vector<Dimension> all = {
+      {"joint.length_mm", alter_length, by_length},        {"guides.EB_mm", alter_left, by_pin<Side::left>},
+      {"guides.ED_mm", alter_right, by_pin<Side::right>},  {"guides.OE_mm", alter_height, by_height},
+      {"guides.radius_mm", alter_radius, by_pin_radius},   {"pulley.EF_mm", alter_pulley_place, by_pulley_place},
+      {"tendon.diameter_mm", alter_diameter, by_diameter}, {"print_offset", alter_offset, by_offset}};
+  const Joint& joint = mechanism.joint;
+  if (joint.drum_radius > 0) all.push_back({"joint.drum_radius_mm", alter_drum, by_drum});
+  constexpr auto first = &Joint::attachment1, second = &Joint::attachment2;
+  if (joint.attachment1) {
+    all.push_back({"joint.attachment1_mm[0]", alter_end<first, &Attachment::across>, by_end<Side::left, true>});
+    all.push_back({"joint.attachment1_mm[1]", alter_end<first, &Attachment::along>, by_end<Side::left, false>});
+  }
+  if (joint.attachment2) {
+    all.push_back({"joint.attachment2_mm[0]", alter_end<second, &Attachment::across>, by_end<Side::right, true>});
+    all.push_back({"joint.attachment2_mm[1]", alter_end<second, &Attachment::along>, by_end<Side::right, false>});
+  }
   return all;
 }
 
@@ -89,7 +116,8 @@ RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const Di
 
 RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const std::vector<double>& changes) {
   Alteration joint{mechanism, 0.0};
-  for (std::size_t i = 0; i < dimensions().size(); ++i) dimensions()[i].alter(joint, changes.at(i));
+  const std::vector<Dimension> all = dimensions(mechanism);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].alter(joint, changes.at(i));
   return joint_of(made, joint);
 }
 

@@ -45,7 +45,8 @@ struct Dimension {
   double (*lengthens)(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double alpha);
 };
 
-const std::vector<Dimension>& dimensions();
+/// Those that this joint has.
+std::vector<Dimension> dimensions(const Mechanism& mechanism);
 
 /// `made`, as declared for `mechanism`, in what comes of one change (mm) to it …
 RigidJoint altered(const MadePulleys& made, const Mechanism& mechanism, const Dimension& dimension, double change);

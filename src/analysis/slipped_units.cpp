@@ -205,7 +205,8 @@ std::vector<LikelySlip> slipped_angles(const DeclaredMechanism& mechanism) {
 }
 
 std::vector<LikelySlip> slipped_lengths(const DeclaredMechanism& mechanism) {
-  if (mechanism.transmission) return {};
+  // With drum and attachments OC is no measure of the joint.
+  if (mechanism.transmission || !mechanism.joint.is_plain()) return {};
   if (!has_odd_proportions(mechanism)) return all_lengths_slipped(mechanism);
   std::vector<LikelySlip> slips = one_slipped_length(mechanism);
   return slips.empty() ? odd_lengths(mechanism) : slips;

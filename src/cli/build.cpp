@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/pins.h"
+#include "cli/steps.h"
 #include "cli/table.h"
 #include "export/report/tendon_lengths.h"
 #include "fusee/base/text.h"
@@ -191,23 +192,16 @@ BuildOptions options_from(const Arguments& arguments) {
 Reply run_build(const Arguments& arguments, Console& console) {
   BuildOptions options = options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
-  options.before_step = [&console](std::string_view step) {
-    stop_if_interrupted();
-    console.progress(step);
-  };
-  // Until something stands on the disk a signal ends the program where it is.
-  std::optional<InterruptsDeferred> writing;
-  options.before_writing = [&writing] {
-    writing.emplace();
-    stop_if_interrupted();
-  };
+  Steps steps(console);
+  options.before_step = steps.shown();
+  options.before_writing = steps.before_writing();
   options.while_waiting = [](const std::function<void()>& clean_up) {
     if (!is_interrupted()) return;
     clean_up();
     leave_interrupted();
   };
   const BuildResult built = build(file, options);
-  writing.reset();
+  steps.end_writing();
   Reply reply;
   add_warnings(built.product, reply);
   add_pins_note(file, reply);

@@ -6,8 +6,8 @@
 #include "base/output_list.h"
 #include "cli/calibration_summary.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
 #include "cli/measured_columns.h"
+#include "cli/steps.h"
 #include "cli/table.h"
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
@@ -69,13 +69,10 @@ Reply run_calibrate(const Arguments& arguments, Console& console) {
   CalibrateOptions options = options_from(arguments, spec, console);
   const std::vector<std::filesystem::path> runs = runs_from(arguments);
   const MechanismFile file = read_mechanism(spec, arguments.settings());
-  std::optional<InterruptsDeferred> writing;
-  options.before_writing = [&writing] {
-    if (!writing) writing.emplace();
-    stop_if_interrupted();
-  };
+  Steps steps(console);
+  options.before_writing = steps.before_writing();
   const CalibrateResult result = calibrate(file, runs, options);
-  writing.reset();
+  steps.end_writing();
   Reply reply;
   add_notes(result, console.verbose(), reply);
   reply.text = calibration_summary(result.product, console.verbose()) +

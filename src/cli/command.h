@@ -41,6 +41,7 @@ Command reproduce_command();
 Command calibrate_command();
 Command plan_command();
 Command kit_command();
+Command model_command();
 Command simulate_command();
 Command replay_command();
 Command completion_command();

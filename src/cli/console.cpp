@@ -77,6 +77,26 @@ void Console::progress(std::string_view step) {
   }
 }
 
+std::optional<std::string> Console::ask(std::string_view question) {
+  constexpr std::size_t k_longest_answer = 4096;
+  end_progress();
+  write_all(STDERR_FILENO, question);
+  std::string line;
+  char c = 0;
+  while (line.size() < k_longest_answer) {
+    const ssize_t got = ::read(STDIN_FILENO, &c, 1);  // no further than this line: the rest may be somebody else's
+    if (got < 0 && errno == EINTR && !is_interrupted()) continue;
+    if (got <= 0) {
+      write_all(STDERR_FILENO, "\n");
+      return line.empty() ? std::nullopt : std::optional(line);
+    }
+    if (c == '\n') break;
+    line += c;
+  }
+  if (::isatty(STDIN_FILENO) != 1) write_all(STDERR_FILENO, "\n");  // a terminal shows the one that was typed
+  return line;
+}
+
 void Console::end_progress() {
   if (progress_shown_) write_all(STDERR_FILENO, "\r\x1b[K");
   progress_shown_ = false;

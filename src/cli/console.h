@@ -2,6 +2,7 @@
 /// The two streams: results on stdout, messages and progress on stderr. Neither can crash the program.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,11 +25,17 @@ class Console {
 
   void set_options(ConsoleOptions options) { options_ = options; }
   bool verbose() const { return options_.verbose; }
+  /// The run is watched, to be packed: nothing may come from elsewhere than files.
+  void set_recorded() { recorded_ = true; }
+  bool is_recorded() const { return recorded_; }
   /// A diagnostic on stderr. With --quiet only errors.
   void say(const Diagnostic& diagnostic);
   /// What is being done now: a line that is overwritten on a terminal, a plain line with --verbose elsewhere, nothing
   /// otherwise.
   void progress(std::string_view step);
+  /// Puts a question on stderr, --quiet or not, and waits for a line of stdin; none at its end. A line that has none is
+  /// cut where it is longer than any answer.
+  std::optional<std::string> ask(std::string_view question);
   /// Removes the progress line.
   void end_progress();
 
@@ -37,6 +44,7 @@ class Console {
   bool terminal_;
   bool color_;  ///< as far as terminal and environment go
   bool progress_shown_ = false;
+  bool recorded_ = false;
 };
 
 /// "[########............] 40 %" of a share 0 … 1.

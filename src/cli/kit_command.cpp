@@ -1,10 +1,10 @@
 #include <filesystem>
-#include <optional>
 
 #include "base/output_list.h"
 #include "cli/as_built.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/steps.h"
 #include "fusee/base/text.h"
 #include "fusee/pipeline.h"
 #include "fusee/pipeline/kit.h"
@@ -76,18 +76,11 @@ std::string kit_summary(const KitResult& made, const KitOptions& options) {
 Reply run_kit(const Arguments& arguments, Console& console) {
   KitOptions options = kit_options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
-  options.before_step = [&console](std::string_view step) {
-    stop_if_interrupted();
-    console.progress(step);
-  };
-  // Until something stands on the disk a signal ends the program where it is.
-  std::optional<InterruptsDeferred> writing;
-  options.before_writing = [&writing] {
-    writing.emplace();
-    stop_if_interrupted();
-  };
+  Steps steps(console);
+  options.before_step = steps.shown();
+  options.before_writing = steps.before_writing();
   const KitResult made = kit(file, options);
-  writing.reset();
+  steps.end_writing();
   Reply reply;
   reply.diagnostics = made.product.pulley.file.warnings;
   if (made.ending == KitEnding::no_pulley) {

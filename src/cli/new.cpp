@@ -1,4 +1,6 @@
 #include "cli/command.h"
+#include "cli/questions.h"
+#include "fusee/base/text.h"
 #include "fusee/mechanism/file.h"
 
 namespace fusee::cli {
@@ -9,14 +11,37 @@ Reply list_templates() {
   reply.fields["templates"] = Json::array();
   for (const Template& known : templates()) {
     const std::string about = first_comment(known);
-    reply.text += std::string(known.name) + (about.empty() ? "" : "\n    " + about) + "\n";
+    reply.text += std::string(known.name) + "\n" + (about.empty() ? "" : wrapped(about, "    ", "    "));
     reply.fields["templates"].push_back({{"name", known.name}, {"about", about}});
   }
   reply.text += "\n'fusee new TEMPLATE > my.toml' writes one of them.\n";
   return reply;
 }
 
-Reply run_new(const Arguments& arguments, Console&) {
+/// The file of the answers; that a pulley can be made of them, or what stands in the way.
+Reply ask_questions(const Arguments& arguments, Console& console) {
+  if (!arguments.positionals().empty()) throw UsageError("--ask takes no template: it asks for the joint");
+  if (console.is_recorded())
+    throw UsageError("--ask reads what is typed, and no bundle holds that", "bundle the file that it writes");
+  const AskedMechanism asked = ask_for_mechanism(console);
+  Reply reply;
+  reply.text = asked.text;
+  if (const auto settings = arguments.settings(); !settings.empty())
+    reply.text = write_mechanism(parse_mechanism(reply.text, "your answers", ".", settings, &reply.diagnostics));
+  for (const std::string& change : asked.changed)
+    reply.diagnostics.push_back(note(Severity::note, "so that a pulley can be made: " + change));
+  for (const Condition& condition : asked.obstacles)
+    reply.diagnostics.push_back(note(Severity::warning, "no pulley yet: " + condition.message));
+  if (!asked.obstacles.empty())
+    add_advice(asked.advice, reply);
+  else
+    reply.diagnostics.push_back(note(Severity::note, "a pulley can be made of this: save it, then 'fusee build' it"));
+  reply.fields["text"] = reply.text;
+  return reply;
+}
+
+Reply run_new(const Arguments& arguments, Console& console) {
+  if (arguments.has("--ask")) return ask_questions(arguments, console);
   if (arguments.positionals().empty()) return list_templates();
   const std::string& name = arguments.positionals().front();
   Reply reply;
@@ -36,10 +61,12 @@ Command new_command() {
           "[TEMPLATE]",
           "a commented mechanism file to start from",
           "Prints a mechanism file with every number explained, to be saved and edited.\n"
-          "Without TEMPLATE it lists the templates.",
-          {},
+          "Without TEMPLATE it lists the templates. With --ask it asks six questions and\n"
+          "makes a file of the answers that a pulley can be made of.",
+          {{"--ask", "", "ask for the joint's numbers, each with a default"}},
           {{"fusee new", "list the templates"},
            {"fusee new paper_optimum > arm.toml", "save one as arm.toml"},
+           {"fusee new --ask > arm.toml", "answer six questions; Enter takes what is proposed"},
            {"fusee new paper_optimum --set pulley.r1_mm=15 > arm.toml", "the same with another r1"}},
           run_new};
 }

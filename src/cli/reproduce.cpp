@@ -18,19 +18,27 @@ std::string table_4_text(const Reproduction& all) {
   return text;
 }
 
+// What stands beside a heading, below which nothing else stands.
+std::string beside(std::string_view heading, std::string_view words) {
+  constexpr std::string_view k_indent = "             ";
+  std::string first = "  " + std::string(heading);
+  first.resize(k_indent.size(), ' ');
+  return wrapped(words, first, k_indent);
+}
+
 std::string claim_text(const Claim& claim) {
-  return "\n" + claim.name + ": " + std::string(verdict_text(claim.verdict)) + "\n  paper      " + claim.paper_says +
-         "\n  equations  " + claim.equations_give + "\n  holds for  " + claim_windows_text(claim) + "\n";
+  return "\n" + claim.name + ": " + std::string(verdict_text(claim.verdict)) + "\n" +
+         beside("paper", claim.paper_says) + beside("equations", claim.equations_give) +
+         beside("holds for", claim_windows_text(claim));
 }
 
 std::string laws_text(const Reproduction& all) {
   std::string text = "\nboth laws on the paper's optimum\n";
   for (const LawCost& law : all.laws) {
-    std::string name = law.law;
-    name.resize(11, ' ');
-    text += "  " + name + "theta within " + fixed(law.nonlinearity, 2) + " deg of a line, r2 up to " +
-            rounded(law.r2_most) + " mm, bend radius " + rounded(law.bend_radius, 3) + " mm, T_b/F_c " +
-            fixed(law.tension, 4) + ", torque/F_c " + rounded(law.torque) + " mm\n";
+    text +=
+        beside(law.law, "theta within " + fixed(law.nonlinearity, 2) + " deg of a line, r2 up to " +
+                            rounded(law.r2_most) + " mm, bend radius " + rounded(law.bend_radius, 3) + " mm, T_b/F_c " +
+                            fixed(law.tension, 4) + ", torque/F_c " + rounded(law.torque) + " mm");
   }
   return text;
 }

@@ -131,9 +131,9 @@ const Command& find_known_command(const std::string& name) {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all = {
-      new_command(),      explain_command(),  analyze_command(),    build_command(),     check_command(),
-      rewind_command(),   optimize_command(), reproduce_command(),  calibrate_command(), plan_command(),
-      kit_command(),      simulate_command(), replay_command(),   completion_command(), manual_command()};
+      new_command(),      explain_command(),   analyze_command(),    build_command(), check_command(), rewind_command(),
+      optimize_command(), reproduce_command(), calibrate_command(),  plan_command(),  kit_command(),   model_command(),
+      simulate_command(), replay_command(),    completion_command(), manual_command()};
   return all;
 }
 
@@ -157,6 +157,7 @@ Ending recorded_ending(std::vector<std::string> words, const std::string& bundle
   Ending ending;
   try {
     Recording recording(bundle, words, has_switch(words, "--force"));
+    console.set_recorded();
     ending = ending_of(words, console);
     ending.reply.diagnostics.push_back(recording.pack(ending));
     ending.reply.fields["bundle"] = bundle;

@@ -5,9 +5,15 @@ function(write file)
   execute_process(COMMAND ${FUSEE} ${ARGN} OUTPUT_FILE ${SHARED}/${file} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-write(man/man1/fusee.1 manual)
+# Compressed as Debian wants them; man(1) reads them so everywhere. Without a time: the same program, the same bytes.
+function(write_page page)
+  write(man/man1/${page} manual ${ARGN})
+  execute_process(COMMAND gzip -9nf ${SHARED}/man/man1/${page} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+write_page(fusee.1)
 foreach(command IN LISTS COMMANDS)
-  write(man/man1/fusee-${command}.1 manual ${command})
+  write_page(fusee-${command}.1 ${command})
 endforeach()
 write(bash-completion/completions/fusee completion bash)
 write(zsh/site-functions/_fusee completion zsh)

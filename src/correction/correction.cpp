@@ -5,6 +5,7 @@
 
 #include "fusee/joint/simulate.h"
 #include "fusee/mechanism/effect.h"
+#include "fusee/transmission/guide_friction.h"
 #include "measurement/seen_span.h"
 #include "transmission/declared_law.h"
 
@@ -42,7 +43,8 @@ Imperfections composed(const DeclaredMechanism& declared, const Imperfections& f
 /// Friction moves the joint, not the curves.
 bool same_drawing(const DeclaredMechanism& a, const DeclaredMechanism& b) {
   JointAsItIs one = as_it_is(a), other = as_it_is(b);
-  one.mechanism.guides.mu = other.mechanism.guides.mu = 0;
+  one.mechanism.guides = without_friction(one.mechanism.guides);
+  other.mechanism.guides = without_friction(other.mechanism.guides);
   return one.outline == other.outline && one.mechanism.joint == other.mechanism.joint &&
          one.mechanism.guides == other.mechanism.guides && one.mechanism.pulley == other.mechanism.pulley &&
          one.mechanism.material == other.mechanism.material;

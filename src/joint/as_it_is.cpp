@@ -29,13 +29,13 @@ RoundChoice round_choice(const DeclaredMechanism& declared) { return round_choic
 
 double tied_at(const DeclaredMechanism& declared) { return declared.transmission ? 0.0 : needed_law(declared).home; }
 
-JointAsItIs as_it_is(const DeclaredMechanism& declared) {
+JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search) {
   const Imperfections& at = declared.identified;
   JointAsItIs joint{declared, at.pulley.outline};
   const bool nothing_to_do = !changes_geometry(at) && !changes_statics(at) && at.pulley.scale == 0;
   if (declared.transmission || nothing_to_do) return joint;
   joint.mechanism = identified_joint(declared);
-  const NeededLaw needed = needed_law(declared);
+  const NeededLaw needed = needed_law(declared, search);
   if ((changes_geometry(at) || needed.shifted) && !needed.rows.empty()) {
     const RoundChoice choice = round_choice(declared, needed);
     if (choice.suffices) {

@@ -177,7 +177,6 @@ struct Trial {
 Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
   const double rho = model.pins[tendon.side == Side::left ? 0 : 1].rho;
-  const double mu = model.mu;
   Trial trial;
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
   trial.spans = with_slide(at.spans, at);
@@ -185,12 +184,12 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   if (model.pin_give > 0)
     give_way(trial.spans, Give({trial.span.normal, at.path.normal}, tendon, model.pin_give, at.spans.EA));
   trial.wrap = trial.span.normal - at.path.normal;
-  trial.spans.capstan = std::exp(mu * std::max(0.0, trial.wrap));
+  trial.spans.capstan = std::exp(model.guide.log_ratio(trial.wrap));
   trial.balance = balance(trial.spans);
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
-  if (trial.wrap > 0) rate += trial.balance.per_capstan * mu * trial.span.dnormal;
+  if (trial.wrap > 0) rate += trial.balance.per_capstan * model.guide.slope(trial.wrap) * trial.span.dnormal;
   trial.slope = rate * m + trial.balance.upper * trial.span.dm;
   if (trial.balance.crossed != 0 && trial.balance.upper > 0)
     trial.lower_slope = rate * trial.balance.lower / trial.balance.upper;
@@ -398,7 +397,7 @@ std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at
 Residual JointMotion::State::residual(const std::array<Trial, 2>& trials, const JointStep& step,
                                       double at_theta) const {
   const auto& [left, right] = trials;
-  return {right.pull - left.pull - step.tip_force * model.pins[1].R - step.torque - model.weight_torque(at_theta),
+  return {right.pull - left.pull - step.tip_force * model.lever - step.torque - model.weight_torque(at_theta),
           right.slope + left.slope - model.weight_slope(at_theta)};
 }
 
@@ -481,7 +480,7 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   const double found = rest.theta;
   EquilibriumPoint point;
   point.alpha = step.alpha;
-  point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(found);
+  point.load_torque = step.tip_force * model.lever + step.torque + model.weight_torque(found);
   friction += model.bearing_friction * std::abs(found - theta);
   point.theta = theta = found;
   point.stiffness = point.stiffness_stuck = model.weight_slope(found);
@@ -515,7 +514,7 @@ EquilibriumPoint JointMotion::State::refuse(const JointStep& step) const {
   point.status = EquilibriumStatus::no_equilibrium;
   point.alpha = step.alpha;
   point.theta = theta;
-  point.load_torque = step.tip_force * model.pins[1].R + step.torque + model.weight_torque(theta);
+  point.load_torque = step.tip_force * model.lever + step.torque + model.weight_torque(theta);
   point.friction = friction;
   point.groove_friction = groove_friction;
   return point;

@@ -24,7 +24,9 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   mechanism.pulley.EF -= at.pins.left.down;  // the pulley's axis stays
   mechanism.guides.D_below_B += at.pins.right.down - at.pins.left.down;
   mechanism.guides.radius = std::max(0.0, mechanism.guides.radius + at.pins.radius);
-  mechanism.guides.mu = std::max(0.0, mechanism.guides.mu + at.pins.friction);
+  double& at_guides =
+      mechanism.guides.kind == GuideKind::idler ? mechanism.guides.bearing_friction : mechanism.guides.mu;
+  at_guides = std::max(0.0, at_guides + at.pins.friction);
   mechanism.pulley.mu = std::max(0.0, mechanism.pulley.mu + at.tendon.groove_friction);
   mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.tendon.stretch);
   mechanism.tendon.pretension = std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);

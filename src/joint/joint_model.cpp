@@ -111,6 +111,7 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   const double rho = mounted.seen_pitch_radius();
   JointModel model;
   model.pins = {pin_place(mounted, Side::left, rho), pin_place(mounted, Side::right, rho)};
+  model.lever = mounted.joint.R;
   model.lower = [made, pins = model.pins](double alpha) { return made.paths(pins, alpha); };
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
   model.alpha_least = made.declared().alpha_min();
@@ -125,7 +126,7 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
 void set_statics(JointModel& model, const MountedMechanism& in) {
   const Mechanism& mounted = in.mechanism;
   model.EA = section_stiffness(mounted.tendon);
-  model.mu = mounted.guides.mu;
+  model.guide = guide_friction(mounted);
   model.groove_friction = mounted.pulley.mu;
   model.pretension = mounted.tendon.pretension;
   model.weight = weight_moment(mounted.load);

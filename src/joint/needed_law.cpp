@@ -8,6 +8,7 @@
 
 #include "base/golden_section.h"
 #include "fusee/joint/simulate.h"
+#include "fusee/transmission/guide_friction.h"
 #include "fusee/transmission/load.h"
 #include "joint/imperfect_joint.h"
 
@@ -19,10 +20,14 @@ namespace {
 constexpr double k_round_suffices = radians(0.005);
 /// A joint that gives way by less is not worth another law.
 constexpr double k_least_shift = radians(0.002);
-/// What the loaded joint may still miss its law by when the search for the pulley's law ends.
-constexpr double k_law_reached = radians(1e-5);
-constexpr int k_law_rows = 152;
-constexpr int k_rows_beyond = 4;  ///< the same distance apart, at each end
+constexpr int k_rows_beyond = 4;  ///< the same distance apart as the others, at each end
+
+struct LawCare {
+  int rows = 152;
+  /// What the loaded joint may still miss its law by when the search for the pulley's law ends.
+  double reached = radians(1e-5);
+};
+LawCare care_of(LawSearch search) { return search == LawSearch::whole ? LawCare{} : LawCare{48, radians(0.01)}; }
 
 /// What makes the declared law worth keeping under load. Friction and pretension alone hardly move the mean of both
 /// directions.
@@ -31,14 +36,14 @@ bool gives_way(const Imperfections& at) {
 }
 /// The declared law as rows, both ends of the range among them, a little beyond them where it goes on: past the end of
 /// a table all θ have one α, but for rounding. Empty where it does not exist.
-std::vector<LawRow> declared_rows(const Mechanism& declared) {
+std::vector<LawRow> declared_rows(const Mechanism& declared, int count) {
   const Transmission law(declared);
   if (law.dead_centre()) return {};
   const double low = declared.joint.theta_min, high = declared.joint.theta_max;
   const double least_step = 1e-9 * (law.alpha(high) - law.alpha(low));
   std::vector<LawRow> rows;
-  for (int i = -k_rows_beyond; i <= k_law_rows + k_rows_beyond; ++i) {
-    const double theta = (low * (k_law_rows - i) + high * i) / k_law_rows;
+  for (int i = -k_rows_beyond; i <= count + k_rows_beyond; ++i) {
+    const double theta = (low * (count - i) + high * i) / count;
     const LawRow row{law.alpha(theta), theta};
     if (!std::isfinite(row.alpha) || (!rows.empty() && !(row.alpha > rows.back().alpha + least_step))) continue;
     rows.push_back(row);
@@ -144,8 +149,8 @@ std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRo
 ///
 /// Without the pins' friction: that is a loop about this mean, and its turns at both ends of the range are none of the
 /// pulley's.
-std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, double tip_force) {
-  joint.guides.mu = 0;
+std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, double tip_force, double reached) {
+  joint.guides = without_friction(joint.guides);
   const std::vector<LawRow>& wanted = declared.rows;
   const Smoothed smoothed(wanted);
   NeededLaw needed = declared;
@@ -162,7 +167,7 @@ std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, d
     needed = *next;
     needed.home = 0;
     needed.home = Transmission(with_law(joint, needed)).alpha(0.0);
-    if (miss.cwiseAbs().maxCoeff() < k_law_reached) break;
+    if (miss.cwiseAbs().maxCoeff() < reached) break;
   }
   for (std::size_t k = 0; k < wanted.size(); ++k)
     needed.shifted = needed.shifted || std::abs(needed.rows[k].theta - wanted[k].theta) > k_least_shift;
@@ -171,11 +176,13 @@ std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, d
 
 }  // namespace
 
-NeededLaw needed_law(const DeclaredMechanism& declared) {
-  const NeededLaw as_declared{declared_rows(declared), 0, declared.joint.theta_min, declared.joint.theta_max, false};
+NeededLaw needed_law(const DeclaredMechanism& declared, LawSearch search) {
+  const LawCare care = care_of(search);
+  const NeededLaw as_declared{declared_rows(declared, care.rows), 0, declared.joint.theta_min, declared.joint.theta_max,
+                              false};
   if (as_declared.rows.empty() || !gives_way(declared.identified)) return as_declared;
-  const auto needed =
-      given_way(identified_joint(declared), as_declared, declared.load.tip_force + declared.identified.joint.mean_load);
+  const auto needed = given_way(identified_joint(declared), as_declared,
+                                declared.load.tip_force + declared.identified.joint.mean_load, care.reached);
   return needed && needed->shifted ? *needed : as_declared;
 }
 

@@ -21,7 +21,7 @@ struct NeededLaw {
 };
 
 /// The declared one where the joint does not give way by an amount that is worth another.
-NeededLaw needed_law(const DeclaredMechanism& declared);
+NeededLaw needed_law(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
 
 /// `joint` with a pulley for that.
 Mechanism with_law(Mechanism joint, const NeededLaw& needed);

@@ -69,6 +69,7 @@ Mechanism with_inset(const JointAsItIs& joint) {
   Mechanism mechanism = joint.mechanism;
   mechanism.tendon.diameter += 2 * joint.outline.offset;
   mechanism.guides.radius -= joint.outline.offset;
+  if (mechanism.joint.drum_radius != 0) mechanism.joint.drum_radius -= joint.outline.offset;
   return mechanism;
 }
 

@@ -41,20 +41,27 @@ struct Knot {
 
 Knot knot_at(const PinPlace& place, double theta, double h) {
   const UpperSpan span = upper_span(place, theta);
-  const double dnormal = -place.R * std::cos(theta + span.normal) / span.free;
-  const double dfree = -span.m - place.rho * dnormal;
-  const double d2normal = (span.m * (1.0 + dnormal) - dnormal * dfree) / span.free;
   return {{span.length, -h * span.m, -h * h * span.dm},
           {span.m, h * span.dm, h * h * span.d2m},
-          {span.normal, h * dnormal, h * h * d2normal}};
+          {span.normal, h * span.dnormal, h * h * span.d2normal}};
 }
 
 }  // namespace
 
-// With f the free length, ψ the normal and a = R cos(θ + ψ): ψ' = −a/f, f' = −m − ρψ', and as a' = −m (1 + ψ'), ψ'' =
-// (m (1 + ψ') − ψ' f')/f.
-UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most)
-    : least_(least), step_((most - least) / k_pieces) {
+// No piece reaches over the place where the tendon leaves the drum, at which its arm has a kink: below it the span is a
+// straight line of θ.
+UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most) {
+  if (const auto leaves = lift_off(place); leaves && *leaves > least) {
+    on_drum_until_ = std::min(*leaves, most);
+    on_drum_ = upper_span(place, least);
+    on_drum_from_ = least;
+    // The free branch begins a hair beyond, with slopes of its own.
+    constexpr double k_hair = 1e-12;
+    least = *leaves + k_hair;
+    if (least >= most) return;
+  }
+  least_ = least;
+  step_ = (most - least) / k_pieces;
   pieces_.reserve(k_pieces);
   Knot from = knot_at(place, least, step_);
   for (std::size_t i = 1; i <= k_pieces; ++i) {
@@ -65,6 +72,10 @@ UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most)
 }
 
 UpperSpanTable::Look UpperSpanTable::at(double theta) const {
+  if (theta <= on_drum_until_ || pieces_.empty()) {
+    const double turned = std::clamp(theta, on_drum_from_, on_drum_until_) - on_drum_from_;
+    return {on_drum_.length - on_drum_.m * turned, on_drum_.m, 0, on_drum_.normal, 0};
+  }
   const double place = std::clamp((theta - least_) / step_, 0.0, static_cast<double>(k_pieces));
   const std::size_t i = std::min(static_cast<std::size_t>(place), k_pieces - 1);
   const double u = place - static_cast<double>(i);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "fusee/transmission/tendon_path.h"
@@ -32,8 +33,11 @@ class UpperSpanTable {
   struct Piece {
     Quintic length, m, normal;
   };
-  double least_;
-  double step_;
+  double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; from there on it is looked up
+  double on_drum_from_ = 0;
+  UpperSpan on_drum_;  ///< at on_drum_from_
+  double least_ = 0;
+  double step_ = 1;
   std::vector<Piece> pieces_;
 };
 

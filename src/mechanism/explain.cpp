@@ -124,13 +124,14 @@ Json field_json(const Field& field) {
   json["table"] = field.table;
   json["key"] = field.key;
   json["symbol"] = field.symbol;
-  constexpr const char* k_kinds[] = {"number", "range", "choice", "text", "boolean", "numbers", "texts"};
+  constexpr const char* k_kinds[] = {"number", "range", "choice", "text", "boolean", "numbers", "texts", "point"};
   json["kind"] = k_kinds[static_cast<int>(field.kind)];
   json["unit"] = field.unit;
   json["required"] = field.required;
   json["only_when"] = field.only_when;
   json["default"] = field.fallback;
-  if (field.kind == FieldKind::number || field.kind == FieldKind::range || field.kind == FieldKind::numbers) {
+  if (field.kind == FieldKind::number || field.kind == FieldKind::range || field.kind == FieldKind::numbers ||
+      field.kind == FieldKind::point) {
     json["least"] = field.least;
     json["most"] = field.most;
   }

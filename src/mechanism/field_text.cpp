@@ -60,6 +60,8 @@ std::string allowed_text(const Field& field) {
       return shortest(field.least) + " to " + with_unit(field.most, field.unit);
     case FieldKind::range:
       return "lowest <= 0 <= highest, both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
+    case FieldKind::point:
+      return "both " + shortest(field.least) + " to " + with_unit(field.most, field.unit);
     case FieldKind::choice:
       return choices_text(field.choices);
     case FieldKind::text:
@@ -81,6 +83,8 @@ std::string kind_text(const Field& field) {
       return (field.whole ? "a whole number" : "a number") + in_unit;
     case FieldKind::range:
       return "two numbers [lowest, highest]" + in_unit;
+    case FieldKind::point:
+      return "two numbers [across, along]" + in_unit;
     case FieldKind::choice:
       return choices_text(field.choices);
     case FieldKind::text:
@@ -115,6 +119,7 @@ std::string condition_text(const Field& field) {
 
 std::string default_text(const Field& field) {
   const std::string only = field.only_when.empty() ? "" : " with " + condition_text(field);
+  if (!field.otherwise.empty()) return "left out: " + std::string(field.otherwise);
   if (field.fallback.empty()) return "required" + only;
   const std::string unit = field.unit.empty() ? "" : " " + std::string(field.unit);
   return "default " + std::string(field.fallback) + unit + (only.empty() ? "" : "; used only" + only);

@@ -27,6 +27,7 @@ struct NumberAccess {
 };
 
 constexpr std::array<std::string_view, 3> names(Law) { return {"compensate", "linear", "table"}; }
+constexpr std::array<std::string_view, 2> names(GuideKind) { return {"pin", "idler"}; }
 constexpr std::array<std::string_view, 2> names(Method) { return {"exact", "paper"}; }
 constexpr std::array<std::string_view, 3> names(Groove) { return {"u", "v", "flat"}; }
 constexpr std::array<std::string_view, 2> names(Flange) { return {"follow", "round"}; }
@@ -200,6 +201,26 @@ Field range_field() {
   return field;
 }
 
+template <std::optional<Attachment> Joint::*attachment>
+Field attachment_field(std::string_view name, std::string_view meaning) {
+  Field field = base_field({name, "", "", meaning}, FieldKind::point);
+  field.required = false;
+  field.otherwise = "[0, length_mm], which is C";
+  field.unit = "mm";
+  field.least = -10000;
+  field.most = 10000;
+  field.is_set = [](const DeclaredMechanism& m) { return (m.joint.*attachment).has_value(); };
+  field.get = [](const DeclaredMechanism& m, int end) {
+    const Attachment at = (m.joint.*attachment).value_or(Attachment{0, m.joint.R});
+    return end == 0 ? at.across : at.along;
+  };
+  field.set = [](DeclaredMechanism& m, int end, double value) {
+    if (!(m.joint.*attachment)) m.joint.*attachment = Attachment{0, m.joint.R};
+    (end == 0 ? (m.joint.*attachment)->across : (m.joint.*attachment)->along) = value;
+  };
+  return field;
+}
+
 Field transmission_kind_field() {
   Field field = base_field({"transmission.kind", "", "", "a joint that is not this mechanism, for calibrate alone"},
                            FieldKind::choice);
@@ -253,6 +274,19 @@ void add_mechanism(std::vector<Field>& table) {
   table.push_back(number<joint, &Joint::R>(
       {"joint.length_mm", "R", "", "from the joint axis O to the tendons' attachment C"}, "mm", 1, 10000));
   table.push_back(range_field());
+  table.push_back(number<joint, &Joint::drum_radius>(
+      {"joint.drum_radius_mm", "", "0",
+       "radius of a drum about O, fixed to the link: a tendon that would cut it lies on it, its centre line half its "
+       "thickness further out; 0: none"},
+      "mm", 0, 5000));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.joint.drum_radius > 0; };
+  table.push_back(attachment_field<&Joint::attachment1>("joint.attachment1_mm",
+                                                        "where tendon 1 ends, in the link at home: [to the right, "
+                                                        "along OC]; nearer to O than the drum's pitch circle, and "
+                                                        "not within the drum, it lies on that circle"));
+  table.push_back(attachment_field<&Joint::attachment2>("joint.attachment2_mm",
+                                                        "where tendon 2 ends, in the link at home: [to the right, "
+                                                        "along OC]; over the drum's top it may stand left of O"));
   table.push_back(number<guides, &Guides::EB>(
       {"guides.EB_mm", "EB", "", "guide pin B stands this far to the left of the line of the axes"}, "mm", 0.1, 10000));
   table.push_back(number<guides, &Guides::ED>(
@@ -266,6 +300,22 @@ void add_mechanism(std::vector<Field>& table) {
       {"guides.radius_mm", "", "2", "radius of the guide pins themselves; 0 is a point"}, "mm", 0, 500));
   table.push_back(number<guides, &Guides::mu>(
       {"guides.friction", "mu", "0.12", "capstan coefficient of friction at the pins"}, "", 0, 2));
+  constexpr auto has_idlers = [](const DeclaredMechanism& m) { return m.guides.kind == GuideKind::idler; };
+  table.push_back(choice<guides, &Guides::kind>(
+      {"guides.kind", "", "\"pin\"",
+       "pin: a tendon slides over it (guides.friction); idler: it turns on a bearing, which takes far less"}));
+  table.back().is_set = has_idlers;
+  table.push_back(number<guides, &Guides::bearing_radius>(
+      {"guides.bearing_radius_mm", "", "1.5",
+       "radius at which the bearing of an idler rubs: of a plain bearing its shaft's, of balls half their pitch circle",
+       "guides.kind=idler"},
+      "mm", 0, 500));
+  table.back().is_set = has_idlers;
+  table.push_back(number<guides, &Guides::bearing_friction>(
+      {"guides.bearing_friction", "", "0.005",
+       "coefficient of friction there: 0.0015 to 0.005 of balls, 0.1 to 0.2 of plastic on steel", "guides.kind=idler"},
+      "", 0, 1));
+  table.back().is_set = has_idlers;
   table.push_back(number<pulley, &PulleyDrive::EF>(
       {"pulley.EF_mm", "EF", "", "from the line of the pins down to the pulley's axis"}, "mm", 1, 10000));
   table.push_back(number<pulley, &PulleyDrive::r1>(
@@ -649,8 +699,9 @@ std::optional<NumberKey> find_number_key(std::string_view name) {
     name.remove_suffix(3);
   }
   const Field* field = find_field(name);
-  const FieldKind kind = first || second ? FieldKind::range : FieldKind::number;
-  if (field == nullptr || field->kind != kind || field->table.empty()) return std::nullopt;
+  if (field == nullptr || field->table.empty()) return std::nullopt;
+  const bool is_pair = field->kind == FieldKind::range || field->kind == FieldKind::point;
+  if ((first || second) ? !is_pair : field->kind != FieldKind::number) return std::nullopt;
   return NumberKey{field, end};
 }
 
@@ -658,7 +709,8 @@ std::vector<std::string> number_key_names() {
   std::vector<std::string> names;
   for (const Field& field : fields()) {
     if (field.kind == FieldKind::number && !field.table.empty()) names.push_back(field.name());
-    if (field.kind == FieldKind::range) names.insert(names.end(), {field.name() + "[0]", field.name() + "[1]"});
+    if (field.kind == FieldKind::range || field.kind == FieldKind::point)
+      names.insert(names.end(), {field.name() + "[0]", field.name() + "[1]"});
   }
   return names;
 }

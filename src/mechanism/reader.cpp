@@ -80,8 +80,10 @@ class MechanismReader {
   void apply(const Setting& setting);
   toml::table setting_value(const Setting& setting, const std::string& file);
   // Step 3
+  void take_points();
   void take(const Field& field, const Entry& entry);
   void take_number(const Field& field, const Entry& entry, int end, const toml::node& node);
+  bool take_pair(const Field& field, const Entry& entry);
   void take_range(const Field& field, const Entry& entry);
   void take_text(const Field& field, const Entry& entry);
   void take_numbers(const Field& field, const Entry& entry);
@@ -92,6 +94,8 @@ class MechanismReader {
   // Step 4
   void check_transmission();
   void check_unused();
+  void check_method();
+  void check_idlers();
   void check_bore();
   void check_horn();
   void check_optimize();
@@ -111,6 +115,8 @@ class MechanismReader {
   toml::table root_;
   std::vector<std::unique_ptr<toml::table>> setting_values_;  ///< keeps the nodes of --set alive
   std::map<std::string, Entry> entries_;                      ///< by dotted name
+  /// --set of one number of two: on top of what the file says, or what it leaves out.
+  std::vector<std::pair<NumberKey, Entry>> points_;
   std::map<std::string, Place> tables_;                       ///< those that stand in the file
   std::vector<Diagnostic> errors_;
   std::vector<Diagnostic> table_errors_;  ///< of the CSV: they stand behind those of the file
@@ -263,6 +269,11 @@ toml::table MechanismReader::setting_value(const Setting& setting, const std::st
 void MechanismReader::apply(const Setting& setting) {
   const std::string file = "--set " + as_shown(setting.key + "=" + setting.value);
   const std::size_t dot = setting.key.find('.');
+  if (const auto one = find_number_key(setting.key); one && one->field->kind == FieldKind::point) {
+    setting_values_.push_back(std::make_unique<toml::table>(setting_value(setting, file)));
+    if (const toml::node* node = setting_values_.back()->get("value")) points_.push_back({*one, {node, {file, 0, 0}}});
+    return;
+  }
   if (find_field(setting.key) == nullptr) {
     const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
     const std::vector<std::string> tables = field_tables();
@@ -303,17 +314,24 @@ void MechanismReader::take_number(const Field& field, const Entry& entry, int en
   good_[field.name()] = true;
 }
 
-void MechanismReader::take_range(const Field& field, const Entry& entry) {
+/// Both numbers of a range or a point; false where one is wrong.
+bool MechanismReader::take_pair(const Field& field, const Entry& entry) {
   const toml::array* ends = entry.node->as_array();
   if (ends == nullptr || ends->size() != 2) {
-    return fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node),
-                "allowed: " + allowed_text(field));
+    fail(entry.place, field.name() + " must be " + kind_text(field) + ", not " + described(*entry.node),
+         "allowed: " + allowed_text(field));
+    return false;
   }
   const std::size_t errors = errors_.size();
   take_number(field, entry, 0, (*ends)[0]);
   take_number(field, entry, 1, (*ends)[1]);
   good_[field.name()] = errors == errors_.size();
-  if (!good_[field.name()]) return;
+  return good_[field.name()];
+}
+
+void MechanismReader::take_range(const Field& field, const Entry& entry) {
+  if (!take_pair(field, entry)) return;
+  const toml::array* ends = entry.node->as_array();
   const double lowest = *(*ends)[0].value<double>(), highest = *(*ends)[1].value<double>();
   if (lowest <= 0 && highest >= 0 && lowest < highest) return;
   good_[field.name()] = false;
@@ -397,6 +415,13 @@ void MechanismReader::take_texts(const Field& field, const Entry& entry) {
   good_[field.name()] = errors == errors_.size();
 }
 
+void MechanismReader::take_points() {
+  for (const auto& [key, entry] : points_) {
+    take_number(*key.field, entry, key.end, *entry.node);
+    entries_.try_emplace(key.field->name(), entry);
+  }
+}
+
 void MechanismReader::take(const Field& field, const Entry& entry) {
   good_[field.name()] = false;
   switch (field.kind) {
@@ -404,6 +429,9 @@ void MechanismReader::take(const Field& field, const Entry& entry) {
       return take_number(field, entry, 0, *entry.node);
     case FieldKind::range:
       return take_range(field, entry);
+    case FieldKind::point:
+      take_pair(field, entry);
+      return;
     case FieldKind::choice:
     case FieldKind::text:
     case FieldKind::boolean:
@@ -464,6 +492,35 @@ void MechanismReader::check_unused() {
     const Field* decider = find_field(field.only_when.substr(0, field.only_when.find('=')));
     const Field& unmet = is_used(*decider, mechanism_) ? field : *decider;
     warn(entry->second.place, field.name() + " is not used: it is for " + condition_text(unmet) + " only");
+  }
+}
+
+void MechanismReader::check_idlers() {
+  const Guides& guides = mechanism_.guides;
+  if (guides.kind != GuideKind::idler) return;
+  if (has("guides.friction")) {
+    warn(entries_["guides.friction"].place,
+         "guides.friction is not used: what an idler takes is guides.bearing_friction's");
+  }
+  if (guides.bearing_radius > guides.radius && good_["guides.kind"]) {
+    const std::string key =
+        has("guides.bearing_radius_mm") || !has("guides.radius_mm") ? "guides.bearing_radius_mm" : "guides.radius_mm";
+    fail(has(key) ? entries_[key].place : entries_["guides.kind"].place,
+         "an idler's bearing of radius " + shortest(guides.bearing_radius) +
+             " mm (guides.bearing_radius_mm) does not go into "
+             "an idler of " +
+             shortest(guides.radius) + " mm (guides.radius_mm)",
+         "guides.radius_mm is an idler's own, to the floor of its groove");
+  }
+}
+
+/// The paper's chain knows neither drum nor attachments apart, and draws for points what lies on a drum.
+void MechanismReader::check_method() {
+  if (mechanism_.pulley.method != Method::paper) return;
+  for (const char* key : {"joint.drum_radius_mm", "joint.attachment1_mm", "joint.attachment2_mm"}) {
+    if (!has(key) || !good_[key] || !find_field(key)->is_set(mechanism_)) continue;
+    fail(entries_[key].place, std::string(key) + " does not go with pulley.method = \"paper\"",
+         "the paper's joint has one attachment C and no drum: take method = \"exact\"");
   }
 }
 
@@ -609,10 +666,13 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
     const auto entry = entries_.find(field.name());
     if (entry != entries_.end()) take(field, entry->second);
   }
+  take_points();
   take_shaft();
   look_for_missing();
   check_transmission();
   check_unused();
+  check_method();
+  check_idlers();
   check_bore();
   check_horn();
   check_optimize();

@@ -34,6 +34,7 @@ Json field_schema(const Field& field) {
       json.update(number);
       break;
     case FieldKind::range:
+    case FieldKind::point:
       json["type"] = "array";
       json["items"] = number;
       json["minItems"] = json["maxItems"] = 2;

@@ -19,9 +19,11 @@ bool reads_back(const Field& field, const DeclaredMechanism& mechanism, int end,
   return copy == mechanism;
 }
 
-/// The number with the fewest digits that reads back as what the mechanism holds. Conversion from degrees or percent
-/// rounds, so that the nearest number of the file's unit may miss by one bit where a neighbour does not. A value that
-/// no number of the file's unit gives (it did not come from a file) is written to the last bit but one.
+}  // namespace
+
+/// Conversion from degrees or percent rounds, so that the nearest number of the file's unit may miss by one bit where a
+/// neighbour does not. A value that no number of the file's unit gives (it did not come from a file) is written to the
+/// last bit but one.
 std::string number_text(const Field& field, const DeclaredMechanism& mechanism, int end) {
   const double value = field.get(mechanism, end);
   for (int digits = 1; digits <= 17; ++digits) {
@@ -43,6 +45,8 @@ std::string number_text(const Field& field, const DeclaredMechanism& mechanism, 
   return shortest(value);
 }
 
+namespace {
+
 template <typename List, typename ToText>
 std::string list_text(const List& list, ToText to_text) {
   std::string text;
@@ -56,6 +60,7 @@ std::string value_text(const Field& field, const DeclaredMechanism& mechanism) {
     case FieldKind::number:
       return number_text(field, mechanism, 0);
     case FieldKind::range:
+    case FieldKind::point:
       return "[" + number_text(field, mechanism, 0) + ", " + number_text(field, mechanism, 1) + "]";
     case FieldKind::boolean:
       return field.get_text(mechanism);
@@ -94,6 +99,7 @@ std::string write_mechanism(const DeclaredMechanism& mechanism) {
   for (const Field& field : fields()) {
     const bool of_mechanism = field.table == "joint" || field.table == "guides" || field.table == "pulley";
     if (mechanism.transmission ? of_mechanism : field.table == "transmission") continue;
+    if (field.is_set != nullptr && !field.is_set(mechanism)) continue;
     // A ratio declares no tendon unless it does.
     if (mechanism.transmission && field.name() == "tendon.diameter_mm" && mechanism.tendon.diameter == 0) continue;
     if (field.table != table)

@@ -375,6 +375,13 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
     return std::string(info(objective).name) + " has no interval form: its optimum cannot be certified";
   if (problem.base.pulley.law == Law::table)
     return "law = \"table\" has no interval form: its optimum cannot be certified";
+  const bool turns_places = std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& moving) {
+    return moving.key.starts_with("joint.drum") || moving.key.starts_with("joint.attachment");
+  });
+  if (turns_places || !problem.base.joint.is_plain())
+    return "a drum or an attachment of its own has no interval form: its optimum cannot be certified";
+  if (problem.base.guides.kind == GuideKind::idler)
+    return "guides.kind = \"idler\" has no interval form: its optimum cannot be certified";
   if (problem.as_it_is)
     return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
   return "";

@@ -163,7 +163,8 @@ FileNumbers<double> file_numbers(const Mechanism& m) {
 
 Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
   if (objective == Objective::min_bend) return smallest_bend(mechanism);
-  if (mechanism.pulley.law == Law::table) return evaluate_by_transmission(objective, mechanism);
+  if (mechanism.pulley.law == Law::table || !mechanism.is_papers())
+    return evaluate_by_transmission(objective, mechanism);
   const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
   Evaluation evaluation = largest_over_range(mechanism, [&](double place) {
     Domain domain;

@@ -221,6 +221,13 @@ Problem make_problem(const MechanismFile& file, JointGate as_it_is) {
   add_moving_keys(problem, table);
   add_constraints(problem, table);
   problem.feasible = table.feasible;
+  const bool widens = std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& moving) {
+    return moving.key.starts_with("joint.drum") || moving.key.starts_with("joint.attachment");
+  });
+  const bool asks_footprint =
+      std::count(problem.objectives.begin(), problem.objectives.end(), Objective::footprint) > 0;
+  if (asks_footprint && (widens || !problem.base.joint.is_plain()))
+    throw InputError(file.path, "footprint knows no drum and no attachments but C yet", "choose another objective");
   demand_effects(problem, file.path);
   return problem;
 }

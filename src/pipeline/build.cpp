@@ -46,7 +46,7 @@ class TemporaryFolder {
 
 // As many points of outlines are made for advice: a making of 200, as most have, takes a quarter of a second, and its
 // time grows in proportion (campaign of seed 210002).
-constexpr double k_points_for_advice = 2400;
+constexpr double k_points_for_advice = 1600;
 
 // No file of ours is larger.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
@@ -240,8 +240,11 @@ bool is_made(const MechanismFile& file, const BuildOptions& options) {
 /// a mesh. What differs in its body alone has the file's curves.
 class Look {
  public:
-  Look(const MechanismFile& file, const BuildOptions& options)
-      : file_(file), options_(options), own_(curves_of(file.mechanism)) {}
+  Look(const Product& refused, const BuildOptions& options)
+      : file_(refused.file),
+        options_(options),
+        own_(curves_of(refused.file.mechanism)),
+        own_points_(static_cast<double>(refused.synthesis.p1.points.size())) {}
 
   std::vector<Condition> operator()(const Mechanism& changed) const {
     if (options_.between_tries) options_.between_tries();
@@ -256,7 +259,8 @@ class Look {
   /// That its largest part leaves time for.
   int makings() const {
     const double turn = std::min(radians(2.0), std::sqrt(8.0 * options_.tolerance / largest_));
-    return static_cast<int>(k_points_for_advice * turn / k_two_pi);
+    const double points = std::max(k_two_pi / turn, own_points_);
+    return std::max(1, static_cast<int>(k_points_for_advice / points));
   }
 
  private:
@@ -294,16 +298,22 @@ class Look {
   const MechanismFile& file_;
   const BuildOptions& options_;
   Curves own_;
+  double own_points_;  ///< of an outline as it would be made, 0 where there is none
   /// Of all that had room for a body: from the axis to an outline's furthest point, mm.
   mutable std::atomic<double> largest_ = 0;
 };
 
 Advice advice_for(const Product& product, const BuildOptions& options) {
   const MechanismFile& file = product.file;
-  const Look look(file, options);
+  const Look look(product, options);
+  std::atomic<int> begun = 0;
   const Judge judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
-                    .made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); },
-                    .makings = [&] { return look.makings(); }};
+                    .made =
+                        [&](const Mechanism& changed) {
+                          ++begun;
+                          return is_made(with_declared(file, changed), options);
+                        },
+                    .makings = [&] { return look.makings() - begun; }};
   return body_advice(file.mechanism, judge, product.pulley.layout.parts);
 }
 

@@ -62,7 +62,7 @@ MechanismFile with_declared(MechanismFile file, const Mechanism& changed) {
 }
 
 Curves curves_of(const DeclaredMechanism& declared) {
-  Curves curves{as_it_is(declared), {}, {}};
+  Curves curves{as_it_is(declared, LawSearch::brief), {}, {}};
   const Mechanism& mechanism = curves.joint.mechanism;
   if (const auto obstacle = obstacle_to(mechanism)) {
     curves.obstacles = {*obstacle};  // most fail early, and what is cheap to see comes first

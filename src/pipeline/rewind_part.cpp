@@ -54,6 +54,7 @@ RewindResult rewind_drawing(const JointAsItIs& joint, const Drawing& drawing) {
   // A centre line that lies on the pitch curve: a tendon without thickness, over pins thicker by its radius.
   JointAsItIs centre_line = joint;
   centre_line.mechanism.guides.radius = joint.mechanism.guide_pitch_radius();
+  centre_line.mechanism.joint.drum_radius = joint.mechanism.drum_pitch_radius();
   centre_line.mechanism.tendon.diameter = 0;
   return rewind_drawn(centre_line, counter_clockwise(pitch1->points), counter_clockwise(pitch2->points));
 }

@@ -46,6 +46,23 @@ std::optional<Dial> number_dial(const Mechanism& mechanism, const std::string& k
   return dial;
 }
 
+/// Across and along of the attachments that the file gives.
+std::vector<Dial> attachment_dials(const Mechanism& mechanism) {
+  std::vector<Dial> all;
+  for (const char* key : {"joint.attachment1_mm", "joint.attachment2_mm"}) {
+    const Field* field = find_field(key);
+    if (!field->is_set(DeclaredMechanism{mechanism})) continue;
+    for (const int end : {0, 1}) {
+      const std::string name = std::string(key) + (end == 0 ? "[0]" : "[1]");
+      const double value = number_of(mechanism, *field, end);
+      const auto turn = [field, end](Mechanism& changed, double to) { set_number(changed, *field, end, to); };
+      all.push_back({name, name, "mm", value, field->least, field->most,
+                     std::max(std::abs(value), 0.1 * mechanism.joint.R), turn});
+    }
+  }
+  return all;
+}
+
 /// Both ends of a symmetric range together; else each end alone.
 std::vector<Dial> range_dials(const Mechanism& mechanism) {
   const Field* field = find_field("joint.range_deg");
@@ -92,6 +109,8 @@ std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::strin
     dial->scale *= k_easier;
     all.push_back(*dial);
   }
+  if (mechanism.joint.drum_radius > 0) all.push_back(*number_dial(mechanism, "joint.drum_radius_mm"));
+  for (const Dial& dial : attachment_dials(mechanism)) all.push_back(dial);
   for (const Dial& dial : range_dials(mechanism)) all.push_back(dial);
   return all;
 }
@@ -377,8 +396,8 @@ class Adviser {
 
   std::size_t makings_left() const {
     if (!judge_.made) return k_enough;
-    const int most = judge_.makings ? std::clamp(judge_.makings(), 1, k_most_makings) : k_most_makings;
-    return static_cast<std::size_t>(std::max(0, most - makings_));
+    const int left = k_most_makings - makings_;
+    return static_cast<std::size_t>(std::max(0, judge_.makings ? std::min(left, judge_.makings()) : left));
   }
 
   std::vector<bool> make(const std::vector<Candidate>& candidates) {

@@ -6,6 +6,7 @@
 #include "base/golden_section.h"
 #include "fusee/base/text.h"
 #include "profile/pitch_curve.h"
+#include "profile/place_conditions.h"
 
 namespace fusee {
 namespace {
@@ -57,6 +58,21 @@ Condition judged(const Probe& probe, const TakeOff& worst) {
   return condition;
 }
 
+/// The upper half of a tendon, and the pin of the other one.
+Probe clear_of_other_pin(const TakeOffs& take_offs) {
+  const Side side = take_offs.side();
+  const std::string pin = pin_name(side == Side::left ? Side::right : Side::left);
+  const PinPlace place = take_offs.place();
+  const Vec2 other = other_pin(take_offs.transmission(), side);
+  const double sign = mirror_sign(side);
+  return {"tendon_" + number(side) + "_clear_of_pin_" + pin, "mm", 0.0,
+          [=](const TakeOff& t) { return upper_clearance(place, sign * t.stroke.theta, other) - place.rho; },
+          [=](const std::string& where, double value) {
+            return "tendon " + number(side) + " cuts " + rounded(-value, 3) + " mm into pin " + pin + " at " + where +
+                   ", which is the other tendon's";
+          }};
+}
+
 /// Probes in the order in which a failure makes the later ones meaningless.
 std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
   const Side side = take_offs.side();
@@ -81,6 +97,7 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                       return "tendon " + number(side) + " leaves pin " + pin + " at " + where + ": its wrap there is " + rounded(value, 3) +
                              "° and must stay above 0°";
                     }});
+  if (!mechanism.joint.is_plain()) probes.push_back(clear_of_other_pin(take_offs));
   return probes;
 }
 
@@ -132,8 +149,47 @@ std::vector<TakeOff> take_samples(const Mechanism& mechanism, const TakeOffs& ta
   const StrokeOfImage stroke(mechanism, take_offs.side());
   std::vector<TakeOff> samples;
   samples.reserve(k_samples + 1);
-  for (int i = 0; i <= k_samples; ++i) samples.push_back(take_offs.at(stroke.theta(i)));
+  // Where a tendon leaves its drum the curve is looked at from both sides.
+  const std::vector<double> kinks = lift_offs(mechanism, take_offs.transmission(), take_offs.side());
+  auto kink = kinks.begin();
+  double last = stroke.begin;
+  for (int i = 0; i <= k_samples; ++i) {
+    const double theta = stroke.theta(i);
+    for (; kink != kinks.end() && *kink < theta; ++kink) {
+      for (const double beside : {*kink - k_beside_lift_off, *kink + k_beside_lift_off}) {
+        if (beside > last && beside < theta) samples.push_back(take_offs.at(last = beside));
+      }
+    }
+    samples.push_back(take_offs.at(last = theta));
+  }
   return samples;
+}
+
+/// Where a tendon leaves its drum its arm bends upwards at once. A curve drawn with it runs straight there; one drawn
+/// with its inverse, as P2 is with tendon 1's where P1 is round, would have to be hollow.
+bool judge_lift_offs(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
+                     SideAttempt& attempt) {
+  const Side side = take_offs.side();
+  const double sign = mirror_sign(side);
+  for (const double theta : lift_offs(mechanism, take_offs.transmission(), side)) {
+    const double piece = straight_piece(take_offs, theta);
+    if (piece > k_least_straight) attempt.straight.push_back(take_offs.at(theta).curve.psi);
+    Condition condition;
+    condition.name = "convex_at_lift_off_P" + number(side);
+    condition.alpha = take_offs.transmission().alpha(sign * theta);
+    condition.value = piece;
+    condition.unit = "mm";
+    condition.ok = piece > -k_least_straight;
+    if (!condition.ok) {
+      const std::string other = number(side == Side::left ? Side::right : Side::left);
+      condition.message = "tendon " + other + " leaves the drum at " + at_alpha_text(condition.alpha) + ", and P" +
+                          number(side) + " would have to be hollow there by " + rounded(-piece, 3) +
+                          " mm: beside a round P" + other + " it stays on the drum, or off it, over the whole range";
+    }
+    conditions.push_back(condition);
+    if (!condition.ok) return false;
+  }
+  return true;
 }
 
 /// The end of the active arc where the tendon stays wound: in the image the beginning of the stroke.
@@ -238,11 +294,12 @@ std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<Ta
 }
 
 SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs) {
-  SideAttempt side{take_offs, take_samples(mechanism, take_offs), std::nullopt};
+  SideAttempt side{take_offs, take_samples(mechanism, take_offs), std::nullopt, {}};
   if (!judge(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
   const bool exact = mechanism.pulley.method == Method::exact;
   // A polar drawing is not asked to be the envelope of anything: it is drawn, and what it does wrong is measured.
   if (exact && !judge(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples)) return side;
+  if (exact && !judge_lift_offs(conditions, mechanism, take_offs, side)) return side;
   conditions.push_back(one_turn(mechanism, take_offs.side(), side.samples));
   if (!exact || !conditions.back().ok) return side;
   side.closing = close(mechanism, side.samples);
@@ -259,7 +316,8 @@ bool Attempt::feasible() const {
 std::string at_alpha_text(double alpha) { return "α = " + rounded(degrees(alpha), 3) + "°"; }
 
 Attempt attempt(const Mechanism& mechanism, const Transmission& transmission) {
-  Attempt attempt;
+  Attempt attempt{place_conditions(mechanism), {}};
+  if (!attempt.feasible()) return attempt;
   attempt.conditions.push_back(dead_centre(transmission));
   if (!attempt.conditions.back().ok) return attempt;
   if (mechanism.pulley.law == Law::table) {
@@ -300,7 +358,9 @@ std::optional<Condition> first_of(const std::vector<Condition>& conditions) {
 }  // namespace
 
 std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission) {
-  std::vector<Condition> conditions{dead_centre(transmission)};
+  std::vector<Condition> conditions = place_conditions(mechanism);
+  if (auto failed = first_of(conditions)) return failed;
+  conditions.push_back(dead_centre(transmission));
   if (mechanism.pulley.law == Law::table && conditions.back().ok)
     conditions.push_back(law_grows(mechanism, transmission));
   if (auto failed = first_of(conditions)) return failed;

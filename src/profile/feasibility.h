@@ -17,6 +17,7 @@ struct SideAttempt {
   TakeOffs take_offs;
   std::vector<TakeOff> samples;  ///< by increasing joint angle of the image
   std::optional<ClosingArc> closing;  ///< method = "exact"
+  std::vector<double> straight = {};  ///< ψ at which the active arc runs straight: a tendon leaves its drum there
 };
 
 struct Attempt {

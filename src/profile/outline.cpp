@@ -1,5 +1,10 @@
 #include "fusee/profile/outline.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/units.h"
+
 namespace fusee {
 
 bool Outline::is_active(std::size_t i) const {
@@ -11,6 +16,17 @@ Polygon parallel(const Outline& outline, double distance) {
   polygon.reserve(outline.points.size());
   for (const OutlinePoint& point : outline.points) polygon.push_back(point.position + distance * point.normal);
   return polygon;
+}
+
+double sagitta(const Vec2& from, double psi_from, const Vec2& to, double psi_to) {
+  const Vec2 along = to - from;
+  const double chord = along.norm(), turn = std::remainder(psi_to - psi_from, k_two_pi);
+  // From the tangent at `from` to the chord, and on to the tangent at `to`.
+  const double first = std::remainder(std::atan2(along.y(), along.x()) - psi_from - 0.5 * k_pi, k_two_pi);
+  const double second = turn - first;
+  const double of_an_arc = chord * turn / 8.0;
+  if (!(first > 0) || !(second > 0)) return of_an_arc;
+  return std::min(of_an_arc, chord / (1.0 / std::tan(first) + 1.0 / std::tan(second)));
 }
 
 }  // namespace fusee

@@ -1,6 +1,7 @@
 #include "profile/pitch_curve.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fusee {
 
@@ -9,8 +10,9 @@ double turned_into(double start, double psi) {
   return start + (turn < 0 ? turn + k_two_pi : turn);
 }
 
-EnvelopeCurve::EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const ClosingArc& closing)
-    : take_offs_(take_offs), samples_(samples), closing_(closing) {}
+EnvelopeCurve::EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const ClosingArc& closing,
+                             std::vector<double> straight)
+    : take_offs_(take_offs), samples_(samples), closing_(closing), straight_(std::move(straight)) {}
 
 CurvePoint EnvelopeCurve::at(double psi) const {
   // The ends belong to the active arc, also after a rounding error in the turn.

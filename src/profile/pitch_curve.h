@@ -29,12 +29,15 @@ class PitchCurve {
 /// method = "exact": the envelope of the tendon's lines, closed by an arc. Refers to what it is given: keep it alive.
 class EnvelopeCurve : public PitchCurve {
  public:
-  /// `samples`: take-offs by increasing joint angle of the image, over the whole range, ψ increasing.
-  EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const ClosingArc& closing);
+  /// `samples`: take-offs by increasing joint angle of the image, over the whole range, ψ increasing. `straight`: ψ of
+  /// the active arc's straight pieces.
+  EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOff>& samples, const ClosingArc& closing,
+                std::vector<double> straight);
 
   CurvePoint at(double psi) const override;
   double active_begin() const override { return samples_.front().curve.psi; }
   double active_end() const override { return samples_.back().curve.psi; }
+  std::vector<double> straight_directions() const override { return straight_; }
 
  private:
   CurvePoint active_at(double psi) const;
@@ -42,6 +45,7 @@ class EnvelopeCurve : public PitchCurve {
   const TakeOffs& take_offs_;
   const std::vector<TakeOff>& samples_;
   const ClosingArc& closing_;
+  std::vector<double> straight_;
 };
 
 /// `psi` turned by full turns into [start, start + 2π).

@@ -27,7 +27,14 @@ Vec2 pin_of(const Mechanism& mechanism, double hand) {
   return hand > 0 ? Vec2(guides.ED, -guides.OE - guides.D_below_B) : Vec2(-guides.EB, -guides.OE);
 }
 
-/// One string on its pulley, pin and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
+/// Where a string ends in the link at home.
+Vec2 end_of(const Mechanism& mechanism, double hand) {
+  const Joint& joint = mechanism.joint;
+  const auto& own = hand > 0 ? joint.attachment2 : joint.attachment1;
+  return own ? Vec2(own->across, own->along) : Vec2(0.0, joint.R);
+}
+
+/// One string on its pulley, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
 class String {
  public:
   String(const Mechanism& mechanism, const Polygon& floor, double hand)
@@ -35,10 +42,15 @@ class String {
         hand_(hand),
         half_(0.5 * mechanism.tendon.diameter),
         rho_(mechanism.guides.radius + half_),
-        R_(mechanism.joint.R),
+        end_(end_of(mechanism, hand)),
+        drum_(mechanism.joint.drum_radius != 0 ? mechanism.joint.drum_radius + half_ : 0.0),
         pin_(pin_of(mechanism, hand)),
         pin_from_axis_(pin_.x(), pin_.y() + mechanism.guides.OE + mechanism.pulley.EF) {
     const std::string name = pulley_name();
+    // Out of the drum a string comes at its own height.
+    if (end_.norm() < drum_) end_ *= drum_ / end_.norm();
+    if (drum_ > 0 && !(pin_.norm() > drum_ - half_ + mechanism.guides.radius))
+      throw InputError("", "a guide pin stands in the drum", "joint.drum_radius_mm smaller, or pins further out");
     if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
     double along = 0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -111,13 +123,41 @@ class String {
     return along_[corner_] + girth_ * turns + half_ * normal_;
   }
 
+  /// What joins two discs with the string on the outer side of both, or a disc and a point.
+  struct Piece {
+    double normal = 0;  ///< outward, rad
+    double length = 0;
+  };
+  Piece from_pin_to(const Vec2& centre, double radius) const {
+    const Vec2 away = centre - pin_;
+    const double distance = away.norm(), larger = rho_ - radius;
+    return {direction(away) - hand_ * std::acos(std::clamp(larger / distance, -1.0, 1.0)),
+            std::sqrt(std::max(0.0, (distance - larger) * (distance + larger)))};
+  }
+
   double over_pin_and_up(double theta) const {
-    const Vec2 up = Vec2(R_ * std::sin(theta), R_ * std::cos(theta)) - pin_;
-    const double distance = up.norm();
-    const double upper_normal = direction(up) - hand_ * std::acos(std::clamp(rho_ / distance, -1.0, 1.0));
+    const Vec2 end(std::cos(theta) * end_.x() + std::sin(theta) * end_.y(),
+                   std::cos(theta) * end_.y() - std::sin(theta) * end_.x());
+    Piece up = from_pin_to(end, 0.0);
+    const double wound = drum_ > 0 ? wound_on_drum(theta) : 0.0;
+    if (wound > 0) {
+      up = from_pin_to(Vec2(0, 0), drum_);
+      up.length += drum_ * wound + std::sqrt(std::max(0.0, (end.norm() - drum_) * (end.norm() + drum_)));
+    }
     const double lower_normal = normal_ - alpha_;
-    const double wrap = turned_near(hand_ * (upper_normal - lower_normal), 0.5 * k_pi);
-    return rho_ * wrap + std::sqrt(std::max(0.0, (distance - rho_) * (distance + rho_)));
+    const double wrap = turned_near(hand_ * (up.normal - lower_normal), 0.5 * k_pi);
+    return rho_ * wrap + up.length;
+  }
+
+  /// Over which angle the string lies on the drum; it is free of it below 0. An end at home is reached over the drum's
+  /// outer side: both its direction and the pin's are counted from straight below O, the string's own way round.
+  double wound_on_drum(double theta) const {
+    const auto counted = [this](double angle) {
+      const double own = hand_ > 0 ? angle : k_pi - angle;
+      return turned_near(own, 0.5 * k_pi);
+    };
+    const double tangent = counted(direction(end_)) - std::acos(std::clamp(drum_ / end_.norm(), -1.0, 1.0));
+    return tangent - counted(from_pin_to(Vec2(0, 0), drum_).normal) - hand_ * theta;
   }
 
   Polygon corners_;
@@ -128,7 +168,8 @@ class String {
   double hand_;
   double half_;
   double rho_;
-  double R_;
+  Vec2 end_;            ///< in the link at home
+  double drum_;         ///< to the string's centre line; 0: none
   Vec2 pin_;            ///< in the world
   Vec2 pin_from_axis_;  ///< from the pulley's axis, at home
 

@@ -6,8 +6,6 @@
 namespace fusee {
 namespace {
 
-/// However coarse the tolerance, a chord turns no further: a string wound on the polygon is then right to 5e-5 of its length.
-constexpr double k_largest_turn = radians(2.0);
 /// Between two probes of the curvature: the radius of a nearly straight piece doubles within half a degree.
 constexpr double k_probe = radians(0.2);
 /// Directions nearer than this are one: a strip between them would be a sliver.
@@ -35,7 +33,7 @@ double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi,
   const double radius = std::max(mirrored(left, psi).radius, right.at(psi).radius) + options.reach;
   const double of_an_arc = std::sqrt(8.0 * options.tolerance / radius),
                of_a_straight = 8.0 * options.tolerance / longest;
-  return std::min(k_largest_turn, std::max(of_an_arc, of_a_straight));
+  return std::min(options.largest_turn, std::max(of_an_arc, of_a_straight));
 }
 
 /// Of both curves and their parallels, and more.
@@ -134,7 +132,8 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
   }
   const std::vector<double> mandatory = kept_apart(std::move(wanted));
   const double longest = longest_chord(left, right, asked);
-  const SamplingOptions options{asked.tolerance - lost_in_floats(0.25 * longest, asked.tolerance), asked.reach};
+  const SamplingOptions options{asked.tolerance - lost_in_floats(0.25 * longest, asked.tolerance), asked.reach,
+                                asked.largest_turn};
   std::vector<double> directions;
   for (std::size_t i = 0; i < mandatory.size(); ++i) {
     const double end = i + 1 < mandatory.size() ? mandatory[i + 1] : mandatory.front() + k_two_pi;

@@ -12,6 +12,9 @@ namespace fusee {
 struct SamplingOptions {
   double tolerance = 0.01;  ///< largest sagitta, mm
   double reach = 0;         ///< of the outermost parallel curve that must keep it, outward from the pitch curve, mm
+  /// However coarse the tolerance, a chord turns no further: a string wound on the polygon is then right to 5e-5 of its
+  /// length.
+  double largest_turn = radians(2.0);
 };
 
 /// P1 (from its right-hand image `left`) and P2.

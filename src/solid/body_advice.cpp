@@ -94,7 +94,8 @@ class BodyAdviser {
 
  private:
   bool helps(const Mechanism& changed) const {
-    return judge_.obstacles(changed).empty() && (!judge_.made || judge_.made(changed));
+    if (!judge_.obstacles(changed).empty()) return false;
+    return !judge_.made || ((!judge_.makings || judge_.makings() > 0) && judge_.made(changed));
   }
 
   // The first that helps, past the one that is written.

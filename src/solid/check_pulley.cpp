@@ -122,18 +122,16 @@ class GrooveGauge {
     for (std::size_t i = 0; i < floor_.size(); ++i) {
       if (outline_.is_active(i) || !at_a_mouth(floor_[i])) worst.look(to_section.distance(floor_[i]), floor_[i]);
     }
-    worst.value += sagitta();
+    worst.value += largest_sagitta();
     return worst;
   }
 
-  // Of an arc between two points whose normals are known, whatever its curvature does between them: chord · turn / 8.
-  double sagitta() const {
+  double largest_sagitta() const {
     double largest = 0;
     const auto& points = outline_.points;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::size_t j = (i + 1) % points.size();
-      const double turn = std::remainder(points[j].psi - points[i].psi, k_two_pi);
-      largest = std::max(largest, (floor_[j] - floor_[i]).norm() * turn / 8.0);
+      largest = std::max(largest, sagitta(floor_[i], points[i].psi, floor_[j], points[j].psi));
     }
     return largest;
   }

@@ -54,6 +54,7 @@ class Conditions {
     add_channel();
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
     add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF - mechanism_.guides.D_below_B}, "guides.ED_mm");
+    add_drum();
     return std::move(result_);
   }
 
@@ -243,6 +244,14 @@ class Conditions {
                                    rounded(width)));
   }
 
+  /// Of all that comes past a thing as wide as it is seen from the axis.
+  double reach_within(const Vec2& centre, double radius) const {
+    const double half = std::asin(std::min(1.0, radius / centre.norm()));
+    double reach = 0;
+    for (int i = -4; i <= 4; ++i) reach = std::max(reach, reach_towards(turned(centre, half * i / 4.0)));
+    return reach;
+  }
+
   // The pulley turns clockwise by α under the pin: in its own frame the pin goes round counter-clockwise.
   double reach_towards(const Vec2& pin) const {
     if (synthesis_.stroke.empty()) return 0;
@@ -268,6 +277,18 @@ class Conditions {
                           clear > 0 ? "of" : "inside", k_pin_gap));
   }
 
+  /// The drum stands over the pulley as a pin does.
+  void add_drum() {
+    if (!(mechanism_.joint.drum_radius > 0)) return;
+    const Vec2 drum(0, mechanism_.guides.OE + mechanism_.pulley.EF);
+    const double clear = drum.norm() - mechanism_.joint.drum_radius - reach_within(drum, mechanism_.joint.drum_radius);
+    add_least(
+        "drum_clear", clear, k_pin_gap,
+        fmt::format("the drum (joint.drum_radius_mm, guides.OE_mm, pulley.EF_mm) {} mm {} the flanges, it takes {} mm "
+                    "beside them",
+                    (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
+                    clear > 0 ? "of" : "inside", k_pin_gap));
+  }
   const Mechanism& mechanism_;
   const Body& body_;
   const SynthesisResult& synthesis_;

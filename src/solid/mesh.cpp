@@ -1,10 +1,8 @@
 #include "fusee/solid/mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
-#include <unordered_map>
 
 #include "solid/euler.h"
 #include "solid/nearest_float.h"
@@ -12,20 +10,40 @@
 namespace fusee {
 namespace {
 
-struct PositionHash {
-  std::size_t operator()(const std::array<double, 3>& position) const {
+// Vertices by place: open addressing over their numbers, for a part is welded a dozen times before it is done.
+// −0 and 0 are the same place; a NaN is never equal to itself.
+class Places {
+ public:
+  explicit Places(std::size_t vertices) : slots_(std::bit_ceil(2 * vertices + 1), k_free), mask_(slots_.size() - 1) {}
+
+  /// The number of the vertex that stands where `vertex` does, which is put behind the others if there is none.
+  std::uint32_t number_of(const Vec3& vertex, std::vector<Vec3>& vertices) {
+    std::size_t slot = hash_of(vertex) & mask_;
+    while (slots_[slot] != k_free) {
+      if (vertices[slots_[slot]] == vertex) return slots_[slot];
+      slot = (slot + 1) & mask_;
+    }
+    slots_[slot] = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back(vertex);
+    return slots_[slot];
+  }
+
+ private:
+  static constexpr std::uint32_t k_free = std::numeric_limits<std::uint32_t>::max();
+
+  static std::size_t hash_of(const Vec3& vertex) {
     std::uint64_t hash = 0x9E3779B97F4A7C15u;
-    for (const double coordinate : position) {
-      hash ^= std::bit_cast<std::uint64_t>(coordinate);
+    for (const double coordinate : vertex) {
+      hash ^= std::bit_cast<std::uint64_t>(coordinate + 0.0);
       hash *= 0xFF51AFD7ED558CCDu;
       hash ^= hash >> 32;
     }
     return static_cast<std::size_t>(hash);
   }
-};
 
-// −0 and 0 are the same place; a NaN is never equal to itself and so keeps a vertex of its own.
-std::array<double, 3> key_of(const Vec3& vertex) { return {vertex.x() + 0.0, vertex.y() + 0.0, vertex.z() + 0.0}; }
+  std::vector<std::uint32_t> slots_;
+  std::size_t mask_;
+};
 
 }  // namespace
 
@@ -54,21 +72,17 @@ Bounds bounds(const TriangleMesh& mesh) {
 
 TriangleMesh weld(const TriangleMesh& mesh) {
   TriangleMesh welded;
-  std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> places;
-  places.reserve(mesh.vertices.size());
+  Places places(mesh.vertices.size());
   std::vector<std::uint32_t> renumbered;
   renumbered.reserve(mesh.vertices.size());
   for (const Vec3& vertex : mesh.vertices) {
-    // NaN equals nothing: in the map each would be a new entry under the same hash, and a file of them would take for
-    // ever.
+    // A file of NaN, each with the same hash and equal to none, would take for ever.
     if (vertex.hasNaN()) {
       renumbered.push_back(static_cast<std::uint32_t>(welded.vertices.size()));
       welded.vertices.push_back(vertex);
-      continue;
+    } else {
+      renumbered.push_back(places.number_of(vertex, welded.vertices));
     }
-    const auto [place, fresh] = places.try_emplace(key_of(vertex), static_cast<std::uint32_t>(welded.vertices.size()));
-    if (fresh) welded.vertices.push_back(vertex);
-    renumbered.push_back(place->second);
   }
   const auto renumber = [&renumbered](std::uint32_t index) {
     return index < renumbered.size() ? renumbered[index] : std::numeric_limits<std::uint32_t>::max();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/transmission/guide_friction.h"
 #include "fusee/transmission/load.h"
 #include "transmission/equations.h"
 
@@ -34,10 +35,22 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   // C lies at 90° − θ from O, the tendon's line at its normal: in the image γ = θ + ψ, beyond 90° too.
   forces.gamma1 = k_pi - point.t1.upper_normal - point.theta;
   forces.gamma2 = point.t2.upper_normal + point.theta;
+  if (!mechanism.joint.is_plain()) {
+    // The same angle at the end of each tendon, wherever that is.
+    const auto at_end = [&](Side end) {
+      const PinPlace place = pin_place(mechanism, end, mechanism.seen_pitch_radius());
+      const double theta = mirror_sign(end) * point.theta;
+      return upper_span(place, theta).end_normal + theta + place.twist;
+    };
+    forces.gamma1 = at_end(Side::left);
+    forces.gamma2 = at_end(Side::right);
+  }
   const double T = tension_above_pin(std::abs(load_torque(mechanism, point.theta)), tendon.m);
   (by_first ? forces.T1 : forces.T2) = T;
   forces.phi = point.t2.wrap;
-  forces.Tb = tension_below_pin(T, mechanism.guides.mu, std::max(0.0, tendon.wrap));
+  forces.Tb = mechanism.guides.kind == GuideKind::idler
+                  ? T * std::exp(guide_friction(mechanism).log_ratio(tendon.wrap))
+                  : tension_below_pin(T, mechanism.guides.mu, std::max(0.0, tendon.wrap));
   const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach;
   forces.elongation = elongation_of_tendon(T, forces.Tb, tendon.free_upper, on_pin, tendon.lower_reach, stiffness);
   const double turned = mechanism.has_point_pins() ? turned_by_law_of_cosines(pin_place(mechanism, side, 0.0),

@@ -34,10 +34,10 @@ TEST(RigidJoint, AsDeclaredIsTheDeclaredLaw) {
 
 TEST(RigidJoint, DerivativesAreThoseOfDifferences) {
   constexpr double step = 1e-4;
-  for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric()}) {
+  for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric(), testing::finger(), testing::ankle()}) {
     const Transmission transmission(mechanism);
     const MadePulleys made(mechanism);
-    for (const Dimension& dimension : dimensions()) {
+    for (const Dimension& dimension : dimensions(mechanism)) {
       const RigidJoint more = altered(made, mechanism, dimension, step);
       const RigidJoint less = altered(made, mechanism, dimension, -step);
       for (const double theta : {-0.3, 0.15, 0.4}) {
@@ -58,9 +58,10 @@ TEST(RigidJoint, ScalingAllLengthsChangesNothing) {
   const double alpha = transmission.alpha(0.4);
   // Its pulleys scale too, which no offset does: their part is what P1, round, gives for r1.
   double sum = 0;
-  for (std::size_t i = 0; i < std::size(lengths); ++i) sum += lengths[i] * derivative(as_declared(m), dimensions()[i], alpha).theta;
+  for (std::size_t i = 0; i < std::size(lengths); ++i)
+    sum += lengths[i] * derivative(as_declared(m), dimensions(m)[i], alpha).theta;
   // The pitch curve of the round P1 by r1 − d/2, the floor's radius.
-  sum += (m.pulley.r1 - 0.5 * m.tendon.diameter) * derivative(as_declared(m), dimensions().back(), alpha).theta;
+  sum += (m.pulley.r1 - 0.5 * m.tendon.diameter) * derivative(as_declared(m), dimensions(m).back(), alpha).theta;
   EXPECT_NEAR(sum, 0.0, 1e-10);
 }
 
@@ -68,10 +69,12 @@ TEST(RigidJoint, AllChangesAtOnceAreEachOnItsOwn) {
   const Mechanism mechanism = unsymmetric();
   const MadePulleys made(mechanism);
   const double alpha = made.declared().alpha(0.3);
-  for (std::size_t i = 0; i < dimensions().size(); ++i) {
-    std::vector<double> changes(dimensions().size(), 0.0);
+  for (std::size_t i = 0; i < dimensions(mechanism).size(); ++i) {
+    std::vector<double> changes(dimensions(mechanism).size(), 0.0);
     changes[i] = 0.5;
-    EXPECT_EQ(altered(made, mechanism, changes).at(alpha).theta, altered(made, mechanism, dimensions()[i], 0.5).at(alpha).theta) << dimensions()[i].key;
+    EXPECT_EQ(altered(made, mechanism, changes).at(alpha).theta,
+              altered(made, mechanism, dimensions(mechanism)[i], 0.5).at(alpha).theta)
+        << dimensions(mechanism)[i].key;
   }
 }
 
@@ -114,7 +117,7 @@ TEST(Tolerances, BothRoadsAgree) {
   options.samples = 2000;
   for (const Mechanism& mechanism : {forearm(), linear_wrist()}) {
     const std::vector<ToleranceEffect> effects = tolerance_effects(mechanism, options);
-    ASSERT_EQ(effects.size(), dimensions().size() + 1);
+    ASSERT_EQ(effects.size(), dimensions(mechanism).size() + 1);
     EXPECT_EQ(effects.back().key, "all");
     for (const ToleranceEffect& effect : effects) {
       // Twice a standard deviation of 2000 samples: ± 5 %.

@@ -67,6 +67,7 @@ def commands(fusee, folder):
         "refused_giant": [fusee, "build", f"{folder}/giant.toml", *out, "--tolerance-mm", "0.001",
                           "--set", "body.bore_diameter_mm=280"],
         "kit": [fusee, "kit", str(ROOT / "profiles/paper_optimum.toml"), *out],
+        "model": [fusee, "model", str(ROOT / "profiles/paper_optimum.toml"), *out],
         "check": [fusee, "check", f"{folder}/fine/pulley.stl"],
         "rewind": [fusee, "rewind", str(ROOT / "profiles/paper_optimum.toml"), f"{folder}/fine/pulley.stl"],
         "analyze": [fusee, "analyze", spec, "--steps", "2000", "--samples", "20000"],

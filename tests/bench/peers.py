@@ -60,6 +60,8 @@ def main():
         print(f"fusee build, every format and every check: {seconds:.3f} s ({processor:.3f} s of processor), {memory:.0f} MB")
         kit, kit_processor, kit_memory = best([fusee, "kit", spec, "-o", folder + "/kit"], 5)
         print(f"fusee kit, every part checked (limit 2 s): {kit:.3f} s ({kit_processor:.3f} s of processor), {kit_memory:.0f} MB")
+        model, model_processor, model_memory = best([fusee, "model", spec, "-o", folder + "/model"], 5)
+        print(f"fusee model, every file checked (limit 0.2 s): {model:.3f} s ({model_processor:.3f} s of processor), {model_memory:.0f} MB")
         if shutil.which("openscad") is None:
             print("openscad is not installed")
             return

@@ -47,8 +47,8 @@ class Candidates(harness.Scratch):
         self.assertEqual(self.offered("fusee completion "), ["bash", "zsh", "fish"])
 
     def test_says_what_words_mean(self):
-        document = json.loads(self.fusee(["completion", "candidates", "fusee new fing", "--json"]).stdout)
-        self.assertEqual([one["word"] for one in document["candidates"]], ["finger"])
+        document = json.loads(self.fusee(["completion", "candidates", "fusee new grip", "--json"]).stdout)
+        self.assertEqual([one["word"] for one in document["candidates"]], ["gripper"])
         self.assertTrue(document["candidates"][0]["meaning"])
 
     def test_any_line(self):

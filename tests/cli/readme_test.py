@@ -11,7 +11,7 @@ import subprocess
 import harness
 
 
-PAGES = ["README.md", "profiles/calibration.md", "profiles/physics.md", "profiles/guarantees.md"]
+PAGES = ["README.md", "profiles/calibration.md", "profiles/model.md", "profiles/physics.md", "profiles/guarantees.md"]
 
 
 def commands(page="README.md"):

@@ -93,6 +93,29 @@ TEST(AsItIs, IsExpectedOfTheNextCalibration) {
   EXPECT_EQ(expected_joint(expected), expected);
 }
 
+// A look takes another joint for hundreds of mechanisms: near the one that is made, and the same where nothing gives
+// way.
+TEST(AsItIs, ABriefSearchForTheLawIsNearTheWhole) {
+  DeclaredMechanism mechanism = declared();
+  mechanism.load.tip_force = 15.0;
+  mechanism.identified.tendon.stretch = 12.0;
+  mechanism.identified.joint.mean_load = 4.0;
+  const Mechanism whole = as_it_is(mechanism).mechanism, brief = as_it_is(mechanism, LawSearch::brief).mechanism;
+  EXPECT_EQ(brief.pulley.law, whole.pulley.law);
+  EXPECT_LT(2 * brief.pulley.rows.size(), whole.pulley.rows.size());
+  const Transmission law(whole), near(brief);
+  double moved = 0, apart = 0;
+  for (double alpha = law.alpha_min(); alpha <= law.alpha_max(); alpha += radians(5.0)) {
+    moved = std::max(moved, std::abs(law.theta(alpha) - Transmission(declared()).theta(alpha)));
+    apart = std::max(apart, std::abs(law.theta(alpha) - near.theta(alpha)));
+  }
+  EXPECT_GT(degrees(moved), 0.5);
+  EXPECT_LT(degrees(apart), 0.1);
+  mechanism.identified = {};
+  mechanism.identified.pins.radius = 2.0;
+  EXPECT_EQ(as_it_is(mechanism, LawSearch::brief).mechanism.joint, as_it_is(mechanism).mechanism.joint);
+}
+
 TEST(AsItIs, AnotherGuideRadiusIsTakenOut) {
   DeclaredMechanism mechanism = declared();
   mechanism.identified.pins.radius = 2.0;

@@ -193,7 +193,7 @@ TEST_P(Kit, ThePostStandsAtC) {
       ASSERT_EQ(loops.size(), 2u);  // waist and bore
       Vec2 middle(0, 0);
       for (const Vec2& point : loops[0]) middle += point / static_cast<double>(loops[0].size());
-      EXPECT_NEAR((middle - attachment(model.mechanism, at.theta)).norm(), 0, 0.02);
+      EXPECT_NEAR((middle - attachment(model.mechanism, Side::left, at.theta)).norm(), 0, 0.02);
     }
   }
 }

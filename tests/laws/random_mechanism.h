@@ -46,10 +46,42 @@ inline Mechanism random_mechanism() {
   return mechanism;
 }
 
+/// With a drum, or attachments of their own, or both: fingers, ankles and elbows of any range.
+inline Mechanism random_wide_mechanism() {
+  using detail::between;
+  Mechanism mechanism = random_mechanism();
+  const double R = mechanism.joint.R;
+  const double low = *between(5.0, 100.0), high = *between(5.0, 130.0);
+  mechanism.joint.theta_min = radians(-low);
+  mechanism.joint.theta_max = radians(high);
+  // Pins below the joint, as far as a drum leaves room.
+  mechanism.guides.OE = R * *between(0.3, 3.0);
+  mechanism.guides.EB = R * *between(0.4, 1.6);
+  mechanism.guides.ED = R * *between(0.4, 1.6);
+  mechanism.pulley.EF = R * *between(2.0, 5.0);
+  const bool drum = *rc::gen::element(true, true, true, false);
+  if (drum) mechanism.joint.drum_radius = R * *between(0.3, 1.0);
+  const auto end = [&](double sign) {
+    const double away = drum && *rc::gen::element(true, false) ? mechanism.drum_pitch_radius() * *between(1.0, 1.02)
+                                                               : R * *between(0.6, 1.4);
+    const double angle = radians(sign * *between(drum ? -100.0 : -10.0, 80.0));
+    return Attachment{away * std::sin(angle), away * std::cos(angle)};
+  };
+  if (!drum || *rc::gen::element(true, false)) mechanism.joint.attachment1 = end(-1.0);
+  if (!drum || *rc::gen::element(true, true, false)) mechanism.joint.attachment2 = end(1.0);
+  const double ratio = std::min(300.0 / (low + high), *between(0.8, 3.0));
+  if (mechanism.pulley.law == Law::linear) {
+    mechanism.pulley.ratio = ratio;
+  } else {
+    mechanism.pulley.r1 = 0.8 * R / ratio;
+  }
+  return mechanism;
+}
+
 /// Checks `property(mechanism)` on random mechanisms, the same ones every time: `usual_cases` of them, or FUSEE_LAW_CASES.
 /// A property asserts with RC_ASSERT and returns whether the mechanism was possible; some of each kind must have been met.
 template <typename Property>
-void expect_law(int usual_cases, Property property) {
+void expect_law(int usual_cases, Property property, Mechanism (*draw)() = random_mechanism) {
   const char* wanted = std::getenv("FUSEE_LAW_CASES");
   rc::detail::TestParams params;
   params.seed = 20251120;
@@ -59,7 +91,7 @@ void expect_law(int usual_cases, Property property) {
   int cases = 0;
   const auto result = rc::detail::checkTestable(
       [&] {
-        const Mechanism mechanism = random_mechanism();
+        const Mechanism mechanism = draw();
         RC_LOG() << write_mechanism(DeclaredMechanism(mechanism));
         ++cases;
         if (property(mechanism)) ++possible;

@@ -135,7 +135,8 @@ TEST(Templates, AMisspeltNameNamesTheNearest) {
 std::string code(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 std::string allowed_cell(const Field& field) {
-  if (field.kind == FieldKind::number || field.kind == FieldKind::range || field.kind == FieldKind::numbers) {
+  if (field.kind == FieldKind::number || field.kind == FieldKind::range || field.kind == FieldKind::numbers ||
+      field.kind == FieldKind::point) {
     return field.least == field.most ? shortest(field.least) : shortest(field.least) + " … " + shortest(field.most);
   }
   std::string text;
@@ -144,7 +145,9 @@ std::string allowed_cell(const Field& field) {
 }
 
 std::string default_cell(const Field& field) {
-  const std::string text = field.fallback.empty() ? "required" : code(field.fallback);
+  const std::string text = !field.otherwise.empty() ? std::string(field.otherwise)
+                           : field.fallback.empty() ? "required"
+                                                    : code(field.fallback);
   return field.only_when.empty() ? text : text + ", with " + code(field.only_when);
 }
 

@@ -87,6 +87,42 @@ TEST(Reader, NamesLineAndColumnOfEachKindOfError) {
               HasSubstr("13:7 pulley.law = \"linea\" is not known"));
 }
 
+TEST(Reader, AttachmentsAndDrum) {
+  const DeclaredMechanism plain = parse_mechanism(k_good_file, "f.toml");
+  EXPECT_TRUE(plain.joint.is_plain());
+  const std::string wide =
+      with("length_mm = 100\n", "length_mm = 100\ndrum_radius_mm = 20\nattachment2_mm = [-3, 40.5]\n");
+  const DeclaredMechanism m = parse_mechanism(wide, "f.toml");
+  EXPECT_EQ(m.joint.drum_radius, 20);
+  EXPECT_EQ(m.joint.attachment2, (Attachment{-3, 40.5}));
+  EXPECT_FALSE(m.joint.attachment1);
+  EXPECT_THAT(only_error(with("length_mm = 100\n", "length_mm = 100\nattachment1_mm = [1, 2, 3]\n")),
+              HasSubstr("joint.attachment1_mm must be two numbers [across, along] in mm, not a list of 3"));
+  EXPECT_THAT(only_error(with("length_mm = 100\n", "length_mm = 100\nattachment1_mm = [1, inf]\n")),
+              HasSubstr("must be a finite number, not inf"));
+  EXPECT_THAT(
+      only_error(wide,
+                 {{"pulley.method", "paper"}, {"joint.attachment2_mm", "[0, 100]"}, {"joint.drum_radius_mm", "0"}}),
+      HasSubstr("joint.attachment2_mm does not go with pulley.method = \"paper\""));
+  // One of two by --set, on top of the file or of C.
+  EXPECT_EQ(parse_mechanism(wide, "f.toml", ".", {{"joint.attachment2_mm[0]", "7"}}).joint.attachment2,
+            (Attachment{7, 40.5}));
+  EXPECT_EQ(parse_mechanism(wide, "f.toml", ".", {{"joint.attachment1_mm[0]", "-7"}}).joint.attachment1,
+            (Attachment{-7, 100}));
+  EXPECT_THAT(only_error(wide, {{"joint.attachment2_mm[1]", "x"}}), HasSubstr("joint.attachment2_mm must be"));
+}
+
+TEST(Reader, Idlers) {
+  const std::string idlers = with("OE_mm = -40\n", "OE_mm = -40\nradius_mm = 6.0\nkind = \"idler\"\n");
+  std::vector<Diagnostic> warnings;
+  const DeclaredMechanism m = parse_mechanism(idlers, "f.toml", ".", {}, &warnings);
+  EXPECT_EQ(m.guides.kind, GuideKind::idler);
+  EXPECT_EQ(m.guides.bearing_radius, 1.5);
+  EXPECT_THAT(only_error(idlers, {{"guides.bearing_radius_mm", "6.1"}}),
+              HasSubstr("does not go into an idler of 6 mm"));
+  EXPECT_THAT(only_error(idlers, {{"guides.kind", "roller"}}), HasSubstr("guides.kind = \"roller\" is not known"));
+}
+
 TEST(Reader, RangeHoldsHome) {
   EXPECT_THAT(only_error(with("[-30.0, 30.0]", "[10, 20]")),
               HasSubstr("5:13 joint.range_deg = [10, 20] deg does not hold home"));

@@ -14,6 +14,7 @@ still picture; nothing is asked of a network; nothing is wider than a phone; a f
 """
 
 import csv
+import dataclasses
 import html
 import json
 import math
@@ -49,7 +50,7 @@ AFTER = """
     const start = performance.now();
     slider.dispatchEvent(new Event("input"));
     found.times.push(performance.now() - start);
-    const c = path(scene.querySelector(".link"))[1];
+    const lever = path(scene.querySelector(".link")), c = lever.length === 3 ? lever[0] : lever[1];  // A1 O A2, or O C
     found.places.push({
       alpha: Number(slider.value),
       theta: Math.atan2(c[0] - x, y - c[1]) * 180 / Math.PI,
@@ -153,21 +154,21 @@ def number_of(words):
         return None
 
 
-def faults_of_motion(found, rows, R):
+def faults_of_motion(found, rows, lever):
     """The drawing against the table that another program wrote."""
     for place, row in zip(found["places"], rows):
         alpha, theta = float(row["alpha_deg"]), float(row["theta_deg"])
-        if abs(place["theta"] - theta) > 0.05:
-            yield f"at alpha = {alpha} the lever is drawn at {place['theta']:.3f} deg, not {theta}"
+        if abs(place["theta"] - theta - lever.angle) > 0.05:
+            yield f"at alpha = {alpha} the lever is drawn at {place['theta']:.3f} deg, not {theta + lever.angle}"
         if number_of(place["shown"]) is None or abs(number_of(place["shown"]) - theta) > 0.00501:
             yield f"at alpha = {alpha} the page says {place['shown']}, not {theta}"
-        if abs(place["lever"] - R) > 0.003 * R:
-            yield f"the lever is drawn {place['lever']:.2f} mm long, not {R}"
+        if abs(place["lever"] - lever.length) > 0.003 * lever.length:
+            yield f"the lever is drawn {place['lever']:.2f} mm long, not {lever.length}"
         if abs(place["turn"] - alpha) > 0.01:
             yield f"at alpha = {alpha} the pulley is drawn at {place['turn']}"
     for k in (0, 1):
         lengths = [place["lengths"][k] for place in found["places"]]
-        if max(lengths) - min(lengths) > 0.004 * R:
+        if max(lengths) - min(lengths) > 0.004 * lever.length:
             yield f"tendon {k + 1} is drawn from {min(lengths):.2f} to {max(lengths):.2f} mm long over the stroke"
 
 
@@ -195,7 +196,7 @@ def faults_of_effects(found):
             yield f"effect {k + 1} turned up to 0, 1 and 2 moves the joint by {none:.4f}, {once:.4f} and {twice:.4f} rad as drawn"
 
 
-def faults(page, rows, R, ways=WAYS):
+def faults(page, rows, lever, ways=WAYS):
     alphas = [float(row["alpha_deg"]) for row in rows]
     if len(page.encode()) > MOST_BYTES:
         yield f"{len(page.encode())} bytes"
@@ -206,7 +207,7 @@ def faults(page, rows, R, ways=WAYS):
             continue
         if found["part"] and found["webgl"] == (name == "no WebGL"):
             yield f"{name}: WebGL {found['webgl']}"
-        looks = [*found["noted"], *faults_of_motion(found, rows, R), *faults_of_view(found), *faults_of_effects(found)]
+        looks = [*found["noted"], *faults_of_motion(found, rows, lever), *faults_of_view(found), *faults_of_effects(found)]
         if found["requests"]:
             looks.append(f"{found['requests']} requests")
         if found["wide"] > found["room"]:
@@ -243,14 +244,29 @@ def still_faults(page):
                 yield f"{width} px: a picture that shows little: {picture}"
 
 
+@dataclasses.dataclass
+class Lever:
+    """From the joint's axis to where tendon 1 ends: mm, and deg from OC at home, to the right."""
+    length: float
+    angle: float
+
+
+def lever_of(mechanism):
+    joint, d = mechanism["joint"], mechanism["tendon"]["diameter_mm"]
+    across, along = joint.get("attachment1_mm", (0.0, joint["length_mm"]))
+    length = math.hypot(across, along)
+    if "drum_radius_mm" in joint:  # an end in the drum's skin is taken onto the circle of the centre lines
+        length = max(length, joint["drum_radius_mm"] + 0.5 * d)
+    return Lever(length, math.degrees(math.atan2(across, along)))
+
+
 def read(folder):
     folder = pathlib.Path(folder)
     with open(folder / "transmission.csv", encoding="utf-8") as lines:
         rows = list(csv.DictReader(lines))
     rows = rows[:: max(1, len(rows) // 24)]
     page = (folder / "report.html").read_text(encoding="utf-8")
-    R = json.loads(page.split('id="motion">')[1].split("</script>")[0])["R"]
-    return page, rows, R
+    return page, rows, lever_of(json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["mechanism"])
 
 
 # What breaks a page, and a word of what the judge must say then.
@@ -267,11 +283,11 @@ BREAKS = {
 
 
 def self_test(folder):
-    page, rows, R = read(folder)
+    page, rows, lever = read(folder)
     failed = 0
     for name, (old, new, word) in BREAKS.items():
         assert old in page, f"{name}: the page has no {old!r}"
-        said = list(faults(page.replace(old, new, 1), rows[::6], R, WAYS[:1]))
+        said = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
         if not any(word in fault for fault in said):
             failed += 1
             print(f"{name}: not seen; said {said}")
@@ -289,10 +305,10 @@ def main():
     folder, *pages = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
     if "--self-test" in sys.argv:
         return self_test(folder)
-    page, rows, R = read(folder)
-    found = [f"{folder}: {fault}" for fault in faults(page, rows, R)]
+    page, rows, lever = read(folder)
+    found = [f"{folder}: {fault}" for fault in faults(page, rows, lever)]
     for other in pages:
-        found += [f"{other}: {fault}" for fault in faults(pathlib.Path(other).read_text(encoding="utf-8"), rows, R)]
+        found += [f"{other}: {fault}" for fault in faults(pathlib.Path(other).read_text(encoding="utf-8"), rows, lever)]
     print("\n".join(found))
     return 1 if found else 0
 

@@ -11,6 +11,7 @@
 #include "fusee/optimize/certified.h"
 #include "fusee/pipeline.h"
 #include "fusee/pipeline/kit.h"
+#include "fusee/pipeline/model.h"
 
 namespace fusee::pins {
 namespace {
@@ -121,6 +122,14 @@ Outputs kits(const fs::path& spec, DxfVersion dxf) {
   return kit(read_mechanism(spec), options).outputs;
 }
 
+Outputs modelled(const MechanismFile& file, const MotorUnit& unit) {
+  ModelOptions options;
+  options.folder = fs::temp_directory_path() / "fusee-pins";
+  options.dry_run = true;
+  options.unit = unit;
+  return model(file, options).outputs;
+}
+
 /// A measured run driven once more, with play, an encoder off its axis and noise; and with the corrected pulley.
 Outputs simulated() {
   const fs::path log = k_root / "profiles/measured/forearm_2.csv";
@@ -139,11 +148,24 @@ void add_plans(std::vector<PinnedRun>& all) {
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml"))
     all.push_back({"plan/" + spec.stem().string(), [spec] { return planned(spec); }});
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
+    if (!read_mechanism(spec).mechanism.is_papers()) continue;  // no test model of these yet
     // One drawing for an old cutter stands for all.
     const DxfVersion dxf = spec.stem() == "unsymmetric" ? DxfVersion::r12 : DxfVersion::ac1015;
     all.push_back({"kit/" + spec.stem().string(), [spec, dxf] { return kits(spec, dxf); }});
   }
   all.push_back({"simulate/forearm", simulated});
+}
+
+void add_models(std::vector<PinnedRun>& all) {
+  for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml"))
+    all.push_back({"model/" + spec.stem().string(), [spec] { return modelled(read_mechanism(spec), {}); }});
+  // A joint as it was found, each way, in counts.
+  all.push_back({"model/identified", [] {
+                   const MechanismFile file =
+                       read_mechanism(k_root / "profiles/forearm.toml",
+                                      {{"identified.backlash_deg", "1"}, {"identified.stretch", "0.2"}});
+                   return modelled(file, {-4096, true, 2048});
+                 }});
 }
 
 /// Between them these have identified a tendon, a pin, and more than one of them at once.
@@ -168,6 +190,7 @@ std::vector<PinnedRun> runs() {
   add_calibrations(all);
   add_corrected_builds(all);
   add_plans(all);
+  add_models(all);
   all.push_back({"reproduce/paper", [] { return paper_files(reproduce_paper()); }});
   all.push_back({"optimize/paper_optimum", [] { return optimum_outputs(k_root / "profiles/paper_optimum.toml"); }});
   return all;

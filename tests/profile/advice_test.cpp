@@ -134,7 +134,7 @@ TEST(Advice, NoMoreIsMadeThanIsLeftToBeMade) {
   EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 2U);
   EXPECT_EQ(find_advice(testing::forearm(), judge, {}, 1).alone.size(), 1U);
   EXPECT_TRUE(find_advice(testing::forearm(), judge, {}, 2).empty());
-  judge.makings = [] { return 1; };
+  judge.makings = [&made] { return 1 - made; };
   made = 0;
   EXPECT_EQ(find_advice(testing::forearm(), judge).alone.size(), 1U);
   EXPECT_EQ(made, 1);

@@ -28,7 +28,8 @@ Mechanism with(Mechanism mechanism, const Change& change) {
   } else if (change.key == "joint.range_deg[1]") {
     mechanism.joint.theta_max = radians(change.to);
   } else {
-    set_number(mechanism, *find_field(change.key), 0, change.to);
+    const NumberKey key = *find_number_key(change.key);
+    set_number(mechanism, *key.field, key.end, change.to);
   }
   return mechanism;
 }
@@ -65,6 +66,55 @@ TEST(Feasibility, DeadCentre) {
   Mechanism mechanism = testing::forearm();
   mechanism.joint.theta_max = radians(60);
   expect_refused(mechanism, "moment_arms", "dead centre");
+}
+
+TEST(Feasibility, AnAttachmentInsideTheDrum) {
+  Mechanism mechanism = testing::finger();
+  mechanism.joint.attachment2 = Attachment{-5.0, 5.0};
+  expect_refused(mechanism, "attachment_outside_drum_2", "tendon 2 ends 0.929 mm inside the drum");
+}
+
+TEST(Feasibility, APinInTheDrum) {
+  Mechanism mechanism = testing::finger();
+  mechanism.guides.radius = 9.5;
+  expect_refused(mechanism, "drum_clear_of_pin_B", "pin B stands 0.529 mm in the drum");
+}
+
+TEST(Feasibility, ATendonThatCutsTheOthersPin) {
+  Mechanism mechanism = testing::finger();
+  mechanism.joint.drum_radius = 0;
+  mechanism.joint.theta_min = radians(-1.0);
+  mechanism.joint.theta_max = radians(1.0);
+  mechanism.joint.attachment2 = Attachment{-30.0, 2.0};
+  mechanism.guides.OE = -5.0;
+  mechanism.guides.EB = 10.0;
+  const SynthesisResult result = synthesise(mechanism, {.advice = false});
+  ASSERT_FALSE(result.made());
+  EXPECT_EQ(failed(result).name, "tendon_2_clear_of_pin_B");
+}
+
+/// P2 is drawn with the inverse of tendon 1's arm, which bends upwards where that tendon leaves the drum.
+TEST(Feasibility, BesideARoundP1ALiftOffOfTendon1IsHollow) {
+  Mechanism mechanism = testing::finger();
+  mechanism.joint.attachment1 = Attachment{-8.3, 8.3};
+  expect_refused(mechanism, "convex_at_lift_off_P2", "tendon 1 leaves the drum at α = 21");
+  mechanism.pulley.law = Law::linear;
+  mechanism.pulley.ratio = 1.0;
+  EXPECT_TRUE(synthesise(mechanism).made());
+}
+
+TEST(Feasibility, ALiftOffOfTendon2IsAStraightPieceOfP2) {
+  Mechanism mechanism = testing::finger();
+  // In the mirror image it is tendon 2 that leaves.
+  mechanism.joint.attachment1 = Attachment{-8.3, 8.3};
+  mechanism = testing::mirrored(mechanism);
+  const SynthesisResult result = synthesise(mechanism);
+  ASSERT_TRUE(result.made()) << result.brief();
+  double longest = 0;
+  const auto& points = result.p2.points;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    longest = std::max(longest, (points[i + 1].position - points[i].position).norm());
+  EXPECT_GT(longest, 4.0);
 }
 
 TEST(Feasibility, PulleyAsLargeAsThePinsDistance) {

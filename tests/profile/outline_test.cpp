@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fusee/profile/synthesis.h"
 #include "support/mechanisms.h"
 
@@ -40,6 +42,24 @@ TEST(Outline, BothPulleysShareTheirNormals) {
       EXPECT_GT(result.p1.points[i].psi, result.p1.points[i - 1].psi);
     }
   }
+}
+
+TEST(Outline, SagittaIsAnArcsAndOfABendAtOneEndNextToNothing) {
+  const double radius = 40.0, turn = 0.02;
+  const auto on_circle = [&](double psi) -> Vec2 { return radius * unit(psi); };
+  EXPECT_NEAR(sagitta(on_circle(1.0), 1.0, on_circle(1.0 + turn), 1.0 + turn), radius * (1.0 - std::cos(0.5 * turn)),
+              1e-7);
+
+  // 95 mm of a bridge, then its end's bend (campaign of seed 310001, design 136): how far the bend's corner is from the
+  // chord, by plane geometry.
+  const double length = 94.67, bend = 0.36, little = 2.18e-4;
+  const Vec2 from(0, 0), corner(length, 0), to = corner + bend * little * unit(0.5 * little);
+  const Vec2 along = (to - from).normalized();
+  const double height = std::abs(along.x() * (corner - from).y() - along.y() * (corner - from).x());
+  const double found = sagitta(from, -0.5 * k_pi, to, -0.5 * k_pi + little);
+  EXPECT_GE(found, height);
+  EXPECT_LT(found, 2.5 * height + 1e-12);
+  EXPECT_LT(found, 1e-4 * length * little / 8.0);
 }
 
 }  // namespace

@@ -195,6 +195,22 @@ TEST(BodyAdvice, AClampScrewWithoutRoomTakesAThickerFlangeOrNone) {
     EXPECT_EQ(condition.message.find("smaller screw"), std::string::npos) << condition.message;
 }
 
+// Another word is a making too: a part that takes long leaves room for few of them (240001/115 made seven of two
+// metres).
+TEST(BodyAdvice, WordsAndNumbersShareTheMakingsThatAreLeft) {
+  Mechanism mechanism = forearm();
+  mechanism.body.clamp_screw = "M3";
+  mechanism.print.parts = Parts::two;
+  for (const int most : {0, 1, 2}) {
+    int made = 0;
+    const Judge judge{.obstacles = obstacles,
+                      .made = [&made](const Mechanism&) { return ++made, false; },
+                      .makings = [&made, most] { return most - made; }};
+    EXPECT_TRUE(body_advice(mechanism, judge).empty());
+    EXPECT_EQ(made, most);
+  }
+}
+
 // Outlines too coarse for a rim about both lips are a condition, and no bug.
 TEST(Conditions, NoRimAboutTheLipsIsSaid) {
   const Mechanism mechanism = plain_mechanism();

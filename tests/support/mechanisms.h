@@ -50,12 +50,46 @@ inline DeclaredMechanism unsymmetric() {
   return mechanism;
 }
 
+/// A drum on the joint, both tendons tied at its upper left: they stay on it, tendon 2 over its top. No joint of one
+/// lever point reaches as far.
+inline DeclaredMechanism finger() {
+  DeclaredMechanism mechanism = reference();
+  mechanism.name = "finger";
+  mechanism.joint = {8.3, radians(-20.0), radians(90.0)};
+  mechanism.joint.drum_radius = 8.0;
+  mechanism.joint.attachment1 = mechanism.joint.attachment2 = Attachment{-5.87, 5.87};
+  mechanism.guides = {12.0, 12.0, 12.0, 1.0, 0.12};
+  mechanism.pulley.EF = 40.0;
+  mechanism.pulley.r1 = 9.0;
+  mechanism.tendon.diameter = 0.6;
+  return mechanism;
+}
+
+/// Attachments in front of and behind the link, each by its own lever; tendon 1 lies on a drum for a part of the range.
+inline DeclaredMechanism ankle() {
+  DeclaredMechanism mechanism = reference();
+  mechanism.name = "ankle";
+  mechanism.joint = {60.0, radians(-30.0), radians(25.0)};
+  mechanism.joint.drum_radius = 44.0;
+  mechanism.joint.attachment1 = Attachment{-46.0, 22.0};
+  mechanism.joint.attachment2 = Attachment{61.0, 18.0};
+  mechanism.guides = {45.0, 55.0, 150.0, 3.0, 0.12};
+  mechanism.pulley.EF = 110.0;
+  mechanism.pulley.law = Law::linear;
+  mechanism.pulley.ratio = 1.6;
+  return mechanism;
+}
+
 /// The mirror image of a joint: what was left is right.
 inline Mechanism mirrored(Mechanism mechanism) {
   std::swap(mechanism.guides.EB, mechanism.guides.ED);
   std::swap(mechanism.joint.theta_min, mechanism.joint.theta_max);
   mechanism.joint.theta_min *= -1.0;
   mechanism.joint.theta_max *= -1.0;
+  std::swap(mechanism.joint.attachment1, mechanism.joint.attachment2);
+  for (auto* end : {&mechanism.joint.attachment1, &mechanism.joint.attachment2}) {
+    if (*end) (*end)->across *= -1.0;
+  }
   return mechanism;
 }
 

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fusee/base/diagnostics.h"
-#include "fusee/profile/synthesis.h"
 #include "fusee/joint/equilibrium.h"
+#include "fusee/profile/synthesis.h"
 #include "fusee/transmission/tension.h"
 
 namespace fusee {
@@ -19,6 +20,8 @@ struct AnalysisOptions {
   double tolerance = 0.1;     ///< of every dimension in the error budget: 95 % lie within ± this, mm
   int samples = 1000;         ///< of the Monte Carlo
   std::uint64_t seed = 1;
+  std::function<void()> between_samples =
+      {};  ///< called for each joint of the Monte Carlo; what it throws stops the work
 };
 
 /// One place of the stroke. The full model has been through a cycle before, so that where it started is forgotten.

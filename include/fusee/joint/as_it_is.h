@@ -24,8 +24,11 @@ struct JointAsItIs {
   /// What making does to the curves beyond that: draw_for_making() draws them the other way.
   OutlineError outline;
 };
+/// How closely the law of a joint that gives way is looked for: as it is made, or, some twenty times as fast and to a
+/// tenth of a degree, for a look at hundreds of mechanisms of which one is made.
+enum class LawSearch { whole, brief };
 /// The declared mechanism itself where nothing of this was identified.
-JointAsItIs as_it_is(const DeclaredMechanism& declared);
+JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search = LawSearch::whole);
 
 /// The joint that a measurement is held against: as it is, with the pulley that was made for it. Nothing is left in
 /// `identified`.

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "fusee/mechanism/mechanism.h"
+#include "fusee/transmission/guide_friction.h"
 #include "fusee/transmission/transmission.h"
 
 namespace fusee {
@@ -59,10 +60,11 @@ struct UpperSpans;  // both upper spans over the joint's angles, looked up
 /// another `lower`.
 struct JointModel {
   std::array<PinPlace, 2> pins;  ///< left, right, as mounted
+  double lever = 0;              ///< OC, at whose end a tip force acts, mm
   std::function<std::array<LowerPath, 2>(double alpha)> lower;
   std::function<double(double alpha)> expected;  ///< about where θ will be: a root finder's start
   double EA = 0;                                 ///< stiffness of a tendon's section: tension per strain, N
-  double mu = 0;                                 ///< of the pins
+  GuideFriction guide;                           ///< of the pins or idlers
   double pretension = 0;                         ///< of tendon 1 at home, unloaded, N
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
   double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm

@@ -15,7 +15,8 @@
 
 namespace fusee {
 
-enum class FieldKind { number, range, choice, text, boolean, numbers, texts };
+/// range: two numbers, the first the lower one, with 0 between them. point: two numbers, across and along.
+enum class FieldKind { number, range, choice, text, boolean, numbers, texts, point };
 
 struct Field {
   std::string_view table;   ///< "joint"; "" for the keys at the top of the file
@@ -30,6 +31,11 @@ struct Field {
   std::string_view only_when;
   /// Default as it would be written in the file ("0.12", "\"u\"", "true"); "" when there is none.
   std::string_view fallback;
+  /// What holds where a key that has no default of its own is left out, in words ("[0, length_mm]").
+  std::string_view otherwise;
+  /// Of a key that a file mostly goes without: whether this mechanism has it. Null: it always stands in what is
+  /// written.
+  bool (*is_set)(const DeclaredMechanism&) = nullptr;
   /// Inclusive bounds in the file's unit for numbers and both ends of ranges.
   double least = 0;
   double most = 0;
@@ -37,7 +43,7 @@ struct Field {
   std::vector<std::string_view> choices;  ///< of a choice
   std::string_view meaning;               ///< one line
 
-  /// In the file's unit. number: the value; range: `end` 0 or 1. Only for number and range.
+  /// In the file's unit. number: the value; range and point: `end` 0 or 1. Only for these.
   std::function<double(const DeclaredMechanism&, int end)> get;
   std::function<void(DeclaredMechanism&, int end, double value)> set;
   /// choice, text and boolean ("true"/"false").
@@ -67,7 +73,11 @@ const FormerKey* find_former_key(std::string_view name);
 double number_of(const Mechanism& mechanism, const Field& field, int end = 0);
 void set_number(Mechanism& mechanism, const Field& field, int end, double value);
 
-/// A number that can be turned: a field of kind number, or one end of a range ("joint.range_deg[0]").
+/// The number with the fewest digits, in the file's unit, that reads back as what the mechanism holds: what a person
+/// would have written. Only for number, range and point.
+std::string number_text(const Field& field, const DeclaredMechanism& mechanism, int end);
+
+/// A number that can be turned: a field of kind number, or one of two ("joint.range_deg[0]").
 struct NumberKey {
   const Field* field = nullptr;
   int end = 0;

@@ -20,13 +20,31 @@
 
 namespace fusee {
 
+/// Where a tendon ends, in the link's frame at home. mm
+struct Attachment {
+  double across = 0;  ///< to the right
+  double along = 0;   ///< along OC
+
+  bool operator==(const Attachment&) const = default;
+};
+
 struct Joint {
   double R = 0;          ///< OC, from the joint axis to the tendons' attachment
   double theta_min = 0;  ///< rad, < 0 or = 0: home lies within the range
   double theta_max = 0;  ///< rad
+  /// Of the drum itself about O, fixed to the link; 0: none. A tendon that would cut it lies on it, its centre line
+  /// half its thickness further out, as on a pin.
+  double drum_radius = 0;
+  std::optional<Attachment> attachment1 = std::nullopt;  ///< of tendon 1 where it is not C
+  std::optional<Attachment> attachment2 = std::nullopt;
 
   bool operator==(const Joint&) const = default;
+
+  /// Both tendons end in C, and there is no drum: the joint of the paper.
+  bool is_plain() const { return drum_radius == 0 && !attachment1 && !attachment2; }
 };
+
+enum class GuideKind { pin, idler };
 
 struct Guides {
   double EB = 0;      ///< pin B stands at (−EB, −OE)
@@ -36,6 +54,9 @@ struct Guides {
   double mu = 0;      ///< capstan coefficient at the pins
   /// D stands lower than B by this, at (ED, −OE − this). No key has it: joints are found to be so (mounted()).
   double D_below_B = 0;
+  GuideKind kind = GuideKind::pin;  ///< idler: turns on a bearing, and the tendon does not slide on it
+  double bearing_radius = 0;        ///< of an idler's bearing, where its friction acts
+  double bearing_friction = 0;
 
   bool operator==(const Guides&) const = default;
 };
@@ -229,6 +250,10 @@ struct Mechanism {
   double seen_pitch_radius() const { return pulley.method == Method::paper ? 0.0 : guide_pitch_radius(); }
   /// Whether a pin is a point, for everything that asks.
   bool has_point_pins() const { return seen_pitch_radius() == 0; }
+  /// Of the drum, to the centre line of a tendon that lies on it; 0 without a drum. mm
+  double drum_pitch_radius() const { return joint.drum_radius != 0 ? joint.drum_radius + 0.5 * tendon.diameter : 0.0; }
+  /// The joint that optimize's closed formulas are of: one lever point, and pins.
+  bool is_papers() const { return joint.is_plain() && guides.kind == GuideKind::pin; }
   /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
   double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
 };

@@ -33,8 +33,8 @@ struct Judge {
   std::function<bool(const Mechanism&)> made = {};
   /// A look takes long: numbers that do not help are asked less often the further they are turned.
   bool is_dear = false;
-  /// How many makings what was looked at so far is worth; fewer than usual where each is large. Empty: as many as
-  /// usual.
+  /// How many more makings what was looked at so far is worth; fewer than usual where each is large. Empty: as many
+  /// as usual.
   std::function<int()> makings = {};
 };
 

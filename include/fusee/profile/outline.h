@@ -38,4 +38,9 @@ struct Outline {
 /// The parallel curve at `distance` (outward positive): point i moves along its normal. The groove floor is parallel(o, −d/2).
 Polygon parallel(const Outline& outline, double distance);
 
+/// How far a convex curve through two points lies off their chord at most, mm: as an arc does (chord · turn / 8), but
+/// no further than the tangents at both ends meet. Where all the turn is at one end, as on the bridge over a hollow,
+/// that is next to nothing. `from` and `to` are points on the curve, their normals at `psi_from` and `psi_to`, rad.
+double sagitta(const Vec2& from, double psi_from, const Vec2& to, double psi_to);
+
 }  // namespace fusee

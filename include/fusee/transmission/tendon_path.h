@@ -1,10 +1,11 @@
 /// \file
-/// The upper half of a tendon: from the attachment C over its guide pin. Moment arm, lengths, and their derivatives, in
-/// closed form.
+/// The upper half of a tendon: from its attachment, over the joint's drum where it lies on one, and over its guide pin.
+/// Moment arm, lengths, and their derivatives, in closed form.
 ///
 /// One derivation serves both tendons: tendon 1 is the mirror image of tendon 2 (x → −x, θ → −θ, α → −α).
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "fusee/base/plane.h"
@@ -26,7 +27,10 @@ struct PinPlace {
   double oe;   ///< OE
   double ef;   ///< EF: the pulley's axis stands at (0, −OE − EF)
   double rho;  ///< ρp: pin radius to the tendon's centre line (0: a point)
-  double R;    ///< OC
+  double R;    ///< from O to the tendon's end: OC
+  double twist = 0;  ///< that end's angle at home, clockwise from OC, rad
+  double drum = 0;   ///< ρ0: drum radius to the tendon's centre line, R or less; 0: there is none
+  bool at_C = true;  ///< the end is C, and moves with it
 
   Vec2 pin() const { return {e, -oe}; }
   Vec2 pulley_axis() const { return {0.0, -oe - ef}; }
@@ -35,20 +39,31 @@ struct PinPlace {
   double phi() const { return std::atan2(ef, e); }
 };
 
+/// An end between the drum's surface and its pitch circle is taken onto that circle: there the tendon comes out of the
+/// drum.
 PinPlace pin_place(const Mechanism& mechanism, Side side, double rho);
 
-/// The span from C to its tangent point on the pin, in the right-hand image, at joint angle `theta` of that image.
+/// Of the right-hand image: where it is larger the tendon is free of the drum, elsewhere on it. Null without a drum,
+/// and where the pin stands in it.
+std::optional<double> lift_off(const PinPlace& place);
+
+/// The span from the tendon's end to its tangent point on the pin, in the right-hand image, at joint angle `theta` of
+/// that image.
 struct UpperSpan {
   double m = 0;       ///< moment arm about O: −dL/dθ, mm [4]
   double dm = 0;      ///< dm/dθ
   double d2m = 0;     ///< d²m/dθ²
-  double free = 0;    ///< C to the tangent point, mm [2],[3]
-  double normal = 0;  ///< direction of the line's outward normal, rad
+  double free = 0;    ///< C to the tangent point, over the drum, mm [2],[3]
+  double normal = 0;  ///< direction of the line's outward normal at the pin, rad
   /// free + ρp · normal: the tendon's length above any fixed point of the pin's rim, but for a constant. mm
   double length = 0;
+  double dnormal = 0;     ///< d normal/dθ
+  double d2normal = 0;    ///< d² normal/dθ²
+  double end_normal = 0;  ///< of the line at the tendon's end, rad: `normal` but for what lies on the drum
+  double on_drum = 0;     ///< angle over which the tendon lies on the drum, rad
 };
 
-/// NaN throughout where C lies within the pin's circle.
+/// NaN throughout where the tendon's end lies within the pin's circle, or the pin in the drum.
 UpperSpan upper_span(const PinPlace& place, double theta);
 
 }  // namespace fusee

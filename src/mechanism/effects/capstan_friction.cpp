@@ -4,7 +4,9 @@ namespace fusee {
 namespace {
 
 double total(double added, const Mechanism& declared) {
-  return declared.guides.mu + added > 0 ? declared.guides.mu + added : 0.0;
+  const Guides& guides = declared.guides;
+  const double there = guides.kind == GuideKind::idler ? guides.bearing_friction : guides.mu;
+  return there + added > 0 ? there + added : 0.0;
 }
 
 }  // namespace
@@ -33,15 +35,16 @@ Effect capstan_friction(JointKind kind) {
                                 "of a joint declared by a ratio: half loop per unit of load")}};
     return effect;
   }
-  effect.parameters = {{.name = "mu",
-                        .number = [](Imperfections& at) -> double& { return at.pins.friction; },
-                        .least = -1,
-                        .most = 2,
-                        .step = 5e-3,
-                        .prior = 0.15,  // steel or HMPE over metal pins 0.05 to 0.4, declared 0.1 to 0.2
-                        .shown = total,
-                        .key = key::plain("friction", "", -2, 2, "added to guides.friction"),
-                        .again = WhenFoundAgain::added}};
+  effect.parameters = {
+      {.name = "mu",
+       .number = [](Imperfections& at) -> double& { return at.pins.friction; },
+       .least = -1,
+       .most = 2,
+       .step = 5e-3,
+       .prior = 0.15,  // steel or HMPE over metal pins 0.05 to 0.4, declared 0.1 to 0.2
+       .shown = total,
+       .key = key::plain("friction", "", -2, 2, "added to guides.friction, of idlers to guides.bearing_friction"),
+       .again = WhenFoundAgain::added}};
   effect.starts = {{0.1}, {0.4}};
   return effect;
 }

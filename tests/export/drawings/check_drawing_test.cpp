@@ -106,6 +106,16 @@ TEST(CheckDrawing, ANarrowSlotFails) {
   EXPECT_NEAR(check.value, 0.7, 1e-12);
 }
 
+// Any design with a bore below 1 mm ended in a failed check (campaign of seed 330001, design 9).
+TEST(CheckDrawing, ABoreIsAsNarrowAsItsShaft) {
+  Drawing drawing;
+  drawing.paths = {contour("P1_FLOOR", circle_polygon({0, 0}, 10), true, 1),
+                   contour("BORE", circle_polygon({0, 0}, 0.4), true, 2)};
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre());
+  drawing.paths[1].layer = "CUT_INNER";
+  EXPECT_THAT(failed(check_drawing(drawing)), ElementsAre("smallest_feature"));
+}
+
 TEST(CheckDrawing, AHoleOutsideItsPlateFails) {
   Drawing drawing = plate();
   drawing.paths[1].points = circle_polygon({35, 10}, 3);

@@ -1,0 +1,232 @@
+// A header that C99 and C++17 compile without a warning, in 32-bit arithmetic alone, without a library.
+
+#include <algorithm>
+#include <cmath>
+
+#include "export/model/words.h"
+#include "export/tool.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+using namespace model_words;
+
+/// What cannot end a comment nor go on over a line's end.
+std::string in_comment(const std::string& text) {
+  std::string clean;
+  for (const char c : plain(text)) clean += c == '*' || c == '\\' || c == '?' ? '_' : c;
+  return clean;
+}
+
+std::string upper(std::string text) {
+  for (char& c : text) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return text;
+}
+
+std::string array(const std::string& name, const std::vector<float>& values) {
+  std::string text = "static const float " + name + "[" + std::to_string(values.size()) + "] = {\n", line = " ";
+  constexpr std::size_t k_width = 110;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string cell = " " + c_float(values[i]) + (i + 1 < values.size() ? "," : "");
+    if (line.size() + cell.size() > k_width) {
+      text += line + "\n";
+      line = " ";
+    }
+    line += cell;
+  }
+  return text + line + "};\n\n";
+}
+
+/// The words and numbers that differ between a table in degrees and one in counts.
+class Header {
+ public:
+  explicit Header(const ModelProduct& product)
+      : product_(product), table_(product.table), p_(product.prefix), P_(upper(product.prefix)) {}
+
+  std::string text() const {
+    std::string text = comment() + "#ifndef " + P_ + "_JOINT_TABLE_H\n#define " + P_ +
+                       "_JOINT_TABLE_H\n\n#include <stdint.h>\n\n" + limits();
+    const std::vector<std::string> names = way_names();
+    for (std::size_t way = 0; way < names.size(); ++way) {
+      text += array(p_ + "_theta" + names[way] + "_table", table_.ways[way].theta);
+      text += array(p_ + "_motor" + names[way] + "_table", table_.ways[way].motor);
+    }
+    text += array(p_ + "_slope_table", table_.slope);
+    if (!table_.holding.empty()) text += array(p_ + "_holding_table", table_.holding);
+    text += lookup();
+    for (std::size_t way = 0; way < names.size(); ++way) text += both_ways_round(names[way], table_.ways[way]);
+    if (names.size() > 1) text += middle();
+    return text + torques() + (table_.unit.ticks ? unwrap() : "") + "#endif\n";
+  }
+
+ private:
+  bool ticks() const { return table_.unit.ticks; }
+  std::string motor_type() const { return ticks() ? "int32_t" : "float"; }
+  std::string motor_word() const { return ticks() ? "count" : "alpha_deg"; }
+  std::vector<std::string> way_names() const {
+    return table_.ways.size() > 1 ? std::vector<std::string>{"_up", "_down"} : std::vector<std::string>{""};
+  }
+  long long whole(double value) const { return std::llround(value); }
+  std::string zero() const { return std::to_string(whole(table_.unit.zero)); }
+
+  std::string comment() const {
+    const TableErrors& errors = table_.errors;
+    std::vector<std::string> lines{"joint_table.h: " + product_.mechanism.name + ", by " + std::string(k_tool) +
+                                   " model"};
+    const std::vector<std::string> source = of_curve(product_.curves.shown, product_, true);
+    lines.insert(lines.end(), source.begin(), source.end());
+    const AngleMap& map = product_.curves.shown.middle;
+    const auto degs = [](double angle) { return rounded(degrees(angle), 6); };
+    lines.push_back("alpha (motor) from " + degs(map.alpha_min) + " to " + degs(map.alpha_max) +
+                    " deg, theta (joint) from " + degs(map.theta_min) + " to " + degs(map.theta_max) +
+                    " deg; beyond its ends every table stands still.");
+    lines.push_back("Straight lines between " + std::to_string(table_.pieces + 1) +
+                    " entries, in 32-bit arithmetic, miss that by");
+    lines.push_back("  " + at_most_deg(errors.theta) + " deg at most in theta read from the motor,");
+    lines.push_back("  " + at_most_deg(errors.returned) +
+                    " deg at most in the theta at which the motor leaves the joint when sent to what is read");
+    lines.push_back("  from theta (" + at_most_deg(errors.motor) + " deg at most at the motor).");
+    if (ticks()) {
+      const double half = k_pi / std::abs(table_.unit.per_turn);
+      double steepest = 0;
+      for (const float slope : table_.slope) steepest = std::max(steepest, double(slope));
+      lines.push_back("Motor in counts: " + rounded(std::abs(table_.unit.per_turn), 9) + " a turn, " +
+                      (table_.unit.per_turn < 0 ? "fewer" : "more") + " as alpha grows, " + zero() +
+                      " at alpha = 0. They go on over the end of a turn:");
+      lines.push_back("an encoder that begins anew each turn goes through " + p_ + "_unwrap(). A whole count is " +
+                      at_most_deg(half * steepest) + " deg of theta off at most.");
+    }
+    lines.push_back(
+        "Slope: d(theta)/d(alpha) = joint speed per motor speed = motor torque per joint torque without friction.");
+    if (table_.ways.size() > 1)
+      lines.push_back(
+          "_up: the motor came from below (alpha grew), _down: from above; without either: the middle of both.");
+    if (table_.holding.empty()) {
+      lines.push_back("[load] of the file is empty: there is no torque to hold it.");
+    } else {
+      lines.push_back(
+          "Holding torque: what the motor needs towards +alpha to hold [load] of the file, without friction, N mm.");
+    }
+    std::string text = "/*\n";
+    for (const std::string& line : lines) text += " * " + in_comment(line) + "\n";
+    return text + " */\n";
+  }
+
+  std::string limits() const {
+    return "#define " + P_ + "_THETA_FIRST_DEG (" + c_float(table_.theta_first) + ")\n#define " + P_ +
+           "_THETA_LAST_DEG (" + c_float(table_.theta_last) + ")\n\n";
+  }
+
+  std::string lookup() const {
+    return "static inline float " + p_ +
+           "_between(const float *table, float at) {\n"
+           "  int i;\n"
+           "  if (!(at > 0.0f)) return table[0];\n"
+           "  if (!(at < " +
+           c_float(static_cast<float>(table_.pieces)) + ")) return table[" + std::to_string(table_.pieces) +
+           "];\n"
+           "  i = (int)at;\n"
+           "  return table[i] + (at - (float)i) * (table[i + 1] - table[i]);\n"
+           "}\n\n";
+  }
+
+  /// Steps of a table per unit of what it is read by.
+  std::string per_step(float first, float last) const {
+    return c_float(static_cast<float>(table_.pieces / (double(last) - double(first))));
+  }
+
+  /// The place in a table of the motor's angle.
+  std::string motor_place(const OneWayTable& way) const {
+    std::string value = motor_word();
+    if (ticks()) {
+      // Clamped before the difference is taken, just beyond the ends, so that no count is too far off.
+      const long long low = whole(std::floor(table_.unit.zero + double(way.first))) - 1,
+                      high = whole(std::ceil(table_.unit.zero + double(way.last))) + 1;
+      value = "(float)((count < " + std::to_string(low) + " ? " + std::to_string(low) + " : count > " +
+              std::to_string(high) + " ? " + std::to_string(high) + " : count) - (" + zero() + "))";
+    }
+    return "(" + value + " - (" + c_float(way.first) + ")) * " + per_step(way.first, way.last);
+  }
+
+  std::string motor_value(const std::string& value) const {
+    if (!ticks()) return "  return " + value + ";\n";
+    return "  const float count = " + value + ";\n  return " + zero() +
+           " + (int32_t)(count < 0.0f ? count - 0.5f : count + 0.5f);\n";
+  }
+
+  std::string both_ways_round(const std::string& way, const OneWayTable& table) const {
+    const std::string theta = p_ + "_theta" + way, motor = p_ + (ticks() ? "_count" : "_alpha") + way;
+    return "/* The joint's angle, deg. */\nstatic inline float " + theta + "_deg(" + motor_type() + " " + motor_word() +
+           ") {\n  return " + p_ + "_between(" + theta + "_table, " + motor_place(table) +
+           ");\n}\n\n/* Where the motor must stand for it. */\nstatic inline " + motor_type() + " " + motor +
+           (ticks() ? "" : "_deg") + "(float theta_deg) {\n" +
+           motor_value(p_ + "_between(" + p_ + "_motor" + way + "_table, (theta_deg - (" + c_float(table_.theta_first) +
+                       ")) * " + per_step(table_.theta_first, table_.theta_last) + ")") +
+           "}\n\n";
+  }
+
+  std::string middle() const {
+    const std::string motor = p_ + (ticks() ? "_count" : "_alpha");
+    const std::string half = ticks() ? "" : "0.5f * ", after = ticks() ? " / 2" : "";
+    std::string sum = motor + "_up" + (ticks() ? "" : "_deg") + "(theta_deg) + " + motor + "_down" +
+                      (ticks() ? "" : "_deg") + "(theta_deg)";
+    // Half of each: the sum of two counts may be too large.
+    if (ticks()) sum = motor + "_up(theta_deg) + (" + motor + "_down(theta_deg) - " + motor + "_up(theta_deg))";
+    return "/* The middle of both ways. */\nstatic inline float " + p_ + "_theta_deg(" + motor_type() + " " +
+           motor_word() + ") {\n  return 0.5f * (" + p_ + "_theta_up_deg(" + motor_word() + ") + " + p_ +
+           "_theta_down_deg(" + motor_word() + "));\n}\n\nstatic inline " + motor_type() + " " + motor +
+           (ticks() ? "" : "_deg") + "(float theta_deg) {\n  return " +
+           (ticks() ? sum + after : half + "(" + sum + ")") + ";\n}\n\n";
+  }
+
+  std::string torques() const {
+    const std::string place = motor_place(table_.ways.front()), argument = motor_type() + " " + motor_word();
+    std::string text =
+        "/* d(theta)/d(alpha). */\nstatic inline float " + p_ + "_slope(" + argument + ") {\n  return " + p_ +
+        "_between(" + p_ + "_slope_table, " + place +
+        ");\n}\n\n/* Motor torque for a joint torque, without friction: virtual work. */\nstatic inline float " + p_ +
+        "_motor_torque(" + argument + ", float joint_torque) {\n  return joint_torque * " + p_ + "_slope(" +
+        motor_word() + ");\n}\n\n/* Speed of the joint for a speed of the motor. */\nstatic inline float " + p_ +
+        "_joint_speed(" + argument + ", float motor_speed) {\n  return motor_speed * " + p_ + "_slope(" + motor_word() +
+        ");\n}\n\n";
+    if (!table_.holding.empty())
+      text += "/* Motor torque that holds the declared load, N mm. */\nstatic inline float " + p_ +
+              "_holding_torque_Nmm(" + argument + ") {\n  return " + p_ + "_between(" + p_ + "_holding_table, " +
+              place + ");\n}\n\n";
+    return text;
+  }
+
+  std::string unwrap() const {
+    const std::string turn = std::to_string(whole(std::abs(table_.unit.per_turn)));
+    return "/* The count nearest to the last one that an encoder shows as `reading` (0 to " + turn +
+           " - 1). Called at least twice a turn. */\n"
+           "static inline int32_t " +
+           p_ +
+           "_unwrap(int32_t reading, int32_t last) {\n"
+           "  int32_t step = (reading - last % " +
+           turn + ") % " + turn +
+           ";\n"
+           "  if (step > " +
+           turn + " / 2) step -= " + turn +
+           ";\n"
+           "  if (step < -(" +
+           turn + " / 2)) step += " + turn +
+           ";\n"
+           "  return last + step;\n"
+           "}\n\n";
+  }
+
+  const ModelProduct& product_;
+  const JointTable& table_;
+  std::string p_, P_;
+};
+
+}  // namespace
+
+std::string joint_table_h(const ModelProduct& product) { return Header(product).text(); }
+
+}  // namespace fusee

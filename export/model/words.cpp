@@ -1,0 +1,169 @@
+#include "export/model/words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/transmission/load.h"
+
+namespace fusee {
+
+std::string c_prefix(const std::string& name) {
+  std::string prefix;
+  for (const char c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
+    if (letter || (digit && !prefix.empty())) {
+      prefix += c;
+    } else if (!prefix.empty() && prefix.back() != '_') {
+      prefix += '_';
+    }
+  }
+  while (!prefix.empty() && prefix.back() == '_') prefix.pop_back();
+  constexpr std::size_t k_longest = 40;
+  return prefix.empty() ? "joint" : prefix.substr(0, k_longest);
+}
+
+namespace model_words {
+namespace {
+
+/// A round bar of 8 mm that tapers nowhere: what a printed or bought link of this length weighs about.
+constexpr double k_link_per_mm = 0.125e-3;  // kg
+/// Of a small geared servo at its output, pulley included.
+constexpr double k_rotor = 1e-3;            // kg m²
+constexpr double k_least_effort = 1;        // N m
+constexpr double k_steps_per_constant = 4;  // two is the least that a simulator takes
+constexpr double k_speed = 6.283;           // rad/s: 60 rpm
+
+}  // namespace
+
+std::string number(double value) { return rounded(value, 12); }
+std::string coefficient(double value) { return rounded(value, 9); }
+
+std::string c_float(float value) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof(text), value == 0.0f ? 0.0f : value);
+  std::string result(text, end);
+  if (result.find_first_of(".e") == std::string::npos) result += ".0";
+  return result + "f";
+}
+
+std::string at_most_deg(double angle) {
+  const double value = std::abs(degrees(angle));
+  constexpr double k_rounding = 1e-6;  // below that is what the last digits do
+  if (!(value > k_rounding)) return "0.000001";
+  const double scale = std::pow(10.0, 1 - std::floor(std::log10(value)));
+  return rounded(std::ceil(value * scale * (1 - 1e-9)) / scale, 3);
+}
+
+std::vector<std::string> of_curve(const JointCurve& curve, const ModelProduct& product, bool shown) {
+  std::vector<std::string> lines;
+  switch (curve.source) {
+    case CurveSource::law:
+      lines.push_back("The joint as declared: theta(alpha) is the law of the file, each way the same.");
+      break;
+    case CurveSource::identified:
+      lines.push_back(
+          "The joint as identified ([identified]), with the pulley that 'fusee build' makes of this file, simulated");
+      lines.push_back(
+          std::string("there and back under its declared load. alpha: what the motor's sensor shows; theta: ") +
+          (shown ? "what the joint's" : "where the"));
+      lines.push_back(shown ? "sensor shows." : "joint stands, the middle of both ways.");
+      break;
+    case CurveSource::compensation:
+      lines.push_back("From " + product.compensation +
+                      ", over the declared law between its rows. alpha: what the motor's sensor");
+      lines.push_back("shows; theta: what the joint's sensor shows.");
+      break;
+  }
+  if (curve.loop > 0)
+    lines.push_back("Moving up and moving down lie up to 2 x " + at_most_deg(curve.loop) + " deg apart at the joint.");
+  return lines;
+}
+
+std::string plain(const std::string& text) {
+  std::string clean;
+  for (const char c : text) clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  return clean;
+}
+
+std::string xml_comment(const std::vector<std::string>& lines) {
+  std::string text = "<!--\n";
+  for (const std::string& words : lines) {
+    std::string line = plain(words);
+    // "--" ends a comment too early.
+    for (std::size_t at = line.find("--"); at != std::string::npos; at = line.find("--", at))
+      line.replace(at, 2, "- -");
+    text += "  " + line + "\n";
+  }
+  return text + "-->\n";
+}
+
+std::string xml_attribute(const std::string& text) { return escape_html(plain(text)); }
+
+SimulatedBody body_of(const ModelProduct& product) {
+  const Mechanism& mechanism = product.mechanism;
+  const Load& load = mechanism.load;
+  const double R = mechanism.joint.R * 1e-3;
+  SimulatedBody body;
+  body.weighs = load.mass > 0;
+  body.mass = body.weighs ? load.mass : k_link_per_mm * mechanism.joint.R;
+  body.lever = body.weighs ? load.lever * 1e-3 : 0.5 * R;
+  body.inertia = body.mass * R * R / 12;
+  if (body.weighs) {
+    body.words.push_back("Link: " + rounded(body.mass) + " kg at " + rounded(load.lever) +
+                         " mm along OC, from [load]; straight up at theta = " + rounded(degrees(load.tilt)) + " deg.");
+    body.words.push_back("Assumed: its moment of inertia about its centre is that of a thin rod as long as OC.");
+  } else {
+    body.words.push_back("[load] has no mass: the joint's axis stands upright, and weight turns nothing.");
+    body.words.push_back("Assumed: the link is a rod along OC of 0.125 g a millimetre, " + rounded(body.mass) + " kg.");
+  }
+  body.load = (load.tip_force * mechanism.joint.R + load.torque) * 1e-3;
+  if (body.load != 0) {
+    body.inertia += std::abs(body.load) / k_gravity * R;
+    body.words.push_back("Tip force and torque of [load]: " + rounded(body.load) +
+                         " N m against +theta at every angle.");
+    body.words.push_back("Assumed: they have the inertia of a weight at C that pulls as much.");
+  }
+  double most = 0, steepest = 0, heaviest = 0;
+  const AngleMap& map = product.curves.stands.middle;
+  constexpr int looks = 20;
+  for (int i = 0; i <= looks; ++i) {
+    const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / looks), g = map.slope(alpha);
+    steepest = std::max(steepest, g);
+    const double torque = std::abs(load_torque(mechanism, map.theta(alpha))) * 1e-3;
+    heaviest = std::max(heaviest, torque);
+    most = std::max(most, g * torque);
+  }
+  const Transmission law(mechanism);
+  body.pulley_radius = law.at_alpha(0).t1.p * 1e-3;
+  // What a motor sees of the link, and the rotor of a motor that is fit for it: matched, or a small servo's at its
+  // output.
+  const double link = body.inertia + body.mass * body.lever * body.lever, seen = link * steepest * steepest;
+  body.armature = std::stod(rounded(std::max(k_rotor, seen), 3));
+  // A position servo that follows at 20 Hz, and gives way by 5 deg at most under three times the load.
+  const double inertia = body.armature + seen;
+  constexpr double k_follows = k_two_pi * 20, k_gives_way = radians(5);
+  body.kp = std::max(inertia * k_follows * k_follows, 3 * most / k_gives_way);
+  body.kv = 2 * std::sqrt(body.kp * inertia);
+  // Constraints give way by (1 - d) a t²: d their impedance, t their time constant, a what the load would turn link and
+  // motor with, were they free. 1e-5 rad is a tenth of what a table may miss.
+  constexpr double k_softness = 1e-4, k_give = 1e-5;
+  const double turned = heaviest * (1 / link + 1 / body.armature);
+  const double most_constant = turned > 0 ? std::sqrt(k_give / (k_softness * turned)) : 1;
+  const double step = std::min({1e-3, 0.1 * std::sqrt(inertia / body.kp), most_constant / k_steps_per_constant});
+  body.timestep = std::stod(rounded(step, 1));
+  if (body.timestep > step) body.timestep = std::stod(rounded(0.5 * step, 1));
+  body.constant = k_steps_per_constant * body.timestep;
+  body.effort = std::max(k_least_effort, 3 * most);
+  body.speed = k_speed;
+  body.words.push_back("Assumed: motor and pulley together turn like " + rounded(body.armature) +
+                       " kg m2 about alpha, no less than link and load seen from there;");
+  body.words.push_back("the motor has " + rounded(body.effort) + " N m and " + rounded(body.speed) +
+                       " rad/s. Put your own in their place.");
+  return body;
+}
+
+}  // namespace model_words
+}  // namespace fusee

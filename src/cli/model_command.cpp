@@ -1,0 +1,218 @@
+#include <cmath>
+#include <filesystem>
+
+#include "base/output_list.h"
+#include "cli/as_built.h"
+#include "cli/command.h"
+#include "cli/steps.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "fusee/pipeline/model.h"
+
+namespace fusee::cli {
+namespace {
+
+constexpr double k_smallest_limit_deg = 1e-6;
+constexpr double k_most_ticks = 1e8;
+
+double whole_number(const Arguments& arguments, std::string_view option, double fallback, double most) {
+  const double value = arguments.number(option, fallback, -most, most, "(a whole number)");
+  if (value != std::floor(value))
+    throw UsageError(std::string(option) + " must be a whole number; " + shortest(value) + " is none");
+  return value;
+}
+
+/// What stands before every name of the header.
+std::string prefix_from(const Arguments& arguments) {
+  const std::string prefix = arguments.text("--prefix").value_or("");
+  constexpr std::size_t k_longest = 40;
+  if (arguments.has("--prefix") && (prefix != c_prefix(prefix) || prefix.size() > k_longest))
+    throw UsageError(
+        "--prefix must be a name of C of letters, digits and single '_', at most 40; '" + prefix + "' is not",
+        "for example: --prefix " + c_prefix(prefix));
+  return prefix;
+}
+
+ModelOptions model_options_from(const Arguments& arguments) {
+  ModelOptions options;
+  options.most_error = radians(arguments.number("--max-error-deg", degrees(options.most_error), k_smallest_limit_deg,
+                                                k_largest_limit_deg, "deg"));
+  options.most_table_error = radians(arguments.number("--max-table-error-deg", degrees(options.most_table_error),
+                                                      k_smallest_limit_deg, k_largest_limit_deg, "deg"));
+  if (arguments.has("--ticks-per-turn")) {
+    options.unit = {whole_number(arguments, "--ticks-per-turn", 0, k_most_ticks), true,
+                    whole_number(arguments, "--zero-ticks", 0, 1e9)};
+    if (std::abs(options.unit.per_turn) < 2)
+      throw UsageError("--ticks-per-turn must be 2 or more, or -2 or less where counts fall as alpha grows");
+  } else if (arguments.has("--zero-ticks")) {
+    throw UsageError("--zero-ticks says what the encoder shows at home, in counts", "give --ticks-per-turn too");
+  }
+  options.declared = arguments.has("--declared");
+  options.with_polynomial = !arguments.has("--no-polynomial");
+  if (const auto given = arguments.text("--compensation")) {
+    if (given->empty()) throw UsageError("--compensation takes a file, or none");
+    options.compensation = *given == "none" ? std::filesystem::path() : std::filesystem::path(*given);
+  } else if (options.declared) {
+    options.compensation = std::filesystem::path();  // what was found is left out
+  }
+  options.prefix = prefix_from(arguments);
+  options.force = arguments.has("--force");
+  options.dry_run = arguments.has("--dry-run");
+  const std::filesystem::path spec = arguments.positionals().front();
+  options.folder =
+      arguments.text("--out").value_or(("out" / std::filesystem::path(spec.stem().string() + "_model")).string());
+  return options;
+}
+
+/// Nothing is nearer than a millionth: below that is what the last digits do.
+std::string deg_text(double angle) {
+  return angle < radians(1e-6) ? "0.000001 deg" : rounded(degrees(angle), 2) + " deg";
+}
+
+// ---- what is said ---------------------------------------------------------------------------------------------------
+
+void add_changes(const std::vector<ModelChange>& changes, Reply& reply) {
+  Json list = Json::array();
+  for (const ModelChange& change : changes) {
+    Diagnostic diagnostic = note(Severity::note, "it would be possible with " + change.words);
+    reply.diagnostics.push_back(diagnostic);
+    Json entry = {{"text", change.words}};
+    if (!change.key.empty()) {
+      entry["key"] = change.key;
+      entry["value"] = change.value;
+    }
+    list.push_back(entry);
+  }
+  reply.fields["advice"] = list;
+}
+
+/// Why there is no model. False where there is one.
+bool explain_refusal(const ModelResult& result, const ModelOptions& options, Reply& reply) {
+  const ModelProduct& product = result.product;
+  const auto refuse = [&](const std::string& words) {
+    reply.diagnostics.push_back(about_file(Severity::error, product.file.path, words));
+    reply.exit = Exit::infeasible;
+    add_changes(result.changes, reply);
+  };
+  switch (result.ending) {
+    case ModelEnding::no_law:
+      explain_without_law(product.file.path, *result.without_law, reply);
+      return true;
+    case ModelEnding::no_equilibrium:
+      refuse(
+          "the joint as identified has no equilibrium to move through under its declared load: 'fusee analyze' says "
+          "where; --declared leaves out what was identified");
+      return true;
+    case ModelEnding::polynomial_off:
+      reply.fields["polynomial_error_deg"] = degrees(product.equality.error);
+      refuse("joint.xml would miss theta(alpha) by " + deg_text(product.equality.error) +
+             ": MuJoCo's polynomials end at degree 4, and --max-error-deg is " + rounded(degrees(options.most_error)));
+      return true;
+    case ModelEnding::table_off:
+      refuse("a table of " + std::to_string(k_most_pieces) + " pieces misses more than " +
+             rounded(degrees(options.most_table_error)) + " deg (--max-table-error-deg)");
+      return true;
+    case ModelEnding::done:
+    case ModelEnding::check_failed:
+      break;
+  }
+  return false;
+}
+
+std::string model_summary(const ModelResult& made, const ModelOptions& options) {
+  const ModelProduct& product = made.product;
+  const JointTable& table = product.table;
+  std::string text = product.mechanism.name + ": the joint for other programs\n";
+  text += std::string("  table             ") +
+          (product.curves.shown.source == CurveSource::law ? "of the declared law"
+           : product.curves.shown.source == CurveSource::identified
+               ? "of the joint as identified, from below and from above"
+               : "of " + product.compensation + ", from below and from above") +
+          "\n";
+  text += "  theta is off by at most\n";
+  if (product.with_polynomial)
+    text += "    joint.xml       " + deg_text(product.equality.error) + " (polynomial of degree 4)\n";
+  if (product.tendons)
+    text += "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " +
+            (product.tendons->held == Side::left ? "1" : "2") + " over its pin)\n";
+  text += "    joint.urdf      " + deg_text(product.line.error) + " (a straight line; joint_ros2_control.urdf too)\n";
+  text += "    joint_table.h   " + deg_text(std::max(table.errors.theta, table.errors.returned)) + " (" +
+          std::to_string(table.pieces + 1) + " entries; joint_table.json too)\n";
+  if (product.curves.stands.loop > 0)
+    text += "  simulators follow the middle of both ways: " + deg_text(product.curves.stands.loop) +
+            " beside each at most\n";
+  if (options.dry_run) return text + "  files             none written (--dry-run)\n";
+  if (!made.published)
+    return text + "  files             none written: " + options.folder.string() + " keeps its earlier run\n";
+  return text + "  files             in " + options.folder.string() + "\n";
+}
+
+Json errors_json(const ModelProduct& product) {
+  Json json = Json::object();
+  if (product.with_polynomial) json["joint.xml"] = degrees(product.equality.error);
+  if (product.tendons) json["joint_tendons.xml"] = degrees(product.tendons->error);
+  json["joint.urdf"] = json["joint_ros2_control.urdf"] = degrees(product.line.error);
+  json["joint_table.h"] = json["joint_table.json"] =
+      degrees(std::max(product.table.errors.theta, product.table.errors.returned));
+  return json;
+}
+
+Reply run_model(const Arguments& arguments, Console& console) {
+  ModelOptions options = model_options_from(arguments);
+  const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
+  Steps steps(console);
+  options.before_step = steps.shown();
+  options.before_writing = steps.before_writing();
+  const ModelResult made = model(file, options);
+  steps.end_writing();
+  const ModelProduct& product = made.product;
+  Reply reply;
+  reply.diagnostics = product.file.warnings;
+  if (explain_refusal(made, options, reply)) return reply;
+  for (const std::string& words : product.notes)
+    reply.diagnostics.push_back(about_file(Severity::note, file.path, words));
+  reply.text = model_summary(made, options);
+  reply.fields["name"] = product.mechanism.name;
+  reply.fields["folder"] = options.folder.string();
+  reply.fields["published"] = made.published;
+  reply.fields["theta_error_deg"] = errors_json(product);
+  reply.fields["loop_deg"] = degrees(product.curves.stands.loop);
+  reply.fields["checks"] = to_json(product.checks);
+  reply.fields["outputs"] = output_list(made.outputs);
+  if (made.ending == ModelEnding::check_failed) {
+    reply.exit = Exit::check_failed;
+    add_failures(product.checks, reply);
+  }
+  return reply;
+}
+
+}  // namespace
+
+Command model_command() {
+  return {"model",
+          "SPEC",
+          "the joint for simulators and firmware",
+          "Makes files by which other programs know the joint of SPEC: joint.xml and\n"
+          "joint_tendons.xml for MuJoCo, joint.urdf, joint_ros2_control.urdf, and tables\n"
+          "theta(alpha), alpha(theta), slope and holding torque as joint_table.h (C, 32-bit\n"
+          "floats) and joint_table.json. Each says what it misses of theta(alpha), and is\n"
+          "held to that after it was written. A joint with [identified] is simulated there\n"
+          "and back: its tables know from which side the motor came. The compensation.csv\n"
+          "that 'fusee calibrate' left beside SPEC is taken where it is.",
+          {{"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>_model)"},
+           {"--max-error-deg", "DEG", "that joint.xml may miss (default 0.1)"},
+           {"--max-table-error-deg", "DEG", "that tables may miss (default 0.001)"},
+           {"--ticks-per-turn", "N",
+            "the motor's angle in counts of its encoder;\nnegative where they fall as alpha grows"},
+           {"--zero-ticks", "N", "what the encoder shows at home (default 0)"},
+           {"--compensation", "FILE", "tables of this compensation.csv; none: of no such\nfile"},
+           {"--declared", "", "leave out what was identified"},
+           {"--no-polynomial", "", "no joint.xml"},
+           {"--prefix", "NAME", "of the names in joint_table.h (default: the joint's\nname)"}},
+          {{"fusee model arm.toml", "files in out/arm_model"},
+           {"fusee model arm.toml --ticks-per-turn 4096 --zero-ticks 2048", "tables in counts"},
+           {"fusee model arm.toml --max-error-deg 0.02 --dry-run", "is a polynomial that near? writes nothing"}},
+          run_model};
+}
+
+}  // namespace fusee::cli

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/joint/as_it_is.h"
+#include "fusee/joint/simulate.h"
+#include "fusee/mechanism/effect.h"
+#include "fusee/model/model.h"
+
+namespace fusee {
+namespace {
+
+constexpr int k_looks = 2000;  ///< places of the range at which a law is looked at
+
+/// Of rows that grow in both columns, the other one at a place; the end's beyond an end.
+double between_rows(const std::vector<LawRow>& rows, double at, double LawRow::*from, double LawRow::*to) {
+  if (!(at > rows.front().*from)) return rows.front().*to;
+  if (!(at < rows.back().*from)) return rows.back().*to;
+  const auto above = std::upper_bound(rows.begin(), rows.end(), at,
+                                      [from](double value, const LawRow& row) { return value < row.*from; });
+  const LawRow &low = *(above - 1), &high = *above;
+  return std::lerp(low.*to, high.*to, (at - low.*from) / (high.*from - low.*from));
+}
+
+// ---- an identified joint --------------------------------------------------------------------------------------------
+
+/// There and back, at rest everywhere: home → top → bottom → top → bottom. The first two strokes take up play.
+BenchRun sweep(double low, double high) {
+  constexpr int steps = 600;  // a stroke; straight lines between them miss a smooth curve by a millionth of its range
+  BenchRun run;
+  const auto stroke = [&run](double from, double to) {
+    for (int i = 1; i <= steps; ++i) run.rows.push_back({0, std::lerp(from, to, double(i) / steps), 0, 0});
+  };
+  run.rows.push_back({});
+  stroke(0, high);
+  stroke(high, low);
+  stroke(low, high);
+  stroke(high, low);
+  return run;
+}
+
+/// Rows of one stroke, by growing α, as far as the joint moves on.
+std::vector<LawRow> moved(const BenchRun& run, const std::vector<JointState>& states, bool up, bool shown) {
+  const std::size_t count = run.rows.size(), steps = (count - 1) / 4;
+  std::vector<LawRow> rows;
+  for (std::size_t i = up ? count - 2 * steps - 1 : count - steps - 1; i < (up ? count - steps : count); ++i) {
+    const double theta = shown ? states[i].shown : states[i].theta;
+    if (std::isfinite(theta)) rows.push_back({run.rows[i].alpha, theta});
+  }
+  if (!up) std::reverse(rows.begin(), rows.end());
+  // What stands still until play is taken up says nothing of the motion.
+  std::vector<LawRow> growing;
+  for (const LawRow& row : rows) {
+    if (growing.empty() || row.theta > growing.back().theta + 1e-9) growing.push_back(row);
+  }
+  return growing;
+}
+
+std::vector<TwoWayRow> both_ways_of(const BenchRun& run, const std::vector<JointState>& states, const Joint& joint,
+                                    bool shown) {
+  const std::vector<LawRow> up = moved(run, states, true, shown), down = moved(run, states, false, shown);
+  if (up.size() < 2 || down.size() < 2) return {};
+  const double low = std::max({up.front().theta, down.front().theta, joint.theta_min});
+  const double high = std::min({up.back().theta, down.back().theta, joint.theta_max});
+  if (!(high > low)) return {};
+  constexpr int places = 600;
+  std::vector<TwoWayRow> rows;
+  for (int i = 0; i <= places; ++i) {
+    const double theta = std::lerp(low, high, double(i) / places);
+    rows.push_back({theta, between_rows(up, theta, &LawRow::theta, &LawRow::alpha),
+                    between_rows(down, theta, &LawRow::theta, &LawRow::alpha)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+AngleMap angle_map(const Transmission& law) {
+  AngleMap map;
+  map.alpha_min = law.alpha_min();
+  map.alpha_max = law.alpha_max();
+  map.theta_min = law.theta(map.alpha_min);
+  map.theta_max = law.theta(map.alpha_max);
+  const auto alpha_in = [low = map.alpha_min, high = map.alpha_max](double a) { return std::clamp(a, low, high); };
+  const auto theta_in = [low = map.theta_min, high = map.theta_max](double t) { return std::clamp(t, low, high); };
+  map.theta = [law, alpha_in](double alpha) { return law.theta(alpha_in(alpha)); };
+  map.alpha = [law, theta_in](double theta) { return law.alpha(theta_in(theta)); };
+  map.slope = [law, alpha_in](double alpha) { return law.at_alpha(alpha_in(alpha)).g; };
+  return map;
+}
+
+AngleMap angle_map(std::vector<LawRow> rows) {
+  demand(rows.size() >= 2, "a map of " + std::to_string(rows.size()) + " rows");
+  AngleMap map;
+  map.alpha_min = rows.front().alpha;
+  map.alpha_max = rows.back().alpha;
+  map.theta_min = rows.front().theta;
+  map.theta_max = rows.back().theta;
+  const auto shared = std::make_shared<const std::vector<LawRow>>(std::move(rows));
+  map.theta = [shared](double alpha) { return between_rows(*shared, alpha, &LawRow::alpha, &LawRow::theta); };
+  map.alpha = [shared](double theta) { return between_rows(*shared, theta, &LawRow::theta, &LawRow::alpha); };
+  // Over a piece that is longer than those between rows: their corners are no slope of the joint.
+  map.slope = [theta = map.theta, low = map.alpha_min, high = map.alpha_max](double alpha) {
+    const double half = (high - low) / 60;
+    const double from = std::max(low, std::min(alpha, high) - half), to = std::min(high, std::max(alpha, low) + half);
+    return (theta(to) - theta(from)) / (to - from);
+  };
+  return map;
+}
+
+std::vector<TwoWayRow> refined(const std::vector<TwoWayRow>& rows, const Transmission& law) {
+  const AngleMap map = angle_map(law);
+  const double beyond = 0.02 * (map.theta_max - map.theta_min);
+  if (rows.front().theta < map.theta_min - beyond || rows.back().theta > map.theta_max + beyond) return rows;
+  std::vector<LawRow> up, down;
+  for (const TwoWayRow& row : rows) {
+    up.push_back({row.up - law.alpha(row.theta), row.theta});
+    down.push_back({row.down - law.alpha(row.theta), row.theta});
+  }
+  constexpr int places = 600;
+  std::vector<TwoWayRow> result;
+  for (int i = 0; i <= places; ++i) {
+    const double theta = std::lerp(rows.front().theta, rows.back().theta, double(i) / places), alpha = law.alpha(theta);
+    const TwoWayRow row{theta, alpha + between_rows(up, theta, &LawRow::theta, &LawRow::alpha),
+                        alpha + between_rows(down, theta, &LawRow::theta, &LawRow::alpha)};
+    if (!result.empty() && !(row.up > result.back().up && row.down > result.back().down)) return rows;
+    result.push_back(row);
+  }
+  return result;
+}
+
+JointCurve two_way_curve(const std::vector<TwoWayRow>& rows, CurveSource source) {
+  JointCurve curve;
+  curve.source = source;
+  std::vector<LawRow> up, down, middle;
+  for (const TwoWayRow& row : rows) {
+    up.push_back({row.up, row.theta});
+    down.push_back({row.down, row.theta});
+    middle.push_back({0.5 * (row.up + row.down), row.theta});
+  }
+  curve.middle = angle_map(middle);
+  curve.ways = {angle_map(std::move(up)), angle_map(std::move(down))};
+  for (const LawRow& row : middle) {
+    for (const AngleMap& way : *curve.ways) {
+      if (row.alpha >= way.alpha_min && row.alpha <= way.alpha_max)
+        curve.loop = std::max(curve.loop, std::abs(way.theta(row.alpha) - row.theta));
+    }
+  }
+  return curve;
+}
+
+bool grows(const Transmission& law) {
+  for (int i = 0; i <= k_looks; ++i) {
+    if (!(law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), double(i) / k_looks)).g > 0)) return false;
+  }
+  return law.alpha_max() > law.alpha_min();
+}
+
+std::optional<JointCurves> joint_curves(const DeclaredMechanism& declared) {
+  const Transmission law(declared);
+  if (declared.identified == Imperfections{}) {
+    const JointCurve curve{CurveSource::law, angle_map(law), std::nullopt, 0};
+    return JointCurves{curve, curve};
+  }
+  const DeclaredMechanism joint = expected_joint(declared);
+  if (Transmission(joint).dead_centre()) return std::nullopt;
+  const double beyond =
+      2 * declared.identified.shaft.backlash + 0.03 * (law.alpha_max() - law.alpha_min());  // where it turns round
+  const BenchRun run = sweep(law.alpha_min() - beyond, law.alpha_max() + beyond);
+  const std::vector<JointState> states =
+      simulate(joint, beyond_mechanism(declared.identified, kind_of(declared)), {run}).front();
+  const std::vector<TwoWayRow> stands = both_ways_of(run, states, declared.joint, false),
+                               shown = both_ways_of(run, states, declared.joint, true);
+  if (stands.empty() || shown.empty()) return std::nullopt;
+  return JointCurves{two_way_curve(stands, CurveSource::identified), two_way_curve(shown, CurveSource::identified)};
+}
+
+}  // namespace fusee

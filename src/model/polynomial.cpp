@@ -1,0 +1,189 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/model/model.h"
+
+namespace fusee {
+namespace {
+
+constexpr int k_points = 1000;  ///< places of the range that a fit looks at
+
+/// T_0(t) … of Chebyshev.
+Eigen::VectorXd chebyshev(double t, int degree) {
+  Eigen::VectorXd values(degree + 1);
+  values(0) = 1;
+  if (degree > 0) values(1) = t;
+  for (int k = 2; k <= degree; ++k) values(k) = 2 * t * values(k - 1) - values(k - 2);
+  return values;
+}
+
+/// The polynomial in t = (x − middle)/half as one in x.
+Polynomial in_x(const Eigen::VectorXd& c, double middle, double half) {
+  const auto degree = static_cast<int>(c.size()) - 1;
+  using Row = std::vector<double>;
+  const auto times_t = [&](const Row& row) {
+    Row result(row.size() + 1, 0);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      result[i + 1] += row[i] / half;
+      result[i] -= row[i] * middle / half;
+    }
+    return result;
+  };
+  Row before{1}, now = times_t(before), sum(static_cast<std::size_t>(degree) + 1, 0);
+  for (int k = 0; k <= degree; ++k) {
+    for (std::size_t i = 0; i < before.size(); ++i) sum[i] += c(k) * before[i];
+    Row next = times_t(now);
+    for (double& value : next) value *= 2;
+    for (std::size_t i = 0; i < before.size(); ++i) next[i] -= before[i];
+    before = std::exchange(now, std::move(next));
+  }
+  // What rounding leaves where there is nothing.
+  const double most = std::abs(middle) + std::abs(half), scale = c.lpNorm<Eigen::Infinity>();
+  double power = 1;
+  for (double& value : sum) {
+    if (std::abs(value) * power < 1e-12 * scale) value = 0;
+    power *= most;
+  }
+  return {sum};
+}
+
+/// `entering` takes the place of a point of the reference, so that signs go on alternating.
+void exchange(std::vector<std::size_t>& reference, const std::vector<double>& errors, std::size_t entering) {
+  const auto above = std::upper_bound(reference.begin(), reference.end(), entering);
+  const bool positive = errors[entering] > 0;
+  const auto same_sign = [&](std::size_t i) { return (errors[i] > 0) == positive; };
+  if (above == reference.begin()) {
+    if (same_sign(reference.front())) {
+      reference.front() = entering;
+    } else {
+      reference.insert(reference.begin(), entering);
+      reference.pop_back();
+    }
+  } else if (above == reference.end()) {
+    if (same_sign(reference.back())) {
+      reference.back() = entering;
+    } else {
+      reference.erase(reference.begin());
+      reference.push_back(entering);
+    }
+  } else {
+    *(same_sign(*(above - 1)) ? above - 1 : above) = entering;
+  }
+}
+
+/// Where α = p(θ) has `alpha`, from a start near it.
+double solved(const Polynomial& p, double alpha, double start) {
+  double theta = start;
+  for (int i = 0; i < 20; ++i) {
+    const double step = (alpha - p(theta)) / p.slope(theta);
+    if (!std::isfinite(step)) break;
+    theta += step;
+    if (std::abs(step) < 1e-14) break;
+  }
+  return theta;
+}
+
+std::vector<double> places(const AngleMap& map) {
+  std::vector<double> alphas;
+  for (int i = 0; i <= k_points; ++i) alphas.push_back(std::lerp(map.alpha_min, map.alpha_max, double(i) / k_points));
+  return alphas;
+}
+
+EqualityFit fit_of_alpha(const AngleMap& map, int degree) {
+  std::vector<FitPoint> points;
+  for (const double alpha : places(map)) points.push_back({alpha, map.theta(alpha)});
+  return measured({true, least_largest_error(points, degree).p}, map);
+}
+
+EqualityFit fit_of_theta(const AngleMap& map) {
+  std::vector<FitPoint> points;
+  for (int i = 0; i <= k_points; ++i) {
+    const double theta = std::lerp(map.theta_min, map.theta_max, double(i) / k_points), alpha = map.alpha(theta);
+    points.push_back({theta, alpha, map.slope(alpha)});
+  }
+  return measured({false, least_largest_error(points, k_equality_degree).p}, map);
+}
+
+}  // namespace
+
+double Polynomial::operator()(double x) const {
+  double value = 0;
+  for (std::size_t i = c.size(); i-- > 0;) value = value * x + c[i];
+  return value;
+}
+
+double Polynomial::slope(double x) const {
+  double value = 0;
+  for (std::size_t i = c.size(); i-- > 1;) value = value * x + static_cast<double>(i) * c[i];
+  return value;
+}
+
+// On degree + 2 of the points the best polynomial misses by the same amount with alternating signs, which is a linear
+// system. The point that it misses most enters, until it is one of them: the amount grows with each exchange.
+PolynomialFit least_largest_error(const std::vector<FitPoint>& points, int degree) {
+  const std::size_t n = static_cast<std::size_t>(degree) + 2;
+  demand(points.size() > n && points.back().x > points.front().x,
+         "a fit of " + std::to_string(points.size()) + " points");
+  const double middle = 0.5 * (points.front().x + points.back().x), half = 0.5 * (points.back().x - points.front().x);
+  std::vector<std::size_t> reference;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = 0.5 - 0.5 * std::cos(k_pi * static_cast<double>(i) / static_cast<double>(n - 1));
+    const auto at = static_cast<std::size_t>(std::lround(t * static_cast<double>(points.size() - 1)));
+    reference.push_back(reference.empty() ? at : std::max(at, reference.back() + 1));
+  }
+  Eigen::VectorXd best = Eigen::VectorXd::Zero(degree + 1);
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int k_most_exchanges = 200;
+  std::vector<double> errors(points.size());
+  for (int step = 0; step < k_most_exchanges; ++step) {
+    Eigen::MatrixXd A(n, n);
+    Eigen::VectorXd b(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const FitPoint& point = points[reference[i]];
+      const auto row = static_cast<Eigen::Index>(i);
+      A.row(row).head(degree + 1) = chebyshev((point.x - middle) / half, degree).transpose();
+      A(row, degree + 1) = (i % 2 == 0 ? 1.0 : -1.0) / point.weight;
+      b(row) = point.y;
+    }
+    const Eigen::VectorXd solution = A.partialPivLu().solve(b);
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double fitted = chebyshev((points[i].x - middle) / half, degree).dot(solution.head(degree + 1));
+      errors[i] = points[i].weight * (points[i].y - fitted);
+      if (std::abs(errors[i]) > std::abs(errors[worst])) worst = i;
+    }
+    if (const double largest = std::abs(errors[worst]); largest < least) {
+      least = largest;
+      best = solution.head(degree + 1);
+    }
+    const bool is_best = std::abs(errors[worst]) <= std::abs(solution(degree + 1)) * (1 + 1e-9) + 1e-15;
+    if (is_best || std::find(reference.begin(), reference.end(), worst) != reference.end()) break;
+    exchange(reference, errors, worst);
+  }
+  return {in_x(best, middle, half), least};
+}
+
+EqualityFit measured(EqualityFit fit, const AngleMap& map) {
+  fit.error = fit.slope_error = 0;
+  for (const double alpha : places(map)) {
+    const double theta = map.theta(alpha), slope = map.slope(alpha);
+    const double fitted = fit.of_alpha ? fit.p(alpha) : solved(fit.p, alpha, theta);
+    const double fitted_slope = fit.of_alpha ? fit.p.slope(alpha) : 1 / fit.p.slope(fitted);
+    const double error = std::abs(fitted - theta), slope_error = std::abs(fitted_slope / slope - 1);
+    fit.error = std::isfinite(error) ? std::max(fit.error, error) : k_pi;
+    fit.slope_error = std::isfinite(slope_error) ? std::max(fit.slope_error, slope_error) : 1;
+  }
+  return fit;
+}
+
+EqualityFit fit_equality(const AngleMap& map) {
+  const EqualityFit one = fit_of_alpha(map, k_equality_degree);
+  const EqualityFit other = fit_of_theta(map);
+  return other.error < one.error ? other : one;
+}
+
+EqualityFit fit_line(const AngleMap& map) { return fit_of_alpha(map, 1); }
+
+}  // namespace fusee

@@ -1,0 +1,218 @@
+#include "fusee/pipeline/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/analysis/plausibility.h"
+#include "fusee/base/text.h"
+#include "fusee/joint/as_it_is.h"
+#include "pipeline/design.h"
+#include "pipeline/without_law.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_largest_csv = 8 << 20;
+const std::vector<std::string> k_model_names = {
+    "joint.xml",     "joint_tendons.xml", "joint.urdf",   "joint_ros2_control.urdf",
+    "joint_table.h", "joint_table.json",  "manifest.json"};
+
+void begin_step(const ModelOptions& options, std::string_view what) {
+  if (options.before_step) options.before_step(what);
+}
+
+/// What an earlier run of calibrate left beside its corrected.toml; the manifest of both says whether it did.
+std::optional<std::filesystem::path> compensation_beside(const MechanismFile& file) {
+  const std::filesystem::path spec = file.path, csv = spec.parent_path() / "compensation.csv";
+  try {
+    const std::string manifest = read_file(spec.parent_path() / "manifest.json", k_largest_csv);
+    if (!names_output(manifest, spec.filename().string(), file.sha256)) return std::nullopt;
+    if (!names_output(manifest, csv.filename().string(), sha256(read_file(csv, k_largest_csv)))) return std::nullopt;
+    return csv;
+  } catch (const InputError&) {
+    return std::nullopt;  // there is none
+  }
+}
+
+void take_compensation(ModelProduct& product, const ModelOptions& options) {
+  const auto path = options.compensation ? options.compensation : compensation_beside(product.file);
+  if (!path || path->empty()) return;
+  const std::vector<TwoWayRow> rows = read_compensation(read_file(*path, k_largest_csv), path->string());
+  product.curves.shown = two_way_curve(refined(rows, Transmission(product.file.mechanism)), CurveSource::compensation);
+  product.compensation = path->filename().string();
+}
+
+/// Counts of the whole range fit into 32 bits.
+void demand_countable(const ModelProduct& product, const MotorUnit& unit) {
+  if (!unit.ticks) return;
+  double most = 0;
+  for (const double alpha : {product.curves.shown.middle.alpha_min, product.curves.shown.middle.alpha_max})
+    most = std::max(most, std::abs(unit.of(1.1 * alpha)));
+  if (most > 2e9)
+    throw InputError("--ticks-per-turn", "counts of this joint go up to " + rounded(most) + ": more than 32 bits hold",
+                     "fewer counts a turn, or a --zero-ticks nearer to 0");
+}
+
+// ---- what would do --------------------------------------------------------------------------------------------------
+
+/// Rounded up to three digits, in degrees.
+std::string limit_deg(double angle) {
+  const double value = degrees(angle), scale = std::pow(10.0, 2 - std::floor(std::log10(value)));
+  return rounded(std::ceil(value * scale) / scale, 3);
+}
+
+/// The law over `share` of its range, in whole thousandths of a degree.
+DeclaredMechanism narrowed(DeclaredMechanism mechanism, double share) {
+  const auto to_hand = [share](double angle) { return radians(std::trunc(1000 * share * degrees(angle)) / 1000); };
+  mechanism.joint.theta_min = to_hand(mechanism.joint.theta_min);
+  mechanism.joint.theta_max = to_hand(mechanism.joint.theta_max);
+  return mechanism;
+}
+
+bool has_polynomial(const DeclaredMechanism& mechanism, double most) {
+  if (!(mechanism.joint.theta_max > mechanism.joint.theta_min)) return false;
+  const Transmission law(mechanism);
+  if (law.dead_centre() || !grows(law)) return false;
+  const auto curves = joint_curves(mechanism);
+  return curves && fit_equality(curves->stands.middle).error <= most;
+}
+
+std::vector<ModelChange> changes_for_polynomial(const ModelProduct& product, const ModelOptions& options) {
+  std::vector<ModelChange> changes;
+  if (product.equality.error < radians(k_largest_limit_deg))
+    changes.push_back({"--max-error-deg " + limit_deg(product.equality.error)});
+  if (product.tendons) changes.push_back({"--no-polynomial"});
+  double possible = 0, impossible = 1;
+  for (int i = 0; i < 8; ++i) {
+    const double share = 0.5 * (possible + impossible);
+    (has_polynomial(narrowed(product.file.mechanism, share), options.most_error) ? possible : impossible) = share;
+  }
+  if (possible > 0) {
+    const Joint joint = narrowed(product.file.mechanism, possible).joint;
+    const std::string value =
+        "[" + rounded(degrees(joint.theta_min), 7) + ", " + rounded(degrees(joint.theta_max), 7) + "]";
+    changes.push_back({"joint.range_deg = " + value, "joint.range_deg", value});
+  }
+  return changes;
+}
+
+std::vector<ModelChange> changes_for_table(const ModelProduct& product, const ModelOptions& options) {
+  for (double most = 2 * options.most_table_error; most < radians(k_largest_limit_deg); most *= 2) {
+    if (const auto table = joint_table(product.curves.shown, product.mechanism, options.unit, most))
+      return {{"--max-table-error-deg " + limit_deg(std::max(table->errors.theta, table->errors.returned))}};
+  }
+  return {};
+}
+
+// ---- the steps ------------------------------------------------------------------------------------------------------
+
+/// False where there is no θ(α) to fit anything to: `result` says why.
+bool find_curves(ModelResult& result, const ModelOptions& options) {
+  ModelProduct& product = result.product;
+  const DeclaredMechanism& declared = product.file.mechanism;
+  if (declared.transmission)
+    throw InputError(product.file.path, "a joint with [transmission] has no range to model",
+                     "[transmission] is for 'fusee calibrate'");
+  result.without_law = without_law(declared);
+  if (!result.without_law && !grows(Transmission(declared))) {
+    result.without_law = synthesise(declared);
+    if (failed_of(result.without_law->conditions).empty()) {
+      Condition condition;
+      condition.name = "law_grows";
+      condition.ok = false;
+      condition.message = "theta does not grow with alpha over the whole range";
+      result.without_law->conditions.push_back(condition);
+    }
+  }
+  if (result.without_law) {
+    result.ending = ModelEnding::no_law;
+    return false;
+  }
+  product.mechanism = as_it_is(declared).mechanism;
+  if (const auto obstacle = obstacle_to(product.mechanism))
+    product.file.warnings.push_back({Severity::warning,
+                                     {product.file.path},
+                                     "no pulley can be made that gives this law: " + obstacle->message,
+                                     "'fusee build' says what would make it possible"});
+  const auto curves = joint_curves(declared);
+  if (!curves) {
+    result.ending = ModelEnding::no_equilibrium;
+    return false;
+  }
+  product.curves = *curves;
+  take_compensation(product, options);
+  demand_countable(product, options.unit);
+  return true;
+}
+
+bool find_fits(ModelResult& result, const ModelOptions& options) {
+  ModelProduct& product = result.product;
+  const AngleMap& map = product.curves.stands.middle;
+  product.equality = fit_equality(map);
+  product.line = fit_line(map);
+  product.tendons = tendon_model(product.mechanism, map, product.without_tendons);
+  if (product.tendons && product.tendons->error > options.most_error) {
+    product.without_tendons = "the pulley's polynomial misses " + rounded(degrees(product.tendons->error), 2) + " deg";
+    product.tendons.reset();
+  }
+  if (!product.tendons) product.notes.push_back("no joint_tendons.xml: " + product.without_tendons);
+  if (options.with_polynomial && !(product.equality.error <= options.most_error)) {
+    result.ending = ModelEnding::polynomial_off;
+    result.changes = changes_for_polynomial(product, options);
+    return false;
+  }
+  begin_step(options, "making tables");
+  const auto table = joint_table(product.curves.shown, product.mechanism, options.unit, options.most_table_error);
+  if (!table) {
+    result.ending = ModelEnding::table_off;
+    result.changes = changes_for_table(product, options);
+    return false;
+  }
+  product.table = *table;
+  return true;
+}
+
+void write_files(ModelResult& result) {
+  ModelProduct& product = result.product;
+  std::vector<OutputFile>& outputs = result.outputs;
+  if (product.with_polynomial) outputs.push_back({"joint.xml", mujoco_joint_xml(product)});
+  if (product.tendons) outputs.push_back({"joint_tendons.xml", mujoco_tendons_xml(product)});
+  outputs.push_back({"joint.urdf", joint_urdf(product)});
+  outputs.push_back({"joint_ros2_control.urdf", ros2_control_urdf(product)});
+  outputs.push_back({"joint_table.h", joint_table_h(product)});
+  outputs.push_back({"joint_table.json", joint_table_json(product)});
+  product.checks = check_model(product, outputs);
+  outputs.push_back({"manifest.json", model_manifest_json(product, outputs)});
+}
+
+}  // namespace
+
+ModelResult model(const MechanismFile& file, const ModelOptions& options) {
+  ModelResult result;
+  ModelProduct& product = result.product;
+  product.file = with_doubts(file);
+  if (options.declared) product.file.mechanism.identified = {};
+  product.with_polynomial = options.with_polynomial;
+  product.most_error = options.most_error;
+  product.most_table_error = options.most_table_error;
+  product.prefix = options.prefix.empty() ? c_prefix(file.mechanism.name) : options.prefix;
+  OutputFolder target(options.folder, options.force);
+  target.claim(k_model_names);
+  begin_step(options, "following the joint");
+  if (!find_curves(result, options)) return result;
+  begin_step(options, "fitting");
+  if (!find_fits(result, options)) return result;
+  begin_step(options, "writing and reading again");
+  write_files(result);
+  result.ending = all_ok(product.checks) ? ModelEnding::done : ModelEnding::check_failed;
+  if (options.dry_run) return result;
+  if (result.ending != ModelEnding::done && target.has_earlier_run() && !options.force) return result;
+  if (options.before_writing) options.before_writing();
+  for (const OutputFile& output : result.outputs) target.stage(output);
+  target.withdraw(k_model_names);
+  target.publish();
+  result.published = true;
+  return result;
+}
+
+}  // namespace fusee

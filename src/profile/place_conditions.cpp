@@ -1,0 +1,95 @@
+#include "profile/place_conditions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/text.h"
+
+namespace fusee {
+namespace {
+
+std::string digit_of(Side side) { return side == Side::left ? "1" : "2"; }
+std::string name_of_pin(Side side) { return side == Side::left ? "B" : "D"; }
+
+Condition attachment_outside_drum(const Mechanism& mechanism, Side side) {
+  const Joint& joint = mechanism.joint;
+  const auto& own = side == Side::left ? joint.attachment1 : joint.attachment2;
+  const std::string tendon = digit_of(side);
+  const std::string key = own ? "joint.attachment" + tendon + "_mm" : "joint.length_mm";
+  // A place on the drum, by figures that a person rounded to the last digit of a double.
+  constexpr double rounding = 1e-9;
+  Condition condition;
+  condition.name = "attachment_outside_drum_" + tendon;
+  condition.value = (own ? std::hypot(own->across, own->along) : joint.R) - joint.drum_radius;
+  condition.unit = "mm";
+  condition.ok = condition.value >= -rounding * joint.drum_radius;
+  if (!condition.ok) {
+    condition.message = "tendon " + tendon + " ends " + rounded(-condition.value, 3) + " mm inside the drum (" + key +
+                        ", joint.drum_radius_mm)";
+  }
+  return condition;
+}
+
+Condition drum_clear_of_pin(const Mechanism& mechanism, Side side) {
+  const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+  Condition condition;
+  condition.name = "drum_clear_of_pin_" + name_of_pin(side);
+  condition.value = place.pin().norm() - mechanism.joint.drum_radius - mechanism.guides.radius;
+  condition.unit = "mm";
+  condition.ok = condition.value > 0;
+  if (!condition.ok) {
+    condition.message = "pin " + name_of_pin(side) + " stands " + rounded(-condition.value, 3) +
+                        " mm in the drum (joint.drum_radius_mm, guides.radius_mm)";
+  }
+  return condition;
+}
+
+}  // namespace
+
+std::vector<Condition> place_conditions(const Mechanism& mechanism) {
+  std::vector<Condition> conditions;
+  if (!(mechanism.joint.drum_radius > 0)) return conditions;
+  for (const Side side : {Side::left, Side::right}) {
+    conditions.push_back(attachment_outside_drum(mechanism, side));
+    conditions.push_back(drum_clear_of_pin(mechanism, side));
+  }
+  return conditions;
+}
+
+double upper_clearance(const PinPlace& place, double theta, const Vec2& point) {
+  const UpperSpan span = upper_span(place, theta);
+  const double turned = theta + place.twist;
+  const Vec2 end = place.R * Vec2(std::sin(turned), std::cos(turned)),
+             at_pin = place.pin() + place.rho * unit(span.normal);
+  if (span.on_drum == 0) return distance_to_segment(point, end, at_pin);
+  const double clearance = std::min(distance_to_segment(point, end, place.drum * unit(span.end_normal)),
+                                    distance_to_segment(point, place.drum * unit(span.normal), at_pin));
+  const double beyond = std::atan2(point.y(), point.x()) - span.normal;
+  if (beyond - k_two_pi * std::floor(beyond / k_two_pi) > span.on_drum) return clearance;
+  return std::min(clearance, std::abs(point.norm() - place.drum));
+}
+
+Vec2 other_pin(const Transmission& transmission, Side side) {
+  const Vec2 pin = transmission.place(side == Side::left ? Side::right : Side::left).pin();
+  return {-pin.x(), pin.y()};
+}
+
+std::vector<double> lift_offs(const Mechanism& mechanism, const Transmission& transmission, Side side) {
+  std::vector<double> places;
+  for (const Side of : {Side::left, Side::right}) {
+    const auto own = lift_off(transmission.place(of));
+    if (!own) continue;
+    const double theta = mirror_sign(of) * *own;
+    if (theta > mechanism.joint.theta_min + k_beside_lift_off && theta < mechanism.joint.theta_max - k_beside_lift_off)
+      places.push_back(mirror_sign(side) * theta);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+double straight_piece(const TakeOffs& take_offs, double image_theta) {
+  return take_offs.at(image_theta + k_beside_lift_off).curve.dh -
+         take_offs.at(image_theta - k_beside_lift_off).curve.dh;
+}
+
+}  // namespace fusee

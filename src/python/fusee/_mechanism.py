@@ -1,0 +1,217 @@
+"""The mechanism: what a joint is meant to be, as a value with the keys of its file."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import abc
+from numbers import Integral, Real
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _core
+from ._errors import Diagnostic, diagnostics_from, input_error
+from ._run import PathLike, path_bytes, text_bytes
+
+__all__ = ["Mechanism", "Held", "explain", "new", "read", "templates"]
+
+#: What a key holds: a number, a range, a word or text, a switch, a list; None where the file has no such table.
+Held = Union[float, int, str, bool, Tuple[float, ...], Tuple[str, ...], None]
+
+
+class Mechanism(abc.Mapping[str, Held]):
+    """A mechanism file as a value: read once, never changed, equal to another that declares the same numbers.
+
+    Keys are those of the file, with the unit in the name; ``explain(key)`` says what each is.
+
+    >>> import fusee
+    >>> arm = fusee.read(fusee.new("forearm"))
+    >>> arm.name, arm["joint.length_mm"], arm["joint.range_deg"]
+    ('forearm', 100.0, (-30.0, 30.0))
+    >>> longer = arm.with_({"joint.length_mm": 110})
+    >>> longer.number("joint.length_mm"), longer == arm
+    (110.0, False)
+
+    It pickles with the text that it was read from and the table of ``law = "table"``: another machine needs no file.
+    """
+
+    __slots__ = ("_core", "_hash")
+    _core: _core.CarriedMechanism
+    _hash: Optional[int]
+
+    def __init__(self) -> None:
+        raise TypeError("a Mechanism is made by fusee.read()")
+
+    @property
+    def name(self) -> str:
+        return str(self["name"])
+
+    @property
+    def path(self) -> str:
+        """Where it was read from, or the name that was given to a text."""
+        return self._core.path()
+
+    @property
+    def text(self) -> str:
+        """What was read, as it was written; what ``with_`` changed is not in it."""
+        return self._core.text()
+
+    @property
+    def toml(self) -> str:
+        """A complete file with every key, its meaning, unit, range and default: ``read(m.toml) == m``."""
+        return self._core.every_key()
+
+    @property
+    def warnings(self) -> Tuple[Diagnostic, ...]:
+        """What can be used, and may not be what was meant."""
+        return diagnostics_from(self._core.warnings())
+
+    def with_(self, changes: Optional[abc.Mapping[str, Any]] = None, /, **more: Any) -> Mechanism:
+        """The same mechanism with other numbers: ``m.with_({"pulley.r1_mm": 15})`` or ``m.with_(**{"pulley.r1_mm": 15})``.
+
+        One end of a range is ``"joint.range_deg[0]"``. InputError for an unknown key, a wrong type, a value out of range.
+
+        >>> import fusee
+        >>> arm = fusee.read(fusee.new("forearm"))
+        >>> arm.with_({"joint.range_deg[1]": 25})["joint.range_deg"]
+        (-30.0, 25.0)
+        """
+        every: Dict[str, Any] = {**(changes or {}), **more}
+        pairs = [_setting(self, key, value, every) for key, value in every.items()]
+        return _made(self._core.with_(pairs))
+
+    def number(self, key: str) -> float:
+        """The value of a key that holds one number. TypeError for another."""
+        value = self[key]
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise TypeError(f"{key} holds {value!r}, which is no number")
+        return float(value)
+
+    def __getitem__(self, key: str) -> Held:
+        if not isinstance(key, str):
+            raise KeyError(key)
+        try:
+            value: Held = self._core.get(key.encode("utf-8", "replace"))
+        except KeyError:
+            raise KeyError(key) from None
+        return value
+
+    def __iter__(self) -> abc.Iterator[str]:
+        return iter(_core.keys())
+
+    def __len__(self) -> int:
+        return len(_core.keys())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mechanism):
+            return NotImplemented
+        return self._core.same(other._core)
+
+    def __hash__(self) -> int:
+        if self._hash is None:
+            # Numbers by value: 0 and -0 are the same mechanism.
+            object.__setattr__(self, "_hash", hash(tuple(self.values())))
+        assert self._hash is not None
+        return self._hash
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a Mechanism does not change: with_() makes another one (setting {name!r})")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a Mechanism does not change (deleting {name!r})")
+
+    def __repr__(self) -> str:
+        return f"<Mechanism {self.name!r} from {self.path!r}>"
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _restored, (self._core.path_bytes(), self._core.settings(), self._core.files())
+
+
+def _made(core: _core.CarriedMechanism) -> Mechanism:
+    mechanism = object.__new__(Mechanism)
+    object.__setattr__(mechanism, "_core", core)
+    object.__setattr__(mechanism, "_hash", None)
+    return mechanism
+
+
+def _restored(path: bytes, settings: List[Tuple[bytes, bytes]], files: Dict[bytes, bytes]) -> Mechanism:
+    return _made(_core.read(path, settings, files))
+
+
+def _setting(mechanism: Mechanism, key: object, value: object, every: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
+    if not isinstance(key, str):
+        raise input_error("with_", f"a key is a text, not {type(key).__name__}")
+    if key.endswith(("[0]", "[1]")) and key[:-3] in mechanism:
+        return _end_of_range(mechanism, key, value, every)
+    return text_bytes(key, key), text_bytes(key, _toml(key, value))
+
+
+def _end_of_range(mechanism: Mechanism, key: str, value: object, every: abc.Mapping[str, Any]) -> Tuple[bytes, bytes]:
+    name = key[:-3]
+    ends = mechanism[name]
+    if not isinstance(ends, tuple) or len(ends) != 2:
+        raise input_error(key, f"{name} is no range")
+    both = [every.get(f"{name}[{end}]", ends[end]) for end in (0, 1)]
+    return text_bytes(name, name), text_bytes(key, _toml(key, both))
+
+
+def _toml(key: str, value: object) -> str:
+    """A value as it would stand in the file. Whether it is one of that key's, the reader says."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Integral):
+        return str(int(value))
+    if isinstance(value, Real):
+        return repr(float(value))
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1):
+        return "[" + ", ".join(_toml(key, item) for item in value) + "]"
+    raise input_error(key, f"takes a number, a text, a switch or a list of them, not {type(value).__name__}")
+
+
+def read(source: PathLike, *, name: str = "text.toml") -> Mechanism:
+    """A mechanism from a file, or from the text of one (anything with a line break in it).
+
+    Of a text `name` stands in the messages; the table of ``law = "table"`` is looked for beside it. InputError with all errors of the
+    file at once.
+
+    >>> import fusee
+    >>> fusee.read(fusee.new("forearm"), name="arm.toml")
+    <Mechanism 'forearm' from 'arm.toml'>
+    """
+    if isinstance(source, str) and ("\n" in source or not source):
+        path = path_bytes("name", name)
+        return _made(_core.read(path, [], {path: text_bytes(name, source)}))
+    if not isinstance(source, (str, os.PathLike)):
+        raise input_error("read", f"takes a path or the text of a file, not {type(source).__name__}")
+    return _made(_core.read(path_bytes("read", source), [], {}))
+
+
+def templates() -> Tuple[str, ...]:
+    """Names that ``new`` knows."""
+    return _core.templates()
+
+
+def new(template: str) -> str:
+    """The text of a commented mechanism file to start from. InputError with the nearest name.
+
+    >>> import fusee
+    >>> fusee.new("forearm").splitlines()[1]
+    'schema = 1'
+    """
+    return _core.new(text_bytes("template", str(template)))
+
+
+def explain(key: str = "") -> Dict[str, Any]:
+    """A key of the file, or a table, or all: meaning, unit, range, default. InputError with the nearest key.
+
+    >>> import fusee
+    >>> fusee.explain("pulley.r1_mm")["fields"][0]["unit"]
+    'mm'
+    """
+    explained: Dict[str, Any] = json.loads(_core.explain(text_bytes("key", str(key))))
+    return explained

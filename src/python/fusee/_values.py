@@ -1,0 +1,575 @@
+"""What the verbs answer: frozen values, numbers in arrays that nobody can write to, the unit in every name."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections import abc
+from dataclasses import dataclass
+from typing import Any, Dict, Optional, Tuple, TypeVar, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._errors import Diagnostic
+from ._mechanism import Mechanism
+
+Numbers = NDArray[np.float64]
+K = TypeVar("K")
+V = TypeVar("V")
+
+
+def _frozen(array: NDArray[Any]) -> NDArray[Any]:
+    array = np.ascontiguousarray(array)
+    array.flags.writeable = False
+    return array
+
+
+def _same(a: object, b: object) -> bool:
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        if not isinstance(a, np.ndarray) or not isinstance(b, np.ndarray) or a.shape != b.shape:
+            return False
+        return bool(np.array_equal(a, b, equal_nan=a.dtype.kind == "f"))
+    # NaN where nothing is known: as good as itself.
+    return bool(a == b) or (isinstance(a, float) and isinstance(b, float) and a != a and b != b)
+
+
+def _hashed(value: object) -> int:
+    if isinstance(value, np.ndarray):
+        return hash((value.shape, (np.nan_to_num(value) + 0).tobytes()))
+    return 0 if isinstance(value, float) and value != value else hash(value)
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, np.ndarray):
+        return f"<array {'×'.join(str(size) for size in value.shape)}>"
+    if isinstance(value, bytes) or (isinstance(value, str) and len(value) > 60):
+        return f"<{len(value)} {'bytes' if isinstance(value, bytes) else 'characters'}>"
+    if isinstance(value, (tuple, Table)) and len(value) > 3:
+        return f"<{len(value)} of {type(next(iter(value))).__name__}>" if isinstance(value, tuple) else f"<{len(value)} names>"
+    if isinstance(value, Value) and any(isinstance(part, (np.ndarray, Value)) for part in value.__dict__.values()):
+        return f"<{type(value).__name__}>"
+    return repr(value)
+
+
+class Value:
+    """Equal by what it holds, also where that are arrays; pickles, and what comes back is as frozen."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(_same(getattr(self, part.name), getattr(other, part.name)) for part in _parts(self))
+
+    def __hash__(self) -> int:
+        return hash(tuple(_hashed(getattr(self, part.name)) for part in _parts(self)))
+
+    def __repr__(self) -> str:
+        said = ", ".join(f"{part.name}={_shown(getattr(self, part.name))}" for part in _parts(self) if part.repr)
+        return f"{type(self).__name__}({said})"
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {name: _frozen(value) if isinstance(value, np.ndarray) else value for name, value in self.__dict__.items()}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update((name, _frozen(value) if isinstance(value, np.ndarray) else value) for name, value in state.items())
+
+
+def _parts(value: Any) -> Tuple[Any, ...]:
+    return dataclasses.fields(value)
+
+
+class Table(abc.Mapping[K, V]):
+    """A dictionary that does not change."""
+
+    __slots__ = ("_items",)
+    _items: Dict[K, V]
+
+    def __init__(self, items: abc.Mapping[K, V]) -> None:
+        object.__setattr__(self, "_items", dict(items))
+
+    def __getitem__(self, key: K) -> V:
+        return self._items[key]
+
+    def __iter__(self) -> abc.Iterator[K]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Table):
+            return NotImplemented
+        return list(self) == list(other) and all(_same(a, b) for a, b in zip(self.values(), other.values()))
+
+    def __hash__(self) -> int:
+        return hash(tuple((key, _hashed(value)) for key, value in self._items.items()))
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("a Table does not change")
+
+    def __repr__(self) -> str:
+        return "{" + ", ".join(f"{key!r}: {_shown(value)}" for key, value in self._items.items()) + "}"
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _table, (dict(self._items),)
+
+
+def _table(items: Dict[Any, Any]) -> Table[Any, Any]:
+    return Table({key: _frozen(value) if isinstance(value, np.ndarray) else value for key, value in items.items()})
+
+
+# ---- small ones -------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Change(Value):
+    """The nearest value of one key with which all would hold: ``mechanism.with_(change.settings)``."""
+
+    key: str
+    value: Union[float, str]
+    was: Union[float, str]
+    unit: str
+    text: str  #: "r1 ≤ 18.9 mm"
+
+    @property
+    def settings(self) -> Dict[str, Any]:
+        """What ``Mechanism.with_`` takes. Of both ends of a range together the value is its half."""
+        if self.key.endswith("range_deg") and isinstance(self.value, float):
+            return {self.key: (-self.value, self.value)}
+        return {self.key: self.value}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Condition(Value):
+    """A condition of feasibility, and where it is tightest."""
+
+    name: str
+    ok: bool
+    alpha_rad: float
+    value: float
+    limit: float
+    unit: str
+    message: str
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Check(Value):
+    """A measured value beside its limit."""
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    ok: bool
+    where: str
+
+
+# ---- curves -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Outline(Value):
+    """A closed convex pitch curve about the pulley's axis, counter-clockwise, at home: one row a point. Empty where none was made.
+
+    Tendons leave it between the points ``active_first`` and ``active_last`` (counter-clockwise); the rest closes the curve.
+    """
+
+    side: str  #: "left": P1, of tendon 1; "right": P2, of tendon 2
+    psi_rad: Numbers  #: direction of the outward normal
+    position_mm: Numbers  #: (n, 2)
+    normal: Numbers  #: (n, 2), unit vectors
+    curvature_radius_mm: Numbers
+    active_first: int
+    active_last: int
+
+    def parallel_mm(self, distance_mm: float) -> Numbers:
+        """The parallel curve, outward positive, (n, 2). A groove's floor lies half a tendon's thickness further in."""
+        curve: Numbers = self.position_mm + float(distance_mm) * self.normal
+        return curve
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Stroke(Value):
+    """θ(α) by the law, moment arms and wraps along the stroke, one row a place. 1 is the left tendon, 2 the right one."""
+
+    alpha_rad: Numbers  #: of the pulley
+    theta_rad: Numbers  #: of the joint
+    dtheta_dalpha: Numbers
+    r1_mm: Numbers  #: moment arm about the pulley's axis
+    r2_mm: Numbers
+    m1_mm: Numbers  #: moment arm about the joint's
+    m2_mm: Numbers
+    wrap1_rad: Numbers  #: turning over the guide pin
+    wrap2_rad: Numbers
+    length1_mm: Numbers
+    length2_mm: Numbers
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Synthesis(Value):
+    """Both pitch curves, or why there are none and what would do. A joint that cannot be is a value: look at ``made``."""
+
+    made: bool
+    p1: Outline
+    p2: Outline
+    stroke: Stroke
+    conditions: Tuple[Condition, ...]  #: all of them, those that hold too
+    advice: Tuple[Change, ...]  #: each does alone; empty when made
+    warnings: Tuple[str, ...]
+    brief: str = dataclasses.field(repr=False)  #: one paragraph
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Placement(Value):
+    """Where a part that was moved was found."""
+
+    axis_mm: Tuple[float, float]
+    turned_rad: float
+    turned_over: bool
+    deviation_mm: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Winding(Value):
+    """The joint angle that tendons wound on two groove floors give, one row a place."""
+
+    alpha_rad: Numbers
+    theta_declared_rad: Numbers
+    theta_rad: Numbers
+    slack_mm: Numbers  #: of tendon 2
+    max_theta_error_rad: float
+    max_theta_error_at_rad: float  #: α
+    max_slack_mm: float
+    max_slack_at_rad: float  #: α
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Rewound(Winding):
+    """The same of a part from anywhere."""
+
+    place: str  #: "as_made", "found" (it was moved) or "not_recognised" (wound where it lies)
+    alone: Optional[str]  #: "left" or "right": the file holds one pulley, and no slack is known
+    placements: Tuple[Placement, ...]
+    checks: Tuple[Check, ...]
+
+    @property
+    def ok(self) -> bool:
+        return all(check.ok for check in self.checks)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Mesh(Value):
+    """Triangles, counter-clockwise seen from outside."""
+
+    vertices_mm: Numbers  #: (n, 3)
+    triangles: NDArray[np.uint32]  #: (m, 3), indices of vertices
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Knot(Value):
+    """The knot of one tendon on its pulley, where it bears most."""
+
+    side: str
+    alpha_rad: float
+    wrap_left_rad: float
+    tension_N: float
+    at_knot_N: float
+    share: Optional[float]  #: of what it bears; None where the tendon's strength is not known
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Built(Value):
+    """The pulley in every format, checked; or why there is none and what would do."""
+
+    status: str  #: "done", "infeasible" or "check_failed"
+    synthesis: Synthesis
+    mesh: Mesh
+    as_built: Winding  #: found by winding tendons on the mesh as it was written
+    checks: Tuple[Check, ...]
+    conditions: Tuple[Condition, ...]
+    advice: Tuple[Change, ...]  #: each does alone
+    advice_together: Tuple[Change, ...]  #: two that do together
+    knots: Tuple[Knot, ...]
+    files: Table[str, bytes]  #: what each file holds, by name
+    warnings: Tuple[Diagnostic, ...]
+    holding_warnings: Tuple[str, ...]
+    notes: Tuple[str, ...]
+    published: bool  #: the files stand in the folder that was asked for
+
+    @property
+    def ok(self) -> bool:
+        return self.status == "done"
+
+
+# ---- forces -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PaperForces(Value):
+    """The paper's chain [6]-[11], one row a place of the stroke."""
+
+    tension1_N: Numbers
+    tension2_N: Numbers
+    tension_below_pin_N: Numbers
+    elongation_mm: Numbers
+    theta_error_rad: Numbers
+    motor_torque_Nmm: Numbers
+    stiffness_Nmm_per_rad: Numbers
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Forces(Value):
+    """The elastic model with friction, one row a place: tensions between pulley and pin, and between pin and joint."""
+
+    theta_rad: Numbers
+    tension1_N: Numbers
+    tension2_N: Numbers
+    tension1_joint_N: Numbers
+    tension2_joint_N: Numbers
+    slack1_mm: Numbers
+    slack2_mm: Numbers
+    motor_torque_Nmm: Numbers
+    load_torque_Nmm: Numbers
+    stiffness_Nmm_per_rad: Numbers
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Extreme(Value):
+    """A largest value, in the unit that its name in Analysis says, and where it is."""
+
+    value: float
+    alpha_rad: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LargestTension(Value):
+    tension_N: float
+    alpha_rad: float
+    tendon: int  #: 1 or 2
+    below_pin: bool
+    rising: bool  #: α growing
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ErrorSource(Value):
+    """By how much one cause moves the joint from its law, over the range."""
+
+    name: str
+    meaning: str
+    least_rad: float
+    most_rad: float
+    worst_at_rad: float  #: α
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ToleranceEffect(Value):
+    """What a dimension's tolerance does: half the range that holds 95 %, by derivatives and by chance."""
+
+    key: str  #: a key of the file; "print_offset"; "all"
+    theta_by_derivative_rad: float
+    theta_by_monte_carlo_rad: float
+    theta_at_rad: float
+    slack_by_derivative_mm: float
+    slack_by_monte_carlo_mm: float
+    slack_at_rad: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Strength(Value):
+    tension_N: float
+    at_knot_N: float
+    source: str
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Analysis(Value):
+    """The transmission and its forces over the range. Where the law does not exist, ``exists`` is false and the tables are empty."""
+
+    exists: bool
+    declared: Stroke
+    paper: PaperForces
+    rising: Forces  #: α growing
+    falling: Forces
+    conditions: Tuple[Condition, ...]  #: of a pulley, that do not hold
+    advice: Tuple[Change, ...]
+    largest_tension: LargestTension
+    largest_at_joint_N: Extreme
+    largest_paper_tension_N: Extreme
+    largest_torque_Nmm: Extreme
+    hysteresis_rad: Extreme
+    slack1_rad: Tuple[Tuple[float, float], ...]  #: parts of α
+    slack2_rad: Tuple[Tuple[float, float], ...]
+    untensioned_rad: Tuple[Tuple[float, float], ...]  #: where nothing holds the joint
+    taut_pretension_N: Optional[float]
+    lost_at_rad: Optional[float]
+    strength: Optional[Strength]
+    breaks_at_rad: Optional[float]
+    sources: Tuple[ErrorSource, ...]
+    tolerances: Tuple[ToleranceEffect, ...]
+    warnings: Tuple[Diagnostic, ...]
+
+
+# ---- better numbers ---------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FrontPoint(Value):
+    numbers: Table[str, float]  #: what it changes in the file
+    values: Tuple[float, ...]  #: of the objectives, in their order and units
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Optimum(Value):
+    """Better numbers, or why there are none."""
+
+    method: str  #: "certified", "genetic" or "pareto"
+    objectives: Tuple[Tuple[str, str], ...]  #: name and unit
+    found: bool
+    stopped: bool
+    reason: str  #: when nothing was found: the commonest cause
+    numbers: Table[str, float]  #: what the best design changes in the file
+    value: Optional[float]  #: of the first objective
+    before: Optional[float]  #: the same by the file as it is
+    proven: bool
+    lower_bound: Optional[float]
+    relative_gap: Optional[float]
+    front: Tuple[FrontPoint, ...]  #: of method "pareto"
+    mechanism: Optional[Mechanism]  #: with the better numbers, the file's comments kept
+    warnings: Tuple[Diagnostic, ...]
+
+
+# ---- measured and planned ---------------------------------------------------------------------------------------------
+
+
+class Documented(Value):
+    """A value that is a document too, as the program writes it with --json."""
+
+    json: str
+
+    def document(self) -> Dict[str, Any]:
+        """All that there is to say, as CONTRACT.md has it: a dictionary of one's own."""
+        read: Dict[str, Any] = json.loads(self.json) if self.json else {}
+        return read
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Parameter(Value):
+    """A number that was found; its unit stands in the name under which it is listed."""
+
+    value: float
+    ci95: Tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Effect(Value):
+    """A cause that the data ask for, with all that would do as well."""
+
+    name: str
+    group: Tuple[str, ...]
+    place: str
+    parameters: Table[str, Parameter]
+    rms_drop_deg: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Residual(Value):
+    """One run, row by row: what was measured, and what is left of it."""
+
+    name: str
+    alpha_rad: Numbers
+    theta_rad: Numbers
+    before_rad: Numbers  #: measured − declared model
+    after_rad: Numbers  #: measured − model with what was found
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ErrorFigures(Value):
+    rms_deg: float
+    max_deg: float
+    held_out_rms_deg: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Calibration(Documented):
+    """What is off, why, and a better file. Data that decide nothing are a verdict."""
+
+    verdict: str
+    summary: str
+    effects: Tuple[Effect, ...]
+    noise_floor_deg: float
+    before: ErrorFigures
+    after: ErrorFigures
+    unexplained_rms_deg: float
+    next_runs: Tuple[str, ...]
+    residuals: Tuple[Residual, ...]
+    corrected: Mechanism  #: the declared one with what was found: build() makes the corrected pulley
+    json: str = dataclasses.field(repr=False)
+    files: Table[str, bytes] = dataclasses.field(repr=False)
+    notes: Tuple[str, ...] = dataclasses.field(repr=False)
+    warnings: Tuple[Diagnostic, ...]
+    published: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PlanStep(Value):
+    """A run to measure, or a number to read by hand."""
+
+    words: str
+    minutes: float
+    by_minutes: float  #: since the beginning, when it is done
+    sees: Tuple[str, ...]
+    tells: Tuple[str, ...]
+    file: str  #: of its rows; "" for a step that is no run
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Plan(Documented):
+    """Which runs to measure and what they can show. Without a law over the range, or without time, it has no steps."""
+
+    exists: bool
+    conditions: Tuple[Condition, ...]
+    advice: Tuple[Change, ...]
+    steps: Tuple[PlanStep, ...]
+    beyond: Tuple[PlanStep, ...]  #: what more minutes would buy
+    minutes: float
+    groups: Tuple[Tuple[str, ...], ...]  #: causes that stay together
+    json: str = dataclasses.field(repr=False)
+    files: Table[str, bytes] = dataclasses.field(repr=False)
+    warnings: Tuple[Diagnostic, ...]
+    published: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Simulation(Value):
+    """A joint moved through a log: columns by name, one row a row of the log."""
+
+    exists: bool
+    conditions: Tuple[Condition, ...]
+    advice: Tuple[Change, ...]
+    columns: Table[str, Numbers]  #: the name ends in the unit; NaN where there is no such number
+    status: Tuple[str, ...]  #: "held", "loose" or "no_equilibrium"
+    notes: Tuple[str, ...]
+    warnings: Tuple[Diagnostic, ...]
+    csv: str = dataclasses.field(repr=False)  #: as `fusee simulate` writes it, and calibrate() reads it
+
+    def __getitem__(self, column: str) -> Numbers:
+        return self.columns[column]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Kit(Value):
+    """The rest of the test model: parts, plates, a page."""
+
+    status: str  #: "done", "no_pulley", "no_kit" or "check_failed"
+    conditions: Tuple[Condition, ...]
+    advice: Tuple[Change, ...]
+    advice_together: Tuple[Change, ...]
+    checks: Tuple[Check, ...]
+    notes: Tuple[str, ...]
+    warnings: Tuple[Diagnostic, ...]
+    files: Table[str, bytes] = dataclasses.field(repr=False)
+    published: bool
+
+    @property
+    def ok(self) -> bool:
+        return self.status == "done"

@@ -1,0 +1,478 @@
+"""The verbs: a mechanism in, a frozen value out.
+
+Options have the names, ranges and defaults of the program's own (``fusee COMMAND --help``). Without `folder` nothing is written, and what
+would have been is in ``files``. An argument that cannot be used is an InputError; a joint that cannot be made is a value.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import tempfile
+from collections import abc
+from typing import Any, Dict, List, Optional, Tuple, Type, TypeVar, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._errors import diagnostics_from, input_error
+from ._mechanism import Mechanism, _made
+from ._run import PathLike, choice, heard, number, path_bytes, text_bytes, whole
+from ._values import (
+    Analysis,
+    Built,
+    Calibration,
+    Change,
+    Check,
+    Condition,
+    Effect,
+    ErrorFigures,
+    ErrorSource,
+    Extreme,
+    Forces,
+    FrontPoint,
+    Kit,
+    Knot,
+    LargestTension,
+    Mesh,
+    Optimum,
+    Outline,
+    PaperForces,
+    Parameter,
+    Placement,
+    Plan,
+    PlanStep,
+    Residual,
+    Rewound,
+    Simulation,
+    Strength,
+    Stroke,
+    Synthesis,
+    Table,
+    ToleranceEffect,
+    Value,
+    Winding,
+)
+
+__all__ = ["Log", "analyze", "build", "calibrate", "check", "kit", "optimize", "plan", "rewind", "simulate", "synthesise"]
+
+#: A log: a CSV file, or its columns by name (``{"alpha_deg": …, "theta_deg": …}``), all of one length.
+Log = Union[PathLike, abc.Mapping[str, ArrayLike]]
+Row = Dict[str, Any]
+Settings = abc.Sequence[Tuple[bytes, bytes]]
+T = TypeVar("T")
+
+_MOST_SEED = 2**32 - 1
+_MOST_TOLERANCE_MM = 1.0
+
+
+def _each(kind: Type[T], rows: abc.Iterable[Row]) -> Tuple[T, ...]:
+    return tuple(kind(**row) for row in rows)
+
+
+def _with_values(made: Row) -> Row:
+    """What answers hold under the same names, made values of rows."""
+    kinds: Dict[str, Type[Value]] = {
+        "conditions": Condition, "advice": Change, "advice_together": Change, "checks": Check, "knots": Knot, "sources": ErrorSource,
+        "tolerances": ToleranceEffect, "placements": Placement, "steps": PlanStep, "beyond": PlanStep, "residuals": Residual,
+    }  # fmt: skip
+    for name, kind in kinds.items():
+        if name in made:
+            made[name] = _each(kind, made[name])
+    if any(isinstance(row, dict) for row in made.get("warnings", ())):
+        made["warnings"] = diagnostics_from(made["warnings"])
+    if "files" in made:
+        made["files"] = Table(made["files"])
+    return made
+
+
+def _synthesis(made: Row) -> Synthesis:
+    curves: Row = {"p1": Outline(**made.pop("p1")), "p2": Outline(**made.pop("p2")), "stroke": Stroke(**made.pop("stroke"))}
+    return Synthesis(**curves, **_with_values(made))
+
+
+def _of(mechanism: Mechanism) -> _core.CarriedMechanism:
+    if not isinstance(mechanism, Mechanism):
+        raise input_error("mechanism", f"must be a Mechanism, not {type(mechanism).__name__}", "fusee.read() makes one")
+    return mechanism._core
+
+
+def _target(folder: Optional[PathLike], force: bool) -> _core.Target:
+    if folder is None:
+        # A name that nobody has: nothing is written there, and nothing of an earlier run is found.
+        nowhere = os.path.join(tempfile.gettempdir(), f"fusee-nowhere-{os.getpid()}")
+        return _core.Target(os.fsencode(nowhere), True, True)
+    path = path_bytes("folder", folder)
+    if not path:
+        raise input_error("folder", "is empty", "'.' is this one")
+    return _core.Target(path, bool(force), False)
+
+
+def synthesise(mechanism: Mechanism, *, tolerance_mm: float = 0.01, advice: bool = True, steps: int = 180) -> Synthesis:
+    """θ(α) and both pitch curves of the joint as it is, without a body. Milliseconds.
+
+    >>> import fusee
+    >>> arm = fusee.read(fusee.new("forearm"))
+    >>> curves = fusee.synthesise(arm)
+    >>> curves.made, curves.p2.position_mm.shape[1], round(float(curves.stroke.r1_mm[0]), 3)
+    (True, 2, 16.0)
+    >>> refused = fusee.synthesise(arm.with_({"pulley.r1_mm": 25}))
+    >>> refused.made, [condition.name for condition in refused.conditions if not condition.ok]
+    (False, ['convex_floor_P2'])
+    >>> fusee.synthesise(arm.with_({"pulley.r1_mm": 25}).with_(refused.advice[0].settings)).made
+    True
+    """
+    joint = _of(mechanism)
+    tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
+    places = whole("steps", steps, 2, 100000)
+    return _synthesis(heard(lambda stop: _core.synthesise(joint, tolerance, bool(advice), places)))
+
+
+def rewind(
+    mechanism: Mechanism,
+    part: Union[PathLike, Synthesis],
+    *,
+    as_is: bool = False,
+    max_theta_error_deg: float = 0.05,
+    max_slack_mm: float = 0.05,
+) -> Rewound:
+    """The joint angle that tendons wound on a part give: a mesh, a drawing with floors, or the curves of ``synthesise``.
+
+    A mesh that was moved or turned is found, unless `as_is`. InputError where no groove is.
+
+    >>> import fusee
+    >>> arm = fusee.read(fusee.new("forearm"))
+    >>> wound = fusee.rewind(arm, fusee.synthesise(arm))
+    >>> wound.ok, bool(wound.max_theta_error_rad < 1e-4)
+    (True, True)
+    """
+    joint = _of(mechanism)
+    limits = (
+        number("max_theta_error_deg", max_theta_error_deg, 0, 180, "deg"),
+        number("max_slack_mm", max_slack_mm, 0, 1000, "mm"),
+    )
+    if isinstance(part, Synthesis):
+        if not part.made:
+            raise input_error("part", "there are no curves: the synthesis was not made", "look at its conditions and advice")
+        inset = -0.5 * mechanism.number("tendon.diameter_mm")
+        floors = (part.p1.parallel_mm(inset), part.p2.parallel_mm(inset))
+        made = heard(lambda stop: _core.rewind_floors(joint, floors[0], floors[1], *limits))
+    else:
+        path = path_bytes("part", part)
+        made = heard(lambda stop: _core.rewind_file(joint, path, bool(as_is), *limits))
+    return Rewound(**_with_values(made))
+
+
+def check(part: PathLike) -> Tuple[Check, ...]:
+    """A mesh or a drawing: valid, or what is wrong and where. InputError for what cannot be read."""
+    path = path_bytes("part", part)
+    return _each(Check, heard(lambda stop: _core.check(path))["checks"])
+
+
+def build(
+    mechanism: Mechanism,
+    folder: Optional[PathLike] = None,
+    *,
+    force: bool = False,
+    tolerance_mm: float = 0.01,
+    dxf: str = "ac1015",
+    max_theta_error_deg: float = 0.05,
+    max_slack_mm: float = 0.05,
+) -> Built:
+    """The pulley in every format, checked as it was written. OutputError where `folder` holds what fusee did not write.
+
+    >>> import fusee
+    >>> built = fusee.build(fusee.read(fusee.new("forearm")))
+    >>> built.ok, built.published, built.mesh.vertices_mm.flags.writeable
+    (True, False, False)
+    >>> len(built.files["pulley.stl"]) > 100000
+    True
+    """
+    joint = _of(mechanism)
+    target = _target(folder, force)
+    tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
+    version = choice("dxf", dxf, ["ac1015", "r12"])
+    theta = number("max_theta_error_deg", max_theta_error_deg, 0, 180, "deg")
+    slack = number("max_slack_mm", max_slack_mm, 0, 1000, "mm")
+    made = heard(lambda stop: _core.build(joint, target, tolerance, version, theta, slack, stop))
+    parts: Row = {
+        "synthesis": _synthesis(made.pop("synthesis")),
+        "mesh": Mesh(**made.pop("mesh")),
+        "as_built": Winding(**made.pop("as_built")),
+    }
+    return Built(**parts, **_with_values(made))
+
+
+def analyze(mechanism: Mechanism, *, steps: int = 60, tolerance_mm: float = 0.1, samples: int = 1000, seed: int = 1) -> Analysis:
+    """Radii, tensions, stretch, error and stiffness over the stroke, and what limits the joint.
+
+    >>> import fusee
+    >>> loaded = fusee.read(fusee.new("forearm")).with_({"load.tip_force_N": 10})
+    >>> forces = fusee.analyze(loaded, samples=100)
+    >>> forces.exists, forces.largest_tension.tendon, forces.rising.tension2_N.shape == forces.declared.alpha_rad.shape
+    (True, 2, True)
+    """
+    joint = _of(mechanism)
+    numbers = (
+        whole("steps", steps, 2, 2000),
+        number("tolerance_mm", tolerance_mm, 0, 10, "mm"),
+        whole("samples", samples, 10, 100000),
+        whole("seed", seed, 0, _MOST_SEED),
+    )
+    made = heard(lambda stop: _core.analyze(joint, *numbers, stop))
+    strength = made.pop("strength")
+    parts: Row = {"declared": Stroke(**made.pop("declared")), "paper": PaperForces(**made.pop("paper"))}
+    for name in ("rising", "falling"):
+        parts[name] = Forces(**made.pop(name))
+    for name in ("largest_at_joint_N", "largest_paper_tension_N", "largest_torque_Nmm", "hysteresis_rad"):
+        parts[name] = Extreme(**made.pop(name))
+    parts["largest_tension"] = LargestTension(**made.pop("largest_tension"))
+    return Analysis(strength=Strength(**strength) if strength else None, **parts, **_with_values(made))
+
+
+def optimize(
+    mechanism: Mechanism,
+    *,
+    method: str = "strongest",
+    then: str = "",
+    population: int = 48,
+    generations: int = 100,
+    seed: int = 1,
+    threads: int = 0,
+) -> Optimum:
+    """Better numbers within the bounds of the file's [optimize]: by proof ("certified"), by evolution ("genetic"), or a front ("pareto").
+
+    `then`: of the designs that tie in a proof, the best by another objective. The answer is the same on any number of threads (0: as many as
+    there are).
+
+    >>> import fusee
+    >>> arm = fusee.read(fusee.new("forearm") + '''
+    ... [optimize]
+    ... objective = "max_tension"
+    ... variables = ["guides.OE_mm"]
+    ... lower = [-45]
+    ... upper = [-35]
+    ... ''')
+    >>> best = fusee.optimize(arm)
+    >>> best.proven, best.value <= best.before
+    (True, True)
+    >>> best.mechanism.number("guides.OE_mm") == best.numbers["guides.OE_mm"]
+    True
+    """
+    joint = _of(mechanism)
+    way = choice("method", method, ["strongest", "certified", "genetic", "pareto"])
+    second = choice("then", then, ["", *_core.objectives()])
+    numbers = (
+        4 * math.ceil(whole("population", population, 8, 10000) / 4),
+        whole("generations", generations, 1, 100000),
+        whole("seed", seed, 0, 4 * 10**9),
+        whole("threads", threads, 0, 1024),
+    )
+    made = heard(lambda stop: _core.optimize(joint, way, second, *numbers, stop))
+    text = made.pop("text")
+    better = _better(mechanism, text, made["numbers"]) if text else None
+    made["front"] = tuple(FrontPoint(Table(point["numbers"]), point["values"]) for point in made["front"])
+    made["numbers"] = Table(made["numbers"])
+    return Optimum(mechanism=better, **_with_values(made))
+
+
+def _reread(mechanism: Mechanism, text: str, settings: Settings = ()) -> Mechanism:
+    """Another text in the place of a mechanism's, its table beside it."""
+    path = mechanism._core.path_bytes()
+    return _made(_core.read(path, settings, {**mechanism._core.files(), path: text.encode()}))
+
+
+def _better(mechanism: Mechanism, text: str, numbers: Dict[str, float]) -> Mechanism:
+    """The text with a design's numbers, and what ``with_`` had changed that is none of them."""
+    settings = mechanism._core.settings()
+    return _reread(mechanism, text, settings).with_(numbers) if settings else _reread(mechanism, text)
+
+
+# ---- measured ---------------------------------------------------------------------------------------------------------
+
+
+def _csv(name: str, columns: abc.Mapping[str, ArrayLike]) -> bytes:
+    """Columns as a file that reads as the same numbers; what is not known (NaN) stays empty."""
+    arrays: Dict[str, Any] = {}
+    for key, values in columns.items():
+        try:
+            arrays[str(key)] = np.atleast_1d(np.asarray(values, dtype=np.float64))
+        except (TypeError, ValueError):
+            raise input_error(name, f"column {key!r} holds no numbers") from None
+    if not arrays or len({array.shape for array in arrays.values()}) != 1 or any(array.ndim != 1 for array in arrays.values()):
+        raise input_error(name, "takes columns of one length", '{"alpha_deg": […], "theta_deg": […]}')
+    if any(set(key) & set(',;\t\r\n"#') or not key.strip() for key in arrays):
+        raise input_error(name, "a column's name holds no separator")
+    lines = [",".join(arrays)]
+    for row in zip(*(array.tolist() for array in arrays.values())):
+        lines.append(",".join("" if math.isnan(value) else repr(value) for value in row))
+    return text_bytes(name, "\n".join(lines) + "\n")
+
+
+def _logs(argument: str, logs: abc.Sequence[Log], prefix: str) -> Tuple[List[bytes], Dict[bytes, bytes]]:
+    """Names of files, and what those hold that are none."""
+    names: List[bytes] = []
+    held: Dict[bytes, bytes] = {}
+    for at, log in enumerate(logs, 1):
+        if isinstance(log, abc.Mapping):
+            name = f"{prefix}_{at}.csv"
+            held[name.encode()] = _csv(name, log)
+            names.append(name.encode())
+        else:
+            names.append(path_bytes(argument, log))
+    return names, held
+
+
+def _roles(columns: Optional[abc.Mapping[str, str]]) -> Dict[bytes, bytes]:
+    known = ["alpha", "theta", "time", "load", "temperature", "tension1", "tension2", "cycle", "motor_sensor_turned", "joint_sensor_turned"]
+    return {choice("columns", role, known).encode(): text_bytes("columns", str(name)) for role, name in (columns or {}).items()}
+
+
+def _list(name: str, logs: object) -> abc.Sequence[Any]:
+    if isinstance(logs, (str, bytes, os.PathLike, abc.Mapping)) or not isinstance(logs, abc.Iterable):
+        raise input_error(name, f"takes a list of logs, not {type(logs).__name__}")
+    return list(logs)
+
+
+def calibrate(
+    mechanism: Mechanism,
+    runs: abc.Sequence[Log],
+    folder: Optional[PathLike] = None,
+    *,
+    hold_out: abc.Sequence[Log] = (),
+    columns: Optional[abc.Mapping[str, str]] = None,
+    force: bool = False,
+    audit: bool = True,
+) -> Calibration:
+    """Measured runs held against the mechanism: what is off, why, and a better file.
+
+    A run is a CSV file or its columns (``alpha_deg``, ``theta_deg``, and if logged ``time_s``, ``load_N``, ``temperature_C`` …). `columns`
+    gives other names their role: ``{"load": "tau_out_Nm"}``. Whole searches take seconds to a minute.
+
+    >>> import fusee, numpy
+    >>> arm = fusee.read(fusee.new("forearm"))
+    >>> still = fusee.calibrate(arm, [{"alpha_deg": numpy.zeros(20), "theta_deg": numpy.zeros(20)}])
+    >>> still.verdict
+    'not_testable'
+    """
+    joint = _of(mechanism)
+    fitted, held = _logs("runs", _list("runs", runs), "columns")
+    kept, more = _logs("hold_out", _list("hold_out", hold_out), "held_out")
+    if not fitted:
+        raise input_error("runs", "there is no run")
+    if {os.path.normpath(name) for name in fitted} <= {os.path.normpath(name) for name in kept}:
+        raise input_error("hold_out", "every run is held out: none is left to fit")
+    target = _target(folder, force)
+    roles = _roles(columns)
+    made = heard(lambda stop: _core.calibrate(joint, fitted, kept, {**held, **more}, roles, target, bool(audit), stop))
+    document = made.pop("document")
+    said = json.loads(document)
+    made["effects"] = tuple(_effect(effect) for effect in said.get("effects", ()))
+    made["verdict"] = said["verdict"]
+    made["noise_floor_deg"] = _known(said.get("noise_floor_deg"))
+    made["before"], made["after"] = (_figures(said.get(name) or {}) for name in ("before", "after"))
+    made["unexplained_rms_deg"] = _known(said.get("unexplained_rms_deg"))
+    made["next_runs"] = tuple(str(run) for run in said.get("next_runs", ()))
+    corrected = _reread(mechanism, made["files"]["corrected.toml"].decode())
+    return Calibration(json=document, corrected=corrected, **_with_values(made))
+
+
+def _known(value: Optional[float]) -> float:
+    return math.nan if value is None else float(value)
+
+
+def _figures(said: Row) -> ErrorFigures:
+    return ErrorFigures(*(_known(said.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
+
+
+def _effect(said: Row) -> Effect:
+    parameters = {name: Parameter(_known(value["value"]), (_known(value["ci95"][0]), _known(value["ci95"][1])))
+                  for name, value in said["parameters"].items()}  # fmt: skip
+    return Effect(said["name"], tuple(said["group"]), said["place"], Table(parameters), _known(said["rms_drop_deg"]))
+
+
+def plan(
+    mechanism: Mechanism,
+    folder: Optional[PathLike] = None,
+    *,
+    force: bool = False,
+    noise_deg: float = 0.02,
+    minutes: float = 15,
+    loads_N: abc.Sequence[float] = (),
+    speeds_deg_per_s: abc.Sequence[float] = (),
+    range_deg: Optional[Tuple[float, float]] = None,
+    seed: int = 1,
+) -> Plan:
+    """Which runs to measure in so many minutes, and what they can show; run files without θ, as ``simulate`` and ``calibrate`` read them.
+
+    >>> import fusee
+    >>> bench = fusee.plan(fusee.read(fusee.new("forearm")), minutes=1)
+    >>> bench.exists, bench.minutes <= 1
+    (True, True)
+    """
+    joint = _of(mechanism)
+    target = _target(folder, force)
+    noise = math.radians(number("noise_deg", noise_deg, 1e-6, 45, "deg"))
+    time = number("minutes", minutes, 0, 1e5, "min")
+    loads = [number("loads_N", load, -1e6, 1e6, "N") for load in _levels("loads_N", loads_N)]
+    speeds = [math.radians(number("speeds_deg_per_s", speed, 1e-3, 1e5)) for speed in _levels("speeds_deg_per_s", speeds_deg_per_s)]
+    span = None if range_deg is None else _span(range_deg)
+    start = whole("seed", seed, 0, _MOST_SEED)
+    made = heard(lambda stop: _core.plan(joint, target, noise, time, loads, speeds, span, start, stop))
+    return Plan(json=made.pop("document"), **_with_values(made))
+
+
+def _levels(name: str, values: abc.Sequence[float]) -> List[Any]:
+    if isinstance(values, (str, bytes)) or not isinstance(values, abc.Iterable):
+        raise input_error(name, "takes a list of numbers")
+    listed = list(values)
+    if len(listed) > 12:
+        raise input_error(name, f"{len(listed)} are more than the 12 that a plan weighs")
+    return listed
+
+
+def _span(range_deg: Tuple[float, float]) -> Tuple[float, float]:
+    ends = [number("range_deg", end, -1e5, 1e5, "deg") for end in _levels("range_deg", range_deg)]
+    if len(ends) != 2 or ends[0] >= ends[1]:
+        raise input_error("range_deg", "takes two motor angles, the smaller first")
+    return math.radians(ends[0]), math.radians(ends[1])
+
+
+def simulate(
+    mechanism: Mechanism,
+    log: Log,
+    *,
+    columns: Optional[abc.Mapping[str, str]] = None,
+    corrected: bool = False,
+    noise_deg: float = 0,
+    seed: int = 1,
+) -> Simulation:
+    """The joint moved through logged motor angles and loads: its angle, its tendons' tensions, the motor's torque.
+
+    >>> import fusee, numpy
+    >>> arm = fusee.read(fusee.new("forearm"))
+    >>> moved = fusee.simulate(arm, {"alpha_deg": numpy.linspace(0, 60, 61), "load_N": numpy.full(61, 5.0)})
+    >>> moved.exists, len(moved["theta_deg"]), moved.status[0]
+    (True, 61, 'held')
+    """
+    joint = _of(mechanism)
+    names, held = _logs("log", [log], "columns")
+    noise = math.radians(number("noise_deg", noise_deg, 0, 45, "deg"))
+    start = whole("seed", seed, 0, _MOST_SEED)
+    roles = _roles(columns)
+    made = heard(lambda stop: _core.simulate(joint, names[0], held, roles, bool(corrected), noise, start))
+    made["columns"] = Table(made["columns"])
+    return Simulation(**_with_values(made))
+
+
+def kit(
+    mechanism: Mechanism, folder: Optional[PathLike] = None, *, force: bool = False, tolerance_mm: float = 0.01, dxf: str = "ac1015"
+) -> Kit:
+    """The rest of the test model: plate, link, pins, encoder mount, coupon, and a page that says how they go together."""
+    joint = _of(mechanism)
+    target = _target(folder, force)
+    tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
+    version = choice("dxf", dxf, ["ac1015", "r12"])
+    return Kit(**_with_values(heard(lambda stop: _core.kit(joint, target, tolerance, version, stop))))

@@ -1,0 +1,428 @@
+// The module fusee._core: the verbs with C++ values, the lock of the interpreter given back while they work. Everything
+// a person sees (names, ranges of numbers, classes) is in the package beside it, src/python/fusee.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <iterator>
+
+#include "fusee/joint/as_it_is.h"
+#include "fusee/mechanism/fields.h"
+#include "fusee/pipeline.h"
+#include "fusee/pipeline/kit.h"
+#include "python/carried.h"
+#include "python/values.h"
+
+namespace fusee::python {
+namespace {
+
+// ---- stopping -------------------------------------------------------------------------------------------------------
+
+/// Thrown into a verb by its own callbacks once somebody asked it to stop.
+class Stopped : public std::exception {};
+
+/// Set by the thread that waits for a verb, looked at by the verb.
+class Stop {
+ public:
+  void set() { asked_ = true; }
+  bool is_set() const { return asked_; }
+  void look() const {
+    if (asked_) throw Stopped();
+  }
+
+ private:
+  std::atomic<bool> asked_ = false;
+};
+
+/// What a verb makes, made while other Python threads run, with the mechanism's files at hand.
+template <typename Make>
+auto made_unlocked(const CarriedFiles& files, Make make) {
+  using Made = decltype(make());
+  const py::gil_scoped_release released;
+  const Carrying carrying(files);
+  return std::make_shared<const Made>(make());
+}
+
+void demand_tendons(const MechanismFile& file, const std::string& what) {
+  if (!file.mechanism.transmission) return;
+  throw InputError(file.path, "a joint with [transmission] has no tendons to " + what,
+                   "[transmission] is for calibrate()");
+}
+
+// ---- mechanisms -----------------------------------------------------------------------------------------------------
+
+std::vector<Setting> settings_from(const std::vector<std::pair<std::string, std::string>>& pairs) {
+  std::vector<Setting> settings;
+  for (const auto& [key, value] : pairs) settings.push_back({key, value});
+  return settings;
+}
+
+CarriedMechanism read(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings,
+                      const CarriedFiles& files) {
+  const py::gil_scoped_release released;
+  return read_carried(path, settings_from(settings), files);
+}
+
+/// As it would be written, and not as degrees of radians happen to come out.
+py::object number(const Field& field, const DeclaredMechanism& mechanism, int end) {
+  const double value = std::stod(number_text(field, mechanism, end));
+  if (field.whole) return py::int_(static_cast<long long>(value));
+  return py::float_(value);
+}
+
+/// A key's value by its row of the field table.
+py::object value_of(const CarriedMechanism& carried, const Field& field) {
+  // The table's lists are members to write to; a copy is read.
+  DeclaredMechanism mechanism = carried.file.mechanism;
+  switch (field.kind) {
+    case FieldKind::number:
+      return number(field, mechanism, 0);
+    case FieldKind::point:
+      if (!field.is_set(mechanism)) return py::none();
+      [[fallthrough]];
+    case FieldKind::range:
+      return py::make_tuple(number(field, mechanism, 0), number(field, mechanism, 1));
+    case FieldKind::choice:
+    case FieldKind::text:
+      return words(field.get_text(mechanism));
+    case FieldKind::boolean:
+      return py::bool_(field.get_text(mechanism) == "true");
+    case FieldKind::numbers:
+      return py::tuple(py::cast(field.numbers(mechanism)));
+    case FieldKind::texts:
+      return to_python(field.texts(mechanism));
+  }
+  return py::none();
+}
+
+py::object value_at(const CarriedMechanism& carried, const std::string& key) {
+  const Field* field = find_field(key);
+  if (field == nullptr) throw py::key_error(key);
+  if (field->table == "transmission" && !carried.file.mechanism.transmission) return py::none();
+  return value_of(carried, *field);
+}
+
+std::vector<std::string> keys() {
+  std::vector<std::string> names;
+  for (const Field& field : fields()) names.push_back(field.name());
+  return names;
+}
+
+py::list settings_of(const CarriedMechanism& carried) {
+  py::list list;
+  for (const Setting& setting : carried.settings)
+    list.append(py::make_tuple(py::bytes(setting.key), py::bytes(setting.value)));
+  return list;
+}
+
+py::dict files_of(const CarriedMechanism& carried) {
+  py::dict dict;
+  for (const auto& [path, bytes] : carried.files) dict[py::bytes(path)] = py::bytes(bytes);
+  return dict;
+}
+
+bool same(const CarriedMechanism& a, const CarriedMechanism& b) { return a.file.mechanism == b.file.mechanism; }
+
+// ---- verbs ----------------------------------------------------------------------------------------------------------
+
+py::dict synthesise_joint(const CarriedMechanism& carried, double tolerance, bool advice, int steps) {
+  return to_python(made_unlocked(carried.files, [&] {
+    demand_tendons(carried.file, "synthesise for");
+    SynthesisOptions options;
+    options.tolerance = tolerance;
+    options.advice = advice;
+    options.stroke_steps = steps;
+    return synthesise(as_it_is(carried.file.mechanism).mechanism, options);
+  }));
+}
+
+AsBuiltLimits limits_of(double max_theta_error, double max_slack) { return {max_theta_error, max_slack}; }
+
+/// What is wrong with the part is said of its file.
+RewoundPart rewound(const JointAsItIs& joint, const std::string& path, bool as_is) {
+  const Part part = read_part(path);
+  try {
+    return as_is ? RewoundPart{rewind_part(joint, part), PartPlace::as_made, {}} : rewind_moved_part(joint, part);
+  } catch (const InputError& error) {
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    for (Diagnostic& diagnostic : diagnostics) diagnostic.place.file = path;
+    throw InputError(std::move(diagnostics));
+  }
+}
+
+py::dict with_checks(const CarriedMechanism& carried, const std::shared_ptr<const RewoundPart>& part,
+                     const AsBuiltLimits& limits) {
+  py::dict dict = to_python(part);
+  std::vector<Check> checks = as_built_checks(as_it_is(carried.file.mechanism).mechanism, part->as_built, limits);
+  // One tendon alone has no slack that could be known.
+  if (part->alone) checks.erase(checks.begin() + 1, checks.end());
+  dict["checks"] = to_python(checks);
+  return dict;
+}
+
+py::dict rewind_file(const CarriedMechanism& carried, const std::string& path, bool as_is, double max_theta_error,
+                     double max_slack) {
+  const auto part = made_unlocked(carried.files, [&] {
+    demand_tendons(carried.file, "wind");
+    return rewound(as_it_is(carried.file.mechanism), path, as_is);
+  });
+  return with_checks(carried, part, limits_of(max_theta_error, max_slack));
+}
+
+using Floor = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+Polygon polygon_of(const Floor& floor) {
+  Polygon polygon;
+  const auto rows = floor.unchecked<2>();
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) polygon.push_back({rows(i, 0), rows(i, 1)});
+  return polygon;
+}
+
+py::dict rewind_floors(const CarriedMechanism& carried, const Floor& floor1, const Floor& floor2,
+                       double max_theta_error, double max_slack) {
+  const Polygon p1 = polygon_of(floor1), p2 = polygon_of(floor2);
+  const auto part = made_unlocked(carried.files, [&] {
+    demand_tendons(carried.file, "wind");
+    return RewoundPart{rewind(as_it_is(carried.file.mechanism).mechanism, p1, p2), PartPlace::as_made, {}};
+  });
+  return with_checks(carried, part, limits_of(max_theta_error, max_slack));
+}
+
+py::dict check_file(const std::string& path) {
+  const auto checks = made_unlocked({}, [&] { return check_part(read_part(path)); });
+  py::dict dict;
+  dict["checks"] = to_python(*checks);
+  return dict;
+}
+
+/// Where files go, of every verb that leaves some.
+struct Target {
+  std::string folder;
+  bool force = false;
+  bool dry_run = false;
+};
+
+template <typename Options>
+void aim(Options& options, const Target& target) {
+  options.folder = target.folder;
+  options.force = target.force;
+  options.dry_run = target.dry_run;
+}
+
+DxfVersion dxf_version(const std::string& name) { return name == "r12" ? DxfVersion::r12 : DxfVersion::ac1015; }
+
+py::dict build_pulley(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
+                      double max_theta_error, double max_slack, const Stop& stop) {
+  return to_python(made_unlocked(carried.files, [&] {
+    demand_tendons(carried.file, "build a pulley for");
+    BuildOptions options;
+    aim(options, target);
+    options.tolerance = tolerance;
+    options.limits = limits_of(max_theta_error, max_slack);
+    options.dxf = dxf_version(dxf);
+    options.before_step = [&stop](std::string_view) { stop.look(); };
+    options.between_tries = options.before_writing = [&stop] { stop.look(); };
+    options.while_waiting = [&stop](const std::function<void()>&) { stop.look(); };
+    return build(carried.file, options);
+  }));
+}
+
+py::dict analyze_joint(const CarriedMechanism& carried, int steps, double tolerance, int samples, std::uint64_t seed,
+                       const Stop& stop) {
+  return to_python(made_unlocked(carried.files, [&] {
+    AnalysisOptions options;
+    options.steps = steps;
+    options.tolerance = tolerance;
+    options.samples = samples;
+    options.seed = seed;
+    options.between_samples = [&stop] { stop.look(); };
+    return analyze(carried.file, options);
+  }));
+}
+
+py::tuple objective_names() {
+  std::vector<std::string> names;
+  for (const ObjectiveInfo& known : objectives()) names.emplace_back(known.name);
+  return to_python(names);
+}
+
+/// A second objective is for a search that says which designs tie.
+void demand_agreement(const MechanismFile& file, const OptimizeOptions& options) {
+  if (!options.then || options.method.value_or(strongest_method(file)) == SearchMethod::certified) return;
+  throw InputError("then", "goes with method \"certified\" only");
+}
+
+std::optional<SearchMethod> search_method(const std::string& name) {
+  if (name == "certified") return SearchMethod::certified;
+  if (name == "genetic") return SearchMethod::genetic;
+  if (name == "pareto") return SearchMethod::pareto;
+  return std::nullopt;
+}
+
+py::dict optimize_joint(const CarriedMechanism& carried, const std::string& method, const std::string& then,
+                        unsigned population, unsigned generations, unsigned seed, unsigned threads, const Stop& stop) {
+  return to_python(made_unlocked(carried.files, [&] {
+    OptimizeOptions options;
+    options.method = search_method(method);
+    if (!then.empty()) options.then = find_objective(then);
+    options.genetic.population = population;
+    options.genetic.generations = generations;
+    options.genetic.seed = seed;
+    options.genetic.threads = threads;
+    // Its other settings no number of the text can hold: the package gives them to what it reads from it.
+    std::copy_if(carried.settings.begin(), carried.settings.end(), std::back_inserter(options.settings),
+                 [](const Setting& setting) { return find_number_key(setting.key).has_value(); });
+    options.new_file = carried.file.path;  // nowhere: its text is asked for
+    options.dry_run = true;
+    options.keep_going = [&stop](const SearchProgress&) { return !stop.is_set(); };
+    demand_agreement(carried.file, options);
+    OptimizeResult result = optimize(carried.file, options);
+    stop.look();
+    return result;
+  }));
+}
+
+std::vector<std::filesystem::path> paths_of(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
+py::dict calibrate_joint(const CarriedMechanism& carried, const std::vector<std::string>& runs,
+                         const std::vector<std::string>& hold_out, const CarriedFiles& logs,
+                         const std::map<std::string, std::string>& columns, const Target& target, bool audit,
+                         const Stop& stop) {
+  CarriedFiles files = carried.files;
+  files.insert(logs.begin(), logs.end());
+  return to_python(made_unlocked(files, [&] {
+    CalibrateOptions options;
+    aim(options, target);
+    options.columns.columns = columns;
+    options.hold_out = paths_of(hold_out);
+    options.audit = audit;
+    options.progress = [&stop](const std::string&, std::optional<double>) { stop.look(); };
+    options.before_writing = [&stop] { stop.look(); };
+    return calibrate(carried.file, paths_of(runs), options);
+  }));
+}
+
+py::dict plan_bench(const CarriedMechanism& carried, const Target& target, double noise, double minutes,
+                    const std::vector<double>& loads, const std::vector<double>& speeds,
+                    const std::optional<std::pair<double, double>>& range, std::uint64_t seed, const Stop& stop) {
+  return to_python(made_unlocked(carried.files, [&] {
+    PlanFilesOptions options;
+    aim(options, target);
+    options.plan.noise = noise;
+    options.plan.minutes = minutes;
+    options.plan.loads = loads;
+    options.plan.speeds = speeds;
+    options.plan.range = range;
+    options.plan.seed = seed;
+    options.plan.progress = [&stop](const std::string&) { stop.look(); };
+    return plan(carried.file, options);
+  }));
+}
+
+py::dict simulate_joint(const CarriedMechanism& carried, const std::string& log, const CarriedFiles& logs,
+                        const std::map<std::string, std::string>& columns, bool corrected, double noise,
+                        std::uint64_t seed) {
+  CarriedFiles files = carried.files;
+  files.insert(logs.begin(), logs.end());
+  return to_python(made_unlocked(files, [&] {
+    SimulateOptions options;
+    options.columns.columns = columns;
+    options.corrected = corrected;
+    options.noise = noise;
+    options.seed = seed;
+    return simulate(carried.file, log, options);
+  }));
+}
+
+py::dict kit_parts(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
+                   const Stop& stop) {
+  return to_python(made_unlocked(carried.files, [&] {
+    demand_tendons(carried.file, "make a kit for");
+    KitOptions options;
+    aim(options, target);
+    options.tolerance = tolerance;
+    options.dxf = dxf_version(dxf);
+    options.before_step = [&stop](std::string_view) { stop.look(); };
+    options.before_writing = [&stop] { stop.look(); };
+    return kit(carried.file, options);
+  }));
+}
+
+// ---- failures -------------------------------------------------------------------------------------------------------
+
+void raise(const char* name, const py::tuple& arguments) {
+  const py::object type = py::module_::import("fusee._errors").attr(name);
+  PyErr_SetObject(type.ptr(), type(*arguments).ptr());
+}
+
+void raise_in_python(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const InputError& error) {
+    const py::object from = py::module_::import("fusee._errors").attr("diagnostics_from");
+    raise("InputError", py::make_tuple(from(to_python(error.diagnostics()))));
+  } catch (const OutputError& error) {
+    raise("OutputError", py::make_tuple(words(error.what()), words(error.hint())));
+  } catch (const Bug& error) {
+    raise("Bug", py::make_tuple(words(error.what())));
+  } catch (const Stopped&) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+  }
+}
+
+template <typename Class>
+Class& with_mechanism(Class& type) {
+  return type.def("get", value_at)
+      .def("settings", settings_of)
+      .def("files", files_of)
+      .def("same", same)
+      .def("path", [](const CarriedMechanism& carried) { return path_words(carried.file.path); })
+      .def("path_bytes", [](const CarriedMechanism& carried) { return py::bytes(carried.file.path); })
+      .def("text", [](const CarriedMechanism& carried) { return words(carried.files.at(carried.file.path)); })
+      .def("every_key", [](const CarriedMechanism& carried) { return words(write_mechanism(carried.file.mechanism)); })
+      .def("warnings", [](const CarriedMechanism& carried) { return to_python(carried.file.warnings); })
+      .def("with_", [](const CarriedMechanism& carried, const std::vector<std::pair<std::string, std::string>>& more) {
+        const py::gil_scoped_release released;
+        return carried.with(settings_from(more));
+      });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  read_carried_files_first();
+  py::register_exception_translator(raise_in_python);
+  py::class_<Stop>(module, "Stop").def(py::init<>()).def("set", &Stop::set);
+  py::class_<Target>(module, "Target").def(py::init([](std::string folder, bool force, bool dry_run) {
+    return Target{std::move(folder), force, dry_run};
+  }));
+  py::class_<CarriedMechanism> mechanism(module, "CarriedMechanism");
+  with_mechanism(mechanism);
+  module.attr("version") = FUSEE_VERSION;
+  module.def("read", read);
+  module.def("keys", keys);
+  module.def("new", [](const std::string& name) { return words(find_template(name)); });
+  module.def("templates", [] {
+    std::vector<std::string> names;
+    for (const Template& known : templates()) names.emplace_back(known.name);
+    return to_python(names);
+  });
+  module.def("explain", [](const std::string& key) { return words(explain_json(key)); });
+  module.def("objectives", objective_names);
+  module.def("synthesise", synthesise_joint);
+  module.def("rewind_file", rewind_file);
+  module.def("rewind_floors", rewind_floors);
+  module.def("check", check_file);
+  module.def("build", build_pulley);
+  module.def("analyze", analyze_joint);
+  module.def("optimize", optimize_joint);
+  module.def("calibrate", calibrate_joint);
+  module.def("plan", plan_bench);
+  module.def("simulate", simulate_joint);
+  module.def("kit", kit_parts);
+}
+
+}  // namespace fusee::python

@@ -1,0 +1,565 @@
+#include "python/values.h"
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "fusee/base/units.h"
+#include "fusee/export/simulation.h"
+
+namespace fusee::python {
+namespace {
+
+// ---- arrays ---------------------------------------------------------------------------------------------------------
+
+/// What arrays hold on to: the value whose numbers they show.
+py::capsule keep(std::shared_ptr<const void> value) {
+  return {new std::shared_ptr<const void>(std::move(value)),
+          [](void* held) { delete static_cast<std::shared_ptr<const void>*>(held); }};
+}
+
+py::array view(const py::capsule& kept, const py::dtype& type, std::vector<py::ssize_t> shape,
+               std::vector<py::ssize_t> strides, const void* first) {
+  static const double nothing = 0;  // an empty array shows no number, and must not be taken for one without memory
+  py::array array(type, std::move(shape), std::move(strides), first != nullptr ? first : &nothing, kept);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+/// Rows that lie `stride` bytes apart in a value that is held on to.
+template <typename Row>
+struct Rows {
+  const py::capsule& kept;
+  const Row* first = nullptr;
+  std::size_t count = 0;
+  py::ssize_t stride = sizeof(Row);
+
+  template <typename Part>
+  Rows<Part> part(Part Row::*member) const {
+    return {kept, first == nullptr ? nullptr : &(first->*member), count, stride};
+  }
+  py::array operator()(double Row::*member) const {
+    const double* start = first == nullptr ? nullptr : &(first->*member);
+    return view(kept, py::dtype::of<double>(), {static_cast<py::ssize_t>(count)}, {stride}, start);
+  }
+};
+
+template <typename Row>
+Rows<Row> rows_of(const py::capsule& kept, const std::vector<Row>& rows) {
+  return {kept, rows.empty() ? nullptr : rows.data(), rows.size(), sizeof(Row)};
+}
+
+py::array numbers(const py::capsule& kept, const std::vector<double>& values) {
+  return view(kept, py::dtype::of<double>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(double)},
+              values.empty() ? nullptr : values.data());
+}
+
+/// Points in the plane or in space: one row each.
+template <typename Row, typename Get>
+py::array points_of(const py::capsule& kept, const std::vector<Row>& rows, py::ssize_t dimensions, Get get) {
+  const double* first = rows.empty() ? nullptr : get(rows.front()).data();
+  return view(kept, py::dtype::of<double>(), {static_cast<py::ssize_t>(rows.size()), dimensions},
+              {static_cast<py::ssize_t>(sizeof(Row)), static_cast<py::ssize_t>(sizeof(double))}, first);
+}
+
+// ---- small values ---------------------------------------------------------------------------------------------------
+
+template <typename Item, typename Convert>
+py::tuple tuple_of(const std::vector<Item>& items, Convert convert) {
+  py::tuple tuple(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) tuple[i] = convert(items[i]);
+  return tuple;
+}
+
+py::object maybe(const std::optional<double>& value) { return value ? py::object(py::float_(*value)) : py::none(); }
+
+std::string_view side_word(Side side) { return side == Side::left ? "left" : "right"; }
+
+/// Of a number its value, of a word the word.
+py::object changed(double number, const std::string& word, bool is_word) {
+  return is_word ? py::object(words(word)) : py::float_(number);
+}
+
+py::dict to_dict(const Change& change) {
+  const bool is_word = !change.to_word.empty();
+  py::dict dict;
+  dict["key"] = words(change.key);
+  dict["value"] = changed(change.to, change.to_word, is_word);
+  dict["was"] = changed(change.from, change.from_word, is_word);
+  dict["unit"] = words(change.unit);
+  dict["text"] = words(change.text);
+  return dict;
+}
+
+py::dict to_dict(const Condition& condition) {
+  py::dict dict;
+  dict["name"] = words(condition.name);
+  dict["ok"] = condition.ok;
+  dict["alpha_rad"] = condition.alpha;
+  dict["value"] = condition.value;
+  dict["limit"] = condition.limit;
+  dict["unit"] = words(condition.unit);
+  dict["message"] = words(condition.message);
+  return dict;
+}
+
+py::dict to_dict(const Check& check) {
+  py::dict dict;
+  dict["name"] = words(check.name);
+  dict["value"] = check.value;
+  dict["limit"] = check.limit;
+  dict["unit"] = words(check.unit);
+  dict["ok"] = check.ok;
+  dict["where"] = words(check.where);
+  return dict;
+}
+
+std::string_view severity_word(Severity severity) {
+  constexpr std::array<std::string_view, 3> k_words = {"error", "warning", "note"};
+  return k_words.at(static_cast<std::size_t>(severity));
+}
+
+py::dict to_dict(const Diagnostic& diagnostic) {
+  py::dict dict;
+  dict["severity"] = words(severity_word(diagnostic.severity));
+  dict["file"] = path_words(diagnostic.place.file);
+  dict["line"] = diagnostic.place.line;
+  dict["column"] = diagnostic.place.column;
+  dict["message"] = words(diagnostic.message);
+  dict["hint"] = words(diagnostic.hint);
+  return dict;
+}
+
+// ---- parts of results -----------------------------------------------------------------------------------------------
+
+py::dict to_dict(const Rows<TransmissionPoint>& rows) {
+  const Rows<TendonPoint> t1 = rows.part(&TransmissionPoint::t1), t2 = rows.part(&TransmissionPoint::t2);
+  py::dict dict;
+  dict["alpha_rad"] = rows(&TransmissionPoint::alpha);
+  dict["theta_rad"] = rows(&TransmissionPoint::theta);
+  dict["dtheta_dalpha"] = rows(&TransmissionPoint::g);
+  dict["r1_mm"] = t1(&TendonPoint::p);
+  dict["r2_mm"] = t2(&TendonPoint::p);
+  dict["m1_mm"] = t1(&TendonPoint::m);
+  dict["m2_mm"] = t2(&TendonPoint::m);
+  dict["wrap1_rad"] = t1(&TendonPoint::wrap);
+  dict["wrap2_rad"] = t2(&TendonPoint::wrap);
+  dict["length1_mm"] = t1(&TendonPoint::length);
+  dict["length2_mm"] = t2(&TendonPoint::length);
+  return dict;
+}
+
+py::dict to_dict(const Rows<PaperForces>& rows) {
+  py::dict dict;
+  dict["tension1_N"] = rows(&PaperForces::T1);
+  dict["tension2_N"] = rows(&PaperForces::T2);
+  dict["tension_below_pin_N"] = rows(&PaperForces::Tb);
+  dict["elongation_mm"] = rows(&PaperForces::elongation);
+  dict["theta_error_rad"] = rows(&PaperForces::theta_error);
+  dict["motor_torque_Nmm"] = rows(&PaperForces::motor_torque);
+  dict["stiffness_Nmm_per_rad"] = rows(&PaperForces::stiffness);
+  return dict;
+}
+
+py::dict to_dict(const Rows<EquilibriumPoint>& rows) {
+  const Rows<TendonState> t1 = rows.part(&EquilibriumPoint::t1), t2 = rows.part(&EquilibriumPoint::t2);
+  py::dict dict;
+  dict["theta_rad"] = rows(&EquilibriumPoint::theta);
+  dict["tension1_N"] = t1(&TendonState::lower);
+  dict["tension2_N"] = t2(&TendonState::lower);
+  dict["tension1_joint_N"] = t1(&TendonState::upper);
+  dict["tension2_joint_N"] = t2(&TendonState::upper);
+  dict["slack1_mm"] = t1(&TendonState::slack);
+  dict["slack2_mm"] = t2(&TendonState::slack);
+  dict["motor_torque_Nmm"] = rows(&EquilibriumPoint::motor_torque);
+  dict["load_torque_Nmm"] = rows(&EquilibriumPoint::load_torque);
+  dict["stiffness_Nmm_per_rad"] = rows(&EquilibriumPoint::stiffness);
+  return dict;
+}
+
+py::dict to_dict(const py::capsule& kept, const Outline& outline) {
+  const Rows<OutlinePoint> rows = rows_of(kept, outline.points);
+  py::dict dict;
+  dict["side"] = words(side_word(outline.side));
+  dict["psi_rad"] = rows(&OutlinePoint::psi);
+  dict["position_mm"] =
+      points_of(kept, outline.points, 2, [](const OutlinePoint& point) -> const Vec2& { return point.position; });
+  dict["normal"] =
+      points_of(kept, outline.points, 2, [](const OutlinePoint& point) -> const Vec2& { return point.normal; });
+  dict["curvature_radius_mm"] = rows(&OutlinePoint::curvature_radius);
+  dict["active_first"] = outline.active_first;
+  dict["active_last"] = outline.active_last;
+  return dict;
+}
+
+py::dict to_dict(const py::capsule& kept, const SynthesisResult& result) {
+  py::dict dict;
+  dict["made"] = result.made();
+  dict["p1"] = to_dict(kept, result.p1);
+  dict["p2"] = to_dict(kept, result.p2);
+  dict["stroke"] = to_dict(rows_of(kept, result.stroke));
+  dict["conditions"] = to_python(result.conditions);
+  dict["advice"] = to_python(result.advice);
+  dict["warnings"] = to_python(result.warnings);
+  dict["brief"] = words(result.brief());
+  return dict;
+}
+
+py::dict to_dict(const py::capsule& kept, const RewindResult& result) {
+  const Rows<RewindPoint> rows = rows_of(kept, result.points);
+  py::dict dict;
+  dict["alpha_rad"] = rows(&RewindPoint::alpha);
+  dict["theta_declared_rad"] = rows(&RewindPoint::theta_declared);
+  dict["theta_rad"] = rows(&RewindPoint::theta);
+  dict["slack_mm"] = rows(&RewindPoint::slack);
+  dict["max_theta_error_rad"] = result.max_theta_error;
+  dict["max_theta_error_at_rad"] = result.max_theta_error_at;
+  dict["max_slack_mm"] = result.max_slack;
+  dict["max_slack_at_rad"] = result.max_slack_at;
+  return dict;
+}
+
+py::dict to_dict(const py::capsule& kept, const TriangleMesh& mesh) {
+  py::dict dict;
+  dict["vertices_mm"] = points_of(kept, mesh.vertices, 3, [](const Vec3& vertex) -> const Vec3& { return vertex; });
+  const std::size_t row = sizeof(std::array<std::uint32_t, 3>);
+  dict["triangles"] = view(kept, py::dtype::of<std::uint32_t>(), {static_cast<py::ssize_t>(mesh.triangles.size()), 3},
+                           {static_cast<py::ssize_t>(row), static_cast<py::ssize_t>(sizeof(std::uint32_t))},
+                           mesh.triangles.empty() ? nullptr : mesh.triangles.data());
+  return dict;
+}
+
+py::dict to_dict(const Extreme& extreme) {
+  py::dict dict;
+  dict["value"] = extreme.value;
+  dict["alpha_rad"] = extreme.alpha;
+  return dict;
+}
+
+py::dict to_dict(const TensionExtreme& extreme) {
+  py::dict dict;
+  dict["tension_N"] = extreme.tension;
+  dict["alpha_rad"] = extreme.alpha;
+  dict["tendon"] = extreme.tendon == Side::left ? 1 : 2;
+  dict["below_pin"] = extreme.below_pin;
+  dict["rising"] = extreme.rising;
+  return dict;
+}
+
+py::tuple to_tuple(const std::vector<AlphaRange>& ranges) {
+  return tuple_of(ranges, [](const AlphaRange& range) { return py::make_tuple(range.from, range.to); });
+}
+
+py::dict to_dict(const ErrorSource& source) {
+  py::dict dict;
+  dict["name"] = words(source.name);
+  dict["meaning"] = words(source.meaning);
+  dict["least_rad"] = source.least;
+  dict["most_rad"] = source.most;
+  dict["worst_at_rad"] = source.worst_at;
+  return dict;
+}
+
+py::dict to_dict(const ToleranceEffect& effect) {
+  py::dict dict;
+  dict["key"] = words(effect.key);
+  dict["theta_by_derivative_rad"] = effect.theta_by_derivative;
+  dict["theta_by_monte_carlo_rad"] = effect.theta_by_monte_carlo;
+  dict["theta_at_rad"] = effect.theta_at;
+  dict["slack_by_derivative_mm"] = effect.slack_by_derivative;
+  dict["slack_by_monte_carlo_mm"] = effect.slack_by_monte_carlo;
+  dict["slack_at_rad"] = effect.slack_at;
+  return dict;
+}
+
+py::object to_object(const std::optional<Strength>& strength) {
+  if (!strength) return py::none();
+  py::dict dict;
+  dict["tension_N"] = strength->tension;
+  dict["at_knot_N"] = strength->at_knot;
+  dict["source"] = words(strength->source);
+  return dict;
+}
+
+py::tuple knots_of(const Holding& holding) {
+  return tuple_of(holding.knots, [&holding](const KnotHold& knot) {
+    py::dict dict;
+    dict["side"] = words(side_word(knot.side));
+    dict["alpha_rad"] = knot.alpha;
+    dict["wrap_left_rad"] = knot.wrap_left;
+    dict["tension_N"] = knot.tension;
+    dict["at_knot_N"] = knot.at_knot;
+    dict["share"] = maybe(holding.share(knot));
+    return dict;
+  });
+}
+
+py::tuple placements_of(const RewoundPart& part) {
+  return tuple_of(part.placements, [](const Placement& placement) {
+    py::dict dict;
+    dict["axis_mm"] = py::make_tuple(placement.axis.x(), placement.axis.y());
+    dict["turned_rad"] = placement.turn;
+    dict["turned_over"] = placement.turned_over;
+    dict["deviation_mm"] = placement.deviation;
+    return dict;
+  });
+}
+
+std::string_view place_word(PartPlace place) {
+  constexpr std::array<std::string_view, 3> k_words = {"as_made", "found", "not_recognised"};
+  return k_words.at(static_cast<std::size_t>(place));
+}
+
+// ---- searches -------------------------------------------------------------------------------------------------------
+
+/// What a design changes in the file, ties followed: key → value.
+py::dict numbers_of(const Problem& problem, const Design& design) {
+  py::dict dict;
+  for (const MovingKey& moving : problem.moving) dict[words(moving.key)] = moving.value(design);
+  return dict;
+}
+
+py::tuple front_of(const OptimizeResult& result) {
+  const auto* pareto = std::get_if<ParetoResult>(&result.search);
+  if (pareto == nullptr) return py::tuple();
+  return tuple_of(pareto->front, [&result](const FrontPoint& point) {
+    py::dict dict;
+    dict["numbers"] = numbers_of(result.problem, point.design);
+    dict["values"] = tuple_of(point.values, [](double value) { return py::float_(value); });
+    return dict;
+  });
+}
+
+void add_proof(const OptimizeResult& result, py::dict& dict) {
+  const auto* certified = std::get_if<CertifiedResult>(&result.search);
+  dict["proven"] = certified != nullptr && certified->proven;
+  dict["lower_bound"] = certified != nullptr ? py::object(py::float_(certified->lower_bound)) : py::none();
+  dict["relative_gap"] = certified != nullptr ? py::object(py::float_(certified->relative_gap)) : py::none();
+}
+
+// ---- runs -----------------------------------------------------------------------------------------------------------
+
+py::tuple residuals_of(const py::capsule& kept, const CalibrationProduct& product) {
+  const std::vector<Run>& runs = product.measurement.runs;
+  py::list list;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Calibration& calibration = product.calibration;
+    if (i >= calibration.residuals_before.size() || i >= calibration.residuals_after.size()) break;
+    const Rows<Sample> rows = rows_of(kept, runs[i].samples);
+    py::dict dict;
+    dict["name"] = path_words(runs[i].name);
+    dict["alpha_rad"] = rows(&Sample::alpha);
+    dict["theta_rad"] = rows(&Sample::theta);
+    dict["before_rad"] = numbers(kept, calibration.residuals_before[i]);
+    dict["after_rad"] = numbers(kept, calibration.residuals_after[i]);
+    list.append(dict);
+  }
+  return py::tuple(list);
+}
+
+py::tuple without_law_conditions(const std::optional<SynthesisResult>& without_law) {
+  return to_python(without_law ? without_law->conditions : std::vector<Condition>{});
+}
+
+py::tuple without_law_advice(const std::optional<SynthesisResult>& without_law) {
+  return to_python(without_law ? without_law->advice : std::vector<Change>{});
+}
+
+py::dict step_of(const PlanStep& step, const std::string& file) {
+  py::dict dict;
+  dict["words"] = words(step.words);
+  dict["minutes"] = step.minutes;
+  dict["by_minutes"] = step.by;
+  dict["sees"] = to_python(step.sees);
+  dict["tells"] = to_python(step.tells);
+  dict["file"] = words(file);
+  return dict;
+}
+
+}  // namespace
+
+py::str words(std::string_view text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
+}
+
+py::str path_words(const std::string& path) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeFSDefaultAndSize(path.data(), static_cast<py::ssize_t>(path.size())));
+}
+
+py::tuple to_python(const std::vector<std::string>& texts) {
+  return tuple_of(texts, [](const std::string& text) { return words(text); });
+}
+py::tuple to_python(const std::vector<Diagnostic>& diagnostics) {
+  return tuple_of(diagnostics, [](const Diagnostic& diagnostic) { return to_dict(diagnostic); });
+}
+py::tuple to_python(const std::vector<Condition>& conditions) {
+  return tuple_of(conditions, [](const Condition& condition) { return to_dict(condition); });
+}
+py::tuple to_python(const std::vector<Check>& checks) {
+  return tuple_of(checks, [](const Check& check) { return to_dict(check); });
+}
+py::tuple to_python(const std::vector<Change>& changes) {
+  return tuple_of(changes, [](const Change& change) { return to_dict(change); });
+}
+py::dict to_python(const std::vector<OutputFile>& files) {
+  py::dict dict;
+  for (const OutputFile& file : files) dict[words(file.name)] = py::bytes(file.bytes);
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const SynthesisResult> result) { return to_dict(keep(result), *result); }
+
+py::dict to_python(std::shared_ptr<const RewoundPart> result) {
+  py::dict dict = to_dict(keep(result), result->as_built);
+  dict["place"] = words(place_word(result->place));
+  dict["alone"] = result->alone ? py::object(words(side_word(*result->alone))) : py::none();
+  dict["placements"] = placements_of(*result);
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const BuildResult> result) {
+  constexpr std::array<std::string_view, 3> k_status = {"done", "infeasible", "check_failed"};
+  const Product& product = result->product;
+  const py::capsule kept = keep(result);
+  py::dict dict;
+  dict["status"] = words(k_status.at(static_cast<std::size_t>(result->status)));
+  dict["synthesis"] = to_dict(kept, product.synthesis);
+  dict["mesh"] = to_dict(kept, product.pulley.mesh);
+  dict["as_built"] = to_dict(kept, product.as_built);
+  dict["checks"] = to_python(product.checks);
+  dict["conditions"] = to_python(product.synthesis.made() ? product.pulley.conditions : product.synthesis.conditions);
+  dict["advice"] = to_python(result->advice.alone);
+  dict["advice_together"] = to_python(result->advice.together);
+  dict["knots"] = knots_of(product.holding);
+  dict["files"] = to_python(result->outputs);
+  dict["warnings"] = to_python(product.file.warnings);
+  dict["holding_warnings"] = to_python(product.holding.warnings);
+  dict["notes"] = to_python(product.pulley.layout.notes);
+  dict["published"] = result->published;
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const AnalysisResult> result) {
+  const py::capsule kept = keep(result);
+  const Rows<AnalysisRow> rows = rows_of(kept, result->rows);
+  py::dict dict;
+  dict["exists"] = result->exists;
+  dict["declared"] = to_dict(rows.part(&AnalysisRow::declared));
+  dict["paper"] = to_dict(rows.part(&AnalysisRow::paper));
+  dict["rising"] = to_dict(rows.part(&AnalysisRow::rising));
+  dict["falling"] = to_dict(rows.part(&AnalysisRow::falling));
+  dict["conditions"] = to_python(result->obstacles);
+  dict["advice"] = to_python(result->advice);
+  dict["largest_tension"] = to_dict(result->largest_tension);
+  dict["largest_at_joint_N"] = to_dict(result->largest_at_joint);
+  dict["largest_paper_tension_N"] = to_dict(result->largest_paper_tension);
+  dict["largest_torque_Nmm"] = to_dict(result->largest_torque);
+  dict["hysteresis_rad"] = to_dict(result->hysteresis);
+  dict["slack1_rad"] = to_tuple(result->slack1);
+  dict["slack2_rad"] = to_tuple(result->slack2);
+  dict["untensioned_rad"] = to_tuple(result->untensioned);
+  dict["taut_pretension_N"] = maybe(result->taut_pretension);
+  dict["lost_at_rad"] = maybe(result->lost_at);
+  dict["strength"] = to_object(result->strength);
+  dict["breaks_at_rad"] = maybe(result->breaks_at);
+  dict["sources"] = tuple_of(result->sources, [](const ErrorSource& source) { return to_dict(source); });
+  dict["tolerances"] = tuple_of(result->tolerances, [](const ToleranceEffect& effect) { return to_dict(effect); });
+  dict["warnings"] = to_python(result->warnings);
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const OptimizeResult> result) {
+  constexpr std::array<std::string_view, 3> k_methods = {"certified", "genetic", "pareto"};
+  py::list objectives;
+  for (const Objective objective : result->problem.objectives)
+    objectives.append(py::make_tuple(words(info(objective).name), words(info(objective).unit)));
+  py::dict dict;
+  dict["method"] = words(k_methods.at(static_cast<std::size_t>(result->method())));
+  dict["objectives"] = py::tuple(objectives);
+  dict["found"] = result->found;
+  dict["stopped"] = result->stopped;
+  dict["reason"] = words(result->reason);
+  dict["numbers"] = result->found ? numbers_of(result->problem, result->design) : py::dict();
+  dict["value"] = result->found ? py::object(py::float_(result->value)) : py::none();
+  dict["before"] = result->before.possible ? py::object(py::float_(result->before.value)) : py::none();
+  add_proof(*result, dict);
+  dict["front"] = front_of(*result);
+  dict["text"] = words(result->new_text);
+  dict["warnings"] = to_python(result->warnings);
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const CalibrateResult> result) {
+  py::dict dict;
+  dict["document"] = words(calibration_json(result->product));
+  dict["residuals"] = residuals_of(keep(result), result->product);
+  dict["notes"] = to_python(result->product.measurement.notes);
+  dict["warnings"] = to_python(result->product.file.warnings);
+  dict["summary"] = words(result->product.calibration.summary);
+  dict["files"] = to_python(result->outputs);
+  dict["published"] = result->published;
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const PlanResult> result) {
+  const Plan& plan = result->product.plan;
+  py::list steps;
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) steps.append(step_of(plan.steps[i], run_file_name(plan, i)));
+  py::dict dict;
+  dict["exists"] = !result->without_law;
+  dict["conditions"] = without_law_conditions(result->without_law);
+  dict["advice"] = without_law_advice(result->without_law);
+  dict["steps"] = py::tuple(steps);
+  dict["beyond"] = tuple_of(plan.beyond, [](const PlanStep& step) { return step_of(step, ""); });
+  dict["minutes"] = plan.minutes;
+  dict["groups"] = tuple_of(plan.groups, [](const std::vector<std::string>& group) { return to_python(group); });
+  dict["document"] = words(result->without_law ? "" : plan_json(result->product));
+  dict["warnings"] = to_python(result->product.file.warnings);
+  dict["files"] = to_python(result->outputs);
+  dict["published"] = result->published;
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const SimulateResult> result) {
+  const Simulation& simulation = result->simulation;
+  py::dict columns;
+  py::list status;
+  if (!result->without_law) {
+    const auto table = std::make_shared<const std::vector<SimulationColumn>>(simulation_columns(simulation));
+    const py::capsule kept = keep(table);
+    for (const SimulationColumn& column : *table) columns[words(column.name)] = numbers(kept, column.values);
+    for (const JointState& state : simulation.states) status.append(words(word(state.status)));
+  }
+  py::dict dict;
+  dict["exists"] = !result->without_law;
+  dict["conditions"] = without_law_conditions(result->without_law);
+  dict["advice"] = without_law_advice(result->without_law);
+  dict["columns"] = columns;
+  dict["status"] = py::tuple(status);
+  dict["notes"] = to_python(simulation.log.notes);
+  dict["warnings"] = to_python(simulation.file.warnings);
+  dict["csv"] = words(result->without_law ? "" : simulation_csv(simulation));
+  return dict;
+}
+
+py::dict to_python(std::shared_ptr<const KitResult> result) {
+  constexpr std::array<std::string_view, 4> k_status = {"done", "no_pulley", "no_kit", "check_failed"};
+  const Product& pulley = result->product.pulley;
+  const std::vector<Condition>& of_pulley =
+      pulley.synthesis.made() ? pulley.pulley.conditions : pulley.synthesis.conditions;
+  py::dict dict;
+  dict["status"] = words(k_status.at(static_cast<std::size_t>(result->ending)));
+  dict["conditions"] = to_python(result->ending == KitEnding::no_pulley ? of_pulley : result->product.plan.conditions);
+  dict["advice"] = to_python(result->advice.alone);
+  dict["advice_together"] = to_python(result->advice.together);
+  dict["checks"] = to_python(result->product.checks);
+  dict["notes"] = to_python(result->product.plan.notes);
+  dict["warnings"] = to_python(pulley.file.warnings);
+  dict["files"] = to_python(result->outputs);
+  dict["published"] = result->published;
+  return dict;
+}
+
+}  // namespace fusee::python

@@ -1,0 +1,44 @@
+/// \file
+/// Values of C++ as Python's: dictionaries that the package's classes are made from, arrays as read-only views.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusee/pipeline.h"
+#include "fusee/pipeline/kit.h"
+
+namespace fusee::python {
+
+namespace py = pybind11;
+
+/// What a message or a file of words says; bytes that are no UTF-8 are replaced.
+py::str words(std::string_view text);
+/// A path as Python's os.fsdecode() has it.
+py::str path_words(const std::string& path);
+
+py::tuple to_python(const std::vector<std::string>& texts);
+py::tuple to_python(const std::vector<Diagnostic>& diagnostics);
+py::tuple to_python(const std::vector<Condition>& conditions);
+py::tuple to_python(const std::vector<Check>& checks);
+py::tuple to_python(const std::vector<Change>& changes);
+/// Name → bytes.
+py::dict to_python(const std::vector<OutputFile>& files);
+
+/// Arrays of these are views of the value, which lives as long as the last of them.
+py::dict to_python(std::shared_ptr<const SynthesisResult> result);
+py::dict to_python(std::shared_ptr<const RewoundPart> result);
+py::dict to_python(std::shared_ptr<const BuildResult> result);
+py::dict to_python(std::shared_ptr<const AnalysisResult> result);
+py::dict to_python(std::shared_ptr<const OptimizeResult> result);
+py::dict to_python(std::shared_ptr<const CalibrateResult> result);
+py::dict to_python(std::shared_ptr<const PlanResult> result);
+py::dict to_python(std::shared_ptr<const SimulateResult> result);
+py::dict to_python(std::shared_ptr<const KitResult> result);
+
+}  // namespace fusee::python

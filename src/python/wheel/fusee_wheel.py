@@ -1,0 +1,105 @@
+"""What pip asks for (PEP 517): CMake compiles the module, and the package is packed as a wheel. Nothing but Python's own library is needed.
+
+`pip install --no-build-isolation --config-settings build-dir=build/release .` takes what stands compiled there.
+"""
+
+import base64
+import hashlib
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def version():
+    """The program's, from the one place where it stands."""
+    return re.search(r"^project\(fusee VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
+
+
+def about(key):
+    return re.search(rf'^{key} = "(.*)"$', (ROOT / "pyproject.toml").read_text(), re.M)[1]
+
+
+def configure(build):
+    """For the Python that asks: the one of an earlier time may be gone."""
+    generator = ["-G", "Ninja"] if shutil.which("ninja") and not (build / "CMakeCache.txt").exists() else []
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DFUSEE_TESTS=OFF", "-DFUSEE_PYTHON=REQUIRED", f"-DPython_EXECUTABLE={sys.executable}"]
+    subprocess.run(["cmake", "-S", ROOT, "-B", build, *generator, *options], check=True)
+
+
+def compiled(given):
+    """The package's folder in a build that was named, or in one of its own; compiled by now."""
+    build = ROOT / (given or "build/wheel")
+    if not given:
+        configure(build)
+    subprocess.run(["cmake", "--build", build, "--target", "fusee_python"], check=True)
+    return build / "python/fusee"
+
+
+def tag():
+    number = f"cp{sys.version_info[0]}{sys.version_info[1]}"
+    return f"{number}-{number}-" + re.sub("[-.]", "_", sysconfig.get_platform())
+
+
+def metadata():
+    return (f"Metadata-Version: 2.1\nName: fusee\nVersion: {version()}\nSummary: {about('description')}\n"
+            f"Requires-Python: {about('requires-python')}\nRequires-Dist: numpy\n")
+
+
+def about_wheel():
+    """What a wheel says of itself: name → bytes."""
+    info = f"fusee-{version()}.dist-info"
+    wheel = f"Wheel-Version: 1.0\nGenerator: fusee_wheel\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    return {f"{info}/METADATA": metadata().encode(), f"{info}/WHEEL": wheel.encode(), f"{info}/LICENSE": (ROOT / "LICENSE").read_bytes()}
+
+
+def contents(package):
+    """Name in the wheel → bytes, but for the record of them."""
+    library = "_core" + sysconfig.get_config_var("EXT_SUFFIX")
+    if not (package / library).exists():
+        raise SystemExit(f"fusee: {package} was compiled for another Python: {library} is missing")
+    files = [path for path in sorted(package.iterdir()) if path.suffix in (".py", ".pyi", ".typed") or path.name == library]
+    return {**{f"fusee/{path.name}": path.read_bytes() for path in files}, **about_wheel()}
+
+
+def record(held, name):
+    def row(path, data):
+        return f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}\n"
+
+    return "".join(row(path, data) for path, data in held.items()) + f"{name},,\n"
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Said before anything is compiled."""
+    for name, data in about_wheel().items():
+        path = Path(metadata_directory) / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(data)
+    return f"fusee-{version()}.dist-info"
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    held = contents(compiled((config_settings or {}).get("build-dir")))
+    name = f"fusee-{version()}.dist-info/RECORD"
+    held[name] = record(held, name).encode()
+    wheel = f"fusee-{version()}-{tag()}.whl"
+    with zipfile.ZipFile(Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as packed:
+        for path, data in held.items():
+            entry = zipfile.ZipInfo(path)  # of 1980: the same input gives the same bytes
+            entry.external_attr = (0o755 if path.endswith(".so") else 0o644) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            packed.writestr(entry, data)
+    return wheel
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    """The tree as git has it."""
+    name = f"fusee-{version()}"
+    target = Path(sdist_directory) / f"{name}.tar.gz"
+    subprocess.run(["git", "-C", ROOT, "archive", "--format=tar.gz", f"--prefix={name}/", "-o", target.resolve(), "HEAD"], check=True)
+    return target.name

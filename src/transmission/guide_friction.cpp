@@ -1,0 +1,42 @@
+#include "fusee/transmission/guide_friction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+/// A bearing that takes more of the tension than this holds the idler like a pin: no file that is read comes near.
+constexpr double k_most_loss = 0.999;
+
+double loss(double turning, double wrap) {
+  return std::min(k_most_loss, turning * std::sin(0.5 * std::max(0.0, wrap)));
+}
+
+}  // namespace
+
+// Both tensions press the idler onto its bearing with (T1 + T2) sin(φ/2), to first order in their difference, and the
+// bearing holds against them with the moment μb rb times that: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2). With
+// ε = μb (rb/ρ) sin(φ/2), T2/T1 = (1 + ε)/(1 − ε).
+double GuideFriction::log_ratio(double wrap) const {
+  return is_idler ? 2.0 * std::atanh(loss(turning, wrap)) : mu * std::max(0.0, wrap);
+}
+
+double GuideFriction::slope(double wrap) const {
+  if (!is_idler) return mu;
+  const double epsilon = loss(turning, wrap);
+  return turning * std::cos(0.5 * wrap) / (1.0 - epsilon * epsilon);
+}
+
+GuideFriction guide_friction(const Mechanism& mechanism) {
+  const Guides& guides = mechanism.guides;
+  if (guides.kind == GuideKind::pin) return {guides.mu, 0, false};
+  return {0, guides.bearing_friction * guides.bearing_radius / mechanism.guide_pitch_radius(), true};
+}
+
+Guides without_friction(Guides guides) {
+  guides.mu = guides.bearing_friction = 0;
+  return guides;
+}
+
+}  // namespace fusee

@@ -1,0 +1,126 @@
+// Drums, attachments and idlers under tension: against joints and formulas of which the answer is known otherwise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fusee/joint/equilibrium.h"
+#include "fusee/joint/joint_model.h"
+#include "fusee/transmission/guide_friction.h"
+#include "fusee/transmission/tension.h"
+#include "joint/upper_span_table.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+/// Up, down and home again under a tip force, `rounds` times; the load comes on at home.
+std::vector<JointStep> there_and_back(const Mechanism& mechanism, double tip_force, int rounds = 1) {
+  const Transmission law(mechanism);
+  std::vector<JointStep> steps;
+  for (int i = 0; i <= 40; ++i) steps.push_back({0.0, tip_force * i / 40, 0.0});
+  const auto run = [&](double from, double to) {
+    for (int i = 1; i <= 120; ++i) steps.push_back({from + (to - from) * i / 120, tip_force, 0.0});
+  };
+  for (int round = 0; round < rounds; ++round) {
+    run(0.0, law.alpha_max());
+    run(law.alpha_max(), law.alpha_min());
+    run(law.alpha_min(), 0.0);
+  }
+  return steps;
+}
+
+TEST(WideJoint, WithoutTensionFollowsItsLaw) {
+  for (Mechanism mechanism : {testing::finger(), testing::ankle()}) {
+    mechanism.tendon.pretension = 0;
+    mechanism.guides.mu = 0;
+    const Transmission law(mechanism);
+    ASSERT_FALSE(law.dead_centre());
+    for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 0)))
+      EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11) << mechanism.name;
+  }
+}
+
+TEST(WideJoint, TheTableOfItsSpansHasTheirKink) {
+  const Mechanism mechanism = testing::ankle();
+  const PinPlace place = pin_place(mechanism, Side::left, mechanism.seen_pitch_radius());
+  const double leaves = *lift_off(place);
+  const UpperSpanTable table(place, -0.9, 0.9);
+  ASSERT_GT(leaves, -0.5);
+  ASSERT_LT(leaves, 0.5);
+  for (double theta = -0.9; theta < 0.9; theta += 0.0071) {
+    const UpperSpan span = upper_span(place, theta);
+    const UpperSpanTable::Look look = table.at(theta);
+    EXPECT_NEAR(look.length, span.length, 1e-8);
+    EXPECT_NEAR(look.m, span.m, 1e-7);
+    EXPECT_NEAR(look.dm, span.dm, 1e-4);
+    EXPECT_NEAR(look.normal, span.normal, 1e-9);
+  }
+}
+
+TEST(WideJoint, AWeightOnOneTendonOfADrumIsItsTorqueOverTheDrum) {
+  Mechanism mechanism = testing::finger();
+  mechanism.tendon.pretension = 0;
+  mechanism.guides.mu = 0;
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 20.0))) {
+    if (point.load_torque < 20.0 * 8.3) continue;
+    EXPECT_NEAR(point.t2.upper, 20.0 * 8.3 / mechanism.drum_pitch_radius(), 1e-9);
+    EXPECT_NEAR(point.motor_torque, 20.0 * 9.0, 1e-7);
+  }
+}
+
+/// Over a drum the wrap on the guide stays what it is: there an idler takes what a pin of some friction takes.
+TEST(WideJoint, AnIdlerIsAPinOfItsOwnFrictionWhereTheWrapStays) {
+  Mechanism idler = testing::finger();
+  idler.guides.kind = GuideKind::idler;
+  idler.guides.bearing_radius = 1.0;
+  idler.guides.bearing_friction = 0.3;
+  const double wrap = Transmission(idler).at_theta(0.2).t2.wrap;
+  const double epsilon = 0.3 * 1.0 / 1.3 * std::sin(0.5 * wrap);
+  Mechanism pin = testing::finger();
+  pin.guides.mu = std::log((1 + epsilon) / (1 - epsilon)) / wrap;
+  const auto of_idler = follow(joint_model(idler), there_and_back(idler, 10.0, 2));
+  const auto of_pin = follow(joint_model(pin), there_and_back(pin, 10.0, 2));
+  ASSERT_EQ(of_idler.size(), of_pin.size());
+  double loop = 0;
+  for (std::size_t i = 0; i < of_pin.size(); ++i) {
+    EXPECT_NEAR(of_idler[i].theta, of_pin[i].theta, 1e-9);
+    EXPECT_NEAR(of_idler[i].t2.lower, of_pin[i].t2.lower, 1e-6);
+    loop = std::max(loop, of_pin[i].t2.lower / of_pin[i].t2.upper - 1);
+  }
+  EXPECT_GT(loop, 0.05);
+}
+
+TEST(WideJoint, AnIdlersLossIsItsMomentBalance) {
+  // The bearing is pressed by both tensions as vectors, found by halving; the formula leaves out the square of their
+  // difference.
+  for (const double wrap : {0.3, 1.0, 2.2}) {
+    for (const double turning : {0.001, 0.02}) {
+      double low = 1.0, high = 2.0;
+      for (int i = 0; i < 60; ++i) {
+        const double T2 = 0.5 * (low + high);
+        const double pressed = std::hypot(1.0 - T2 * std::cos(wrap), T2 * std::sin(wrap));
+        (T2 - 1.0 < turning * pressed ? low : high) = T2;
+      }
+      const GuideFriction guide{0, turning, true};
+      EXPECT_NEAR(std::exp(guide.log_ratio(wrap)) - 1.0, low - 1.0, 0.03 * turning * (low - 1.0) + 1e-14);
+      constexpr double step = 1e-5;
+      EXPECT_NEAR(guide.slope(wrap), (guide.log_ratio(wrap + step) - guide.log_ratio(wrap - step)) / (2 * step), 1e-8);
+    }
+  }
+  EXPECT_EQ(GuideFriction({0, 0.02, true}).log_ratio(-0.1), 0.0);
+}
+
+TEST(WideJoint, ThePapersChainKnowsIdlers) {
+  Mechanism mechanism = testing::forearm();
+  mechanism.load.tip_force = 10;
+  mechanism.guides.kind = GuideKind::idler;
+  mechanism.guides.bearing_radius = 1.5;
+  mechanism.guides.bearing_friction = 0.1;
+  const TransmissionPoint at = Transmission(mechanism).at_theta(0.2);
+  const PaperForces forces = paper_forces(mechanism, at);
+  const double epsilon = 0.1 * 1.5 / 2.5 * std::sin(0.5 * at.t2.wrap);
+  EXPECT_NEAR(forces.Tb, forces.T2 * (1 + epsilon) / (1 - epsilon), 1e-12 * forces.Tb);
+}
+
+}  // namespace
+}  // namespace fusee

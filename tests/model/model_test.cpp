@@ -1,0 +1,340 @@
+// What simulators and firmware are given, against what is known of it otherwise: polynomials whose best fit stands in
+// books, P1's radius as the rate at which its tendon is wound, a string pulled taut by steps; and files broken on
+// purpose.
+#include "fusee/pipeline/model.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "fusee/base/units.h"
+#include "fusee/joint/as_it_is.h"
+
+namespace {
+
+using namespace fusee;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+
+MechanismFile profile(const std::string& name, const std::vector<Setting>& settings = {}) {
+  return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (name + ".toml"), settings);
+}
+
+ModelResult dry(const MechanismFile& file, ModelOptions options = {}) {
+  options.folder = std::filesystem::temp_directory_path() / "fusee-model-test";
+  options.dry_run = true;
+  return model(file, options);
+}
+
+std::vector<FitPoint> sampled(double low, double high, double (*f)(double)) {
+  std::vector<FitPoint> points;
+  for (int i = 0; i <= 2000; ++i) {
+    const double x = std::lerp(low, high, i / 2000.0);
+    points.push_back({x, f(x)});
+  }
+  return points;
+}
+
+// ---- polynomials ----------------------------------------------------------------------------------------------------
+
+TEST(LeastLargestError, IsChebyshevs) {
+  // x^n less T_n/2^(n−1) is the best polynomial of degree n − 1: it misses by 2^(1−n).
+  EXPECT_NEAR(least_largest_error(sampled(-1, 1, [](double x) { return x * x * x; }), 2).error, 0.25, 1e-6);
+  EXPECT_NEAR(least_largest_error(sampled(-1, 1, [](double x) { return std::pow(x, 5); }), 4).error, 0.0625, 1e-6);
+  // |x| by a parabola: x² + 1/8.
+  const PolynomialFit corner = least_largest_error(sampled(-1, 1, [](double x) { return std::abs(x); }), 2);
+  EXPECT_NEAR(corner.error, 0.125, 1e-6);
+  EXPECT_THAT(corner.p.c, ElementsAre(DoubleNear(0.125, 1e-6), DoubleNear(0, 1e-6), DoubleNear(1, 1e-5)));
+}
+
+TEST(LeastLargestError, IsThePolynomialItselfWhereverItLies) {
+  const PolynomialFit fit = least_largest_error(sampled(30, 31, [](double x) { return 2 - x + 0.5 * x * x; }), 4);
+  EXPECT_LT(fit.error, 1e-9);
+  for (const double x : {30.0, 30.3, 31.0}) EXPECT_NEAR(fit.p(x), 2 - x + 0.5 * x * x, 1e-9);
+}
+
+TEST(LeastLargestError, MissesByTheSameAlternately) {
+  const std::vector<FitPoint> points = sampled(-0.3, 2, [](double x) { return std::exp(x); });
+  const PolynomialFit fit = least_largest_error(points, 4);
+  int alternations = 0;
+  double last = 0;
+  for (const FitPoint& point : points) {
+    const double error = point.y - fit.p(point.x);
+    EXPECT_LE(std::abs(error), fit.error * (1 + 1e-6));
+    if (std::abs(error) > 0.999 * fit.error && error * last <= 0) {
+      ++alternations;
+      last = error;
+    }
+  }
+  EXPECT_EQ(alternations, 6);
+}
+
+/// θ of an equality, found by halving and not by its own means.
+double theta_of(const EqualityFit& fit, double alpha) {
+  if (fit.of_alpha) return fit.p(alpha);
+  double low = -2, high = 2;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (fit.p(middle) < alpha ? low : high) = middle;
+  }
+  return low;
+}
+
+class OfProfile : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(OfProfile, EqualitiesMissWhatTheySay) {
+  const MechanismFile file = profile(GetParam());
+  const AngleMap map = joint_curves(file.mechanism)->stands.middle;
+  for (const EqualityFit& fit : {fit_equality(map), fit_line(map)}) {
+    double largest = 0;
+    for (int i = 0; i <= 777; ++i) {
+      const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 777.0);
+      largest = std::max(largest, std::abs(theta_of(fit, alpha) - map.theta(alpha)));
+    }
+    EXPECT_LE(largest, 1.001 * fit.error + 1e-12);
+    EXPECT_GE(largest, 0.99 * fit.error - 1e-12);
+  }
+}
+
+/// The length of a string from C over a pin to the anchor, pulled taut: its middle is a chain of points, none of which
+/// may lie in the pin. Shortened link by link; no tangents.
+double taut(const WrappedTendon& tendon, const Vec2& C) {
+  constexpr int links = 400;
+  const Vec2 outward = (tendon.outer - tendon.pin).normalized();
+  // Over the outer side a chain stands on rays from the pin, from the direction of C to that of the anchor.
+  const double from = std::atan2((C - tendon.pin).y(), (C - tendon.pin).x()),
+               to = std::atan2((tendon.anchor - tendon.pin).y(), (tendon.anchor - tendon.pin).x());
+  const double outer = std::atan2(outward.y(), outward.x());
+  const auto turned = [&](double angle) { return std::remainder(angle - outer, k_two_pi); };
+  // Support function: the hull of pin, C and anchor, seen from the outer side.
+  std::vector<Vec2> hull{C, tendon.anchor};
+  for (int i = 0; i <= links; ++i) {
+    const double angle = outer + std::lerp(turned(from), turned(to), double(i) / links);
+    hull.push_back(tendon.pin + tendon.rho / std::cos(0.5 * (turned(to) - turned(from)) / links) *
+                                    Vec2(std::cos(angle), std::sin(angle)));
+  }
+  std::sort(hull.begin(), hull.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
+  // The outer side of the convex hull between its lowest and its highest point.
+  const double side = outward.x() > 0 ? 1 : -1;
+  std::vector<Vec2> chain;
+  for (const Vec2& point : hull) {
+    while (chain.size() >= 2) {
+      const Vec2 a = chain.back() - chain[chain.size() - 2], b = point - chain.back();
+      if (side * (a.x() * b.y() - a.y() * b.x()) > 0) break;
+      chain.pop_back();
+    }
+    chain.push_back(point);
+  }
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) length += (chain[i] - chain[i - 1]).norm();
+  return length;
+}
+
+TEST_P(OfProfile, TendonsAreAsLongAsAStringPulledTaut) {
+  const ModelResult made = dry(profile(GetParam()));
+  ASSERT_TRUE(made.product.tendons);
+  const TendonModel& tendons = *made.product.tendons;
+  const WrappedTendon& held = tendons.tendons[tendons.held == Side::left ? 0 : 1];
+  const double R = made.product.mechanism.joint.R;
+  const AngleMap& map = made.product.curves.stands.middle;
+  for (int i = 0; i <= 6; ++i) {
+    const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 6.0), theta = map.theta(alpha);
+    const double length = taut(held, {R * std::sin(theta), R * std::cos(theta)});
+    // A moment arm is no longer than R.
+    EXPECT_NEAR(length, held.home_length + tendons.length(alpha), R * (tendons.error + 1e-6))
+        << "theta " << degrees(theta);
+  }
+}
+
+TEST_P(OfProfile, ARoundP1IsARoundP1) {
+  const MechanismFile file = profile(GetParam());
+  const TendonModel tendons = *dry(file).product.tendons;
+  if (file.mechanism.pulley.law == Law::compensate) {
+    // α(θ) = (L1(θ) − L1(0))/r1.
+    EXPECT_EQ(tendons.held, Side::left);
+    EXPECT_THAT(tendons.length.c, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(file.mechanism.pulley.r1, 1e-9)));
+    EXPECT_LT(tendons.error, 1e-12);
+  } else {
+    EXPECT_EQ(tendons.length.c.size(), 5u);
+    EXPECT_LT(tendons.error, radians(0.1));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, OfProfile,
+                         ::testing::Values("paper_optimum", "forearm", "finger", "gripper", "linear_wrist",
+                                           "unsymmetric", "wrist_exo"),
+                         [](const auto& tested) { return tested.param; });
+
+/// Over the whole range the joint is where the tendon's length puts it, also with C below the pins.
+TEST(Tendons, AreFollowedThroughWideRanges) {
+  const MechanismFile file = profile("finger", {{"joint.range_deg", "[-20, 75]"},
+                                                {"guides.radius_mm", "3"},
+                                                {"guides.OE_mm", "0"},
+                                                {"guides.EB_mm", "25"},
+                                                {"guides.ED_mm", "30"}});
+  const Transmission law(file.mechanism);
+  ASSERT_FALSE(law.dead_centre());
+  const AngleMap map = angle_map(law);
+  std::string why_not;
+  const auto model = tendon_model(file.mechanism, map, why_not);
+  ASSERT_TRUE(model) << why_not;
+  const WrappedTendon& held = model->tendons[0];
+  EXPECT_EQ(model->held, Side::left);
+  EXPECT_LT(tendon_error(held, file.mechanism.joint.R, model->length, map), 1e-9);
+}
+
+// ---- curves ---------------------------------------------------------------------------------------------------------
+
+TEST(JointCurve, OfADeclaredJointIsItsLaw) {
+  const MechanismFile file = profile("forearm");
+  const Transmission law(file.mechanism);
+  const JointCurves curves = *joint_curves(file.mechanism);
+  EXPECT_FALSE(curves.shown.ways);
+  for (const double alpha : {-1.9, 0.0, 0.7, 2.0}) {
+    EXPECT_EQ(curves.shown.middle.theta(alpha), law.theta(alpha));
+    EXPECT_EQ(curves.stands.middle.slope(alpha), law.at_alpha(alpha).g);
+  }
+  EXPECT_NEAR(curves.shown.middle.theta(99), file.mechanism.joint.theta_max, 1e-12);
+}
+
+TEST(JointCurve, OfPlayIsApartByThePlay) {
+  const MechanismFile file =
+      profile("forearm", {{"identified.backlash_deg", "1.5"}, {"guides.friction", "0"}, {"pulley.friction", "0"}});
+  const JointCurve curve = joint_curves(file.mechanism)->shown;
+  ASSERT_TRUE(curve.ways);
+  for (const double theta : {-0.4, -0.1, 0.2, 0.45})
+    EXPECT_NEAR(degrees((*curve.ways)[0].alpha(theta) - (*curve.ways)[1].alpha(theta)), 1.5, 0.01);
+}
+
+TEST(JointCurve, OfASensorThatShowsTooMuchIsSaidForFirmwareAlone) {
+  const MechanismFile file =
+      profile("forearm", {{"identified.gain_percent", "2"}, {"guides.friction", "0"}, {"pulley.friction", "0"}});
+  const JointCurves curves = *joint_curves(file.mechanism);
+  for (const double alpha : {-1.5, 0.3, 1.0})
+    EXPECT_NEAR(curves.shown.middle.theta(alpha), 1.02 * curves.stands.middle.theta(alpha), radians(0.002));
+}
+
+TEST(Compensation, KeepsTheBendsOfTheLawBetweenItsRows) {
+  const MechanismFile file = profile("forearm");
+  const Transmission law(file.mechanism);
+  std::vector<TwoWayRow> rows;
+  for (int i = -5; i <= 5; ++i) rows.push_back({0.1 * i, law.alpha(0.1 * i) + 0.01, law.alpha(0.1 * i) - 0.01});
+  const JointCurve curve = two_way_curve(refined(rows, law), CurveSource::compensation);
+  for (const double theta : {-0.45, 0.03, 0.22}) {
+    EXPECT_NEAR((*curve.ways)[0].alpha(theta), law.alpha(theta) + 0.01, 1e-6);
+    EXPECT_NEAR((*curve.ways)[1].alpha(theta), law.alpha(theta) - 0.01, 1e-6);
+  }
+}
+
+TEST(Compensation, IsReadOrRefusedWhateverItsBytes) {
+  const std::string sound = "theta_deg,alpha_up_deg,alpha_down_deg\n-5,-20,-21\n# a comment\n0,1,-1\n5,22.5,19\n";
+  ASSERT_EQ(read_compensation(sound, "c.csv").size(), 3u);
+  std::uint32_t state = 1;
+  const auto next = [&state](std::uint32_t below) {
+    state = state * 1664525u + 1013904223u;
+    return (state >> 8) % below;
+  };
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = sound;
+    for (std::uint32_t k = next(4); k < 4; ++k) {
+      const std::size_t at = next(static_cast<std::uint32_t>(text.size()));
+      if (next(3) == 0) {
+        text.erase(at, next(12));
+      } else {
+        text.insert(at, 1, ",-.e9\n\r#n\0 "[next(12)]);
+      }
+      if (text.empty()) text = "\n";
+    }
+    try {
+      const std::vector<TwoWayRow> rows = read_compensation(text, "c.csv");
+      ASSERT_GE(rows.size(), 2u);
+      for (std::size_t k = 1; k < rows.size(); ++k)
+        ASSERT_TRUE(rows[k].theta > rows[k - 1].theta && rows[k].up > rows[k - 1].up &&
+                    rows[k].down > rows[k - 1].down);
+    } catch (const InputError& error) {
+      ASSERT_FALSE(error.diagnostics().empty());
+    }
+  }
+}
+
+// ---- tables ---------------------------------------------------------------------------------------------------------
+
+TEST(Table, OfAStraightLineIsTheLine) {
+  const ModelResult made = dry(profile("linear_wrist"));
+  EXPECT_EQ(made.product.table.pieces, 16);
+  EXPECT_LT(degrees(made.product.table.errors.returned), 1e-5);
+}
+
+TEST(Table, MissesAQuarterWithTwiceThePieces) {
+  const MechanismFile file = profile("paper_optimum");
+  const JointCurve curve = joint_curves(file.mechanism)->shown;
+  const JointTable coarse = *joint_table(curve, file.mechanism, {}, radians(0.05)),
+                   fine = *joint_table(curve, file.mechanism, {}, radians(0.002));
+  ASSERT_EQ(coarse.pieces, 16);
+  ASSERT_EQ(fine.pieces, 64);
+  EXPECT_NEAR(coarse.errors.theta / fine.errors.theta, 16, 3);
+}
+
+TEST(Table, IsRefusedWhereFloatsAreTooCoarse) {
+  ModelOptions options;
+  options.most_table_error = radians(1e-6);
+  const ModelResult made = dry(profile("forearm"), options);
+  EXPECT_EQ(made.ending, ModelEnding::table_off);
+  EXPECT_TRUE(made.outputs.empty());
+  ASSERT_EQ(made.changes.size(), 1u);
+}
+
+// ---- files ----------------------------------------------------------------------------------------------------------
+
+double value_of(const std::vector<Check>& checks, const std::string& name, bool ok) {
+  for (const Check& check : checks) {
+    if (check.name != name) continue;
+    EXPECT_EQ(check.ok, ok) << name << " = " << check.value;
+    return check.value;
+  }
+  ADD_FAILURE() << "no check " << name;
+  return 0;
+}
+
+struct Broken {
+  std::string file;
+  std::string from, to;
+  std::string check;
+};
+
+TEST(Files, ThatAreWrongAreSeen) {
+  const ModelResult made = dry(profile("forearm"));
+  ASSERT_EQ(made.ending, ModelEnding::done);
+  for (const Broken& broken :
+       std::vector<Broken>{{"joint.xml", "polycoef=\"0.0003", "polycoef=\"0.0303", "joint_xml_theta_error"},
+                           {"joint.xml", "joint2=\"theta\"", "joint2=\"alpha\"", "joint_xml_theta_error"},
+                           {"joint_tendons.xml", "<geom name=\"pin_B\" type=\"cylinder\" pos=\"-0.05 ",
+                            "<geom name=\"pin_B\" type=\"cylinder\" pos=\"-0.052 ", "joint_tendons_xml_theta_error"},
+                           {"joint_tendons.xml", "coef=\"0.016\"", "coef=\"0.017\"", "joint_tendons_xml_theta_error"},
+                           {"joint.urdf", "multiplier=\"0.2", "multiplier=\"0.3", "joint_urdf_theta_error"},
+                           {"joint_ros2_control.urdf", "<offset>", "<offset>1", "joint_ros2_control_urdf_theta_error"},
+                           {"joint_table.json", "-29.457499", "-29.557499", "joint_table_json_theta_error"},
+                           {"joint_table.json", "-29.457499", "-30.5", "joint_table_json_not_growing"},
+                           {"joint_table.h", "-29.457499f", "-29.4574f", "joint_table_h_differing_entries"}}) {
+    std::vector<OutputFile> outputs = made.outputs;
+    for (OutputFile& output : outputs) {
+      if (output.name != broken.file) continue;
+      const std::size_t at = output.bytes.find(broken.from);
+      ASSERT_NE(at, std::string::npos) << broken.from;
+      output.bytes.replace(at, broken.from.size(), broken.to);
+    }
+    value_of(made.product.checks, broken.check, true);
+    value_of(check_model(made.product, outputs), broken.check, false);
+  }
+}
+
+TEST(Files, SayWhatTheyAssume) {
+  const ModelResult made = dry(profile("finger", {{"load.mass_kg", "0"}}));
+  for (const OutputFile& output : made.outputs) {
+    const bool simulated =
+        output.name.find(".xml") != std::string::npos || output.name.find(".urdf") != std::string::npos;
+    EXPECT_EQ(output.bytes.find("Assumed: ") != std::string::npos, simulated) << output.name;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,28 @@
+// A model in MuJoCo itself (npm @mujoco/mujoco): its motor is sent home → top → bottom → top → bottom, and what both
+// hinges show on the way is printed. node follow_model.mjs <mujoco.js> <model.xml>
+import { readFileSync } from 'node:fs';
+import { pathToFileURL } from 'node:url';
+
+const [library, file] = process.argv.slice(2);
+const mujoco = await (await import(pathToFileURL(library).href)).default();
+mujoco.FS.writeFile('/model.xml', readFileSync(file));
+const model = mujoco.MjModel.mj_loadXML('/model.xml');
+const data = new mujoco.MjData(model);
+const [low, high] = model.actuator_ctrlrange;
+const k_stroke_seconds = 3;
+const steps = Math.round(k_stroke_seconds / model.opt.timestep);
+const rows = [];
+let at = 0;
+for (const end of [high, low, high, low]) {
+  const from = at;
+  for (let i = 1; i <= steps; ++i) {
+    at = from + (end - from) * Math.min(1, (1.1 * i) / steps);  // and rests a tenth of the time
+    data.ctrl[0] = at;
+    mujoco.mj_step(model, data);
+    if (i % 10 === 0) {
+      mujoco.mj_forward(model, data);  // lengths and places of this very moment
+      rows.push([data.time, at, data.qpos[0], data.qpos[1], ...(data.ten_length ?? [])]);
+    }
+  }
+}
+console.log(JSON.stringify({ version: mujoco.mj_versionString?.() ?? '', range: [low, high], rows }));

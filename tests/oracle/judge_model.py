@@ -1,0 +1,198 @@
+"""Programs that a joint's model is for, as judges of what `fusee model` leaves.
+Usage: judge_model.py mujoco FOLDER --law transmission.csv   MuJoCo loads joint.xml and joint_tendons.xml, drives the motor there and back over the range, and
+its joint is within the error that the file states of θ(α) as `fusee build` writes it; both tendons have the lengths that a string round their pins has.
+judge_model.py urdf FOLDER   urdfdom's check_urdf reads joint.urdf and joint_ros2_control.urdf; ros2_control's own keys stand where its parser looks for them.
+Either with --self-test: that the judge sees a wrong file.   Prints what is wrong; exit 1 when anything is, 77 where the judge is not installed."""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ET
+
+HERE = pathlib.Path(__file__).resolve().parent
+# Of constraints that give way a little to what pulls at them, and of the law between two rows of the CSV.
+SOFT_DEG = 0.001
+
+
+def not_installed(what):
+    print(f"{what} is not installed")
+    sys.exit(77)
+
+
+def mujoco_library():
+    """The pinned version, where .ci/setup puts it."""
+    if not shutil.which("node"):
+        not_installed("node")
+    library = pathlib.Path.home() / ".cache/fusee-judges/node_modules/@mujoco/mujoco/mujoco.js"
+    if library.is_file():
+        return library
+    not_installed("MuJoCo (npm @mujoco/mujoco, see .ci/setup)")
+
+
+def law_of(path):
+    """θ(α) in degrees between the rows of transmission.csv, by cubics through four of them."""
+    with open(path, newline="") as file:
+        rows = [(float(row["alpha_deg"]), float(row["theta_deg"])) for row in csv.DictReader(file)]
+
+    def theta(alpha):
+        i = min(max(sum(row[0] < alpha for row in rows) - 2, 0), len(rows) - 4)
+        near = rows[i:i + 4]
+        return sum(y * math.prod((alpha - other) / (x - other) for other, _ in near if other != x) for x, y in near)
+
+    return theta, rows[0][0], rows[-1][0]
+
+
+def stated_error(text):
+    """What the comment of the file promises, deg."""
+    return float(re.search(r"misses theta\(alpha\)\s+by ([0-9.e+-]+) deg at most", text).group(1))
+
+
+def follow(library, path):
+    script = subprocess.run(["node", HERE / "follow_model.mjs", library, path], capture_output=True, text=True)
+    if script.returncode != 0:
+        raise SystemExit(f"{path.name}: MuJoCo does not take it: {script.stderr.strip()[-2000:]}")
+    return json.loads(script.stdout)
+
+
+def path_faults(path, said):
+    """Lengths of both tendons against a taut string, by differences from the first moment."""
+    root = ET.parse(path).getroot()
+    world = root.find("worldbody")
+    place = lambda node: [float(x) for x in node.get("pos").split()]
+    link = float(next(s for s in root.iter("site") if s.get("name") == "C_1").get("pos").split()[1])
+    for i, name in enumerate(("1", "2")):
+        pin = next((g for g in world.findall("geom") if g.get("name") == ("pin_B", "pin_D")[i]))
+        over = next((s for s in world.findall("site") if s.get("name") == "over_" + name), None)
+        anchor = place(next(s for s in world.findall("site") if s.get("name") == "anchor_" + name))
+        x, y, _ = place(over if over is not None else pin)
+        rho = 0.0 if over is not None else float(pin.get("size").split()[0])
+        side = -1 if i == 0 else 1
+
+        def length(theta):
+            # The shorter way over the outer side: two tangents and an arc.
+            def tangent(px, py, turn):
+                distance = math.hypot(px - x, py - y)
+                return math.atan2(py - y, px - x) + turn * math.acos(min(1, rho / distance)), math.sqrt(distance**2 - rho**2)
+            a, free = tangent(link * math.sin(theta), link * math.cos(theta), -side)
+            b, held = tangent(anchor[0], anchor[1], side)
+            arc = (side * (a - b)) % (2 * math.pi)
+            return free + held + rho * (arc if arc < 1.9 * math.pi else 0)
+
+        worst = max(abs(row[4 + i] - length(row[3])) for row in said["rows"])
+        if worst > 1e-8:
+            yield f"tendon {name} is {worst * 1e3:.2g} mm from a string round its pin"
+
+
+def following_faults(library, path, law, low, high):
+    text = path.read_text()
+    limit = stated_error(text) + SOFT_DEG
+    said = follow(library, path)
+    seen = [(math.degrees(row[2]), math.degrees(row[3])) for row in said["rows"]]
+    span = high - low
+    if min(a for a, _ in seen) > low + 0.01 * span or max(a for a, _ in seen) < high - 0.01 * span:
+        yield f"the motor came from {min(a for a, _ in seen):.3f} to {max(a for a, _ in seen):.3f} deg only, of {low:.3f} to {high:.3f}"
+    worst = max((abs(theta - law(alpha)), alpha) for alpha, theta in seen if low <= alpha <= high)
+    print(f"{path.name}: MuJoCo {said['version']}, {len(seen)} places, off by {worst[0]:.6f} deg at most (stated: {limit - SOFT_DEG:g})")
+    if worst[0] > limit:
+        yield f"off by {worst[0]:.6f} deg at alpha = {worst[1]:.2f}, more than the {limit:.6f} that is stated"
+    if path.name == "joint_tendons.xml":
+        yield from path_faults(path, said)
+
+
+def mujoco_faults(folder, law_file):
+    library = mujoco_library()
+    law, low, high = law_of(law_file)
+    for name in ("joint.xml", "joint_tendons.xml"):
+        if (folder / name).exists():
+            yield from (f"{name}: {fault}" for fault in following_faults(library, folder / name, law, low, high))
+
+
+def urdf_faults(folder, _):
+    program = shutil.which("check_urdf") or not_installed("check_urdf (liburdfdom-tools)")
+    for name in ("joint.urdf", "joint_ros2_control.urdf"):
+        said = subprocess.run([program, folder / name], capture_output=True, text=True)
+        words = said.stdout + said.stderr
+        if "Successfully Parsed XML" not in words or re.search(r"error", words, re.I):
+            yield f"{name}: check_urdf says: {words.strip()}"
+        if "child(1):" not in words:
+            yield f"{name}: check_urdf sees no link: {words.strip()}"
+    # What hardware_interface/src/component_parser.cpp of ros2_control asks for.
+    try:
+        control = ET.parse(folder / "joint_ros2_control.urdf").getroot().find("ros2_control")
+        assert control.get("name") and control.get("type") in ("system", "actuator", "sensor"), "ros2_control: name and type"
+        assert control.find("hardware/plugin").text, "hardware: plugin"
+        joints = {joint.get("name") for joint in control.findall("joint")}
+        for joint in control.findall("joint"):
+            assert {i.get("name") for i in joint.findall("state_interface")} == {"position", "velocity", "effort"}, "state interfaces"
+        for transmission in control.findall("transmission"):
+            assert transmission.get("name") and transmission.find("plugin").text == "transmission_interface/SimpleTransmission", "plugin"
+            assert [a.get("role") for a in transmission.findall("actuator")] == ["actuator1"], "actuator: role"
+            joint = transmission.find("joint")
+            assert joint.get("role") == "joint1" and joint.get("name") in joints, "joint: role, and a name of the component's"
+            assert math.isfinite(float(joint.find("mechanical_reduction").text)) and float(joint.find("mechanical_reduction").text) != 0, "reduction"
+            assert math.isfinite(float(joint.find("offset").text)), "offset"
+        assert control.findall("transmission"), "no transmission"
+    except (AttributeError, AssertionError, TypeError, ValueError, ET.ParseError) as error:
+        yield f"joint_ros2_control.urdf: ros2_control would not take it: {error!r}"
+
+
+def broken_copies(judge, folder, scratch):
+    """Folders each of which must be found at fault."""
+    def copy(name, change):
+        target = scratch / name
+        shutil.copytree(folder, target)
+        change(target)
+        return target
+
+    def replace(file, pattern, by):
+        def change(target):
+            text = (target / file).read_text()
+            changed = re.sub(pattern, by, text, count=1)
+            assert changed != text, f"{file}: nothing to change"
+            (target / file).write_text(changed)
+        return change
+
+    if judge == "mujoco":
+        yield copy("gain", replace("joint.xml", r'polycoef="(\S+) (\S+)', lambda m: f'polycoef="{m[1]} {float(m[2]) * 1.01}'))
+        yield copy("pin", replace("joint_tendons.xml", r'name="pin_([BD])" type="cylinder" pos="(\S+) (\S+)', lambda m: f'name="pin_{m[1]}" type="cylinder" pos="{float(m[2]) * 1.05} {m[3]}'))
+        yield copy("side", replace("joint_tendons.xml", r'sidesite="outer_1"', 'sidesite="anchor_2"'))
+    else:
+        yield copy("parent", replace("joint.urdf", r'<parent link="base_link"', '<parent link="nowhere"'))
+        yield copy("role", replace("joint_ros2_control.urdf", r' role="joint1"', ""))
+        yield copy("tag", replace("joint_ros2_control.urdf", r"</robot>", ""))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("judge", choices=["mujoco", "urdf"])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--law", type=pathlib.Path)
+    parser.add_argument("--self-test", action="store_true")
+    arguments = parser.parse_args()
+    judge = {"mujoco": mujoco_faults, "urdf": urdf_faults}[arguments.judge]
+    if arguments.self_test:
+        missed = []
+        with tempfile.TemporaryDirectory() as scratch:
+            for folder in broken_copies(arguments.judge, arguments.folder, pathlib.Path(scratch)):
+                try:
+                    found = list(judge(folder, arguments.law))
+                except SystemExit as refused:
+                    if refused.code == 77:
+                        raise
+                    found = [refused.code]
+                print(f"{folder.name}: {found or 'not seen'}")
+                missed += [] if found else [folder.name]
+        sys.exit(1 if missed else 0)
+    faults = list(judge(arguments.folder, arguments.law))
+    for fault in faults:
+        print(fault)
+    sys.exit(1 if faults else 0)
+
+
+main()

@@ -1,0 +1,85 @@
+"""Debian's own tools as judges of the packages: cpack makes them from a build, lintian finds no error and no warning but the overrides that they
+state, and what they hold runs from where dpkg puts it: the program makes a pulley, man finds its page, pkg-config's flags compile and link a program
+of somebody else.
+Usage: judge_packages.py BUILD CONSUMER.cpp   Prints what is wrong; exit 1 when anything is, 77 without the tools."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOOLS = ("cpack", "dpkg-deb", "dpkg-shlibdeps", "lintian", "pkg-config", "c++")
+EXPECTED = {"fusee", "libfusee-dev"}
+
+
+def run(*command, **options):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+    return done.returncode, done.stdout + done.stderr
+
+
+def packages_of(build, folder):
+    code, said = run("cpack", "-G", "DEB", "-B", folder, cwd=build)
+    found = {path.name.split("_")[0]: path for path in sorted(folder.glob("**/*.deb")) if "_CPack" not in str(path)}
+    if code or not EXPECTED <= set(found):
+        raise SystemExit(f"cpack made {sorted(found)}, exit {code}:\n{said}")
+    return found
+
+
+def what_lintian_says(packages):
+    # As root it warns of that alone.
+    code, said = run("lintian", "--allow-root", "--fail-on", "error,warning", *packages.values())
+    if code:
+        yield f"lintian:\n{said}"
+
+
+def what_is_unpacked(packages, root):
+    for package in packages.values():
+        code, said = run("dpkg-deb", "-x", package, root)
+        if code:
+            yield f"{package.name} does not unpack: {said}"
+    program, page = root / "usr/bin/fusee", root / "usr/share/man/man1/fusee-build.1.gz"
+    profile = root / "usr/share/fusee/profiles/paper_optimum.toml"
+    code, said = run(program, "build", profile, "-o", root / "out", "-q")
+    if code:
+        yield f"the program from the package: exit {code}: {said}"
+    code, said = run("man", "-l", page, env={**os.environ, "MANPAGER": "cat"}) if shutil.which("man") else (0, "pulley.stl")
+    if code or "pulley" not in said:
+        yield f"man does not show {page.name}: {said[:200]}"
+
+
+def what_compiles(root, source):
+    found = sorted(root.glob("usr/lib/**/fusee.pc"))
+    if len(found) != 1:
+        yield f"fusee.pc stands in {found}"
+        return
+    code, flags = run("pkg-config", "--cflags", "--libs", found[0])
+    if code:
+        yield f"pkg-config: {flags}"
+        return
+    code, said = run("c++", source, "-o", root / "consumer", *flags.split())
+    if code:
+        yield f"pkg-config's flags do not do: {said[-2000:]}"
+        return
+    code, said = run(root / "consumer", root / "usr/share/fusee/profiles/paper_optimum.toml")
+    if code or "r2 from" not in said:
+        yield f"a program made with pkg-config: exit {code}: {said}"
+
+
+def main():
+    build, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+    missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+    if missing:
+        print("not installed:", *missing)
+        return 77
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        packages = packages_of(build, folder / "made")
+        root = folder / "root"
+        faults = [*what_lintian_says(packages), *what_is_unpacked(packages, root), *what_compiles(root, source)]
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+sys.exit(main())

@@ -1,0 +1,154 @@
+"""What the module answers is what the program prints and writes: the same figures, the same bytes."""
+
+import csv
+import json
+import math
+import os
+import unittest
+
+import setting
+from setting import harness
+
+import numpy as np
+
+import fusee
+
+RUNS = [str(harness.SOURCE / f"profiles/measured/forearm_{i}.csv") for i in (1, 2, 3)]
+SEARCHED = """
+[optimize]
+objective = "max_tension"
+variables = ["guides.OE_mm"]
+lower = [-45]
+upper = [-35]
+"""
+
+
+class Agreement(harness.Scratch):
+    def setUp(self):
+        super().setUp()
+        # The path stands in manifest.json.
+        before = os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, before)
+        self.arm = fusee.read("arm.toml")
+
+    def same_files(self, mine, folder):
+        theirs = self.files(folder)
+        self.assertEqual(list(sorted(mine)), list(theirs))
+        for name, data in theirs.items():
+            self.assertTrue(mine[name] == bytes(data), name)
+
+    def test_build(self):
+        built = fusee.build(self.arm, "mine")
+        self.assertTrue(built.published)
+        self.build("theirs")
+        self.same_files(built.files, "theirs")
+        self.same_files(built.files, "mine")
+        said = self.expect_json("build arm.toml -o theirs", 0)
+        self.assertEqual([check["name"] for check in said["checks"]], [check.name for check in built.checks])
+        for theirs, mine in zip(said["checks"], built.checks):
+            self.assertEqual((theirs["value"], theirs["limit"], theirs["ok"]), (mine.value, mine.limit, mine.ok))
+        self.assertEqual(said["as_built"]["max_theta_error_deg"], math.degrees(built.as_built.max_theta_error_rad))
+
+    def test_build_with_settings(self):
+        arm = self.arm.with_({"pulley.r1_mm": 15, "print.parts": "one", "joint.range_deg": (-25, 25)})
+        self.expect('build arm.toml -o theirs --set pulley.r1_mm=15 --set print.parts=one --set "joint.range_deg=[-25, 25]" --dxf r12', 0)
+        self.same_files(fusee.build(arm, dxf="r12").files, "theirs")
+
+    def test_what_cannot_be_built(self):
+        said = self.expect_json("build arm.toml --set pulley.r1_mm=25", 4)
+        refused = fusee.build(self.arm.with_({"pulley.r1_mm": 25}))
+        self.assertEqual([condition["name"] for condition in said["conditions"]], [condition.name for condition in refused.conditions])
+        numbers = [change for change in refused.advice if not isinstance(change.value, str)]
+        self.assertEqual([(change["key"], change["to"]) for change in said["advice"]], [(change.key, change.value) for change in numbers])
+
+    def test_errors(self):
+        said = self.expect_json("build arm.toml --set pulley.r9_mm=25 --set joint.length_mm=-1", 3)["errors"]
+        with self.assertRaises(fusee.InputError) as caught:
+            self.arm.with_({"pulley.r9_mm": 25, "joint.length_mm": -1})
+        mine = [{key: getattr(diagnostic, key) for key in ("file", "line", "column", "message", "hint")} for diagnostic in caught.exception.diagnostics]
+        self.assertEqual(mine, said)
+
+    def test_synthesise_is_the_table_of_build(self):
+        curves = fusee.synthesise(self.arm)
+        table = np.genfromtxt(self.build()["transmission.csv"].decode().splitlines(), delimiter=",", names=True)
+        for column, mine in (("alpha_deg", np.degrees(curves.stroke.alpha_rad)), ("theta_deg", np.degrees(curves.stroke.theta_rad)),
+                             ("r1_mm", curves.stroke.r1_mm), ("r2_mm", curves.stroke.r2_mm)):  # fmt: skip
+            self.assertLess(np.max(np.abs(table[column] - mine)), 1e-6, column)
+
+    def test_rewind(self):
+        self.build("out")
+        for part in ("pulley.stl", "profile.dxf"):
+            said = self.expect_json(f"rewind arm.toml out/{part}", 0)
+            wound = fusee.rewind(self.arm, f"out/{part}")
+            self.assertEqual([math.degrees(theta) for theta in wound.theta_rad], [point["theta_deg"] for point in said["points"]])
+            self.assertEqual(list(wound.slack_mm), [point["slack_mm"] for point in said["points"]])
+            self.assertTrue(wound.ok)
+        # Curves never written wind alike, but for what a drawing rounds.
+        curves = fusee.rewind(self.arm, fusee.synthesise(self.arm))
+        self.assertLess(abs(curves.max_theta_error_rad - wound.max_theta_error_rad), 1e-5)
+        self.assertEqual([check["value"] for check in self.expect_json("check out/pulley.stl", 0)["checks"]],
+                         [check.value for check in fusee.check("out/pulley.stl")])  # fmt: skip
+
+    def test_analyze(self):
+        said = self.expect_json("analyze arm.toml --set load.tip_force_N=10 --samples 100 --seed 7", 0)
+        mine = fusee.analyze(self.arm.with_({"load.tip_force_N": 10}), samples=100, seed=7)
+        self.assertEqual(len(said["rows"]), len(mine.declared.alpha_rad))
+        self.assertEqual([row["alpha_deg"] for row in said["rows"]], [math.degrees(alpha) for alpha in mine.declared.alpha_rad])
+        self.assertEqual([row["r2_mm"] for row in said["rows"]], list(mine.declared.r2_mm))
+        self.assertEqual(len(said["tolerances"]), len(mine.tolerances))
+
+    def test_optimize(self):
+        with open("arm.toml", "a") as file:
+            file.write(SEARCHED)
+        said = self.expect_json("optimize arm.toml -o better.toml", 0)
+        best = fusee.optimize(fusee.read("arm.toml"))
+        self.assertTrue(best.proven)
+        self.assertIn(best.value, set(_numbers(said)))
+        self.assertEqual(best.mechanism.text, (self.folder / "better.toml").read_text())
+        self.assertEqual(best.mechanism, fusee.read("better.toml"))
+
+    def test_calibrate(self):
+        self.expect(["calibrate", "arm.toml", *RUNS, "--no-audit", "-o", "theirs"], 0)
+        found = fusee.calibrate(self.arm, RUNS, "mine", audit=False)
+        self.same_files(found.files, "theirs")
+        self.same_files(found.files, "mine")
+        self.assertEqual(found.verdict, json.loads((self.folder / "theirs/calibration.json").read_text())["verdict"])
+        self.assertEqual(found.corrected, fusee.read("theirs/corrected.toml"))
+        self.assertEqual(len(found.residuals), 3)
+        for run in found.residuals:
+            self.assertEqual(run.before_rad.shape, run.alpha_rad.shape)
+
+    def test_calibrate_from_columns(self):
+        """Columns read as the file that holds them."""
+        with open(RUNS[0]) as lines:
+            rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        columns = {name: [float(row[name]) for row in rows] for name in rows[0]}
+        of_file, of_columns = (fusee.simulate(self.arm, log) for log in (RUNS[0], columns))
+        self.assertEqual(of_columns.columns, of_file.columns)
+
+    def test_plan_simulate_and_kit(self):
+        self.expect("plan arm.toml --minutes 5 -o theirs", 0)
+        bench = fusee.plan(self.arm, minutes=5)
+        self.same_files(bench.files, "theirs")
+        theirs = self.expect("simulate arm.toml theirs/run_1.csv --noise-deg 0.01 --seed 3", 0).stdout.decode()
+        moved = fusee.simulate(self.arm, "theirs/run_1.csv", noise_deg=0.01, seed=3)
+        self.assertEqual(moved.csv, theirs)
+        self.assertEqual(set(moved.status), {"held"})
+        self.expect("kit arm.toml -o kit", 0)
+        self.same_files(fusee.kit(self.arm).files, "kit")
+
+
+def _numbers(said):
+    if isinstance(said, dict):
+        for value in said.values():
+            yield from _numbers(value)
+    elif isinstance(said, list):
+        for value in said:
+            yield from _numbers(value)
+    elif isinstance(said, float):
+        yield said
+
+
+if __name__ == "__main__":
+    harness.main()

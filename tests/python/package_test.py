@@ -1,0 +1,86 @@
+"""The package as a whole: its examples run, its types hold, its names say their units."""
+
+import dataclasses
+import doctest
+import importlib.util
+import inspect
+import re
+import subprocess
+import sys
+import unittest
+
+import setting
+from setting import harness
+
+import fusee
+from fusee import _errors, _mechanism, _run, _values, _verbs
+
+VERBS = ["read", "synthesise", "build", "rewind", "analyze", "optimize", "calibrate", "simulate", "plan", "kit", "check"]
+UNIT = re.compile(r"_(rad|deg|mm|N|Nmm|Nmm_per_rad|minutes)$|^minutes$")
+#: Numbers without a unit, or with it in another member.
+PLAIN = {"value", "was", "limit", "dtheta_dalpha", "normal", "share", "before", "lower_bound", "relative_gap", "ci95", "values"}
+
+
+def has(module):
+    return importlib.util.find_spec(module) is not None
+
+
+class Package(unittest.TestCase):
+    def test_is_the_programs_version(self):
+        said = harness.fusee("--version", "/").stdout.decode().split()[-1]
+        self.assertEqual(fusee.__version__, said)
+
+    def test_has_the_verbs_with_examples(self):
+        for verb in VERBS:
+            with self.subTest(verb):
+                words = inspect.getdoc(getattr(fusee, verb))
+                self.assertTrue(words)
+                if verb not in ("kit", "check"):
+                    self.assertIn(">>> import fusee", words)
+
+    def test_examples_run(self):
+        attempted = 0
+        for module in (fusee, _errors, _mechanism, _run, _values, _verbs):
+            result = doctest.testmod(module)
+            self.assertEqual(result.failed, 0, module.__name__)
+            attempted += result.attempted
+        self.assertGreater(attempted, 50)
+
+    def test_all_is_what_is_public(self):
+        public = {name for name, value in vars(fusee).items() if not name.startswith("_") and not inspect.ismodule(value)}
+        self.assertEqual(public | {"__version__"}, set(fusee.__all__))
+
+    def test_numbers_have_their_unit_in_the_name(self):
+        for kind in (value for value in vars(fusee).values() if dataclasses.is_dataclass(value)):
+            for part in dataclasses.fields(kind):
+                if re.search("Numbers|float", str(part.type)) and not re.search("Table", str(part.type)):
+                    self.assertTrue(UNIT.search(part.name) or part.name in PLAIN, f"{kind.__name__}.{part.name}")
+
+    def judged(self, arguments):
+        return subprocess.run(
+            [sys.executable, "-m", *arguments], cwd=setting.PACKAGE, env=setting.ENVIRONMENT, capture_output=True, text=True, timeout=300
+        )
+
+    def run_judge(self, arguments):
+        done = self.judged(arguments)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    @unittest.skipUnless(has("mypy"), "mypy is not installed")
+    def test_types_hold_strictly(self):
+        self.run_judge(["mypy", "--strict", "--cache-dir=/dev/null", "-p", "fusee"])
+
+    @unittest.skipUnless(has("mypy"), "mypy is not installed")
+    def test_stubs_are_what_runs(self):
+        self.run_judge(["mypy.stubtest", "fusee"])
+
+    @unittest.skipUnless(has("mypy"), "mypy is not installed")
+    def test_a_persons_script_is_checked_and_a_wrong_one_refused(self):
+        right = "import fusee\nm = fusee.read('arm.toml')\nx: float = fusee.build(m).as_built.max_slack_mm + m.number('pulley.r1_mm')\n"
+        self.run_judge(["mypy", "--strict", "--cache-dir=/dev/null", "-c", right])
+        wrong = ["fusee.build('arm.toml')", "fusee.build(m).status = 'done'", "fusee.analyze(m, stepz=3)", "len(fusee.analyze(m).exists)"]
+        done = self.judged(["mypy", "--strict", "--cache-dir=/dev/null", "-c", "\n".join(["import fusee", "m = fusee.read('arm.toml')", *wrong])])
+        self.assertEqual(re.findall(r"<string>:(\d+): error", done.stdout), [str(line) for line in range(3, 3 + len(wrong))], done.stdout)
+
+
+if __name__ == "__main__":
+    harness.main()

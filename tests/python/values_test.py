@@ -1,0 +1,228 @@
+"""What the verbs answer: frozen, shown and not copied, equal by what it holds, the same after a journey through pickle."""
+
+import dataclasses
+import gc
+import os
+import pickle
+import unittest
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+
+import setting
+from setting import harness
+
+import numpy as np
+
+import fusee
+
+ARM = (harness.SOURCE / "tests/cli/arm.toml").read_text()
+
+
+def values_of(arm):
+    """One answer of each kind."""
+    log = {"alpha_deg": np.linspace(-40, 40, 81), "load_N": np.full(81, 5.0)}
+    curves = fusee.synthesise(arm)
+    return {
+        "synthesis": curves,
+        "refused": fusee.synthesise(arm.with_({"pulley.r1_mm": 25})),
+        "rewound": fusee.rewind(arm, curves),
+        "built": fusee.build(arm),
+        "not built": fusee.build(arm.with_({"pulley.r1_mm": 25})),
+        "analysis": fusee.analyze(arm, samples=50),
+        "simulation": fusee.simulate(arm, log),
+        "calibration": fusee.calibrate(arm, [{**log, "theta_deg": np.zeros(81)}]),
+        "plan": fusee.plan(arm, minutes=3),
+    }
+
+
+def arrays_in(value):
+    """All of them, however deep."""
+    if isinstance(value, np.ndarray):
+        yield value
+    parts = value.values() if isinstance(value, fusee.Table) else value if isinstance(value, tuple) else ()
+    for part in vars(value).values() if dataclasses.is_dataclass(value) else parts:
+        yield from arrays_in(part)
+
+
+def written(arm):
+    return dict(fusee.build(arm).files)
+
+
+class Values(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.arm = fusee.read(ARM, name="arm.toml")
+        cls.values = values_of(cls.arm)
+
+    def each(self):
+        for name, value in self.values.items():
+            with self.subTest(name):
+                yield value
+
+    def test_do_not_change(self):
+        for value in self.each():
+            for name in [part.name for part in dataclasses.fields(value)] + ["novel"]:
+                with self.assertRaises((AttributeError, TypeError)):
+                    setattr(value, name, 1)
+        with self.assertRaises(AttributeError):
+            self.arm.path = "other"
+        with self.assertRaises(TypeError):
+            self.values["built"].files["pulley.stl"] = b""
+
+    def test_arrays_cannot_be_written(self):
+        count = 0
+        for value in self.each():
+            for array in arrays_in(value):
+                count += 1
+                with self.assertRaises(ValueError):
+                    array.flags.writeable = True
+                if array.size:
+                    with self.assertRaises(ValueError):
+                        array[0] = 1
+        self.assertGreater(count, 100)
+
+    def test_arrays_are_views_of_one_value(self):
+        stroke = self.values["synthesis"].stroke
+        self.assertIs(stroke.alpha_rad.base, stroke.r2_mm.base)
+        # A row holds many numbers: a copy would lie tight.
+        self.assertGreater(stroke.alpha_rad.strides[0], 8)
+        self.assertFalse(stroke.alpha_rad.flags.owndata)
+        self.assertFalse(self.values["built"].mesh.triangles.flags.owndata)
+
+    def test_arrays_outlive_what_they_were_part_of(self):
+        expected = fusee.synthesise(self.arm).p2.position_mm.copy()
+        kept = fusee.synthesise(self.arm).p2.position_mm[5:50, 1]
+        gc.collect()
+        trash = [fusee.synthesise(self.arm.with_({"pulley.r1_mm": 15})) for _ in range(20)]
+        self.assertTrue(np.array_equal(kept, expected[5:50, 1]))
+        del trash
+
+    def test_are_equal_and_hash_by_what_they_hold(self):
+        again = values_of(self.arm)
+        for name, value in self.values.items():
+            with self.subTest(name):
+                self.assertEqual(value, again[name])
+                self.assertEqual(hash(value), hash(again[name]))
+                self.assertNotEqual(value, self.arm)
+        self.assertNotEqual(self.values["synthesis"], self.values["refused"])
+        self.assertNotEqual(fusee.synthesise(self.arm), fusee.synthesise(self.arm.with_({"pulley.r1_mm": 16.0000001})))
+
+    def test_are_shown_in_few_words(self):
+        for value in self.each():
+            self.assertLess(len(repr(value)), 3000)
+            self.assertTrue(repr(value).startswith(type(value).__name__ + "("))
+            self.assertNotIn("array(", repr(value))
+
+    def test_pickle(self):
+        for value in self.each():
+            for protocol in range(2, 6):
+                back = pickle.loads(pickle.dumps(value, protocol))
+                self.assertEqual(back, value)
+                self.assertEqual(repr(back), repr(value))
+                self.assertTrue(all(not array.flags.writeable for array in arrays_in(back)))
+
+    def test_pickle_with_their_arrays_apart(self):
+        buffers = []
+        packed = pickle.dumps(self.values["built"], protocol=5, buffer_callback=buffers.append)
+        self.assertGreater(len(buffers), 10)
+        self.assertEqual(pickle.loads(packed, buffers=buffers), self.values["built"])
+
+    def test_a_copy_is_as_frozen(self):
+        import copy
+
+        for value in self.each():
+            twin = copy.deepcopy(value)
+            self.assertEqual(twin, value)
+            self.assertTrue(all(not array.flags.writeable for array in arrays_in(twin)))
+
+
+class Mechanisms(unittest.TestCase):
+    def setUp(self):
+        self.arm = fusee.read(ARM, name="arm.toml")
+
+    def test_every_key_says_what_it_holds(self):
+        """Each key of the field table, written back as it is read, changes nothing."""
+        names = [field["name"] for field in fusee.explain()["fields"]]
+        self.assertEqual(names, list(self.arm))
+        for key, value in self.arm.items():
+            explained = fusee.explain(key)["fields"][0]
+            if value is None or (value in ("", 0, ()) and explained["default"] == ""):
+                continue  # not in this file, and nothing that could be written
+            with self.subTest(key):
+                self.assertEqual(self.arm.with_({key: value}), self.arm)
+
+    def test_numbers_are_those_of_the_file(self):
+        turned = self.arm.with_({"joint.range_deg": (-29.9, 17.3), "load.tip_force_N": 0.1})
+        self.assertEqual(turned["joint.range_deg"], (-29.9, 17.3))
+        self.assertEqual(turned["load.tip_force_N"], 0.1)
+        self.assertEqual(turned.with_({"joint.range_deg[0]": -20, "joint.range_deg[1]": 21})["joint.range_deg"], (-20.0, 21.0))
+
+    def test_take_what_python_has_for_numbers(self):
+        import decimal
+        import fractions
+
+        for number in (15, 15.0, np.float64(15), np.float32(15), np.int16(15), fractions.Fraction(15)):
+            self.assertEqual(self.arm.with_({"pulley.r1_mm": number})["pulley.r1_mm"], 15.0)
+        with self.assertRaises(fusee.InputError):
+            self.arm.with_({"pulley.r1_mm": decimal.Decimal(15)})
+        self.assertEqual(self.arm.with_({"joint.range_deg": np.array([-20, 20])})["joint.range_deg"], (-20.0, 20.0))
+
+    def test_whole_file_comes_back(self):
+        for name in fusee.templates():
+            mechanism = fusee.read(harness.SOURCE / f"profiles/{name}.toml")
+            self.assertEqual(fusee.read(mechanism.toml, name=mechanism.path), mechanism, name)
+
+    def test_equal_ones_hash_alike(self):
+        same = fusee.read(ARM + "# another comment\n", name="other.toml")
+        self.assertEqual(same, self.arm)
+        self.assertEqual(hash(same), hash(self.arm))
+        self.assertEqual(self.arm.with_({"load.tip_force_N": -0.0}), self.arm.with_({"load.tip_force_N": 0}))
+        self.assertEqual(len({self.arm, same, self.arm.with_({"pulley.r1_mm": 15})}), 2)
+
+    def test_optimized_keep_what_was_set(self):
+        text = ARM + "[optimize]\nobjective = 'max_tension'\nvariables = ['guides.OE_mm']\nlower = [-45]\nupper = [-35]\n"
+        arm = fusee.read(text).with_({"print.parts": "one", "guides.OE_mm": -38, "load.tip_force_N": 3, "joint.range_deg": (-20, 20)})
+        best = fusee.optimize(arm)
+        self.assertEqual(best.warnings, ())
+        self.assertEqual(best.mechanism, arm.with_(best.numbers))
+        self.assertNotEqual(best.mechanism, arm)
+
+    def test_carry_their_files(self):
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("gripper.toml", "gripper_law.csv"):
+                with open(os.path.join(folder, name), "wb") as copy:
+                    copy.write((harness.SOURCE / "profiles" / name).read_bytes())
+            gripper = fusee.read(os.path.join(folder, "gripper.toml"))
+            here = fusee.build(gripper)
+        back = pickle.loads(pickle.dumps(gripper.with_({"tendon.modulus_MPa": 50000}))).with_({"tendon.modulus_MPa": 40000})
+        self.assertEqual(back["pulley.law"], "table")
+        self.assertEqual(back, gripper)
+        self.assertEqual(fusee.build(back).files["pulley.stl"], here.files["pulley.stl"])
+
+
+class Anywhere(unittest.TestCase):
+    """Results do not depend on where they ran."""
+
+    def setUp(self):
+        arm = fusee.read(ARM, name="arm.toml")
+        self.arms = [arm, arm.with_({"pulley.r1_mm": 15}), arm.with_({"guides.EB_mm": 55}), arm.with_({"pulley.r1_mm": 25})]
+        self.alone = [written(arm) for arm in self.arms]
+
+    def test_two_threads_at_once(self):
+        with ThreadPoolExecutor(3) as pool:
+            self.assertTrue(list(pool.map(written, self.arms)) == self.alone)
+
+    def test_processes(self):
+        with ProcessPoolExecutor(2) as pool:
+            self.assertTrue(list(pool.map(written, self.arms)) == self.alone)
+
+    def test_different_verbs_beside_each_other(self):
+        verbs = [fusee.synthesise, lambda arm: fusee.analyze(arm, samples=50), lambda arm: fusee.plan(arm, minutes=2), fusee.build] * 2
+        alone = [verb(self.arms[0]) for verb in verbs]
+        with ThreadPoolExecutor(4) as pool:
+            self.assertEqual([made.result() for made in [pool.submit(verb, self.arms[0]) for verb in verbs]], alone)
+
+
+if __name__ == "__main__":
+    harness.main()

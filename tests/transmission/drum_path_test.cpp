@@ -1,0 +1,254 @@
+// The upper path over a drum, and to ends of their own, against a string that is laid round them by brute force: both
+// circles are a few thousand points each, the string is the chain of points that leaves all others on its inner side,
+// found by looking, and turns are counted by following the joint. No formula of tendon_path.cpp is in it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "fusee/transmission/tendon_path.h"
+#include "fusee/transmission/transmission.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+constexpr int k_points = 4096;
+constexpr double k_step = k_two_pi / k_points;
+
+/// Counter-clockwise round the inner side of a tendon of the right-hand image, which goes up on their right.
+std::vector<Vec2> circle(const Vec2& centre, double radius) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < k_points; ++i)
+    points.push_back(centre + radius * Vec2(std::cos(k_step * i), std::sin(k_step * i)));
+  return points;
+}
+
+double right_of(const Vec2& from, const Vec2& to, const Vec2& point) { return cross(point - from, to - from); }
+
+/// The point of a circle at which a string to (or from) `far` leaves it: it has no other on its right.
+int tangent_point(const std::vector<Vec2>& points, const Vec2& far, bool towards, int start) {
+  // The rightmost point turns once round with the string: walked to from where it was last.
+  const auto worse = [&](int i, int than) {
+    const Vec2 &a = points[static_cast<std::size_t>(i)], &b = points[static_cast<std::size_t>(than)];
+    return towards ? right_of(a, far, b) > 0 : right_of(far, a, b) > 0;
+  };
+  int at = start;
+  for (int walked = 0; walked < 2 * k_points; ++walked) {
+    const int next = (at + 1) % k_points, before = (at + k_points - 1) % k_points;
+    if (worse(at, next)) {
+      at = next;
+    } else if (worse(at, before)) {
+      at = before;
+    } else {
+      return at;
+    }
+  }
+  return at;
+}
+
+/// A string from the pin's rightmost point over what is in its way to the end.
+class BruteString {
+ public:
+  explicit BruteString(const PinPlace& place)
+      : place_(place), pin_(circle(place.pin(), place.rho)), drum_(circle({0, 0}, place.drum)) {
+    // The line that has all of both circles on its left: ends move until none is on its right.
+    int i = 0, j = 0;
+    for (int round = 0; round < 50; ++round) {
+      const int i_before = i, j_before = j;
+      i = tangent_point(pin_, drum_[static_cast<std::size_t>(j)], true, i);
+      j = tangent_point(drum_, pin_[static_cast<std::size_t>(i)], false, j);
+      if (i == i_before && j == j_before) break;
+    }
+    pin_leaves_ = i;
+    drum_meets_ = j;
+    // From an end above the point where the string meets the drum, where nothing is wound, the joint is turned to where
+    // it is asked. Directions are counted from straight below O.
+    const double meets = k_step * drum_meets_;
+    turned_ = 0.5 * k_pi - (meets < 1.5 * k_pi ? meets : meets - k_two_pi);
+    drum_leaves_ = tangent_point(drum_, end(), true, 0);
+    wound_ = drum_leaves_ - drum_meets_;
+    wound_ -= k_points * static_cast<int>(std::lround(wound_ / double(k_points)));
+  }
+
+  /// From the pin's point at (1, 0) of it; `theta` of the image.
+  double length(double theta) {
+    const double wanted = theta + place_.twist;
+    const int steps = 1 + static_cast<int>(std::ceil(std::abs(wanted - turned_) / 0.2));
+    const double from = turned_;
+    for (int i = 1; i <= steps; ++i) {
+      turned_ = from + (wanted - from) * i / steps;
+      const int leaves = tangent_point(drum_, end(), true, drum_leaves_);
+      int by = leaves - drum_leaves_;
+      by -= k_points * static_cast<int>(std::lround(by / double(k_points)));
+      wound_ += by;
+      drum_leaves_ = leaves;
+    }
+    if (wound_ > 0) {
+      return round_pin(pin_leaves_) + distance(pin_leaves_, drum_[static_cast<std::size_t>(drum_meets_)]) +
+             place_.drum * k_step * wound_ + (end() - drum_[static_cast<std::size_t>(drum_leaves_)]).norm();
+    }
+    const int leaves = tangent_point(pin_, end(), true, pin_leaves_);
+    return round_pin(leaves) + distance(leaves, end());
+  }
+  bool is_wound() const { return wound_ > 0; }
+
+ private:
+  Vec2 end() const { return place_.R * Vec2(std::sin(turned_), std::cos(turned_)); }
+  double distance(int i, const Vec2& to) const { return (to - pin_[static_cast<std::size_t>(i)]).norm(); }
+  /// Along the pin from where the string to the drum leaves it, less than half a turn either way.
+  double round_pin(int i) const {
+    const int by = i - pin_leaves_;
+    return place_.rho * k_step * (by - k_points * static_cast<int>(std::lround(by / double(k_points))));
+  }
+
+  PinPlace place_;
+  std::vector<Vec2> pin_, drum_;
+  int pin_leaves_ = 0, drum_meets_ = 0, drum_leaves_ = 0;
+  int wound_ = 0;  ///< points between them, turns counted; negative: the string is free of the drum
+  double turned_ = 0;
+};
+
+PinPlace random_place(std::mt19937& random) {
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>()(random);
+  };
+  PinPlace place{};
+  place.drum = between(3.0, 40.0);
+  place.rho = place.drum * between(0.02, 0.8);
+  const double away = (place.drum + place.rho) * between(1.05, 4.0), direction = radians(between(-85.0, 60.0));
+  place.e = away * std::cos(direction);
+  place.oe = -away * std::sin(direction);
+  place.ef = place.drum * between(3.0, 6.0);
+  place.R = place.drum * (random() % 4 == 0 ? 1.0 : between(1.0, 2.5));
+  place.twist = radians(between(-179.0, 120.0));
+  return place;
+}
+
+TEST(DrumPath, IsThatOfAStringLaidByHand) {
+  std::mt19937 random(20261122);
+  const int joints = std::getenv("FUSEE_LONG_TESTS") != nullptr ? 4000 : 150;
+  int wound = 0, free = 0;
+  for (int i = 0; i < joints; ++i) {
+    const PinPlace place = random_place(random);
+    BruteString string(place);
+    double before = 0, before_formula = 0;
+    for (double theta = radians(-170.0); theta < radians(170.0); theta += radians(17.0)) {
+      const UpperSpan span = upper_span(place, theta);
+      // Past a dead centre no tendon pulls; a hand's breadth before it the end may run into the pin.
+      if (!(span.m > 0.05 * place.drum)) break;
+      // Between an end and a pin as near as the points are coarse a string is laid that much more roughly.
+      if (span.on_drum == 0 && span.free < 0.5 * place.drum) break;
+      const auto leaves = lift_off(place);
+      ASSERT_TRUE(leaves);
+      // Which of the points is the last one there is an accident.
+      if (std::abs(theta - *leaves) < 2 * k_step + 0.01) continue;
+      const double length = string.length(theta);
+      if (before != 0) {
+        EXPECT_NEAR(length - before, span.length - before_formula, 2e-8 * place.drum)
+            << "joint " << i << ", theta " << degrees(theta);
+      }
+      before = length;
+      before_formula = span.length;
+      EXPECT_EQ(string.is_wound(), theta < *leaves) << i;
+      EXPECT_EQ(span.on_drum > 0, theta < *leaves) << i;
+      (span.on_drum > 0 ? wound : free) += 1;
+      // The points are a coarse circle for a derivative: to their own step.
+      const double arm = -(string.length(theta + 0.01) - string.length(theta - 0.01)) / 0.02;
+      const UpperSpan after = upper_span(place, theta + 0.01), behind = upper_span(place, theta - 0.01);
+      EXPECT_NEAR(arm, -(after.length - behind.length) / 0.02, 1e-5 * place.drum) << i;
+    }
+  }
+  EXPECT_GT(wound, 4 * joints);
+  EXPECT_GT(free, joints);
+}
+
+TEST(DrumPath, DerivativesAreThoseOfDifferencesOnEitherSideOfLiftOff) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 300; ++i) {
+    PinPlace place = random_place(random);
+    const double leaves = *lift_off(place);
+    for (const double off : {-0.4, -0.01, 0.01, 0.3}) {
+      constexpr double step = 1e-4;
+      const double theta = leaves + off;
+      const UpperSpan before = upper_span(place, theta - step), at = upper_span(place, theta),
+                      after = upper_span(place, theta + step);
+      // Where the span is short everything changes fast.
+      if (!(at.m > 0.1 * place.drum) || at.free < 0.5 * place.drum) continue;
+      const double size = place.R;
+      EXPECT_NEAR((after.length - before.length) / (2 * step), -at.m, 1e-6 * size);
+      EXPECT_NEAR((after.m - before.m) / (2 * step), at.dm, 1e-6 * size);
+      EXPECT_NEAR((after.dm - before.dm) / (2 * step), at.d2m, 1e-4 * size);
+      EXPECT_NEAR((after.normal - before.normal) / (2 * step), at.dnormal, 1e-6);
+      EXPECT_NEAR((after.dnormal - before.dnormal) / (2 * step), at.d2normal, 1e-4);
+    }
+  }
+}
+
+TEST(DrumPath, LeavesTheDrumWithItsArmAndBendsItUpwards) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 300; ++i) {
+    const PinPlace place = random_place(random);
+    const double leaves = *lift_off(place);
+    const UpperSpan on = upper_span(place, leaves - 1e-10), off = upper_span(place, leaves + 1e-10);
+    EXPECT_EQ(on.m, place.drum);
+    EXPECT_NEAR(off.m, place.drum, 1e-8 * place.drum);
+    EXPECT_NEAR(off.length, on.length, 1e-8 * place.drum);
+    EXPECT_EQ(on.dm, 0.0);
+    EXPECT_GE(off.dm, -1e-7 * place.drum);
+  }
+}
+
+TEST(DrumPath, AnEndBetweenTheDrumAndItsPitchCircleIsOnThatCircle) {
+  Mechanism mechanism = testing::finger();
+  mechanism.joint.attachment2 = Attachment{0.0, 8.1};
+  const PinPlace place = pin_place(mechanism, Side::right, mechanism.seen_pitch_radius());
+  EXPECT_EQ(place.R, 8.3);
+  EXPECT_EQ(place.drum, 8.3);
+}
+
+TEST(DrumPath, ADrumOnWhichBothTendonsStayIsAPlainPulley) {
+  Mechanism mechanism = testing::finger();
+  const Transmission round(mechanism);
+  ASSERT_FALSE(round.dead_centre());
+  for (const double theta : {-0.34, -0.1, 0.0, 0.7, 1.57}) {
+    const TransmissionPoint at = round.at_theta(theta);
+    EXPECT_EQ(at.t1.p, 9.0);
+    EXPECT_EQ(at.t2.p, at.t1.m == 8.3 ? 9.0 / 8.3 * 8.3 : 0.0);
+    EXPECT_NEAR(at.alpha, theta * 8.3 / 9.0, 1e-15);
+  }
+  mechanism.pulley.law = Law::linear;
+  mechanism.pulley.ratio = 0.8;
+  const Transmission linear(mechanism);
+  for (const double theta : {-0.34, 0.0, 1.57}) {
+    EXPECT_EQ(linear.at_theta(theta).t1.p, 8.3 * (1 / 0.8));
+    EXPECT_EQ(linear.at_theta(theta).t2.p, 8.3 * (1 / 0.8));
+  }
+}
+
+TEST(DrumPath, TheEndCMayBeWrittenAsAnAttachment) {
+  const Mechanism plain = testing::unsymmetric();
+  Mechanism same = plain;
+  same.joint.attachment1 = same.joint.attachment2 = Attachment{0.0, plain.joint.R};
+  const Transmission one(plain), other(same);
+  for (const double theta : {-0.3, 0.0, 0.5}) {
+    EXPECT_EQ(one.at_theta(theta).t1.length, other.at_theta(theta).t1.length);
+    EXPECT_EQ(one.at_theta(theta).t2.p, other.at_theta(theta).t2.p);
+  }
+}
+
+TEST(DrumPath, TheMirroredJointHasTheMirroredArms) {
+  const Mechanism mechanism = testing::ankle();
+  const Transmission one(mechanism), other(testing::mirrored(mechanism));
+  ASSERT_FALSE(one.dead_centre());
+  for (const double theta : {-0.5, -0.1, 0.0, 0.3, 0.42}) {
+    EXPECT_NEAR(one.at_theta(theta).t1.m, other.at_theta(-theta).t2.m, 1e-12);
+    EXPECT_NEAR(one.at_theta(theta).t2.p, other.at_theta(-theta).t1.p, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace fusee
