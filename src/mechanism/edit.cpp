@@ -40,10 +40,29 @@ const toml::node* written_node(const toml::table& root, const NumberKey& key) {
   return ends == nullptr ? nullptr : ends->get(static_cast<std::size_t>(key.end));
 }
 
+/// The numbers of the file with their new values, and nothing else of it: what a pair is made whole from that gets one
+/// of its numbers only.
+DeclaredMechanism edited_numbers(const toml::table& root, const std::vector<ValueEdit>& edits) {
+  DeclaredMechanism mechanism = default_mechanism();
+  for (const FieldKind kind :
+       {FieldKind::number, FieldKind::range, FieldKind::point}) {  // a point may stand on a number
+    for (const std::string& name : number_key_names()) {
+      const auto key = find_number_key(name);
+      if (key->field->kind != kind) continue;
+      const toml::node* node = written_node(root, *key);
+      if (const auto value = node == nullptr ? std::nullopt : node->value<double>()) key->set(mechanism, *value);
+      for (const ValueEdit& edit : edits) {
+        if (edit.key == name) key->set(mechanism, edit.value);
+      }
+    }
+  }
+  return mechanism;
+}
+
 /// A line for a key that its table does not hold yet.
-Replacement new_line(std::string_view text, const toml::table& root, const Field& field, double value,
+Replacement new_line(std::string_view text, const toml::table& root, const Field& field, std::string_view value,
                      std::vector<std::string>& new_tables) {
-  const std::string line = std::string(field.key) + " = " + number_text(value);
+  const std::string line = std::string(field.key) + " = " + std::string(value);
   const std::string table_name(field.table);
   if (const toml::table* table = root[table_name].as_table()) {
     if (table->is_inline()) {
@@ -91,7 +110,7 @@ std::string edit_values(std::string_view as_written, const std::vector<ValueEdit
   const std::string text = without_former_keys(std::string(as_written));
   const toml::table root = toml::parse(text);
   std::vector<Replacement> replacements;
-  std::vector<std::string> new_tables;
+  std::vector<std::string> new_tables, new_pairs;
   // Keys of one new table one after another.
   std::vector<ValueEdit> ordered = edits;
   std::stable_sort(ordered.begin(), ordered.end(), [](const ValueEdit& a, const ValueEdit& b) {
@@ -103,8 +122,15 @@ std::string edit_values(std::string_view as_written, const std::vector<ValueEdit
     if (const toml::node* node = written_node(root, *key)) {
       replacements.push_back(
           {offset_of(text, node->source().begin), offset_of(text, node->source().end), number_text(edit.value)});
-    } else {
-      replacements.push_back(new_line(text, root, *key->field, edit.value, new_tables));
+    } else if (key->field->kind == FieldKind::number) {
+      replacements.push_back(new_line(text, root, *key->field, number_text(edit.value), new_tables));
+    } else if (const std::string pair = key->field->name();
+               std::find(new_pairs.begin(), new_pairs.end(), pair) == new_pairs.end()) {
+      new_pairs.push_back(pair);
+      const DeclaredMechanism edited = edited_numbers(root, edits);
+      const std::string both =
+          "[" + number_text(key->field->get(edited, 0)) + ", " + number_text(key->field->get(edited, 1)) + "]";
+      replacements.push_back(new_line(text, root, *key->field, both, new_tables));
     }
   }
   std::stable_sort(replacements.begin(), replacements.end(),

@@ -36,6 +36,23 @@ TEST(Edit, WritesKeysThatWereLeftToTheirDefault) {
   EXPECT_EQ(mechanism.body.min_wall, 1.5);
 }
 
+// A pair that the file goes without is written whole: its other number is what the joint has without it.
+TEST(Edit, WritesAPairThatWasLeftOutWithBothItsNumbers) {
+  const std::string text = k_good_file;
+  const DeclaredMechanism plain = parse_mechanism(text, "plain");
+  const DeclaredMechanism edited = parse_mechanism(
+      edit_values(text, {{"joint.attachment1_mm[1]", 55}, {"joint.length_mm", 110}, {"joint.attachment2_mm[0]", 3}}),
+      "edited");
+  ASSERT_TRUE(edited.joint.attachment1 && edited.joint.attachment2);
+  EXPECT_FALSE(plain.joint.attachment1 || plain.joint.attachment2);
+  EXPECT_EQ(edited.joint.attachment1->across, 0);
+  EXPECT_EQ(edited.joint.attachment1->along, 55);
+  EXPECT_EQ(edited.joint.attachment2->across, 3);
+  EXPECT_EQ(edited.joint.attachment2->along, 110) << "C, where the edited lever has it";
+  EXPECT_EQ(edit_values(text, {{"joint.attachment1_mm[0]", -2}, {"joint.attachment1_mm[1]", 40}}),
+            edit_values(text, {{"joint.attachment1_mm[1]", 40}, {"joint.attachment1_mm[0]", -2}}));
+}
+
 TEST(Edit, ReachesInlineTables) {
   const std::string text =
       "schema = 1\njoint = {length_mm = 100, range_deg = [-30, 30]}\nguides = { EB_mm = 50, ED_mm = 50, OE_mm = -40 }\n"

@@ -15,7 +15,8 @@ struct ValueEdit {
 };
 
 /// `text` with the values of these keys replaced where they stand; a key that is not written yet is put below its
-/// table's header (or with the table at the end). `text` must be a mechanism file that parses.
+/// table's header (or with the table at the end), a pair with both its numbers. `text` must be a mechanism file that
+/// parses.
 std::string edit_values(std::string_view text, const std::vector<ValueEdit>& edits);
 
 }  // namespace fusee
