@@ -55,6 +55,7 @@ struct BuildOptions {
   double tolerance = 0.01;  ///< sagitta of curves, mm
   AsBuiltLimits limits;
   DxfVersion dxf = DxfVersion::ac1015;
+  bool step = false;             ///< pulley.step too: InputError where it is too large for one, or step_missing()
   std::filesystem::path folder;  ///< where the files go
   bool force = false;
   /// Everything but publishing; what has to be read back is staged in the system's temporary folder.
@@ -121,6 +122,9 @@ RewindResult rewind_part(const JointAsItIs& joint, const Part& part);
 /// The same on a mesh of which it is known to what sizes it was made: where tie-offs had to be planned anew, its
 /// grooves lie elsewhere than the mechanism alone says.
 RewindResult rewind_made(const JointAsItIs& joint, const BodyLayout& layout, const TriangleMesh& mesh);
+/// The same on floors that were found elsewhere, as printed.
+RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, const Polygon& floor1,
+                           const Polygon& floor2);
 
 enum class PartPlace {
   as_made,             ///< it fits where it lies, or nowhere clearly better

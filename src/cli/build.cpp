@@ -183,6 +183,7 @@ BuildOptions options_from(const Arguments& arguments) {
   options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
   options.limits = limits_from(arguments);
   options.dxf = dxf_version(arguments);
+  options.step = arguments.has("--step");
   options.force = arguments.has("--force");
   options.dry_run = arguments.has("--dry-run");
   options.folder = arguments.text("--out").value_or(default_folder(arguments.positionals().front()).string());
@@ -222,6 +223,7 @@ Command build_command() {
       {"-o,--out", "DIR", "where the files go (default: out/<name of SPEC>)"},
       {"--tolerance-mm", "MM", "how far facets may stray from the curve (default 0.01)"},
       {"--dxf", "VERSION", "drawings as ac1015 (default) or r12", false, "ac1015 r12"},
+      {"--step", "", "the part for CAD too: pulley.step (takes some seconds)"},
   };
   for (const Option& option : limit_options()) options.push_back(option);
   return {"build",

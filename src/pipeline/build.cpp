@@ -13,6 +13,7 @@
 #include "fusee/export/drawings.h"
 #include "fusee/export/mesh_files.h"
 #include "fusee/export/report.h"
+#include "fusee/export/step.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 #include "fusee/solid/print.h"
@@ -47,6 +48,8 @@ class TemporaryFolder {
 // As many points of outlines are made for advice: a making of 200, as most have, takes a quarter of a second, and its
 // time grows in proportion (campaign of seed 210002).
 constexpr double k_points_for_advice = 1600;
+
+constexpr const char* k_step = "pulley.step";
 
 // No file of ours is larger.
 constexpr std::size_t k_largest_draco = std::size_t{512} << 20;
@@ -104,12 +107,14 @@ DracoFile write_parts(Workshop& shop) {
   auto scad = beside([&] { return scad_text(product); });
   auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
   auto stl = beside([&] { return stl_bytes(mesh, name); });
+  auto step = beside([&] { return shop.options.step ? step_bytes(product) : std::string(); }, shop.options.step);
   shop.stage("pulley.stl", shop.take(stl));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
   for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
   DracoFile file = shop.take(draco);
   shop.stage("pulley.drc", file.bytes);
+  if (shop.options.step) shop.stage(k_step, shop.take(step));
   shop.stage("pulley.scad", shop.take(scad));
   shop.stage("profile.dxf", shop.take(profile));
   shop.stage("plates.dxf", shop.take(plates));
@@ -130,6 +135,18 @@ std::vector<Check> draco_checks(const Workshop& shop, const TriangleMesh& mesh, 
   const Part decoded = is_what_was_read ? Part(made.decoded) : shop.read_back("pulley.drc");
   std::vector<Check> checks = near_mesh(mesh, std::get<TriangleMesh>(decoded), shop.options.tolerance);
   for (const Check& check : is_what_was_read ? made.checks : check_part(decoded)) checks.push_back(check);
+  return checks;
+}
+
+/// A solid that CAD can use, and tendons wound on its floors.
+std::vector<Check> step_checks(const Workshop& shop) {
+  const Product& product = shop.result.product;
+  StepLook look = look_at_step(shop.folder.staged_path(k_step), product, shop.options.tolerance);
+  std::vector<Check> checks = std::move(look.checks);
+  if (!all_ok(checks)) return checks;
+  const RewindResult wound = rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
+  for (Check& check : as_built_checks(product.joint.mechanism, wound, shop.options.limits))
+    checks.push_back(std::move(check));
   return checks;
 }
 
@@ -161,6 +178,8 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
     of_printed.push_back(beside([&] { return checks_of_printed(shop, part); }));
   if (product.pulley.parts.empty()) of_printed.push_back(beside([&] { return print_checks(mechanism.print, mesh); }));
   auto as_built = beside([&] { return rewind_made(product.joint, product.pulley.layout, mesh); });
+  auto of_step =
+      beside([&] { return shop.options.step ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
   shop.add(shop.take(of_pulley));
   shop.step("winding tendons on it");
   product.as_built = shop.take(as_built);
@@ -172,6 +191,7 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_obj), "obj_");
   shop.add(shop.take(of_3mf), "3mf_");
   shop.add(shop.take(of_draco), "drc_");
+  shop.add(shop.take(of_step), "step_");
   shop.add(shop.take(of_profile), "profile_dxf_");
   shop.add(shop.take(of_plates), "plates_dxf_");
 }
@@ -338,9 +358,10 @@ void write_and_forget(BuildResult& result, const BuildOptions& options) {
 }  // namespace
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"pulley.stl",       "pulley_p1.stl", "pulley_p2.stl", "pulley.obj",
-                                                 "pulley.3mf",       "pulley.drc",    "pulley.scad",      "profile.dxf", "plates.dxf",   "profile.csv",
-                                                 "transmission.csv", "report.html", "manifest.json"};
+  static const std::vector<std::string> names = {"pulley.stl",  "pulley_p1.stl", "pulley_p2.stl", "pulley.obj",
+                                                 "pulley.3mf",  "pulley.drc",    k_step,          "pulley.scad",
+                                                 "profile.dxf", "plates.dxf",    "profile.csv",   "transmission.csv",
+                                                 "report.html", "manifest.json"};
   return names;
 }
 
@@ -349,6 +370,8 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   result.product.file = with_doubts(file);
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
+  if (const auto why = options.step ? step_missing() : std::nullopt)
+    throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   target.claim(output_names());  // before the work: a refusal should not cost a wait
   if (!design(result.product, options.tolerance, options.before_step)) {
     result.status = BuildStatus::infeasible;

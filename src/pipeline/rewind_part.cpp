@@ -231,6 +231,11 @@ RewindResult rewind_made(const JointAsItIs& joint, const BodyLayout& layout, con
   return rewind_mesh(joint, layout, mesh);
 }
 
+RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, const Polygon& floor1,
+                           const Polygon& floor2) {
+  return rewind_drawn(joint, shrunk(floor1, layout.scale), shrunk(floor2, layout.scale));
+}
+
 RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
   return {rewind_drawing(joint, std::get<Drawing>(part)), PartPlace::as_made, {}};

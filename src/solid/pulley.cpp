@@ -316,7 +316,7 @@ Condition uncut_features(int ways) {
 
 Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant) {
   const BodyLayout& layout = plan.layout;
-  Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, {}, planned.pocket(), {}, planned.tail};
+  Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, {}, planned.pocket(), {}, {}, planned.tail};
   if (const auto* channel = std::get_if<AnchorPath>(&planned.way)) {
     const AnchorPath path = varied(*channel, variant);
     anchor.channel =
@@ -324,6 +324,8 @@ Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant
     const ChannelEdges edges = channel_edges(plan, planned.side, path);
     anchor.mouth = edges.outer;
     anchor.mouth.insert(anchor.mouth.end(), edges.inner.rbegin(), edges.inner.rend());
+    anchor.bend = ChannelBend{path.start - path.fillet * path.normal, path.fillet, path.heading(), path.straight,
+                              channel_half_height(layout, variant)};
   } else {
     const auto& hole = std::get<FaceHole>(planned.way);
     anchor.channel = hole_outline(hole, variant);
@@ -427,13 +429,16 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
     pulley.conditions.push_back(*anchors.at(0).cut_into);
     return pulley;
   }
-  const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
+  std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   const PieceMaker maker(mechanism, synthesis, plan, marks);
   const int variants = std::min(effort.variants, first + maker.ways(effort.variants));
   BestCut cut = best_cut(maker, anchors, first, variants, enough);
   if (cut.pieces.empty() && !marks.empty()) {
     cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}), anchors, first, variants, enough);
-    if (!cut.pieces.empty()) plan.layout.notes.push_back("the marks would run into a tie-off: left out");
+    if (!cut.pieces.empty()) {
+      plan.layout.notes.push_back("the marks would run into a tie-off: left out");
+      marks.clear();
+    }
   }
   auto& [pieces, taken] = cut;
   pulley.layout = plan.layout;
@@ -442,6 +447,7 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
     return pulley;
   }
   pulley.anchors = anchors.at(taken).anchors;
+  pulley.marks = std::move(marks);
   pulley.mesh = std::move(pieces.front().mesh);
   pulley.expected_volume = pieces.front().volume;
   pulley.expected_euler = pieces.front().euler;

@@ -27,18 +27,6 @@ struct Heights {
   double pocket_roof = 0;   ///< height of the roof over a pocket that is open to the bed
 };
 
-// The channel's floor must not lie in the plane of a ring.
-double channel_half_height(const BodyLayout& layout, int variant) {
-  double half = 0.5 * layout.channel_width * (1.0 + 0.002 * variant);
-  const auto on_ring = [&half](const std::vector<GroovePoint>& wall) {
-    return std::any_of(wall.begin(), wall.end(),
-                       [&half](const GroovePoint& point) { return std::abs(point.dz - half) < 0.01; });
-  };
-  // P2's groove has the same two walls as P1's.
-  while (on_ring(layout.p1.below) || on_ring(layout.p1.above)) half += 0.013;
-  return half;
-}
-
 Heights heights_of(const BodyLayout& layout, Side side, int variant) {
   Heights heights;
   const bool left = side == Side::left, turned = left && layout.parts == Parts::two;
@@ -154,6 +142,18 @@ TriangleMesh face_hole_tool(const BodyLayout& layout, Side side, const FaceHole&
 }
 
 }  // namespace
+
+// The channel's floor must not lie in the plane of a ring.
+double channel_half_height(const BodyLayout& layout, int variant) {
+  double half = 0.5 * layout.channel_width * (1.0 + 0.002 * variant);
+  const auto on_ring = [&half](const std::vector<GroovePoint>& wall) {
+    return std::any_of(wall.begin(), wall.end(),
+                       [&half](const GroovePoint& point) { return std::abs(point.dz - half) < 0.01; });
+  };
+  // P2's groove has the same two walls as P1's.
+  while (on_ring(layout.p1.below) || on_ring(layout.p1.above)) half += 0.013;
+  return half;
+}
 
 AnchorPath varied(AnchorPath path, int variant) {
   path.start += 0.011 * variant * path.sense * turned_left(path.normal);

@@ -21,6 +21,9 @@ TriangleMesh clamp_pilot_tool(const BodyLayout& layout, Side side, const TailSlo
 /// Does the face that this pulley's pockets open on lie on the printer's bed, with nothing to support what hangs over it?
 bool on_bed(const BodyLayout& layout, Side side);
 
+/// From the groove's plane to a channel's floor.
+double channel_half_height(const BodyLayout& layout, int variant);
+
 /// Moved a little, so that no edge of another variant lies where one of this did.
 AnchorPath varied(AnchorPath path, int variant);
 

@@ -36,6 +36,15 @@ struct TailSlot {
   double head_or_width() const { return head_diameter > width ? head_diameter : width; }
 };
 
+/// How a channel runs: an arc about `centre`, whose radius its centre line has, and then straight to its pocket.
+struct ChannelBend {
+  Vec2 centre;
+  double radius = 0;
+  Vec2 heading;            ///< along the straight, to the pocket
+  double straight = 0;     ///< how long that is
+  double half_height = 0;  ///< to both sides of the groove's plane
+};
+
 /// One tie-off: the tendon leaves the groove floor tangentially through a channel that turns inward to a knot pocket,
 /// or through a slot of the outer flange to its face.
 struct Anchor {
@@ -45,8 +54,15 @@ struct Anchor {
   Polygon channel;             ///< outline of the channel in the groove's plane, or of the slot in the flange, ccw
   Polygon mouth;               ///< the channel as it is cut, opened towards the groove, for a print without supports
   Vec2 pocket;                 ///< centre of the knot pocket, or of the countersink
+  std::optional<ChannelBend> bend = {};  ///< of a channel
   std::optional<FaceSeat> seat = {};  ///< of a tie-off through the face
   std::optional<TailSlot> tail = {};
+};
+
+/// A letter or a sign on a face.
+struct Mark {
+  std::vector<Polygon> loops;  ///< loops[0] without the others
+  bool on_top = true;          ///< else on the face on the bed
 };
 
 /// Of the knot pocket, or of the countersink, mm.
@@ -70,6 +86,7 @@ struct Pulley {
   TriangleMesh mesh;                  ///< the whole; coordinates are floats already
   std::vector<PrintedPart> parts;     ///< P1 and P2 of a pulley in two parts; empty: the whole is printed as it stands
   std::vector<Anchor> anchors;
+  std::vector<Mark> marks;            ///< engraved, or raised
   std::vector<Condition> conditions;  ///< walls, bore, pockets: all, those that hold too
   double expected_volume = 0;         ///< exact volume of the discretised part, by areas of sections, mm³
   int expected_euler = 0;             ///< V − E + F

@@ -1,0 +1,344 @@
+#include "export/step/step_build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "export/step/normal_spline.h"
+#include "export/step/step_shapes.h"
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "solid/body.h"
+
+namespace fusee {
+namespace {
+
+// A groove's floor is promised within 1e-4 mm; rims carry nothing.
+constexpr double k_groove_tolerance = 6e-5;
+constexpr double k_rim_tolerance = 1e-3;
+// Poles are written to this, mm: a tenth of what a file says of its accuracy, and a fifth fewer bytes.
+constexpr double k_grain = 1e-6;
+// Rows are recognised in the body's rings, which were made by the same sums.
+constexpr double k_same = 1e-7;
+// An arc of one span has a weight that is well away from 0 up to here.
+constexpr double k_widest_seat = radians(150);
+// Sectors are cut this far apart at least, rad.
+constexpr double k_narrowest_sector = radians(75);
+// The kernel's time for a cut grows with the part's size over its smallest feature: a radius of 0.4 m takes a minute.
+constexpr double k_largest_radius = 400;
+
+/// A family of parallel curves.
+struct Base {
+  std::vector<Vec2> points;           ///< at the outlines' normals
+  std::vector<double> radii = {};     ///< of curvature, where they are known
+  std::vector<std::size_t> kinks = {};
+  double tolerance = k_groove_tolerance;
+  std::vector<NormalSpline> fits = {};  ///< one for each sector
+};
+
+/// A ring of the body as one of its base's parallels; base null: a circle about the axis, at the distance from it.
+struct Parallel {
+  Base* base = nullptr;
+  double distance = 0;
+  double z = 0;
+};
+
+Base base_of(const Outline& outline) {
+  Base base;
+  for (const OutlinePoint& point : outline.points) {
+    base.points.push_back(point.position);
+    base.radii.push_back(point.curvature_radius);
+  }
+  base.kinks = {outline.active_first, outline.active_last};
+  return base;
+}
+
+[[noreturn]] void refuse_as_too_large(const std::string& why) {
+  throw InputError("", "too large for STEP: " + why, "build it without --step: the meshes have it");
+}
+
+Vec2 rounded_to_grain(const Vec2& point) {
+  // + 0.0: no negative zero is written.
+  return {std::round(point.x() / k_grain) * k_grain + 0.0, std::round(point.y() / k_grain) * k_grain + 0.0};
+}
+
+/// The arc of a groove's seat in its section; null: the groove is drawn straight from corner to corner.
+struct Seat {
+  double radius = 0;
+  double below = 0, above = 0;  ///< how far the arc turns to both sides of the floor, rad
+};
+
+/// How far one wall's arc turns before it runs on straight; null where the lip cuts it off before.
+std::optional<double> seat_turn(const std::vector<GroovePoint>& wall, double radius) {
+  const GroovePoint &lip = wall.back(), &last = wall[wall.size() - 2];
+  const double lean = std::atan2(lip.dz - last.dz, lip.offset - last.offset);
+  // The straight touches the arc: it stands as far from its middle.
+  const double apart = std::abs((radius - last.offset) * std::sin(lean) + last.dz * std::cos(lean));
+  const double end = radius * (1 - std::sin(lean));
+  if (std::abs(apart - radius) > k_same || end > lip.offset - 1e-3) return std::nullopt;
+  return 0.5 * k_pi - lean;
+}
+
+std::optional<Seat> seat_of(const GrooveWalls& walls, const Mechanism& mechanism) {
+  if (mechanism.body.groove != Groove::u) return std::nullopt;
+  const double radius = std::max(0.5, mechanism.body.seat_ratio) * mechanism.tendon.diameter;
+  const auto below = seat_turn(walls.below, radius), above = seat_turn(walls.above, radius);
+  if (!below || !above) return std::nullopt;
+  return Seat{radius, *below, *above};
+}
+
+class StepBuilder {
+ public:
+  explicit StepBuilder(const Product& product)
+      : product_(product),
+        mechanism_(product.joint.mechanism),
+        layout_(product.pulley.layout),
+        p1_(base_of(product.synthesis.p1)),
+        p2_(base_of(product.synthesis.p2)) {
+    for (const OutlinePoint& point : product.synthesis.p1.points) psi_.push_back(point.psi);
+    const FlangeRims rims = flange_rims(product.synthesis.p1, product.synthesis.p2, mechanism_.tendon.diameter,
+                                        layout_.groove_depth, mechanism_.body.flange);
+    middle_.points = rims.middle;
+    middle_.tolerance = k_rim_tolerance;
+    part_.name = mechanism_.name;
+    part_.z_mate = layout_.scale * layout_.z_mate;
+    part_.z_top = layout_.scale * layout_.z_top;
+  }
+
+  StepPart build() {
+    for (const Vec2& point : middle_.points) reach_ = std::max(reach_, point.norm());
+    if (reach_ > k_largest_radius)
+      refuse_as_too_large(fmt::format("it reaches {} mm from its axis, and at most {} mm do", rounded(reach_, 4),
+                                      rounded(k_largest_radius)));
+    choose_sectors();
+    const RingStack stack =
+        body_stack(product_.synthesis.p1, product_.synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange, layout_);
+    for (std::size_t k = 0; k < stack.rings.size(); ++k) {
+      const std::size_t rings = add_groove_at(stack, k);
+      if (rings > 0)
+        k += rings - 1;
+      else
+        add(parallel_of(stack.rings[k]));
+    }
+    if (layout_.hub_radius > 0) part_.hub = StepHub{layout_.scale * layout_.hub_radius, layout_.scale * layout_.z_hub};
+    return std::move(part_);
+  }
+
+ private:
+  // As far from tie-offs as there is room: no cut crosses what is cut out beside it.
+  void choose_sectors() {
+    constexpr int k_looks = 360;
+    const auto room_at = [&](double psi) {
+      double room = k_pi;
+      for (const Anchor& anchor : product_.pulley.anchors) {
+        for (const Vec2& place : {anchor.exit, anchor.pocket})
+          room = std::min(room, std::abs(std::remainder(psi - std::atan2(place.y(), place.x()), k_two_pi)));
+      }
+      return room;
+    };
+    double first = 0, second = 0, best = -1;
+    for (int i = 0; i < k_looks; ++i) {
+      const double psi = k_two_pi * (i + 0.37) / k_looks;
+      if (room_at(psi) > best + 1e-9) {
+        best = room_at(psi);
+        first = psi;
+      }
+    }
+    best = -1;
+    for (int i = 0; i < k_looks; ++i) {
+      const double psi = first + k_narrowest_sector + (k_two_pi - 2 * k_narrowest_sector) * (i + 0.37) / k_looks;
+      if (room_at(psi) > best + 1e-9) {
+        best = room_at(psi);
+        second = psi;
+      }
+    }
+    part_.sectors = {first, second, first + k_two_pi};
+  }
+
+  std::size_t sectors() const { return part_.sectors.size() - 1; }
+
+  const std::vector<NormalSpline>& fits_of(Base& base) {
+    if (!base.fits.empty()) return base.fits;
+    std::vector<Vec2> points;
+    std::vector<double> radii, kinks;
+    for (const Vec2& point : base.points) points.push_back(layout_.scale * point);
+    for (const double radius : base.radii) radii.push_back(layout_.scale * radius);
+    for (const std::size_t kink : base.kinks) kinks.push_back(psi_[kink]);
+    const SupportCurve curve(psi_, points, radii);
+    for (std::size_t s = 0; s < sectors(); ++s) {
+      auto fitted = fit(curve, part_.sectors[s], part_.sectors[s + 1], kinks, base.tolerance, layout_.scale * reach_);
+      if (!fitted) refuse_as_too_large("its curves take more pieces than a part for CAD may have");
+      base.fits.push_back(std::move(*fitted));
+    }
+    return base.fits;
+  }
+
+  Parallel parallel_of(const Ring& ring) {
+    const auto& reference = product_.synthesis.p1.points;
+    const auto is_parallel = [&](const std::vector<Vec2>* base, double distance) {
+      for (std::size_t i = 0; i < ring.points.size(); ++i) {
+        const Vec2 from = base ? (*base)[i] : Vec2(Vec2::Zero());
+        if ((ring.points[i] - from - distance * reference[i].normal).norm() > k_same) return false;
+      }
+      return true;
+    };
+    const double from_axis = ring.points.front().dot(reference.front().normal);
+    if (is_parallel(nullptr, from_axis)) return {nullptr, from_axis, ring.z};
+    for (Base* base : {&p1_, &p2_, &middle_}) {
+      const double distance = (ring.points.front() - base->points.front()).dot(reference.front().normal);
+      if (is_parallel(&base->points, distance)) return {base, distance, ring.z};
+    }
+    demand(false, fmt::format("a ring at z = {} that is no parallel of any curve", ring.z));
+    return {};
+  }
+
+  /// A groove's rings with a round seat in place of its corners; how many rings of the stack these were, 0: no such
+  /// groove begins here.
+  std::size_t add_groove_at(const RingStack& stack, std::size_t k) {
+    for (const bool left : {true, false}) {
+      const GrooveWalls& walls = left ? layout_.p1 : layout_.p2;
+      const double plane = left ? layout_.z_p1 : layout_.z_p2;
+      const std::size_t rings = walls.below.size() + walls.above.size() - 2;
+      const auto seat = seat_of(walls, mechanism_);
+      if (!seat || stack.rings[k].z != plane - walls.below_width()) continue;
+      // The flange's own ring may stand at the lip's height.
+      if (k + rings > stack.rings.size() || stack.rings[k + rings - 1].z != plane + walls.above_width()) continue;
+      const Parallel low = parallel_of(stack.rings[k]), high = parallel_of(stack.rings[k + rings - 1]);
+      if (low.base != high.base || std::abs(low.distance - high.distance) > k_same) continue;
+      add(low);
+      add_seat(low, plane, *seat);
+      add(high);
+      return rings;
+    }
+    return 0;
+  }
+
+  void add_seat(const Parallel& lip, double plane, const Seat& seat) {
+    const double floor = lip.distance - layout_.groove_depth;
+    const auto on_arc = [&](double angle, double radius) {
+      return Parallel{lip.base, floor + seat.radius - radius * std::cos(angle), plane + radius * std::sin(angle)};
+    };
+    const auto add_arc = [&](double from, double to) {
+      if (from == -seat.below) add(on_arc(from, seat.radius));
+      const double half = 0.5 * (to - from);
+      add(on_arc(to, seat.radius));
+      StepBand& band = part_.bands.back();
+      const Parallel corner = on_arc(0.5 * (from + to), seat.radius / std::cos(half));
+      band.seat_radius = layout_.scale * seat.radius;
+      band.seat_middle = layout_.scale * (floor + seat.radius);
+      band.seat_z = layout_.scale * plane;
+      band.corner_z = layout_.scale * corner.z;
+      band.weight = std::cos(half);
+      if (lip.base) band.corner = pieces_of(corner);
+    };
+    if (seat.below + seat.above <= k_widest_seat) {
+      add_arc(-seat.below, seat.above);
+    } else {
+      add_arc(-seat.below, 0);
+      add_arc(0, seat.above);
+    }
+  }
+
+  std::vector<StepSpline> pieces_of(const Parallel& row) {
+    std::vector<StepSpline> pieces;
+    for (const NormalSpline& fitted : fits_of(*row.base)) {
+      pieces.push_back(fitted.parallel(layout_.scale * row.distance));
+      for (Vec2& pole : pieces.back().poles) pole = rounded_to_grain(pole);
+    }
+    return pieces;
+  }
+
+  /// A circle over another row's knots.
+  std::vector<StepSpline> circle_like(Base& base, double radius) {
+    std::vector<StepSpline> pieces;
+    for (const NormalSpline& fitted : fits_of(base)) {
+      pieces.push_back({fitted.knots, fitted.normal});
+      for (Vec2& pole : pieces.back().poles) pole *= radius;
+    }
+    return pieces;
+  }
+
+  void add(const Parallel& row) {
+    StepRow next{layout_.scale * row.z, 0};
+    if (row.base)
+      next.pieces = pieces_of(row);
+    else
+      next.radius = layout_.scale * row.distance;
+    if (!part_.rows.empty()) {
+      const StepRow& below = part_.rows.back();
+      StepBand band;
+      if (row.base || last_.base) {
+        band.lower = last_.base ? below.pieces : circle_like(*row.base, below.radius);
+        band.upper = row.base ? next.pieces : circle_like(*last_.base, next.radius);
+      }
+      part_.bands.push_back(std::move(band));
+    }
+    part_.rows.push_back(std::move(next));
+    last_ = row;
+  }
+
+  const Product& product_;
+  const Mechanism& mechanism_;
+  const BodyLayout& layout_;
+  Base p1_, p2_, middle_;
+  std::vector<double> psi_;
+  double reach_ = 0;
+  Parallel last_;
+  StepPart part_;
+};
+
+// ---- to the size in which it is printed ----
+
+void scale(StepContour& contour, double by) {
+  contour.start *= by;
+  for (StepContour::Piece& piece : contour.pieces) {
+    piece.to *= by;
+    if (piece.via) *piece.via *= by;
+  }
+}
+
+void scale(StepPrism& prism, double by) {
+  prism.origin *= by;
+  prism.low *= by;
+  prism.high *= by;
+  scale(prism.outer, by);
+  for (StepContour& loop : prism.inner) scale(loop, by);
+  if (prism.roof) prism.roof->point *= by;
+}
+
+void scale(StepFrustum& frustum, double by) {
+  frustum.low_centre *= by;
+  frustum.high_centre *= by;
+  for (double* value : {&frustum.low, &frustum.high, &frustum.low_radius, &frustum.high_radius}) *value *= by;
+}
+
+void scale(StepTurned& turned_section, double by) {
+  turned_section.centre *= by;
+  for (Vec2& corner : turned_section.section) corner *= by;
+}
+
+void scale(TriangleMesh& mesh, double by) {
+  for (Vec3& vertex : mesh.vertices) vertex *= by;
+}
+
+std::vector<StepTool> scaled(std::vector<StepTool> tools, double by) {
+  for (StepTool& tool : tools) {
+    for (StepSolid& solid : tool.common) std::visit([by](auto& shape) { scale(shape, by); }, solid);
+  }
+  return tools;
+}
+
+}  // namespace
+
+StepPart step_part(const Product& product) {
+  StepPart part = StepBuilder(product).build();
+  const Mechanism& mechanism = product.joint.mechanism;
+  const double by = product.pulley.layout.scale;
+  part.cuts = scaled(step_cuts(mechanism, product.pulley), by);
+  part.raised = scaled(step_raised(mechanism, product.pulley), by);
+  return part;
+}
+
+}  // namespace fusee

@@ -1,0 +1,623 @@
+/// \file
+/// The module `fusee-step`: plain values → a solid of OpenCASCADE → AP214, and such a file read again. The one file that
+/// knows OpenCASCADE; it knows no pulley.
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepAlgoAPI_Section.hxx>
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GCPnts_TangentialDeflection.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_ConicalSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Geom_Plane.hxx>
+#include <Geom_ToroidalSurface.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_PrinterOStream.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_FreeBounds.hxx>
+#include <ShapeFix_Face.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_HSequenceOfShape.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "export/step/step_part.h"
+
+namespace fusee {
+namespace {
+
+// Of rows that are nearly the same: a circle, and the spline over another row's knots that stands for it.
+constexpr double k_sewn = 1e-5;
+// A file's floors are drawn this finely, mm and rad.
+constexpr double k_floor_sagitta = 2e-5;
+constexpr double k_floor_turn = 0.02;
+constexpr double k_same_height = 1e-9;
+
+gp_Pnt point_at(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
+gp_Pnt point_at(const Vec3& point) { return {point.x(), point.y(), point.z()}; }
+gp_Vec vector_along(const Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+gp_Ax3 about_axis(double z) { return {gp_Pnt(0, 0, z), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)}; }
+
+/// Distinct knots and how often each counts.
+struct Knots {
+  TColStd_Array1OfReal values;
+  TColStd_Array1OfInteger times;
+};
+
+Knots knots_of(const std::vector<double>& flat) {
+  std::vector<double> values;
+  std::vector<int> times;
+  for (const double knot : flat) {
+    if (!values.empty() && values.back() == knot) {
+      ++times.back();
+    } else {
+      values.push_back(knot);
+      times.push_back(1);
+    }
+  }
+  const int count = static_cast<int>(values.size());
+  Knots knots{TColStd_Array1OfReal(1, count), TColStd_Array1OfInteger(1, count)};
+  for (int i = 0; i < count; ++i) {
+    knots.values(i + 1) = values[static_cast<std::size_t>(i)];
+    knots.times(i + 1) = times[static_cast<std::size_t>(i)];
+  }
+  return knots;
+}
+
+Handle(Geom_BSplineCurve) curve_of(const StepSpline& spline, double z) {
+  TColgp_Array1OfPnt poles(1, static_cast<int>(spline.poles.size()));
+  for (std::size_t i = 0; i < spline.poles.size(); ++i)
+    poles(static_cast<int>(i) + 1) = point_at(spline.poles[i], z);
+  const Knots knots = knots_of(spline.knots);
+  return new Geom_BSplineCurve(poles, knots.values, knots.times, k_step_degree);
+}
+
+void take_knots_of(const Handle(Geom_BSplineCurve) & curve, const Handle(Geom_BSplineCurve) & other) {
+  TColStd_Array1OfReal values(1, other->NbKnots());
+  TColStd_Array1OfInteger times(1, other->NbKnots());
+  other->Knots(values);
+  other->Multiplicities(times);
+  curve->InsertKnots(values, times, 1e-12, false);
+}
+
+/// Through rows of poles over one knot vector; one row more than the degree across.
+Handle(Geom_BSplineSurface)
+    surface_through(const std::vector<Handle(Geom_BSplineCurve)>& rows, const std::vector<double>& weights) {
+  const int across = static_cast<int>(rows.size()), along = rows.front()->NbPoles();
+  TColgp_Array2OfPnt poles(1, along, 1, across);
+  TColStd_Array2OfReal weight(1, along, 1, across);
+  for (int j = 1; j <= across; ++j) {
+    for (int i = 1; i <= along; ++i) {
+      poles(i, j) = rows[static_cast<std::size_t>(j) - 1]->Pole(i);
+      weight(i, j) = weights[static_cast<std::size_t>(j) - 1];
+    }
+  }
+  TColStd_Array1OfReal u(1, rows.front()->NbKnots()), v(1, 2);
+  TColStd_Array1OfInteger u_times(1, rows.front()->NbKnots()), v_times(1, 2);
+  rows.front()->Knots(u);
+  rows.front()->Multiplicities(u_times);
+  v(1) = 0;
+  v(2) = 1;
+  v_times(1) = v_times(2) = across;
+  return new Geom_BSplineSurface(poles, weight, u, v, u_times, v_times, k_step_degree, across - 1);
+}
+
+TopoDS_Face bounded(const Handle(Geom_Surface) & surface, double u1, double u2, double v1, double v2) {
+  const BRepBuilderAPI_MakeFace face(surface, u1, u2, v1, v2, Precision::Confusion());
+  if (!face.IsDone()) throw std::runtime_error("a face of the body cannot be made");
+  return face.Face();
+}
+
+TopoDS_Shape sewn(const std::vector<TopoDS_Face>& faces) {
+  BRepBuilderAPI_Sewing sewing(k_sewn);
+  for (const TopoDS_Face& face : faces) sewing.Add(face);
+  sewing.Perform();
+  if (sewing.NbFreeEdges() != 0)
+    throw std::runtime_error(std::to_string(sewing.NbFreeEdges()) + " edges of the body stay open");
+  return sewing.SewedShape();
+}
+
+TopoDS_Solid outward(const TopoDS_Solid& solid) {
+  TopoDS_Solid turned = solid;
+  BRepLib::OrientClosedSolid(turned);
+  return turned;
+}
+
+TopoDS_Solid solid_of(const TopoDS_Shape& sewn_faces) {
+  TopExp_Explorer shells(sewn_faces, TopAbs_SHELL);
+  if (!shells.More()) throw std::runtime_error("the body's faces are no shell");
+  return outward(BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells.Current())).Solid());
+}
+
+// ---- the body: rows and bands ----
+
+class BodyMaker {
+ public:
+  explicit BodyMaker(const StepPart& part) : part_(part) {}
+
+  TopoDS_Solid solid() {
+    for (std::size_t k = 0; k < part_.bands.size(); ++k) {
+      for (std::size_t s = 0; s + 1 < part_.sectors.size(); ++s) faces_.push_back(band_face(k, s));
+    }
+    cap(part_.rows.front(), nullptr);
+    const StepRow& top = part_.rows.back();
+    if (part_.hub) {
+      const StepRow foot{top.z, part_.hub->radius}, head{part_.hub->high, part_.hub->radius};
+      cap(top, &foot);
+      for (std::size_t s = 0; s + 1 < part_.sectors.size(); ++s)
+        faces_.push_back(bounded(new Geom_CylindricalSurface(about_axis(top.z), foot.radius), part_.sectors[s],
+                                 part_.sectors[s + 1], 0, head.z - top.z));
+      cap(head, nullptr);
+    } else {
+      cap(top, nullptr);
+    }
+    return solid_of(sewn(faces_));
+  }
+
+ private:
+  TopoDS_Edge edge(const StepRow& row, std::size_t s) const {
+    if (row.radius > 0) {
+      const Handle(Geom_Circle) circle = new Geom_Circle(about_axis(row.z).Ax2(), row.radius);
+      return BRepBuilderAPI_MakeEdge(circle, part_.sectors[s], part_.sectors[s + 1]);
+    }
+    return BRepBuilderAPI_MakeEdge(curve_of(row.pieces[s], row.z));
+  }
+
+  TopoDS_Wire loop(const StepRow& row) const {
+    BRepBuilderAPI_MakeWire wire;
+    for (std::size_t s = 0; s + 1 < part_.sectors.size(); ++s) wire.Add(edge(row, s));
+    if (!wire.IsDone()) throw std::runtime_error("a row does not close");
+    return wire.Wire();
+  }
+
+  void cap(const StepRow& rim, const StepRow* hole) {
+    BRepBuilderAPI_MakeFace face(gp_Pln(about_axis(rim.z)), loop(rim));
+    if (hole) face.Add(TopoDS::Wire(loop(*hole).Reversed()));
+    if (!face.IsDone()) throw std::runtime_error("an end of the body cannot be made");
+    faces_.push_back(face.Face());
+  }
+
+  TopoDS_Face band_face(std::size_t k, std::size_t s) const {
+    const StepRow &low = part_.rows[k], &high = part_.rows[k + 1];
+    const StepBand& band = part_.bands[k];
+    if (std::abs(high.z - low.z) < k_same_height) return flat_face(low, high, s);
+    if (band.lower.empty()) return turned_face(low, high, band, s);
+    std::vector<Handle(Geom_BSplineCurve)> rows{curve_of(band.lower[s], low.z)};
+    if (!band.corner.empty()) rows.push_back(curve_of(band.corner[s], band.corner_z));
+    rows.push_back(curve_of(band.upper[s], high.z));
+    if (band.corner.empty()) {
+      take_knots_of(rows[0], rows[1]);
+      take_knots_of(rows[1], rows[0]);
+    }
+    const std::vector<double> weights =
+        band.corner.empty() ? std::vector<double>{1, 1} : std::vector<double>{1, band.weight, 1};
+    return bounded(surface_through(rows, weights), part_.sectors[s], part_.sectors[s + 1], 0, 1);
+  }
+
+  TopoDS_Face flat_face(const StepRow& low, const StepRow& high, std::size_t s) const {
+    const TopoDS_Edge inner = edge(low, s), outer = edge(high, s);
+    const auto end = [](const TopoDS_Edge& of, bool last) {
+      return BRep_Tool::Pnt(last ? TopExp::LastVertex(of) : TopExp::FirstVertex(of));
+    };
+    BRepBuilderAPI_MakeWire wire(inner);
+    wire.Add(BRepBuilderAPI_MakeEdge(end(inner, true), end(outer, true)));
+    wire.Add(outer);
+    wire.Add(BRepBuilderAPI_MakeEdge(end(outer, false), end(inner, false)));
+    const BRepBuilderAPI_MakeFace face(gp_Pln(about_axis(low.z)), wire.Wire());
+    if (!face.IsDone()) throw std::runtime_error("a step of the body cannot be made");
+    return face.Face();
+  }
+
+  TopoDS_Face turned_face(const StepRow& low, const StepRow& high, const StepBand& band, std::size_t s) const {
+    const double from = part_.sectors[s], to = part_.sectors[s + 1];
+    const double rise = high.z - low.z, out = high.radius - low.radius;
+    if (band.seat_radius > 0) {
+      const auto angle = [&](const StepRow& row) { return M_PI - std::asin((row.z - band.seat_z) / band.seat_radius); };
+      return bounded(new Geom_ToroidalSurface(about_axis(band.seat_z), band.seat_middle, band.seat_radius), from, to,
+                     angle(high), angle(low));
+    }
+    if (std::abs(out) < k_same_height)
+      return bounded(new Geom_CylindricalSurface(about_axis(low.z), low.radius), from, to, 0, rise);
+    return bounded(new Geom_ConicalSurface(about_axis(low.z), std::atan2(out, rise), low.radius), from, to, 0,
+                   std::hypot(out, rise));
+  }
+
+  const StepPart& part_;
+  std::vector<TopoDS_Face> faces_;
+};
+
+// ---- what is cut out of it ----
+
+class ToolMaker {
+ public:
+  TopoDS_Shape operator()(const StepPrism& prism) const {
+    const gp_Ax3 frame(point_at(Vec3(prism.origin + prism.low * prism.z)), vector_along(prism.z), vector_along(prism.x));
+    BRepBuilderAPI_MakeFace face(gp_Pln(frame), wire_of(prism.outer, frame));
+    for (const StepContour& loop : prism.inner) face.Add(wire_of(loop, frame));
+    if (!face.IsDone()) throw std::runtime_error("a hole's outline is no face");
+    ShapeFix_Face fixed(face.Face());
+    fixed.FixOrientation();
+    const TopoDS_Shape body =
+        BRepPrimAPI_MakePrism(fixed.Face(), vector_along((prism.high - prism.low) * prism.z)).Shape();
+    return prism.roof ? below(body, *prism.roof) : body;
+  }
+
+  TopoDS_Shape operator()(const StepFrustum& frustum) const {
+    const double height = frustum.high - frustum.low;
+    const gp_Ax2 axis(point_at(frustum.low_centre, frustum.low), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0));
+    if (frustum.low_centre == frustum.high_centre) {
+      if (frustum.low_radius == frustum.high_radius)
+        return BRepPrimAPI_MakeCylinder(axis, frustum.low_radius, height).Shape();
+      return BRepPrimAPI_MakeCone(axis, frustum.low_radius, frustum.high_radius, height).Shape();
+    }
+    BRepOffsetAPI_ThruSections loft(true, true);
+    const auto add = [&loft](const Vec2& centre, double z, double radius) {
+      const gp_Circ circle(gp_Ax2(point_at(centre, z), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)), radius);
+      loft.AddWire(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire());
+    };
+    add(frustum.low_centre, frustum.low, frustum.low_radius);
+    add(frustum.high_centre, frustum.high, frustum.high_radius);
+    return loft.Shape();
+  }
+
+  TopoDS_Shape operator()(const StepTurned& turned) const {
+    BRepBuilderAPI_MakePolygon section;
+    for (const Vec2& corner : turned.section)
+      section.Add(gp_Pnt(turned.centre.x() + corner.x() * std::cos(turned.from),
+                         turned.centre.y() + corner.x() * std::sin(turned.from), corner.y()));
+    section.Close();
+    const gp_Ax1 axis(point_at(turned.centre, 0), gp_Dir(0, 0, 1));
+    const TopoDS_Face face = BRepBuilderAPI_MakeFace(section.Wire(), true);
+    return BRepPrimAPI_MakeRevol(face, axis, turned.turn).Shape();
+  }
+
+  TopoDS_Shape operator()(const TriangleMesh& mesh) const {
+    std::vector<TopoDS_Face> faces;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      BRepBuilderAPI_MakePolygon corners(point_at(mesh.vertices[a]), point_at(mesh.vertices[b]),
+                                         point_at(mesh.vertices[c]), true);
+      faces.push_back(BRepBuilderAPI_MakeFace(corners.Wire(), true));
+    }
+    ShapeUpgrade_UnifySameDomain whole(solid_of(sewn(faces)));
+    whole.Build();
+    return whole.Shape();
+  }
+
+ private:
+  static TopoDS_Wire wire_of(const StepContour& contour, const gp_Ax3& frame) {
+    const auto place = [&frame](const Vec2& point) {
+      return gp_Pnt(frame.Location().XYZ() + point.x() * frame.XDirection().XYZ() + point.y() * frame.YDirection().XYZ());
+    };
+    BRepBuilderAPI_MakeWire wire;
+    Vec2 from = contour.start;
+    for (const StepContour::Piece& piece : contour.pieces) {
+      if ((piece.to - from).norm() > 1e-6) {
+        if (piece.via)
+          wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(place(from), place(*piece.via), place(piece.to)).Value()));
+        else
+          wire.Add(BRepBuilderAPI_MakeEdge(place(from), place(piece.to)));
+        from = piece.to;
+      }
+    }
+    if (!wire.IsDone()) throw std::runtime_error("a hole's outline does not close");
+    return wire.Wire();
+  }
+
+  /// Of a plane, seen along its normal.
+  static TopoDS_Shape below(const TopoDS_Shape& body, const StepPrism::Roof& roof) {
+    Bnd_Box box;
+    BRepBndLib::Add(body, box);
+    const double reach = 2 * std::sqrt(box.SquareExtent());
+    const gp_Pln plane(point_at(roof.point), gp_Dir(vector_along(roof.normal)));
+    const TopoDS_Face face = BRepBuilderAPI_MakeFace(plane, -reach, reach, -reach, reach);
+    const gp_Vec down = -2 * reach * vector_along(roof.normal.normalized());
+    const TopoDS_Shape kept = BRepPrimAPI_MakePrism(face, down).Shape();
+    return BRepAlgoAPI_Common(body, kept).Shape();
+  }
+};
+
+TopoDS_Shape shape_of(const StepTool& tool) {
+  TopoDS_Shape shape;
+  for (const StepSolid& solid : tool.common) {
+    TopoDS_Shape next = std::visit(ToolMaker(), solid);
+    for (TopExp_Explorer solids(next, TopAbs_SOLID); solids.More(); solids.Next()) {
+      next = outward(TopoDS::Solid(solids.Current()));
+      break;
+    }
+    shape = shape.IsNull() ? next : BRepAlgoAPI_Common(shape, next).Shape();
+  }
+  return shape;
+}
+
+template <typename Operation>
+TopoDS_Shape combined(const TopoDS_Shape& body, const std::vector<StepTool>& tools) {
+  if (tools.empty()) return body;
+  TopTools_ListOfShape bodies, shapes;
+  bodies.Append(body);
+  for (const StepTool& tool : tools) shapes.Append(shape_of(tool));
+  Operation operation;
+  operation.SetArguments(bodies);
+  operation.SetTools(shapes);
+  operation.SetRunParallel(false);
+  operation.Build();
+  if (!operation.IsDone()) throw std::runtime_error("what is cut out cannot be cut out");
+  return operation.Shape();
+}
+
+TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape solids;
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  if (solids.Extent() != 1) throw std::runtime_error(std::to_string(solids.Extent()) + " solids are left of the part");
+  return TopoDS::Solid(solids(1));
+}
+
+// ---- names, colours, bytes ----
+
+struct Zone {
+  const char* name;
+  Quantity_Color colour;
+};
+
+const Zone& zone_of(const TopoDS_Face& face, const StepPart& part) {
+  static const Zone zones[] = {{"P1", Quantity_Color(0.85, 0.45, 0.20, Quantity_TOC_sRGB)},
+                               {"P2", Quantity_Color(0.20, 0.45, 0.75, Quantity_TOC_sRGB)},
+                               {"hub", Quantity_Color(0.60, 0.60, 0.60, Quantity_TOC_sRGB)}};
+  constexpr double k_above = 1e-3;
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(face, box, false, false);
+  double x1, y1, low, x2, y2, high;
+  box.Get(x1, y1, low, x2, y2, high);
+  if (low > part.z_top - k_above && high > part.z_top + k_above) return zones[2];
+  return 0.5 * (low + high) < part.z_mate ? zones[0] : zones[1];
+}
+
+/// Names of the faces, by shape: a file is written by a document of shapes with attributes.
+std::string written(const TopoDS_Solid& solid, const StepPart& part) {
+  const Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
+  const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const Handle(XCAFDoc_ColorTool) colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+  const TDF_Label whole = shapes->AddShape(solid, false);
+  TDataStd_Name::Set(whole, TCollection_ExtendedString(part.name.c_str(), true));
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(solid, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const Zone& zone = zone_of(TopoDS::Face(faces(i)), part);
+    const TDF_Label label = shapes->AddSubShape(whole, faces(i));
+    if (label.IsNull()) continue;
+    TDataStd_Name::Set(label, zone.name);
+    colours->SetColor(label, zone.colour, XCAFDoc_ColorSurf);
+  }
+  STEPCAFControl_Writer writer;
+  Interface_Static::SetIVal("write.surfacecurve.mode", 0);
+  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  Interface_Static::SetCVal("write.step.schema", "AP214IS");
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  Interface_Static::SetCVal("write.step.product.name", "pulley");
+  writer.SetNameMode(true);
+  writer.SetColorMode(true);
+  writer.SetLayerMode(false);
+  writer.SetPropsMode(false);
+  if (!writer.Transfer(document, STEPControl_AsIs)) throw std::runtime_error("the solid cannot be written");
+  const Handle(XSControl_WorkSession) session = writer.ChangeWriter().WS();
+  const Handle(StepData_StepModel) model = Handle(StepData_StepModel)::DownCast(session->Model());
+  // The same part, the same bytes: no date, no machine.
+  APIHeaderSection_MakeHeader header(model);
+  header.SetName(new TCollection_HAsciiString("pulley.step"));
+  header.SetTimeStamp(new TCollection_HAsciiString("1970-01-01T00:00:00"));
+  header.SetAuthorValue(1, new TCollection_HAsciiString(""));
+  header.SetOrganizationValue(1, new TCollection_HAsciiString(""));
+  header.SetOriginatingSystem(new TCollection_HAsciiString("fusee"));
+  header.SetPreprocessorVersion(new TCollection_HAsciiString("OpenCASCADE"));
+  header.SetAuthorisation(new TCollection_HAsciiString(""));
+  StepData_StepWriter text(model);
+  text.SendModel(Handle(StepData_Protocol)::DownCast(session->Protocol()));
+  std::ostringstream bytes;
+  bytes.imbue(std::locale::classic());
+  text.Print(bytes);
+  return bytes.str();
+}
+
+/// Nothing is said but by what is returned.
+void be_silent() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream)); }
+
+std::string write(const StepPart& part, std::string& complaint) {
+  be_silent();
+  try {
+    TopoDS_Shape shape = BodyMaker(part).solid();
+    shape = combined<BRepAlgoAPI_Cut>(shape, part.cuts);
+    shape = combined<BRepAlgoAPI_Fuse>(shape, part.raised);
+    return written(only_solid(shape), part);
+  } catch (const Standard_Failure& failure) {
+    complaint = std::string(failure.DynamicType()->Name()) + " " + failure.GetMessageString();
+  } catch (const std::runtime_error& error) {
+    complaint = error.what();
+  }
+  return {};
+}
+
+// ---- read again ----
+
+int unpaired_edges(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  std::vector<int> uses(static_cast<std::size_t>(edges.Extent()) + 1, 0);
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    for (TopExp_Explorer of_face(faces.Current(), TopAbs_EDGE); of_face.More(); of_face.Next())
+      ++uses[static_cast<std::size_t>(edges.FindIndex(of_face.Current()))];
+  }
+  int unpaired = 0;
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const bool degenerate = BRep_Tool::Degenerated(TopoDS::Edge(edges(i)));
+    if (!degenerate && uses[static_cast<std::size_t>(i)] != 2) ++unpaired;
+  }
+  return unpaired;
+}
+
+/// Does the boundary of the face's mesh run along its edges, all of them?
+bool mesh_closes(const TopoDS_Face& face) {
+  using Link = std::pair<int, int>;
+  const auto link = [](int a, int b) { return Link(std::min(a, b), std::max(a, b)); };
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+  if (mesh.IsNull() || mesh->NbTriangles() == 0) return false;
+  std::map<Link, int> uses;
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    int a, b, c;
+    mesh->Triangle(i).Get(a, b, c);
+    for (const Link& side : {link(a, b), link(b, c), link(c, a)}) ++uses[side];
+  }
+  std::set<Link> boundary, along_edges;
+  for (const auto& [side, count] : uses) {
+    if (count == 1) boundary.insert(side);
+    if (count > 2) return false;
+  }
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const Handle(Poly_PolygonOnTriangulation) polygon =
+        BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edges.Current()), mesh, place);
+    if (polygon.IsNull()) return false;
+    for (int i = 1; i < polygon->NbNodes(); ++i) along_edges.insert(link(polygon->Node(i), polygon->Node(i + 1)));
+  }
+  return boundary == along_edges;
+}
+
+int open_faces(const TopoDS_Shape& shape) {
+  constexpr double k_sagitta = 0.05, k_turn = 0.3;
+  BRepMesh_IncrementalMesh(shape, k_sagitta, false, k_turn, false);
+  int open = 0;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
+    open += mesh_closes(TopoDS::Face(faces.Current())) ? 0 : 1;
+  return open;
+}
+
+Polygon points_of(const TopoDS_Wire& wire) {
+  Polygon points;
+  for (BRepTools_WireExplorer edges(wire); edges.More(); edges.Next()) {
+    const BRepAdaptor_Curve curve(edges.Current());
+    const GCPnts_TangentialDeflection drawn(curve, k_floor_turn, k_floor_sagitta);
+    Polygon of_edge;
+    for (int i = 1; i <= drawn.NbPoints(); ++i) of_edge.emplace_back(drawn.Value(i).X(), drawn.Value(i).Y());
+    if (edges.Current().Orientation() == TopAbs_REVERSED) std::reverse(of_edge.begin(), of_edge.end());
+    points.insert(points.end(), of_edge.begin(), of_edge.end() - 1);
+  }
+  return points;
+}
+
+double area_of(const Polygon& points) {
+  double area = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 &a = points[i], &b = points[(i + 1) % points.size()];
+    area += 0.5 * cross(a, b);
+  }
+  return area;
+}
+
+/// The loop of the section that surrounds most.
+Polygon floor_at(const TopoDS_Shape& shape, double z) {
+  BRepAlgoAPI_Section section(shape, gp_Pln(about_axis(z)), false);
+  section.Build();
+  Handle(TopTools_HSequenceOfShape) edges = new TopTools_HSequenceOfShape, wires = new TopTools_HSequenceOfShape;
+  for (TopExp_Explorer found(section.Shape(), TopAbs_EDGE); found.More(); found.Next()) edges->Append(found.Current());
+  ShapeAnalysis_FreeBounds::ConnectEdgesToWires(edges, 1e-4, false, wires);
+  Polygon largest;
+  double most = 0;
+  for (int i = 1; i <= wires->Length(); ++i) {
+    Polygon points = points_of(TopoDS::Wire(wires->Value(i)));
+    const double area = area_of(points);
+    if (std::abs(area) <= most) continue;
+    most = std::abs(area);
+    if (area < 0) std::reverse(points.begin(), points.end());
+    largest = std::move(points);
+  }
+  return largest;
+}
+
+StepReading read(const std::string& path, double z1, double z2) {
+  be_silent();
+  StepReading reading;
+  try {
+    STEPControl_Reader reader;
+    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return reading;
+    reader.TransferRoots();
+    const TopoDS_Shape shape = reader.OneShape();
+    if (shape.IsNull()) return reading;
+    TopTools_IndexedMapOfShape solids, edges, faces;
+    TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+    TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    reading.solids = solids.Extent();
+    reading.edges = edges.Extent();
+    reading.faces = faces.Extent();
+    reading.unpaired_edges = unpaired_edges(shape);
+    reading.is_valid = BRepCheck_Analyzer(shape).IsValid();
+    GProp_GProps volume, area;
+    // Its usual Gauss points are 2 % off on long trimmed splines.
+    BRepGProp::VolumeProperties(shape, volume, 1e-5);
+    BRepGProp::SurfaceProperties(shape, area);
+    reading.volume = volume.Mass();
+    reading.area = area.Mass();
+    reading.floor1 = floor_at(shape, z1);
+    reading.floor2 = floor_at(shape, z2);
+    reading.open_faces = open_faces(shape);
+  } catch (const Standard_Failure&) {
+    reading.is_valid = false;
+  }
+  return reading;
+}
+
+}  // namespace
+}  // namespace fusee
+
+extern "C" __attribute__((visibility("default"))) const fusee::StepMaker fusee_step_maker_1{fusee::write, fusee::read};
