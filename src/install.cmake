@@ -5,6 +5,11 @@ set(FUSEE_ROOMS base mechanism transmission profile joint analysis optimize pape
 
 set(program COMPONENT program)
 install(TARGETS fusee_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${program})
+if(TARGET fusee_step)
+  # Loaded from there, and not linked: without it all is as before but `build --step`.
+  install(TARGETS fusee_step LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/fusee
+    PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ ${program})
+endif()
 install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/fusee ${program})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} ${program})
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} ${program})

@@ -393,7 +393,7 @@ std::string derived_table(const Product& product) {
          "numbers the joint as it is follows the declared law.</p>";
 }
 
-std::string files_table() {
+std::string files_table(const Product& product) {
   struct File {
     std::string_view name;
     std::string_view words;
@@ -405,6 +405,9 @@ std::string files_table() {
                               {"profile.csv, transmission.csv", "the curves and the stroke as tables"},
                               {"manifest.json", "the checks and the files’ hashes, for programs"}};
   std::string html = "<h3>Files beside this one</h3><div class=\"scroll\"><table><tbody>";
+  const bool has_step = std::any_of(product.checks.begin(), product.checks.end(),
+                                    [](const Check& check) { return check.name.rfind("step_", 0) == 0; });
+  if (has_step) html += "<tr><td><code>pulley.step</code></td><td>the part for CAD</td></tr>";
   for (const File& file : k_files)
     html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
   return html + "</tbody></table></div>";
@@ -414,7 +417,7 @@ std::string making(const Product& product) {
   std::string html = html_list(steps(product), "ol") + tendon_table(product) + knot_table(product) + derived_table(product);
   if (!product.pulley.layout.notes.empty())
     html += "<h3>Sizes chosen automatically</h3>" + html_list(product.pulley.layout.notes);
-  return html + files_table();
+  return html + files_table(product);
 }
 
 std::string source_words(const MechanismFile& file) {

@@ -102,11 +102,11 @@ std::optional<std::string> step_missing() {
   return loaded().why_not;
 }
 
-std::string step_bytes(const Product& product) {
-  std::string complaint;
-  const std::string bytes = maker().write(step_part(product), complaint);
-  demand(!bytes.empty(), "no STEP of this part: " + complaint);
-  return compact_step(bytes);
+StepFile step_file(const Product& product) {
+  StepFile file;
+  file.bytes = maker().write(step_part(product), file.complaint);
+  if (!file.bytes.empty()) file.bytes = compact_step(file.bytes);
+  return file;
 }
 
 StepLook look_at_step(const fs::path& path, const Product& product, double tolerance) {

@@ -85,6 +85,8 @@ constexpr double k_sewn = 1e-5;
 constexpr double k_floor_sagitta = 2e-5;
 constexpr double k_floor_turn = 0.02;
 constexpr double k_same_height = 1e-9;
+// From corner to corner of what is read, mm.
+constexpr double k_largest = 5000;
 
 gp_Pnt point_at(const Vec2& point, double z) { return {point.x(), point.y(), z}; }
 gp_Pnt point_at(const Vec3& point) { return {point.x(), point.y(), point.z()}; }
@@ -593,6 +595,10 @@ StepReading read(const std::string& path, double z1, double z2) {
     reader.TransferRoots();
     const TopoDS_Shape shape = reader.OneShape();
     if (shape.IsNull()) return reading;
+    Bnd_Box box;
+    BRepBndLib::Add(shape, box);
+    // In other units it would be cut into triangles for ever.
+    if (std::sqrt(box.SquareExtent()) > k_largest) return reading;
     TopTools_IndexedMapOfShape solids, edges, faces;
     TopExp::MapShapes(shape, TopAbs_SOLID, solids);
     TopExp::MapShapes(shape, TopAbs_EDGE, edges);

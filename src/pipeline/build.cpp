@@ -92,6 +92,17 @@ struct Workshop {
   }
 };
 
+void stage_step(Workshop& shop, StepFile file) {
+  const bool is_made = !file.bytes.empty();
+  shop.add({exactly("made", is_made ? 1 : 0, 1, "1", file.complaint)}, "step_");
+  if (is_made) shop.stage(k_step, std::move(file.bytes));
+}
+
+bool has_step(const Workshop& shop) {
+  const auto& outputs = shop.result.outputs;
+  return std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& file) { return file.name == k_step; });
+}
+
 /// The Draco file and what was found of it.
 DracoFile write_parts(Workshop& shop) {
   Product& product = shop.result.product;
@@ -107,14 +118,14 @@ DracoFile write_parts(Workshop& shop) {
   auto scad = beside([&] { return scad_text(product); });
   auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
   auto stl = beside([&] { return stl_bytes(mesh, name); });
-  auto step = beside([&] { return shop.options.step ? step_bytes(product) : std::string(); }, shop.options.step);
+  auto step = beside([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
   shop.stage("pulley.stl", shop.take(stl));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
   for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
   DracoFile file = shop.take(draco);
   shop.stage("pulley.drc", file.bytes);
-  if (shop.options.step) shop.stage(k_step, shop.take(step));
+  if (shop.options.step) stage_step(shop, shop.take(step));
   shop.stage("pulley.scad", shop.take(scad));
   shop.stage("profile.dxf", shop.take(profile));
   shop.stage("plates.dxf", shop.take(plates));
@@ -178,8 +189,7 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
     of_printed.push_back(beside([&] { return checks_of_printed(shop, part); }));
   if (product.pulley.parts.empty()) of_printed.push_back(beside([&] { return print_checks(mechanism.print, mesh); }));
   auto as_built = beside([&] { return rewind_made(product.joint, product.pulley.layout, mesh); });
-  auto of_step =
-      beside([&] { return shop.options.step ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
+  auto of_step = beside([&] { return has_step(shop) ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
   shop.add(shop.take(of_pulley));
   shop.step("winding tendons on it");
   product.as_built = shop.take(as_built);

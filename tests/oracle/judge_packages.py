@@ -43,6 +43,10 @@ def what_is_unpacked(packages, root):
     code, said = run(program, "build", profile, "-o", root / "out", "-q")
     if code:
         yield f"the program from the package: exit {code}: {said}"
+    if any(root.glob("usr/lib/**/fusee-step.so")):
+        code, said = run(program, "build", profile, "-o", root / "cad", "-q", "--step")
+        if code or not (root / "cad/pulley.step").exists():
+            yield f"the program from the package makes no STEP: exit {code}: {said}"
     code, said = run("man", "-l", page, env={**os.environ, "MANPAGER": "cat"}) if shutil.which("man") else (0, "pulley.stl")
     if code or "pulley" not in said:
         yield f"man does not show {page.name}: {said[:200]}"

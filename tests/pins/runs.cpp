@@ -40,6 +40,17 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& beginn
 
 // ---- one function a verb --------------------------------------------------------------------------------------------
 
+/// The part for CAD alone: what else there is, is pinned without it.
+Outputs built_for_cad(const fs::path& spec) {
+  BuildOptions options;
+  options.step = true;
+  options.folder = fs::temp_directory_path() / "fusee-pins";
+  options.dry_run = true;
+  Outputs outputs = build(read_mechanism(spec), options).outputs;
+  std::erase_if(outputs, [](const OutputFile& file) { return file.name != "pulley.step"; });
+  return outputs;
+}
+
 Outputs built(const MechanismFile& file, DxfVersion dxf) {
   BuildOptions options;
   options.dxf = dxf;
@@ -86,6 +97,12 @@ void add_builds(std::vector<PinnedRun>& all) {
     all.push_back({"build/" + name, [spec] { return built(read_mechanism(spec), DxfVersion::ac1015); }});
     all.push_back({"build_r12/" + name, [spec] { return built(read_mechanism(spec), DxfVersion::r12); }});
   }
+}
+
+// One in one piece, one in two with dowels, one with a horn.
+void add_steps(std::vector<PinnedRun>& all) {
+  for (const std::string name : {"paper_optimum", "forearm", "wrist_exo"})
+    all.push_back({k_step_runs + name, [name] { return built_for_cad(k_root / "profiles" / (name + ".toml")); }});
 }
 
 void add_calibrations(std::vector<PinnedRun>& all) {
@@ -186,6 +203,7 @@ void add_corrected_builds(std::vector<PinnedRun>& all) {
 std::vector<PinnedRun> runs() {
   std::vector<PinnedRun> all;
   add_builds(all);
+  add_steps(all);
   add_analyses(all);
   add_calibrations(all);
   add_corrected_builds(all);

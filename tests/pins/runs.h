@@ -16,12 +16,14 @@ struct PinnedRun {
   std::string name;
   std::function<std::vector<OutputFile>()> outputs;
 };
+/// Runs whose names begin so need OpenCASCADE: nothing is asked of them where step_missing().
+inline constexpr const char* k_step_runs = "step/";
 /// For the names of tests.
 inline void PrintTo(const PinnedRun& run, std::ostream* stream) { *stream << run.name; }
 
-/// build/NAME and build_r12/NAME for each of profiles/*.toml, calibrate/NAME for each folder of tests/data/rig and for
-/// the forearm's measured runs, build_corrected/NAME for the corrected.toml of some of these, reproduce/paper,
-/// optimize/paper_optimum.
+/// build/NAME and build_r12/NAME for each of profiles/*.toml, step/NAME for some, calibrate/NAME for each folder of
+/// tests/data/rig and for the forearm's measured runs, build_corrected/NAME for the corrected.toml of some of these,
+/// reproduce/paper, optimize/paper_optimum.
 std::vector<PinnedRun> runs();
 
 }  // namespace fusee::pins

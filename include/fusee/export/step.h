@@ -16,9 +16,13 @@ namespace fusee {
 /// Why this fusee cannot write STEP; null: it can. Loads the module.
 std::optional<std::string> step_missing();
 
+struct StepFile {
+  std::string bytes;
+  std::string complaint;  ///< OpenCASCADE's, where it could not make the solid and there are no bytes
+};
 /// Grooves are B-splines within 1e-4 mm of the curves; InputError where that takes more pieces than a part for CAD may
 /// have ("too large for STEP: …"). The same part gives the same bytes.
-std::string step_bytes(const Product& product);
+StepFile step_file(const Product& product);
 
 /// A file of ours, read again: what it is, and its groove floors at the heights that the part has them, as printed.
 struct StepLook {

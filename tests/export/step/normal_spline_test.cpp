@@ -1,0 +1,115 @@
+#include "export/step/normal_spline.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+constexpr int k_samples = 190;
+
+/// Normals all round, not evenly.
+std::vector<double> directions() {
+  std::vector<double> psi;
+  for (int i = 0; i < k_samples; ++i) {
+    const double share = (i + 0.3 * std::sin(0.7 * i)) / k_samples;
+    psi.push_back(0.4 + k_two_pi * share);
+  }
+  return psi;
+}
+
+/// An ellipse by its support function h = √(a² cos² + b² sin²); its radius of curvature is a²b²/h³.
+struct Ellipse {
+  double a, b;
+  double support(double psi) const { return std::hypot(a * std::cos(psi), b * std::sin(psi)); }
+  Vec2 point(double psi) const { return Vec2(a * a * std::cos(psi), b * b * std::sin(psi)) / support(psi); }
+  double radius(double psi) const { return a * a * b * b / std::pow(support(psi), 3); }
+  /// The distance of a point beside it, to first order: its implicit equation knows no directions.
+  double off(const Vec2& at) const {
+    const double value = at.x() * at.x() / (a * a) + at.y() * at.y() / (b * b) - 1;
+    return std::abs(value) / (2 * Vec2(at.x() / (a * a), at.y() / (b * b)).norm());
+  }
+};
+
+SupportCurve sampled(const Ellipse& ellipse) {
+  std::vector<Vec2> points;
+  std::vector<double> radii;
+  for (const double psi : directions()) {
+    points.push_back(ellipse.point(psi));
+    radii.push_back(ellipse.radius(psi));
+  }
+  return {directions(), points, radii};
+}
+
+template <typename Off>
+double worst_of(const StepSpline& spline, const Off& off) {
+  double worst = 0;
+  const double from = spline.knots.front(), to = spline.knots.back();
+  for (int i = 0; i <= 2000; ++i) worst = std::max(worst, off(point_on(spline, from + (to - from) * i / 2000)));
+  return worst;
+}
+
+TEST(NormalSpline, IsTheEllipseThatWasSampled) {
+  const Ellipse ellipse{24, 15};
+  const auto spline = fit(sampled(ellipse), 0.1, 0.1 + 4, {}, 5e-5, 30);
+  ASSERT_TRUE(spline);
+  EXPECT_LT(worst_of(spline->parallel(0), [&](const Vec2& at) { return ellipse.off(at); }), 6e-5);
+  EXPECT_LT(spline->position.size(), 60u);
+}
+
+TEST(NormalSpline, ATighterToleranceTakesMorePoles) {
+  const Ellipse ellipse{24, 15};
+  const auto coarse = fit(sampled(ellipse), 0, 4, {}, 1e-2, 1), fine = fit(sampled(ellipse), 0, 4, {}, 1e-6, 1);
+  ASSERT_TRUE(coarse && fine);
+  EXPECT_LT(coarse->position.size(), fine->position.size());
+  EXPECT_LT(worst_of(fine->parallel(0), [&](const Vec2& at) { return ellipse.off(at); }), 2e-6);
+}
+
+TEST(NormalSpline, ParallelsOfACircleAreCircles) {
+  const Ellipse circle{18, 18};
+  const auto spline = fit(sampled(circle), 0.2, 5, {}, 5e-5, 30);
+  ASSERT_TRUE(spline);
+  for (const double distance : {-3.0, 0.0, 7.0}) {
+    EXPECT_LT(worst_of(spline->parallel(distance), [&](const Vec2& at) { return std::abs(at.norm() - 18 - distance); }),
+              5e-6);
+  }
+}
+
+TEST(NormalSpline, PiecesMeetWithTheirTangents) {
+  const SupportCurve curve = sampled({24, 15});
+  const auto first = fit(curve, 0.1, 3, {}, 5e-5, 1), second = fit(curve, 3, 0.1 + k_two_pi, {}, 5e-5, 1);
+  ASSERT_TRUE(first && second);
+  EXPECT_LT((first->position.back() - second->position.front()).norm(), 1e-12);
+  EXPECT_LT((first->position.front() - second->position.back()).norm(), 1e-9);
+  const Vec2 before = first->position.back() - first->position[first->position.size() - 2];
+  const Vec2 after = second->position[1] - second->position[0];
+  EXPECT_LT(std::abs(cross(before.normalized(), after.normalized())), 1e-9);
+}
+
+/// Of radius 10 up to ψ = π and of 20 from there on: the tangent is continuous, the radius is not. No curve closes so: the
+/// sector leaves out where this one does not.
+TEST(NormalSpline, AKinkThatIsSaidTakesNoPolesBesideIt) {
+  std::vector<double> psi = directions(), radii;
+  *std::min_element(psi.begin(), psi.end(),
+                    [](double a, double b) { return std::abs(a - k_pi) < std::abs(b - k_pi); }) = k_pi;
+  const auto is_first = [](double at) { return at <= k_pi; };
+  const auto point = [&](double at) { return is_first(at) ? Vec2(10 * unit(at)) : Vec2(20 * unit(at) + Vec2(10, 0)); };
+  std::vector<Vec2> points;
+  for (const double at : psi) {
+    radii.push_back(is_first(at) ? 10 : 20);
+    points.push_back(point(at));
+  }
+  const SupportCurve curve(psi, points, {});
+  const auto said = fit(curve, 1, 5, {k_pi}, 1e-4, 1), unsaid = fit(curve, 1, 5, {}, 1e-4, 1);
+  ASSERT_TRUE(said && unsaid);
+  EXPECT_LT(said->position.size() + 4, unsaid->position.size());
+  const StepSpline spline = said->parallel(0);
+  for (const double at : {1.5, 3.0, k_pi, 3.3, 4.5}) EXPECT_LT((point_on(spline, at) - point(at)).norm(), 2e-4) << at;
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,115 @@
+// pulley.step, where this fusee can write it. FreeCAD judges it in tests/oracle/judge_step.py.
+#include "fusee/export/step.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "export/step/step_build.h"
+#include "fusee/base/files.h"
+#include "fusee/base/units.h"
+#include "fusee/pipeline.h"
+#include "pipeline/design.h"
+
+namespace fusee {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+Product designed(const std::string& profile, const std::vector<Setting>& settings = {}) {
+  Product product;
+  product.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / (profile + ".toml"), settings);
+  product.joint = as_it_is(product.file.mechanism);
+  design(product, 0.01, nullptr, TieOffSearch::brief);
+  return product;
+}
+
+const Product& small() {
+  static const Product product = designed("finger_mcp");
+  return product;
+}
+
+/// The file of `small`, made once.
+const StepFile& small_file() {
+  static const StepFile file = step_file(small());
+  return file;
+}
+
+class Step : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const auto why = step_missing()) GTEST_SKIP() << *why;
+    path_ = fs::temp_directory_path() / ("fusee-step-test-" + std::to_string(::getpid()) + ".step");
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  std::vector<Check> checks_of(const std::string& bytes) {
+    write_file(path_, bytes, true);
+    return look_at_step(path_, small(), 0.01).checks;
+  }
+
+  fs::path path_;
+};
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+TEST_F(Step, IsOneSolidThatPassesItsChecks) {
+  ASSERT_EQ(small_file().complaint, "");
+  for (const Check& check : checks_of(small_file().bytes))
+    EXPECT_TRUE(check.ok) << check.name << " " << check.value << " " << check.limit;
+  EXPECT_THAT(small_file().bytes, HasSubstr("FILE_NAME('pulley.step','1970-01-01T00:00:00'"));
+}
+
+TEST_F(Step, AFaceThatIsMissingIsSeen) {
+  const std::string& bytes = small_file().bytes;
+  const std::size_t shell = bytes.find("CLOSED_SHELL('',(") + 17, end = bytes.find(',', shell);
+  std::string broken = bytes;
+  broken.erase(shell, end - shell + 1);
+  EXPECT_FALSE(all_ok(checks_of(broken)));
+}
+
+TEST_F(Step, OtherUnitsAreSeen) {
+  // Metres, and far too large to be looked at closely.
+  EXPECT_FALSE(all_ok(checks_of(replaced(small_file().bytes, ".MILLI.", "$"))));
+  EXPECT_THAT(checks_of(replaced(small_file().bytes, ".MILLI.", ".CENTI.")),
+              Contains(::testing::AllOf(Field(&Check::name, "floor_error"), Field(&Check::ok, false))));
+}
+
+TEST_F(Step, NoStepIsNoSolid) {
+  EXPECT_THAT(checks_of("ISO-10303-21;\n"),
+              Contains(::testing::AllOf(Field(&Check::name, "solids"), Field(&Check::ok, false))));
+}
+
+/// P1 of the paper's law is round about the axis: its rows are circles. P2's are splines.
+TEST(StepPart, ARoundGrooveIsOfCircles) {
+  const StepPart part = step_part(designed("paper_optimum", {{"body.marks", "none"}}));
+  int circles = 0, splines = 0;
+  for (const StepRow& row : part.rows) (row.radius > 0 ? circles : splines) += 1;
+  EXPECT_GE(circles, 5);
+  EXPECT_GE(splines, 5);
+  EXPECT_EQ(part.bands.size() + 1, part.rows.size());
+}
+
+TEST(StepPart, WhatIsTooLargeIsRefusedBeforeAnythingIsCut) {
+  Product product = small();
+  for (Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
+    for (OutlinePoint& point : outline->points) point.position *= 100;
+  }
+  try {
+    step_part(product);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("too large for STEP"));
+  }
+}
+
+}  // namespace
+}  // namespace fusee
