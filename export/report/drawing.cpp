@@ -100,6 +100,11 @@ View mechanism_view(const Mechanism& mechanism, const SynthesisResult& synthesis
   for (const Side side : {Side::left, Side::right}) {
     view.include(pin_centre(mechanism, side), mechanism.guide_pitch_radius() + 0.5 * mechanism.tendon.diameter);
   }
+  if (mechanism.sheath.is_there()) {
+    for (const Side side : {Side::left, Side::right}) {
+      for (const Vec2& point : sheath_curve(mechanism, side)) view.include(point, mechanism.tendon.diameter);
+    }
+  }
   view.include(pulley_axis(mechanism), pulley_reach(synthesis));
   if (mechanism.joint.drum_radius > 0) view.include({0, 0}, mechanism.drum_pitch_radius());
   for (const double theta : thetas) {
@@ -170,6 +175,21 @@ std::string pins(const Mechanism& mechanism, const View& view) {
   return svg;
 }
 
+/// Wide, pale and under everything else, with a ring at each mouth.
+std::string sheaths(const Mechanism& mechanism, const View& view) {
+  if (!mechanism.sheath.is_there()) return "";
+  const double width = std::max(13.0, 4.0 * mechanism.tendon.diameter * view.scale);
+  std::string svg =
+      "<g class=\"sheath\" style=\"fill:none;stroke:currentColor;stroke-opacity:.22;stroke-width:" + svg_number(width) +
+      "\">";
+  for (const Side side : {Side::left, Side::right})
+    svg += "<path d=\"" + path_data(thinned(view(sheath_curve(mechanism, side)), k_drawing_tolerance), false) + "\"/>";
+  svg += "</g>";
+  for (const Side side : {Side::left, Side::right})
+    svg += svg_circle("metal", view(sheath_mouth(mechanism, side)), 0.4 * width);
+  return svg;
+}
+
 std::string point_names(const Mechanism& mechanism, const View& view, double theta) {
   const double gap = mechanism.guide_pitch_radius() * view.scale + 12;
   const Vec2 beside = 15 * Vec2(std::sin(theta), -std::cos(theta)) + Vec2(0, 4);
@@ -188,8 +208,8 @@ std::string point_names(const Mechanism& mechanism, const View& view, double the
 }
 
 std::string scene(const Mechanism& mechanism, const SynthesisResult& synthesis, const View& view, const Pose& pose) {
-  std::string svg = joint_group(mechanism, view, pose.theta) + pulley_group(mechanism, synthesis, view, pose.alpha) +
-                    pins(mechanism, view);
+  std::string svg = sheaths(mechanism, view) + joint_group(mechanism, view, pose.theta) +
+                    pulley_group(mechanism, synthesis, view, pose.alpha) + pins(mechanism, view);
   for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
     if (const auto trace = trace_tendon(mechanism, *outline, pose.alpha, pose.theta)) {
       svg += tendon_group(*trace, view, mechanism, outline->side);

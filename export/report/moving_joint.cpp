@@ -1,5 +1,6 @@
 #include "export/report/moving_joint.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "export/report/calibration_words.h"
@@ -119,6 +120,15 @@ std::string json_ends(const Mechanism& mechanism) {
          "," + json_end(mechanism, Side::right) + "],";
 }
 
+/// Between pins and pulley.
+std::string json_sheaths(const Mechanism& mechanism) {
+  if (!mechanism.sheath.is_there()) return "";
+  const auto points_of = [&mechanism](Side side) { return all_of(sheath_curve(mechanism, side), json_point); };
+  return "\"mouths\":[" + json_point(sheath_mouth(mechanism, Side::left)) + "," +
+         json_point(sheath_mouth(mechanism, Side::right)) + "],\"sheaths\":[[" + points_of(Side::left) + "],[" +
+         points_of(Side::right) + "]],";
+}
+
 std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synthesis,
                         const std::vector<LoadedStroke>& strokes, const std::vector<RehearsedEffect>& effects) {
   const std::vector<TransmissionPoint>& stroke = synthesis.stroke;
@@ -126,9 +136,10 @@ std::string motion_json(const Mechanism& mechanism, const SynthesisResult& synth
     return json_numbers(key, stroke, decimals, value) + ",";
   };
   return "{\"R\":" + json_number(mechanism.joint.R, 6) + ",\"rho\":" + json_number(mechanism.guide_pitch_radius(), 6) +
-         "," + json_ends(mechanism) + "\"axis\":" + json_point(pulley_axis(mechanism)) + ",\"pins\":[" +
-         json_point(pin_centre(mechanism, Side::left)) + "," + json_point(pin_centre(mechanism, Side::right)) +
-         "],\"outlines\":[" + json_outline(synthesis.p1) + "," + json_outline(synthesis.p2) + "]," +
+         "," + json_ends(mechanism) + json_sheaths(mechanism) + "\"axis\":" + json_point(pulley_axis(mechanism)) +
+         ",\"pins\":[" + json_point(pin_centre(mechanism, Side::left)) + "," +
+         json_point(pin_centre(mechanism, Side::right)) + "],\"outlines\":[" + json_outline(synthesis.p1) + "," +
+         json_outline(synthesis.p2) + "]," +
          numbers("alpha", 6, [](const TransmissionPoint& point) { return degrees(point.alpha); }) +
          numbers("theta", 6, [](const TransmissionPoint& point) { return degrees(point.theta); }) +
          numbers("slope", 6, [](const TransmissionPoint& point) { return point.g; }) +
@@ -211,8 +222,16 @@ std::string moving_joint(const Mechanism& mechanism, const SynthesisResult& synt
 
 namespace {
 
-/// Lines that end in `//=` and a word are for joints of that word alone.
-std::string lines_for(std::string_view word) {
+/// Whether all words of `asked` ("drum+sheath") are those of a joint.
+bool is_for(std::string_view asked, const std::vector<std::string_view>& words) {
+  const std::size_t plus = asked.find('+');
+  if (plus != std::string_view::npos)
+    return is_for(asked.substr(0, plus), words) && is_for(asked.substr(plus + 1), words);
+  return std::find(words.begin(), words.end(), asked) != words.end();
+}
+
+/// Lines that end in `//=` and words are for joints of all of these words alone.
+std::string lines_for(const std::vector<std::string_view>& words) {
   std::string script;
   std::string_view rest = embedded::moving_joint_js;
   while (!rest.empty()) {
@@ -222,7 +241,7 @@ std::string lines_for(std::string_view word) {
     const std::size_t mark = line.rfind(" //=");
     if (mark == std::string_view::npos) {
       script += line;
-    } else if (line.substr(mark + 4, line.size() - mark - 5) == word) {
+    } else if (is_for(line.substr(mark + 4, line.size() - mark - 5), words)) {
       script += std::string(line.substr(0, mark)) + "\n";
     }
   }
@@ -232,7 +251,10 @@ std::string lines_for(std::string_view word) {
 }  // namespace
 
 std::string_view joint_script(const Mechanism& mechanism) {
-  static const std::string plain = lines_for("plain"), drum = lines_for("drum");
+  static const std::string plain = lines_for({"plain", "pin"}), drum = lines_for({"drum", "pin"}),
+                           plain_sheathed = lines_for({"plain", "sheath"}),
+                           drum_sheathed = lines_for({"drum", "sheath"});
+  if (mechanism.sheath.is_there()) return mechanism.joint.is_plain() ? plain_sheathed : drum_sheathed;
   return mechanism.joint.is_plain() ? plain : drum;
 }
 

@@ -1,6 +1,7 @@
 // The joint moves: from the slider's α, θ by the declared law; then both tendons as taut strings over pins and pulley,
 // by geometry alone (export/report/tendon_trace.cpp does the same). Lengths in mm, angles in degrees.
-// A line that ends in a mark is on pages of joints without, or with, a drum or attachments of their own: joint_script(). //=source
+// A line that ends in a mark is on pages of joints without, or with, a drum or attachments of their own, and of those whose //=source
+// tendons run from pin to pulley, or through sheaths: joint_script(). //=source
 (() => {
   const box = document.querySelector(".moving");
   if (!box) return;
@@ -50,17 +51,24 @@
     const upper = lies > 0 ? own.normal : tangent(pin, c, true, sign); //=drum
     const over = lies > 0 ? arc([0, 0], upper + sign * lies, upper, data.drum) : []; //=drum
     const on_pulley = k => add(data.axis, turned(points[k], -alpha));
-    const reference = tangent(pin, data.axis, false, sign);
+    const reference = tangent(pin, data.axis, false, sign); //=pin
+    const onto = p => { const d = add(p, data.mouths[which], -1); return Math.atan2(d[1], d[0]) + sign * Math.PI / 2; }; //=sheath
+    const reference = onto(data.axis), off = sign > 0 ? 0 : Math.PI; //=sheath
     let first = 0, outermost = -Infinity;
     for (let k = 0; k < n; k++) {
-      const outward = sign * nearer(tangent(pin, on_pulley(k), false, sign) - reference);
+      const outward = sign * nearer(tangent(pin, on_pulley(k), false, sign) - reference); //=pin
+      const outward = sign * nearer(onto(on_pulley(k)) - reference); //=sheath
       if (outward > outermost) { outermost = outward; first = k; }
     }
-    const wrap = nearer(tangent(pin, on_pulley(first), false, sign) - upper), middle = upper + wrap / 2;
+    const wrap = nearer(tangent(pin, on_pulley(first), false, sign) - upper), middle = upper + wrap / 2; //=pin
+    const wrap = nearer(off - upper), middle = upper + wrap / 2; //=sheath
     const wound = [], step = sign < 0 ? 1 : n - 1;
     for (let k = first, left = n; left > 0; k = (k + step) % n, left--) { wound.push(on_pulley(k)); if (k === end) break; }
-    return { upper: [c, ...over, ...arc(pin, upper, middle)], lower: [...arc(pin, middle, upper + wrap), wound[0]], wound }; //=drum
-    return { upper: [c, ...arc(pin, upper, middle)], lower: [...arc(pin, middle, upper + wrap), wound[0]], wound }; //=plain
+    const lower = [...arc(pin, middle, upper + wrap), ...data.sheaths[which], wound[0]]; //=sheath
+    return { upper: [c, ...over, ...arc(pin, upper, middle)], lower, wound }; //=drum+sheath
+    return { upper: [c, ...arc(pin, upper, middle)], lower, wound }; //=plain+sheath
+    return { upper: [c, ...over, ...arc(pin, upper, middle)], lower: [...arc(pin, middle, upper + wrap), wound[0]], wound }; //=drum+pin
+    return { upper: [c, ...arc(pin, upper, middle)], lower: [...arc(pin, middle, upper + wrap), wound[0]], wound }; //=plain+pin
   };
 
   const svg = (name, parent, attributes) => {

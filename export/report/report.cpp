@@ -173,7 +173,15 @@ std::string key_numbers(const Product& product) {
               guides.OE < 0   ? "pins above the joint"
               : guides.OE > 0 ? "pins below the joint"
                               : "");
-  numbers.add("EF", with_unit(mechanism.pulley.EF, "mm", 6));
+  const Sheath& sheath = mechanism.sheath;
+  numbers.add("EF", with_unit(mechanism.pulley.EF, "mm", 6), sheath.is_there() ? "where it is drawn" : "");
+  if (sheath.is_there()) {
+    numbers.add("Sheaths", with_unit(sheath.length, "mm", 6),
+                "bends " + readable_rounded(degrees(sheath.bend), 4) + "°, μ " + readable_rounded(sheath.mu, 3) + ", " +
+                    (sheath.stiffness > 0 ? with_unit(sheath.stiffness, "N/mm") : "rigid") + "; drawn shorter");
+    numbers.add("Mouths", "± " + with_unit(sheath.exit_across, "mm", 6),
+                with_unit(sheath.exit_above, "mm", 6) + " above G");
+  }
   if (guides.kind == GuideKind::idler) {
     numbers.add(
         "Idler radius", with_unit(guides.radius, "mm"),

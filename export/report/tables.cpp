@@ -23,6 +23,7 @@ constexpr PlainName k_plain_names[] = {
     {"law_grows_P#", "θ grows with α, as P# sees it"},
     {"radius_P#", "P#’s groove floor stays clear of the axis"},
     {"line_reaches_pin_@", "Pin @ lies beyond the tendon’s reach on P#"},
+    {"line_reaches_mouth_#", "Sheath #’s mouth lies beyond the tendon’s reach on P#"},
     {"tendon_on_pin_@", "Tendon # stays on pin @ (wrap angle)"},
     {"take_off_advances_P#", "The take-off point never turns back on P#"},
     {"convex_floor_P#", "P#’s groove floor is convex (its smallest radius)"},
@@ -44,6 +45,7 @@ constexpr PlainName k_plain_names[] = {
     {"set_screw_wall", "Wall around the set screw’s nut"},
     {"set_screw_height", "Height for the set screw in the hub"},
     {"pin_clear_@", "Gap between the flanges and pin @"},
+    {"mouth_clear_#", "Gap between the flanges and the mouth of sheath #"},
     {"horn_recess", "Depth of the horn’s recess"},
     {"horn_holes", "Web between the horn’s holes"},
     // solid, export, pipeline: checks

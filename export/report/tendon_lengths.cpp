@@ -23,8 +23,9 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   const TendonPoint& tendon = left ? home.t1 : home.t2;
   const BodyLayout& layout = product.pulley.layout;
 
-  const double rho = mechanism.seen_pitch_radius();
-  const Vec2 pin = pin_centre(mechanism, anchor.side);
+  const bool sheathed = mechanism.sheath.is_there();
+  const double rho = sheathed ? 0.0 : mechanism.seen_pitch_radius();
+  const Vec2 pin = sheathed ? sheath_mouth(mechanism, anchor.side) : pin_centre(mechanism, anchor.side);
   const Vec2 axis = pulley_axis(mechanism);
   // Nearest is enough: what a step along the tangent adds to the arc it takes from the span.
   const std::size_t contact = index_at_normal(outline, tendon.lower_normal);

@@ -25,12 +25,14 @@ struct PulleyContact {
   double normal = 0;      ///< of the lower span, in the world, rad
 };
 
-/// The common outer tangent of the pin and the turned pitch polygon: the outermost of the tangents from the vertices.
+/// The common outer tangent of the pin (or the line through the sheath's mouth) and the turned pitch polygon: the
+/// outermost of the tangents from the vertices.
 std::optional<PulleyContact> pulley_contact(const Mechanism& mechanism, const Outline& outline, double alpha) {
   const double sign = mirror_sign(outline.side);
-  const Vec2 pin = pin_centre(mechanism, outline.side);
+  const bool sheathed = mechanism.sheath.is_there();
+  const Vec2 pin = sheathed ? sheath_mouth(mechanism, outline.side) : pin_centre(mechanism, outline.side);
   const Vec2 axis = pulley_axis(mechanism);
-  const double rho = mechanism.guide_pitch_radius();
+  const double rho = sheathed ? 0.0 : mechanism.guide_pitch_radius();
   // Measured from the tangent towards the axis, so that the comparison never crosses ±π.
   const double reference = tangent_normal(pin, rho, axis, false, sign);
   PulleyContact best;
@@ -90,6 +92,26 @@ Vec2 pin_centre(const Mechanism& mechanism, Side side) {
   return side == Side::left ? Vec2(-guides.EB, -guides.OE) : Vec2(guides.ED, -guides.OE - guides.D_below_B);
 }
 
+Vec2 sheath_mouth(const Mechanism& mechanism, Side side) {
+  return pulley_axis(mechanism) + Vec2(mirror_sign(side) * mechanism.sheath.exit_across, mechanism.sheath.exit_above);
+}
+
+std::vector<Vec2> sheath_curve(const Mechanism& mechanism, Side side) {
+  const double sign = mirror_sign(side);
+  const Vec2 from = pin_centre(mechanism, side) + Vec2(sign * mechanism.guide_pitch_radius(), 0.0),
+             to = sheath_mouth(mechanism, side);
+  const double reach = 0.5 * (to - from).norm();
+  const Vec2 down(0.0, -reach), outwards(0.9 * sign * reach, 0.0);
+  const Vec2 first = from + down, second = to - down + outwards;
+  constexpr int k_steps = 24;
+  std::vector<Vec2> points;
+  for (int i = 0; i <= k_steps; ++i) {
+    const double u = static_cast<double>(i) / k_steps, v = 1.0 - u;
+    points.push_back(v * v * v * from + 3 * v * v * u * first + 3 * v * u * u * second + u * u * u * to);
+  }
+  return points;
+}
+
 Vec2 attachment(const Mechanism& mechanism, Side side, double theta) {
   if (mechanism.joint.is_plain()) return mechanism.joint.R * Vec2(std::sin(theta), std::cos(theta));
   const PinPlace place = pin_place(mechanism, side, mechanism.guide_pitch_radius());
@@ -123,10 +145,12 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
   }
   const auto contact = pulley_contact(mechanism, outline, alpha);
   if (!std::isfinite(upper) || !contact) return std::nullopt;
+  const bool sheathed = mechanism.sheath.is_there();
+  const double off_pin = !sheathed ? contact->normal : sign > 0 ? 0.0 : k_pi;
   // Wrap is positive when the tendon lies on the pin: the normal turns clockwise on the right on its way down.
-  const double wrap = -sign * std::remainder(contact->normal - upper, k_two_pi);
+  const double wrap = -sign * std::remainder(off_pin - upper, k_two_pi);
   trace.onto_pin = pin + rho * unit(upper);
-  trace.off_pin = pin + rho * unit(contact->normal);
+  trace.off_pin = pin + rho * unit(off_pin);
   const Vec2 axis = pulley_axis(mechanism);
   for (const std::size_t i : wound_indices(outline, contact->index)) {
     trace.wound_path.push_back(axis + turned(outline.points[i].position, -alpha));
@@ -136,8 +160,15 @@ std::optional<TendonTrace> trace_tendon(const Mechanism& mechanism, const Outlin
   trace.free_path = arc(pin, rho, upper, upper - sign * wrap);
   trace.free_path.insert(trace.free_path.begin(), over_drum.begin(), over_drum.end());
   trace.free_path.insert(trace.free_path.begin(), trace.attachment);
+  Vec2 onto_pulley = trace.off_pin;
+  if (sheathed) {
+    const std::vector<Vec2> through = sheath_curve(mechanism, outline.side);
+    trace.free_path.insert(trace.free_path.end(), through.begin(), through.end());
+    onto_pulley = through.back();
+  }
   trace.free_path.push_back(trace.take_off);
-  trace.free_length = above + (trace.onto_pin - from).norm() + rho * wrap + (trace.take_off - trace.off_pin).norm();
+  trace.free_length = above + (trace.onto_pin - from).norm() + rho * wrap + (trace.take_off - onto_pulley).norm();
+  if (sheathed) trace.free_length += mechanism.sheath.length;
   trace.wound_length = length_of(trace.wound_path);
   return trace;
 }

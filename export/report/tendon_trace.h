@@ -16,6 +16,11 @@ namespace fusee {
 Vec2 pulley_axis(const Mechanism& mechanism);
 /// B or D.
 Vec2 pin_centre(const Mechanism& mechanism, Side side);
+/// Where its sheath ends, beside the pulley; what a tendon comes to its pulley from. There must be a sheath.
+Vec2 sheath_mouth(const Mechanism& mechanism, Side side);
+/// A sheath as it is drawn: from the pin's outer side, straight down, to its mouth. Nobody knows its way, and its
+/// length is the file's.
+std::vector<Vec2> sheath_curve(const Mechanism& mechanism, Side side);
 /// Where a tendon ends: C, or its own attachment.
 Vec2 attachment(const Mechanism& mechanism, Side side, double theta);
 
@@ -27,11 +32,11 @@ Vec2 attachment(const Mechanism& mechanism, Side side, double theta);
 struct TendonTrace {
   Vec2 attachment;               ///< C, or the tendon's own
   Vec2 onto_pin;                 ///< tangent point of the upper span
-  Vec2 off_pin;                  ///< tangent point of the lower span
+  Vec2 off_pin;                  ///< tangent point of the lower span, or where it goes into its sheath
   Vec2 take_off;                 ///< where it leaves the pulley
-  std::vector<Vec2> free_path;   ///< attachment … take_off, with the arcs over drum and pin
+  std::vector<Vec2> free_path;   ///< attachment … take_off, with the arcs over drum and pin, through its sheath
   std::vector<Vec2> wound_path;  ///< take_off … the anchor's end of the active arc
-  double free_length = 0;        ///< exact on the pin's arc, mm
+  double free_length = 0;        ///< exact on the pin's arc, with the sheath's own length, mm
   double wound_length = 0;       ///< along the polygon, mm
 };
 

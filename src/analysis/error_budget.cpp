@@ -75,9 +75,8 @@ ErrorSource full_model(const char* name, const char* meaning, const Mechanism& m
 }
 
 ErrorSource full_stretch(const Mechanism& mechanism) {
-  Mechanism smooth = mechanism;
-  smooth.guides = without_friction(smooth.guides);
-  return full_model("stretch", "stretch of both tendons, no friction at the pins", smooth, 0.5, 0.5);
+  return full_model("stretch", "stretch of both tendons, no friction at the pins", without_friction(mechanism), 0.5,
+                    0.5);
 }
 
 ErrorSource friction(const Mechanism& mechanism) {

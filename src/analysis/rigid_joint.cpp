@@ -53,12 +53,18 @@ double by_end(const PinPlace& pin, const LowerPath&, Side side, double theta, do
 }
 template <Side moved>
 double by_pin(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double) {
-  return side == moved ? lower_direction(lower).x() - upper_direction(pin, theta).x() : 0.0;
+  // A sheath that is held by the pin follows it, and keeps its length.
+  const double pulled = pin.mouth ? 0.0 : lower_direction(lower).x();
+  return side == moved ? pulled - upper_direction(pin, theta).x() : 0.0;
 }
 double by_height(const PinPlace& pin, const LowerPath&, Side, double theta, double) { return upper_direction(pin, theta).y(); }
 double by_pulley_place(const PinPlace&, const LowerPath& lower, Side, double, double) { return lower_direction(lower).y(); }
+/// Mouths stand further apart, in each tendon's image further out.
+double by_exit_across(const PinPlace&, const LowerPath& lower, Side, double, double) {
+  return lower_direction(lower).x();
+}
 double by_pin_radius(const PinPlace& pin, const LowerPath& lower, Side, double theta, double) {
-  return upper_span(pin, theta).normal - lower.normal;
+  return upper_span(pin, theta).normal - pin.off_pin(lower.normal);
 }
 double by_offset(const PinPlace&, const LowerPath& lower, Side, double, double alpha) { return lower.normal + alpha; }
 double by_diameter(const PinPlace& pin, const LowerPath& lower, Side side, double theta, double alpha) {
@@ -77,6 +83,8 @@ void alter_right(Alteration& joint, double by) { joint.mounted.guides.ED += by; 
 void alter_height(Alteration& joint, double by) { joint.mounted.guides.OE += by; }
 void alter_radius(Alteration& joint, double by) { joint.mounted.guides.radius += by; }
 void alter_pulley_place(Alteration& joint, double by) { joint.mounted.pulley.EF += by; }
+void alter_exit_across(Alteration& joint, double by) { joint.mounted.sheath.exit_across += by; }
+void alter_exit_above(Alteration& joint, double by) { joint.mounted.sheath.exit_above += by; }
 void alter_offset(Alteration& joint, double by) { joint.offset += by; }
 /// The groove's floor stays where it is: a thicker tendon lies further out on pulley and pin.
 void alter_diameter(Alteration& joint, double by) {
@@ -94,6 +102,12 @@ std::vector<Dimension> dimensions(const Mechanism& mechanism) {
       {"guides.ED_mm", alter_right, by_pin<Side::right>},  {"guides.OE_mm", alter_height, by_height},
       {"guides.radius_mm", alter_radius, by_pin_radius},   {"pulley.EF_mm", alter_pulley_place, by_pulley_place},
       {"tendon.diameter_mm", alter_diameter, by_diameter}, {"print_offset", alter_offset, by_offset}};
+  if (mechanism.sheath.is_there()) {
+    // As for a pulley that stands further down, so for mouths further up.
+    std::erase_if(all, [](const Dimension& dimension) { return dimension.key == "pulley.EF_mm"; });
+    all.push_back({"sheath.exit_across_mm", alter_exit_across, by_exit_across});
+    all.push_back({"sheath.exit_above_mm", alter_exit_above, by_pulley_place});
+  }
   const Joint& joint = mechanism.joint;
   if (joint.drum_radius > 0) all.push_back({"joint.drum_radius_mm", alter_drum, by_drum});
   constexpr auto first = &Joint::attachment1, second = &Joint::attachment2;

@@ -24,7 +24,9 @@ class RigidJoint {
   std::array<LowerPath, 2> lower(double alpha) const { return made_.paths(pins_, alpha); }
 
  private:
-  double below(std::size_t side, const LowerPath& path) const { return path.reach - pins_[side].rho * path.normal + path.wound; }
+  double below(std::size_t side, const LowerPath& path) const {
+    return path.reach - pins_[side].rho * pins_[side].off_pin(path.normal) + path.wound;
+  }
 
   MadePulleys made_;
   std::array<PinPlace, 2> pins_;

@@ -205,8 +205,8 @@ std::vector<LikelySlip> slipped_angles(const DeclaredMechanism& mechanism) {
 }
 
 std::vector<LikelySlip> slipped_lengths(const DeclaredMechanism& mechanism) {
-  // With drum and attachments OC is no measure of the joint.
-  if (mechanism.transmission || !mechanism.joint.is_plain()) return {};
+  // With drum and attachments OC is no measure of the joint, nor of a pulley that stands elsewhere.
+  if (mechanism.transmission || !mechanism.joint.is_plain() || mechanism.sheath.is_there()) return {};
   if (!has_odd_proportions(mechanism)) return all_lengths_slipped(mechanism);
   std::vector<LikelySlip> slips = one_slipped_length(mechanism);
   return slips.empty() ? odd_lengths(mechanism) : slips;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fusee/joint/simulate.h"
 #include "fusee/mechanism/effect.h"
@@ -43,11 +44,11 @@ Imperfections composed(const DeclaredMechanism& declared, const Imperfections& f
 /// Friction moves the joint, not the curves.
 bool same_drawing(const DeclaredMechanism& a, const DeclaredMechanism& b) {
   JointAsItIs one = as_it_is(a), other = as_it_is(b);
-  one.mechanism.guides = without_friction(one.mechanism.guides);
-  other.mechanism.guides = without_friction(other.mechanism.guides);
+  one.mechanism = without_friction(std::move(one.mechanism));
+  other.mechanism = without_friction(std::move(other.mechanism));
   return one.outline == other.outline && one.mechanism.joint == other.mechanism.joint &&
-         one.mechanism.guides == other.mechanism.guides && one.mechanism.pulley == other.mechanism.pulley &&
-         one.mechanism.material == other.mechanism.material;
+         one.mechanism.guides == other.mechanism.guides && one.mechanism.sheath == other.mechanism.sheath &&
+         one.mechanism.pulley == other.mechanism.pulley && one.mechanism.material == other.mechanism.material;
 }
 
 std::string why_infeasible(const DeclaredMechanism& corrected) {

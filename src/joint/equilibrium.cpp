@@ -49,6 +49,18 @@ constexpr double k_least_hold = 1e-4;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
+/// What lies in a sheath is shared by both spans: friction in it and on the pin stand together in its middle. So is
+/// its give, a spring of each span, at home as it was mounted. A spring of c N⁻¹ is to its span as EA c of tendon that
+/// no temperature and no creep reaches (see Give).
+struct SheathShare {
+  double length = 0;
+  double unseen = 0;
+  double mounted = 0;  ///< by how much the spring is longer at home than without tension
+
+  SheathShare(const SheathLoad& sheath, double EA, double home)
+      : length(0.5 * sheath.length), unseen(0.5 * sheath.give * EA), mounted(0.5 * sheath.give * home) {}
+};
+
 /// One tendon in its right-hand image, with its history.
 struct TendonHistory {
   Side side = Side::left;
@@ -58,6 +70,7 @@ struct TendonHistory {
   WoundProfile wound;
   double upper = 0;  ///< tensions at the last step
   double lower = 0;
+  double home = 0;       ///< tension at home, N
   Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
   double ratio = 1;      ///< lower per upper tension that Give is seen with
   double strained = 0;   ///< by how much the strain of the lower span grew in the last step
@@ -108,13 +121,15 @@ GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
   return {path.normal + mirror_sign(side) * alpha, path.wound};
 }
 
-AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho, double EA, const JointStep& step) {
+AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, const JointModel& model, const JointStep& step) {
+  const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
   const double expansion = step.tendon.expansion[tendon.side == Side::left ? 0 : 1];
   AtAlpha at;
   at.path = path;
-  at.lower_length = path.reach + rho * (tendon.rim_reference - path.normal);
+  at.lower_length =
+      path.reach + pin.rho * (tendon.rim_reference - pin.off_pin(path.normal)) + 0.5 * model.sheath.length;
   at.swelling = 1.0 + expansion;
-  at.spans.EA = EA;
+  at.spans.EA = model.EA;
   at.spans.upper_material = at.swelling * tendon.upper_material;
   at.spans.lower_length = at.lower_length;
   at.spans.lower_material = at.swelling * tendon.lower_material;
@@ -123,6 +138,13 @@ AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, double rho,
   const double last = tendon.wound.strain(at.swelling);
   at.slide = tendon.wound.slide(at.turned, std::max(0.5 * last, last + tendon.strained), at.swelling);
   return at;
+}
+
+void give_way(Spans& spans, const SheathShare& sheath) {
+  spans.upper_length += sheath.unseen + sheath.mounted;
+  spans.upper_material += sheath.unseen;
+  spans.lower_length += sheath.unseen + sheath.mounted;
+  spans.lower_material += sheath.unseen;
 }
 
 void give_way(Spans& spans, const Give& give) {
@@ -176,15 +198,18 @@ struct Trial {
 
 Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
-  const double rho = model.pins[tendon.side == Side::left ? 0 : 1].rho;
+  const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
+  const double off_pin = pin.off_pin(at.path.normal);
+  const SheathShare sheath(model.sheath, at.spans.EA, tendon.home);
   Trial trial;
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
   trial.spans = with_slide(at.spans, at);
-  trial.upper_length = trial.spans.upper_length = trial.span.length - rho * tendon.rim_reference;
+  trial.upper_length = trial.spans.upper_length = trial.span.length - pin.rho * tendon.rim_reference + sheath.length;
   if (model.pin_give > 0)
-    give_way(trial.spans, Give({trial.span.normal, at.path.normal}, tendon, model.pin_give, at.spans.EA));
-  trial.wrap = trial.span.normal - at.path.normal;
-  trial.spans.capstan = std::exp(model.guide.log_ratio(trial.wrap));
+    give_way(trial.spans, Give({trial.span.normal, off_pin}, tendon, model.pin_give, at.spans.EA));
+  if (model.sheath.give > 0) give_way(trial.spans, sheath);
+  trial.wrap = trial.span.normal - off_pin;
+  trial.spans.capstan = std::exp(model.guide.log_ratio(trial.wrap) + model.sheath.log_ratio);
   trial.balance = balance(trial.spans);
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
@@ -266,13 +291,16 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   const UpperSpan span = upper_span(place, 0.0);
   TendonHistory tendon;
   tendon.side = side;
-  tendon.rim_reference = 0.5 * (span.normal + path.normal);
+  const double off_pin = place.off_pin(path.normal), in_sheath = 0.5 * model.sheath.length;
+  tendon.rim_reference = 0.5 * (span.normal + off_pin);
   const double density = 1.0 / (1.0 + tension / model.EA);
-  tendon.upper_material = density * (span.free + place.rho * (span.normal - tendon.rim_reference)) + 0.5 * model.slack;
-  tendon.lower_material = density * (path.reach + place.rho * (tendon.rim_reference - path.normal)) + 0.5 * model.slack;
+  tendon.upper_material =
+      density * (span.free + place.rho * (span.normal - tendon.rim_reference) + in_sheath) + 0.5 * model.slack;
+  tendon.lower_material =
+      density * (path.reach + place.rho * (tendon.rim_reference - off_pin) + in_sheath) + 0.5 * model.slack;
   tendon.wound = WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
-  tendon.upper = tendon.lower = tension;
-  tendon.home_push = AtPin(span.normal, path.normal).push(tension, tension);
+  tendon.upper = tendon.lower = tendon.home = tension;
+  tendon.home_push = AtPin(span.normal, off_pin).push(tension, tension);
   return tendon;
 }
 
@@ -339,10 +367,18 @@ double energy_of_spans(const TendonHistory& tendon, double EA) {
 }
 
 /// Above that of home, where the pin gives way already.
-double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial, double per_newton) {
+double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial& trial, const JointModel& model) {
+  if (!(model.pin_give > 0)) return 0;
+  const PinPlace& place = model.pins[tendon.side == Side::left ? 0 : 1];
+  const AtPin pin(trial.span.normal, place.off_pin(at.path.normal));
+  return 0.5 * model.pin_give * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
+}
+
+/// The same of its sheath, half of which gives way to the tension at either end.
+double energy_of_sheath(const TendonHistory& tendon, double per_newton) {
   if (!(per_newton > 0)) return 0;
-  const AtPin pin(trial.span.normal, at.path.normal);
-  return 0.5 * per_newton * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
+  const double ends = tendon.upper * tendon.upper + tendon.lower * tendon.lower;
+  return 0.25 * per_newton * (ends - 2.0 * tendon.home * tendon.home);
 }
 
 /// Where a joint comes to rest.
@@ -489,7 +525,8 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
     wound_energy += spent.wound;
     friction += spent.friction;
     groove_friction += spent.groove_friction;
-    point.stored += energy_of_spans(tendons[i], model.EA) + energy_of_pin(tendons[i], at[i], now[i], model.pin_give);
+    point.stored += energy_of_spans(tendons[i], model.EA) + energy_of_pin(tendons[i], at[i], now[i], model) +
+                    energy_of_sheath(tendons[i], model.sheath.give);
     (i == 0 ? point.t1 : point.t2) = state_of(tendons[i], at[i], now[i]);
     const double m = now[i].span.m;
     const double geometric = now[i].balance.upper * now[i].span.dm;
@@ -537,7 +574,7 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
   std::array<AtAlpha, 2> at;
   for (std::size_t i = 0; i < 2; ++i) {
     if (!std::isfinite(paths[i].wound)) return state.refuse(step);
-    at[i] = at_alpha(state.tendons[i], paths[i], model.pins[i].rho, model.EA, step);
+    at[i] = at_alpha(state.tendons[i], paths[i], model, step);
     at[i].spans.lower_material += at[i].swelling * (step.tendon.released[i] - state.released[i]);
     const bool has_path =
         at[i].lower_length > 0 && at[i].spans.lower_material + at[i].swelling * at[i].turned.came_off > 0;

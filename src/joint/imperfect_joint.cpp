@@ -1,6 +1,7 @@
 #include "joint/imperfect_joint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "joint/outline_error.h"
@@ -51,12 +52,11 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       const double c = std::cos(alpha);
       const double s = std::sin(alpha);
       const Vec2 centre(c * x + s * y, c * y - s * x);  // turned clockwise
-      std::array<PinPlace, 2> seen = pins;
+      std::array<LowerGuide, 2> seen;
       for (std::size_t i = 0; i < 2; ++i) {
         const double sign = i == 0 ? -1.0 : 1.0;
-        seen[i].e = (pins[i].e - sign * centre.x()) / scale;
-        seen[i].ef = (pins[i].ef - centre.y()) / scale;
-        seen[i].rho = pins[i].rho / scale;
+        const LowerGuide from = pins[i].lower();
+        seen[i] = {(from.across - sign * centre.x()) / scale, (from.above - centre.y()) / scale, from.rho / scale};
       }
       std::array<LowerPath, 2> paths = larger.paths(seen, alpha);
       for (std::size_t i = 0; i < 2; ++i) {

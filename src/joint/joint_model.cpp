@@ -75,7 +75,7 @@ MadePulleys MadePulleys::offset_by(double by) const {
 //   F = c cos(φ − ψ) + ρ − h(ψ_b) = 0.
 // The curve is known by the declared α0 at which each of its elements is touched: ψ_b' = 1 + h'/w0, so F' = w ψ_b' − h'
 // with w the mounted reach c sin(φ − ψ). Mounted as declared, the first look (α0 = α) is the answer.
-LowerPath MadePulleys::path(Side side, const PinPlace& mounted, double alpha, const TransmissionPoint& first) const {
+LowerPath MadePulleys::path(Side side, const LowerGuide& mounted, double alpha, const TransmissionPoint& first) const {
   const PinPlace& place = declared_.place(side);
   const double sign = mirror_sign(side);
   const double c = mounted.c();
@@ -97,7 +97,7 @@ LowerPath MadePulleys::path(Side side, const PinPlace& mounted, double alpha, co
   return {nan, nan, nan, nan};
 }
 
-std::array<LowerPath, 2> MadePulleys::paths(const std::array<PinPlace, 2>& mounted, double alpha) const {
+std::array<LowerPath, 2> MadePulleys::paths(const std::array<LowerGuide, 2>& mounted, double alpha) const {
   const TransmissionPoint first = declared_.at_alpha(alpha);
   return {path(Side::left, mounted[0], alpha, first), path(Side::right, mounted[1], alpha, first)};
 }
@@ -127,6 +127,7 @@ void set_statics(JointModel& model, const MountedMechanism& in) {
   const Mechanism& mounted = in.mechanism;
   model.EA = section_stiffness(mounted.tendon);
   model.guide = guide_friction(mounted);
+  model.sheath = sheath_load(mounted);
   model.groove_friction = mounted.pulley.mu;
   model.pretension = mounted.tendon.pretension;
   model.weight = weight_moment(mounted.load);

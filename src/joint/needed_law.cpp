@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/golden_section.h"
 #include "fusee/joint/simulate.h"
@@ -150,7 +151,7 @@ std::optional<NeededLaw> drawn_further(NeededLaw needed, const std::vector<LawRo
 /// Without the pins' friction: that is a loop about this mean, and its turns at both ends of the range are none of the
 /// pulley's.
 std::optional<NeededLaw> given_way(Mechanism joint, const NeededLaw& declared, double tip_force, double reached) {
-  joint.guides = without_friction(joint.guides);
+  joint = without_friction(std::move(joint));
   const std::vector<LawRow>& wanted = declared.rows;
   const Smoothed smoothed(wanted);
   NeededLaw needed = declared;

@@ -266,6 +266,47 @@ void add_load(std::vector<Field>& table) {
       "deg", -360, 360));
 }
 
+void add_sheath(std::vector<Field>& table) {
+  constexpr auto sheath = &Mechanism::sheath;
+  const auto add = [&table](Field field, std::string_view otherwise) {
+    field.required = false;
+    field.needed_in_table = !otherwise.empty();
+    field.otherwise = otherwise;
+    field.is_set = [](const DeclaredMechanism& m) { return m.sheath.is_there(); };
+    table.push_back(std::move(field));
+  };
+  constexpr std::string_view asked = "no sheath; needed with any key of [sheath]";
+  add(number<sheath, &Sheath::length>({"sheath.length_mm", "", "",
+                                       "length of each tendon's Bowden sheath from its pin to the motor; the sheath "
+                                       "points straight down at the pin"},
+                                      "mm", 1, 100000),
+      asked);
+  add(number<sheath, &Sheath::bend, degrees, radians>(
+          {"sheath.bend_deg", "", "",
+           "sum of the bends of a sheath, those at its ends among them: 180 for a half turn, whatever the radius"},
+          "deg", 0, 3600),
+      asked);
+  add(number<sheath, &Sheath::mu>(
+          {"sheath.friction", "", "0.08",
+           "capstan coefficient between tendon and sheath: it takes e^(friction bend) of a tension"},
+          "", 0, 1),
+      {});
+  add(number<sheath, &Sheath::stiffness>(
+          {"sheath.stiffness_N_per_mm", "", "0",
+           "of a sheath in compression: force per mm by which it gets shorter; 0: rigid"},
+          "N/mm", 0, 1000000),
+      {});
+  add(number<sheath, &Sheath::exit_across>(
+          {"sheath.exit_across_mm", "", "",
+           "the mouths at the motor stand this far to the left and right of the pulley's axis"},
+          "mm", 0.1, 10000),
+      asked);
+  add(number<sheath, &Sheath::exit_above>(
+          {"sheath.exit_above_mm", "", "", "the mouths at the motor stand this far above the pulley's axis"}, "mm", 1,
+          10000),
+      asked);
+}
+
 void add_mechanism(std::vector<Field>& table) {
   constexpr auto joint = &Mechanism::joint;
   constexpr auto guides = &Mechanism::guides;
@@ -316,8 +357,12 @@ void add_mechanism(std::vector<Field>& table) {
        "coefficient of friction there: 0.0015 to 0.005 of balls, 0.1 to 0.2 of plastic on steel", "guides.kind=idler"},
       "", 0, 1));
   table.back().is_set = has_idlers;
-  table.push_back(number<pulley, &PulleyDrive::EF>(
-      {"pulley.EF_mm", "EF", "", "from the line of the pins down to the pulley's axis"}, "mm", 1, 10000));
+  add_sheath(table);
+  table.push_back(number<pulley, &PulleyDrive::EF>({"pulley.EF_mm", "EF", "",
+                                                    "from the line of the pins down to the pulley's axis; with a "
+                                                    "sheath the pulley may stand anywhere: only where it "
+                                                    "is drawn"},
+                                                   "mm", 1, 10000));
   table.push_back(number<pulley, &PulleyDrive::r1>(
       {"pulley.r1_mm", "r1", "", "radius of the round pulley P1, to the tendon's centre line", "pulley.law=compensate"},
       "mm", 0.1, 10000));
@@ -726,6 +771,7 @@ std::vector<std::string> field_tables() {
 std::string_view table_meaning(std::string_view table) {
   if (table == "joint") return "the joint and its range";
   if (table == "guides") return "the two pins that the tendons run over";
+  if (table == "sheath") return "Bowden sheaths between the pins and the motor, if there are any";
   if (table == "pulley") return "where the pulley sits and what it must do";
   if (table == "tendon") return "both tendons";
   if (table == "load") return "what the joint carries";

@@ -96,6 +96,7 @@ class MechanismReader {
   void check_unused();
   void check_method();
   void check_idlers();
+  void check_sheath();
   void check_bore();
   void check_horn();
   void check_optimize();
@@ -473,7 +474,7 @@ void MechanismReader::look_for_missing() {
 
 void MechanismReader::check_transmission() {
   if (!has_table("transmission")) return;
-  for (const char* table : {"joint", "guides", "pulley"}) {
+  for (const char* table : {"joint", "guides", "sheath", "pulley"}) {
     if (!has_table(table)) continue;
     fail(table_place(table), std::string("[") + table + "] and [transmission] cannot both be declared",
          "[transmission] stands in place of [joint], [guides] and [pulley]: leave one side out");
@@ -512,6 +513,20 @@ void MechanismReader::check_idlers() {
              shortest(guides.radius) + " mm (guides.radius_mm)",
          "guides.radius_mm is an idler's own, to the floor of its groove");
   }
+}
+
+/// What a sheath cannot go without.
+void MechanismReader::check_sheath() {
+  if (!has_table("sheath")) return;
+  for (const Field& field : fields()) {
+    if (field.table != "sheath" || !field.needed_in_table || has(field.name())) continue;
+    fail(table_place("sheath"), "missing key " + field.name() + " (a sheath needs it)",
+         "add " + std::string(field.key) + " = ... under [sheath]: " + std::string(field.meaning) + "; " +
+             allowed_text(field));
+  }
+  if (mechanism_.pulley.method == Method::paper && good_["pulley.method"])
+    fail(table_place("sheath"), "[sheath] does not go with pulley.method = \"paper\"",
+         "the paper's tendons run from pin to pulley: take method = \"exact\"");
 }
 
 /// The paper's chain knows neither drum nor attachments apart, and draws for points what lies on a drum.
@@ -673,6 +688,7 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   check_unused();
   check_method();
   check_idlers();
+  check_sheath();
   check_bore();
   check_horn();
   check_optimize();

@@ -81,7 +81,7 @@ Json condition_schema(const Field& field) {
 Json either_joint() {
   Json other;
   other["if"] = {{"required", {"transmission"}}};
-  for (const char* table : {"joint", "guides", "pulley"})
+  for (const char* table : {"joint", "guides", "sheath", "pulley"})
     other["then"]["not"]["anyOf"].push_back({{"required", {table}}});
   other["else"] = {{"required", {"joint", "guides", "pulley", "tendon"}}};
   other["else"]["properties"]["tendon"]["required"] = {"diameter_mm"};
@@ -102,7 +102,7 @@ std::string mechanism_schema() {
     Json& object = table.empty() ? schema : schema["properties"][table];
     object["properties"][std::string(field.key)] = field_schema(field);
     // A tendon may be left out beside [transmission]: either_joint() asks for it.
-    if (field.required && table != "tendon") object["required"].push_back(field.key);
+    if ((field.required && table != "tendon") || field.needed_in_table) object["required"].push_back(field.key);
     if (field.fallback.empty() && !field.only_when.empty()) object["allOf"].push_back(condition_schema(field));
   }
   schema["allOf"].push_back(either_joint());

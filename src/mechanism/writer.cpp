@@ -97,7 +97,8 @@ std::string write_mechanism(const DeclaredMechanism& mechanism) {
   std::string text = "# A mechanism of fusee. `fusee explain KEY` tells more about a key.\n";
   std::string_view table;
   for (const Field& field : fields()) {
-    const bool of_mechanism = field.table == "joint" || field.table == "guides" || field.table == "pulley";
+    const bool of_mechanism =
+        field.table == "joint" || field.table == "guides" || field.table == "sheath" || field.table == "pulley";
     if (mechanism.transmission ? of_mechanism : field.table == "transmission") continue;
     if (field.is_set != nullptr && !field.is_set(mechanism)) continue;
     // A ratio declares no tendon unless it does.

@@ -380,6 +380,7 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
   });
   if (turns_places || !problem.base.joint.is_plain())
     return "a drum or an attachment of its own has no interval form: its optimum cannot be certified";
+  if (problem.base.sheath.is_there()) return "a [sheath] has no interval form: its optimum cannot be certified";
   if (problem.base.guides.kind == GuideKind::idler)
     return "guides.kind = \"idler\" has no interval form: its optimum cannot be certified";
   if (problem.as_it_is)

@@ -228,6 +228,13 @@ Problem make_problem(const MechanismFile& file, JointGate as_it_is) {
       std::count(problem.objectives.begin(), problem.objectives.end(), Objective::footprint) > 0;
   if (asks_footprint && (widens || !problem.base.joint.is_plain()))
     throw InputError(file.path, "footprint knows no drum and no attachments but C yet", "choose another objective");
+  if (asks_footprint && problem.base.sheath.is_there())
+    throw InputError(file.path, "footprint knows no pulley that stands elsewhere, through sheaths",
+                     "choose another objective");
+  const bool turns_sheath = std::any_of(problem.moving.begin(), problem.moving.end(),
+                                        [](const MovingKey& moving) { return moving.key.starts_with("sheath."); });
+  if (turns_sheath && !problem.base.sheath.is_there())
+    throw InputError(file.path, "optimize turns a number of [sheath], and the file has none", "declare the sheath");
   demand_effects(problem, file.path);
   return problem;
 }

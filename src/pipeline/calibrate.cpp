@@ -124,6 +124,14 @@ void warn_of_parts_without_effects(MechanismFile& file) {
                            "an error of theirs is named as another's, or stays unexplained: measure them by hand"});
 }
 
+/// The same of sheaths.
+void warn_of_sheaths(MechanismFile& file) {
+  if (!file.mechanism.sheath.is_there()) return;
+  file.warnings.push_back({Severity::warning, file.place_of("sheath.length_mm"),
+                           "calibrate has no effects of a sheath yet",
+                           "an error of its friction is named capstan_friction, one of its stiffness tendon_stretch"});
+}
+
 void publish(const Bench& bench, OutputFolder& folder) {
   for (const OutputFile& output : bench.result.outputs) {
     if (bench.options.before_writing) bench.options.before_writing();
@@ -140,6 +148,7 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
   CalibrateResult result;
   result.product.file = with_doubts(file);
   warn_of_parts_without_effects(result.product.file);
+  warn_of_sheaths(result.product.file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);
   target.claim(output_names(file));  // before the work: a refusal should not cost a wait

@@ -164,6 +164,11 @@ void demand_plain_joint(const MechanismFile& file) {
                                 "the test model has pins, and knows no idlers yet",
                                 "fusee build makes the pulley of this joint"});
   }
+  if (file.mechanism.sheath.is_there()) {
+    throw InputError(Diagnostic{Severity::error, file.place_of("sheath.length_mm"),
+                                "the test model has its pulley under the pins, and knows no sheaths yet",
+                                "fusee build makes the pulley of this joint"});
+  }
   if (file.mechanism.joint.is_plain()) return;
   for (const char* key : {"joint.drum_radius_mm", "joint.attachment1_mm", "joint.attachment2_mm"}) {
     const Place place = file.place_of(key);

@@ -109,6 +109,12 @@ std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::strin
     dial->scale *= k_easier;
     all.push_back(*dial);
   }
+  if (mechanism.sheath.is_there()) {
+    // Where the pulley stands is nothing to its tendons; where the mouths do is.
+    std::erase_if(all, [](const Dial& dial) { return dial.key == "pulley.EF_mm"; });
+    for (const char* key : {"sheath.exit_across_mm", "sheath.exit_above_mm"})
+      all.push_back(*number_dial(mechanism, key));
+  }
   if (mechanism.joint.drum_radius > 0) all.push_back(*number_dial(mechanism, "joint.drum_radius_mm"));
   for (const Dial& dial : attachment_dials(mechanism)) all.push_back(dial);
   for (const Dial& dial : range_dials(mechanism)) all.push_back(dial);

@@ -17,6 +17,7 @@ constexpr double k_anchor_lap = 5.0;
 
 std::string number(Side side) { return side == Side::left ? "1" : "2"; }
 std::string pin_name(Side side) { return side == Side::left ? "B" : "D"; }
+std::string mouth_name(Side side) { return "the mouth of sheath " + number(side); }
 /// "r2 turns inward", "r1 …".
 std::string radius_name(Side side) { return "r" + number(side); }
 
@@ -86,15 +87,19 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
                       return radius_name(side) + " falls to " + rounded(value + half) + " mm at " + where +
                              ": less than half the tendon's diameter, the groove floor would cross the axis";
                     }});
-  probes.push_back({"line_reaches_pin_" + pin, "mm", 0.0,
-                    [=](const TakeOff& t) { return place.c() - std::abs(tendon(t).p - place.rho); },
+  const LowerGuide lower = place.lower();
+  const std::string from = place.mouth ? "mouth_" + number(side) : "pin_" + pin;
+  probes.push_back({"line_reaches_" + from, "mm", 0.0,
+                    [=](const TakeOff& t) { return lower.c() - std::abs(tendon(t).p - lower.rho); },
                     [=](const std::string& where, double value) {
-                      return radius_name(side) + " is too large at " + where + ": pin " + pin + " stands " + rounded(-value) +
+                      return radius_name(side) + " is too large at " + where + ": " +
+                             (place.mouth ? mouth_name(side) : "pin " + pin) + " stands " + rounded(-value) +
                              " mm inside the pulley's pitch curve";
                     }});
   probes.push_back({"tendon_on_pin_" + pin, "deg", 0.0, [=](const TakeOff& t) { return degrees(tendon(t).wrap); },
                     [=](const std::string& where, double value) {
-                      return "tendon " + number(side) + " leaves pin " + pin + " at " + where + ": its wrap there is " + rounded(value, 3) +
+                      return "tendon " + number(side) + " leaves pin " + pin + " at " + where + ": its wrap there" +
+                             (place.mouth ? ", down into its sheath," : "") + " is " + rounded(value, 3) +
                              "° and must stay above 0°";
                     }});
   if (!mechanism.joint.is_plain()) probes.push_back(clear_of_other_pin(take_offs));
@@ -104,6 +109,7 @@ std::vector<Probe> path_probes(const Mechanism& mechanism, const TakeOffs& take_
 std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take_offs) {
   const Side side = take_offs.side();
   const double half = 0.5 * mechanism.tendon.diameter;
+  const bool sheathed = mechanism.sheath.is_there();
   const auto tendon = [&take_offs](const TakeOff& t) -> const TendonPoint& { return take_offs.tendon(t); };
   std::vector<Probe> probes;
   probes.push_back({"take_off_advances_P" + number(side), "deg/deg", 0.0, [](const TakeOff& t) { return t.dpsi; },
@@ -117,10 +123,12 @@ std::vector<Probe> curve_probes(const Mechanism& mechanism, const TakeOffs& take
                              (value > 0 ? "bends there with a radius of only " : "is hollow there, with a radius of ") +
                              rounded(std::abs(value), 3) + " mm, and must bulge with more than " + rounded(k_least_floor_radius) + " mm";
                     }});
-  probes.push_back({"free_span_" + number(side), "mm", 0.0, [=](const TakeOff& t) { return tendon(t).lower_reach - t.curve.dh; },
+  probes.push_back({"free_span_" + number(side), "mm", 0.0,
+                    [=](const TakeOff& t) { return tendon(t).lower_reach - t.curve.dh; },
                     [=](const std::string& where, double value) {
-                      return "tendon " + number(side) + " has no free span between pin and pulley at " + where + " (" + rounded(value, 3) +
-                             " mm): the pin stands in the pulley";
+                      return "tendon " + number(side) + " has no free span between " +
+                             (sheathed ? "its sheath" : "pin") + " and pulley at " + where + " (" + rounded(value, 3) +
+                             " mm): the " + (sheathed ? "mouth" : "pin") + " stands in the pulley";
                     }});
   return probes;
 }

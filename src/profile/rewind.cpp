@@ -34,7 +34,15 @@ Vec2 end_of(const Mechanism& mechanism, double hand) {
   return own ? Vec2(own->across, own->along) : Vec2(0.0, joint.R);
 }
 
-/// One string on its pulley, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
+/// What a string comes to its pulley from, seen from the pulley's axis: its pin, or the mouth of its sheath.
+Vec2 above_pulley(const Mechanism& mechanism, double hand) {
+  if (mechanism.sheath.is_there()) return {hand * mechanism.sheath.exit_across, mechanism.sheath.exit_above};
+  const Vec2 pin = pin_of(mechanism, hand);
+  return {pin.x(), pin.y() + mechanism.guides.OE + mechanism.pulley.EF};
+}
+
+/// One string on its pulley, sheath, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on
+/// the left.
 class String {
  public:
   String(const Mechanism& mechanism, const Polygon& floor, double hand)
@@ -42,10 +50,12 @@ class String {
         hand_(hand),
         half_(0.5 * mechanism.tendon.diameter),
         rho_(mechanism.guides.radius + half_),
+        sheathed_(mechanism.sheath.is_there()),
+        lower_rho_(sheathed_ ? 0.0 : rho_),
         end_(end_of(mechanism, hand)),
         drum_(mechanism.joint.drum_radius != 0 ? mechanism.joint.drum_radius + half_ : 0.0),
         pin_(pin_of(mechanism, hand)),
-        pin_from_axis_(pin_.x(), pin_.y() + mechanism.guides.OE + mechanism.pulley.EF) {
+        from_axis_(above_pulley(mechanism, hand)) {
     const std::string name = pulley_name();
     // Out of the drum a string comes at its own height.
     if (end_.norm() < drum_) end_ *= drum_ / end_.norm();
@@ -70,15 +80,18 @@ class String {
   void turn_to(double alpha) {
     alpha_ = alpha;
     // Seen from the pulley, which turns clockwise, the world turns the other way.
-    const Vec2 pin(std::cos(alpha) * pin_from_axis_.x() - std::sin(alpha) * pin_from_axis_.y(),
-                   std::sin(alpha) * pin_from_axis_.x() + std::cos(alpha) * pin_from_axis_.y());
+    const Vec2 pin(std::cos(alpha) * from_axis_.x() - std::sin(alpha) * from_axis_.y(),
+                   std::sin(alpha) * from_axis_.x() + std::cos(alpha) * from_axis_.y());
     find_corner(pin);
     const double normal = tangent_normal(pin, corner_);
     normal_ = started_ ? turned_near(normal, normal_) : normal;
     started_ = true;
     const double reach = (pin - corners_[corner_]).norm();
-    span_ = std::sqrt((reach - (half_ - rho_)) * (reach + (half_ - rho_)));
-    if (!(span_ > 0)) throw InputError("", "the groove floor of " + pulley_name() + " swallows its guide pin");
+    span_ = std::sqrt((reach - (half_ - lower_rho_)) * (reach + (half_ - lower_rho_)));
+    if (!(span_ > 0)) {
+      throw InputError(
+          "", "the groove floor of " + pulley_name() + " swallows its " + (sheathed_ ? "sheath's mouth" : "guide pin"));
+    }
   }
 
   /// By how much the way from a fixed place of the pulley to the joint at `theta` is longer than at home.
@@ -93,10 +106,11 @@ class String {
   /// But for a constant.
   double length(double theta) const { return hand_ * wound() + span_ + over_pin_and_up(theta); }
 
-  /// Outward normal of the line that touches the disc about a corner and the pin's disc, both on their outer side.
+  /// Outward normal of the line that touches the disc about a corner and the pin's disc (or goes through the mouth),
+  /// both on their outer side.
   double tangent_normal(const Vec2& pin, std::size_t corner) const {
     const Vec2 away = pin - corners_[corner];
-    return direction(away) - hand_ * std::acos(std::clamp((half_ - rho_) / away.norm(), -1.0, 1.0));
+    return direction(away) - hand_ * std::acos(std::clamp((half_ - lower_rho_) / away.norm(), -1.0, 1.0));
   }
 
   /// Walks to the corner whose tangent leaves all others inside.
@@ -144,7 +158,8 @@ class String {
       up = from_pin_to(Vec2(0, 0), drum_);
       up.length += drum_ * wound + std::sqrt(std::max(0.0, (end.norm() - drum_) * (end.norm() + drum_)));
     }
-    const double lower_normal = normal_ - alpha_;
+    // Into a sheath it goes straight down from the pin's outer side; what lies in there keeps its length.
+    const double lower_normal = !sheathed_ ? normal_ - alpha_ : hand_ > 0 ? 0.0 : k_pi;
     const double wrap = turned_near(hand_ * (up.normal - lower_normal), 0.5 * k_pi);
     return rho_ * wrap + up.length;
   }
@@ -168,10 +183,12 @@ class String {
   double hand_;
   double half_;
   double rho_;
-  Vec2 end_;            ///< in the link at home
-  double drum_;         ///< to the string's centre line; 0: none
-  Vec2 pin_;            ///< in the world
-  Vec2 pin_from_axis_;  ///< from the pulley's axis, at home
+  bool sheathed_;
+  double lower_rho_;  ///< of what it comes to the pulley from; 0: a mouth
+  Vec2 end_;          ///< in the link at home
+  double drum_;       ///< to the string's centre line; 0: none
+  Vec2 pin_;          ///< in the world
+  Vec2 from_axis_;    ///< what it comes to the pulley from, seen from the axis at home
 
   double alpha_ = 0;
   std::size_t corner_ = 0;

@@ -16,7 +16,7 @@ TakeOff TakeOffs::at(double image_theta) const {
   const double normal = side_ == Side::right ? at.lower_normal : k_pi - at.lower_normal;
   const double dp = sign * at.dp;
   const double w = at.lower_reach;
-  const double dw = -(at.p - place().rho) * dp / w;
+  const double dw = -(at.p - place().lower().rho) * dp / w;
   const double d2psi = at.d2p / w - dp * dw / (w * w);
   take_off.dpsi = 1.0 + dp / w;
   CurvePoint& curve = take_off.curve;

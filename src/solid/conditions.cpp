@@ -52,6 +52,12 @@ class Conditions {
     add_set_screw();
     for (const AnchorRoom& room : rooms) add_anchor(room);
     add_channel();
+    if (mechanism_.sheath.is_there()) {
+      // The pulley stands at the motor, and nothing but the mouths near it.
+      add_mouth(Side::left);
+      add_mouth(Side::right);
+      return std::move(result_);
+    }
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
     add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF - mechanism_.guides.D_below_B}, "guides.ED_mm");
     add_drum();
@@ -274,6 +280,20 @@ class Conditions {
     add_least(condition_name, clear, k_pin_gap,
               fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges, it takes {} mm beside them", pin_name, key,
                           (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
+                          clear > 0 ? "of" : "inside", k_pin_gap));
+  }
+
+  /// Of the mouth the file says where the tendon comes out of it: as much as the tendon itself is counted, and whatever
+  /// holds the sheath is its builder's.
+  void add_mouth(Side side) {
+    const Sheath& sheath = mechanism_.sheath;
+    const Vec2 mouth(mirror_sign(side) * sheath.exit_across, sheath.exit_above);
+    const double clear = mouth.norm() - 0.5 * d_ - reach_towards(mouth);
+    const char* number = side == Side::left ? "1" : "2";
+    add_least(fmt::format("mouth_clear_{}", number), clear, k_pin_gap,
+              fmt::format("the mouth of sheath {} (sheath.exit_across_mm, sheath.exit_above_mm) {} mm {} the flanges, "
+                          "it takes {} mm beside them",
+                          number, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
                           clear > 0 ? "of" : "inside", k_pin_gap));
   }
 

@@ -34,9 +34,17 @@ GuideFriction guide_friction(const Mechanism& mechanism) {
   return {0, guides.bearing_friction * guides.bearing_radius / mechanism.guide_pitch_radius(), true};
 }
 
-Guides without_friction(Guides guides) {
-  guides.mu = guides.bearing_friction = 0;
-  return guides;
+// A bent sheath pushes its tendon aside as pins do, so that by its bends β alone, wherever they are and however wide,
+// T2/T1 = e^{μβ} [7]. It is pressed from end to end by the tension of what lies in it.
+SheathLoad sheath_load(const Mechanism& mechanism) {
+  const Sheath& sheath = mechanism.sheath;
+  if (!sheath.is_there()) return {};
+  return {sheath.length, sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0, sheath.mu * sheath.bend};
+}
+
+Mechanism without_friction(Mechanism mechanism) {
+  mechanism.guides.mu = mechanism.guides.bearing_friction = mechanism.sheath.mu = 0;
+  return mechanism;
 }
 
 }  // namespace fusee

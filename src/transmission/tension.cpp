@@ -51,14 +51,24 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   forces.Tb = mechanism.guides.kind == GuideKind::idler
                   ? T * std::exp(guide_friction(mechanism).log_ratio(tendon.wrap))
                   : tension_below_pin(T, mechanism.guides.mu, std::max(0.0, tendon.wrap));
-  const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach;
-  forces.elongation = elongation_of_tendon(T, forces.Tb, tendon.free_upper, on_pin, tendon.lower_reach, stiffness);
+  const double on_pin = tendon.length - tendon.free_upper - tendon.lower_reach - tendon.in_sheath;
+  const SheathLoad sheath = sheath_load(mechanism);
+  // A sheath that gives way is so much more tendon in it.
+  const double sheathed = sheath.length + stiffness * sheath.give;
+  if (mechanism.sheath.is_there()) {
+    const double off_pin = forces.Tb;
+    forces.Tb *= std::exp(sheath.log_ratio);
+    forces.elongation = elongation_of_tendon(T, off_pin, tendon.free_upper, on_pin, 0.0, stiffness) +
+                        elongation_of_tendon(off_pin, forces.Tb, 0.0, sheathed, tendon.lower_reach, stiffness);
+  } else {
+    forces.elongation = elongation_of_tendon(T, forces.Tb, tendon.free_upper, on_pin, tendon.lower_reach, stiffness);
+  }
   const double turned = mechanism.has_point_pins() ? turned_by_law_of_cosines(pin_place(mechanism, side, 0.0),
                                                                               tendon.free_upper, forces.elongation)
                                                    : angle_of_elongation(forces.elongation, tendon.m);
   forces.theta_error = by_first ? -turned : turned;
   forces.motor_torque = (by_first ? -1.0 : 1.0) * forces.Tb * tendon.p;
-  forces.stiffness = stiffness * tendon.m * tendon.m / tendon.length;
+  forces.stiffness = stiffness * tendon.m * tendon.m / (tendon.length + stiffness * sheath.give);
   return forces;
 }
 

@@ -33,13 +33,15 @@ TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, doubl
   point.dp = arm.dm * g * g + arm.m * dg;
   point.d2p = arm.d2m * g * g * g + 3.0 * arm.dm * g * dg + arm.m * d2g;
   Domain unasked;  // where a pin stands in a pulley the numbers are NaN
-  const LowerLine<double> lower = lower_line(point.p, place.rho, place.c(), place.phi(), unasked);
+  const LowerGuide guide = place.lower();
+  const LowerLine<double> lower = lower_line(point.p, guide.rho, guide.c(), guide.phi(), unasked);
   point.upper_normal = to_world(side, arm.span.normal);
   point.lower_normal = to_world(side, lower.normal);
-  point.wrap = arm.span.normal - lower.normal;
+  point.wrap = arm.span.normal - place.off_pin(lower.normal);
   point.free_upper = arm.span.free;
   point.lower_reach = lower.reach;
-  point.length = point.free_upper + place.rho * point.wrap + point.lower_reach;
+  point.in_sheath = place.in_sheath;
+  point.length = point.free_upper + place.rho * point.wrap + point.lower_reach + point.in_sheath;
   return point;
 }
 

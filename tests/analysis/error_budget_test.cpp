@@ -34,7 +34,8 @@ TEST(RigidJoint, AsDeclaredIsTheDeclaredLaw) {
 
 TEST(RigidJoint, DerivativesAreThoseOfDifferences) {
   constexpr double step = 1e-4;
-  for (const Mechanism& mechanism : {forearm(), linear_wrist(), unsymmetric(), testing::finger(), testing::ankle()}) {
+  for (const Mechanism& mechanism :
+       {forearm(), linear_wrist(), unsymmetric(), testing::finger(), testing::ankle(), testing::sheathed_wrist()}) {
     const Transmission transmission(mechanism);
     const MadePulleys made(mechanism);
     for (const Dimension& dimension : dimensions(mechanism)) {

@@ -23,7 +23,8 @@ std::vector<fusee::ValueEdit> own_values(std::string_view text, const fusee::Dec
     const auto key = fusee::find_number_key(name);
     if ((choice + i++) % k_share != 0 || key->field->table == "transmission") continue;
     // One that gets a place of its own, even C's, is another mechanism.
-    if (key->field->kind == fusee::FieldKind::point && !key->field->is_set(mechanism)) continue;
+    const bool makes_another = key->field->kind == fusee::FieldKind::point || key->field->table == "sheath";
+    if (makes_another && !key->field->is_set(mechanism)) continue;
     if (fusee::is_used(*key->field, mechanism)) edits.push_back({name, key->get(mechanism)});
   }
   return edits;

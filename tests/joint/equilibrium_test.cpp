@@ -190,7 +190,9 @@ double work_missing(const Mechanism& mechanism, const Sweep& sweep, double* scal
 }
 
 TEST(Equilibrium, LosesNoEnergy) {
-  for (const Mechanism& mechanism : {with(forearm(), 30.0, 0.2, 2000.0), with(unsymmetric(), 12.0, 0.1, 3000.0), with(reference(), 30.0, 0.3, 1000.0)}) {
+  for (const Mechanism& mechanism :
+       {with(forearm(), 30.0, 0.2, 2000.0), with(unsymmetric(), 12.0, 0.1, 3000.0),
+        with(reference(), 30.0, 0.3, 1000.0), with(testing::sheathed_wrist(), 20.0, 0.1, 3000.0)}) {
     double scale = 0;
     const double fine = work_missing(mechanism, {8.0, 4000, 2}, &scale);
     EXPECT_GT(scale, 100.0);

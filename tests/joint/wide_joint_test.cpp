@@ -110,6 +110,82 @@ TEST(WideJoint, AnIdlersLossIsItsMomentBalance) {
   EXPECT_EQ(GuideFriction({0, 0.02, true}).log_ratio(-0.1), 0.0);
 }
 
+/// A finger on whose drum both tendons stay, so that what a tendon gives is an angle; motor elsewhere.
+Mechanism finger_with_sheath(const Sheath& sheath) {
+  Mechanism mechanism = testing::finger();
+  mechanism.tendon.pretension = 0;
+  mechanism.guides.mu = 0;
+  mechanism.sheath = sheath;
+  return mechanism;
+}
+
+TEST(WideJoint, OverASheathFollowsItsLaw) {
+  Mechanism mechanism = testing::sheathed_wrist();
+  mechanism.tendon.pretension = mechanism.guides.mu = mechanism.sheath.mu = 0;
+  const Transmission law(mechanism);
+  for (const EquilibriumPoint& point : follow(joint_model(mechanism), there_and_back(mechanism, 0)))
+    EXPECT_NEAR(point.theta, law.theta(point.alpha), 1e-11);
+}
+
+TEST(WideJoint, ASheathTakesWhatAPinOfItsBendsTakes) {
+  // Sliding all the way: a weight that is lifted, and let down again.
+  const Sheath sheath{300.0, radians(200.0), 0.1, 0.0, 15.0, 60.0};
+  const Mechanism mechanism = finger_with_sheath(sheath);
+  const auto points = follow(joint_model(mechanism), there_and_back(mechanism, 20.0));
+  const double lost = std::exp(0.1 * radians(200.0));
+  int up = 0, down = 0;
+  for (const EquilibriumPoint& point : points) {
+    if (point.t2.contact == PinContact::slip_down && point.load_torque > 160) {
+      EXPECT_NEAR(point.t2.lower, point.t2.upper * lost, 1e-9 * point.t2.lower);
+      ++up;
+    }
+    if (point.t2.contact == PinContact::slip_up) {
+      EXPECT_NEAR(point.t2.lower, point.t2.upper / lost, 1e-9 * point.t2.lower);
+      ++down;
+    }
+  }
+  EXPECT_GT(up, 50);
+  EXPECT_GT(down, 50);
+}
+
+TEST(WideJoint, ASheathGivesAsASpringAndAsSoMuchMoreTendon) {
+  const Sheath rigid{300.0, radians(200.0), 0.0, 0.0, 15.0, 60.0};
+  Sheath soft = rigid, longer = rigid;
+  soft.stiffness = 50.0;
+  longer.length += 250.0;
+  const auto of = [](const Sheath& sheath) {
+    const Mechanism mechanism = finger_with_sheath(sheath);
+    return follow(joint_model(mechanism), there_and_back(mechanism, 20.0));
+  };
+  const auto plain = of(rigid), given = of(soft), stretched = of(longer);
+  const double T = 20.0 * 8.3 / 8.3, arm = 8.3, EA = section_stiffness(testing::finger().tendon);
+  // A little of it goes onto the pulley at the tension of its winding: at the place where the load came on none has.
+  for (std::size_t i = 40; i < 41; ++i) {
+    EXPECT_NEAR(plain[i].theta - given[i].theta, T / 50.0 / arm, 1e-10);
+    EXPECT_NEAR(plain[i].theta - stretched[i].theta, T * 250.0 / EA / arm, 1e-10);
+  }
+  EXPECT_NEAR(1 / given[40].stiffness - 1 / plain[40].stiffness, 1 / (50.0 * arm * arm), 2e-3 / (50.0 * arm * arm));
+}
+
+TEST(WideJoint, ThePapersChainKnowsSheaths) {
+  Mechanism mechanism = testing::sheathed_wrist();
+  mechanism.load.tip_force = 10;
+  const TransmissionPoint at = Transmission(mechanism).at_theta(0.2);
+  const PaperForces forces = paper_forces(mechanism, at);
+  const double off_pin = forces.T2 * std::exp(0.12 * at.t2.wrap), lost = std::exp(0.08 * radians(150.0));
+  EXPECT_NEAR(forces.Tb, off_pin * lost, 1e-12 * forces.Tb);
+  // Each stretch of it under its own tension, pin and sheath under the mean of theirs.
+  const double EA = section_stiffness(mechanism.tendon), on_pin = 2.5 * at.t2.wrap, mean = 0.5 * (off_pin + forces.Tb);
+  EXPECT_NEAR(at.t2.length, at.t2.free_upper + on_pin + 450.0 + at.t2.lower_reach, 1e-12 * at.t2.length);
+  EXPECT_NEAR(forces.elongation,
+              (forces.T2 * at.t2.free_upper + 0.5 * (forces.T2 + off_pin) * on_pin + mean * 450.0 +
+               forces.Tb * at.t2.lower_reach) /
+                      EA +
+                  mean / 200.0,
+              1e-12);
+  EXPECT_NEAR(1 / forces.stiffness, (at.t2.length / EA + 1 / 200.0) / (at.t2.m * at.t2.m), 1e-15);
+}
+
 TEST(WideJoint, ThePapersChainKnowsIdlers) {
   Mechanism mechanism = testing::forearm();
   mechanism.load.tip_force = 10;

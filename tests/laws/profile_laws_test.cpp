@@ -57,6 +57,25 @@ TEST(ProfileLaws, DrumsAndAttachmentsRewindToTheirLawAsFar) {
       testing::random_wide_mechanism);
 }
 
+TEST(ProfileLaws, ThroughSheathsRewindsToItsLawAsFar) {
+  expect_law(
+      300,
+      [](const Mechanism& mechanism) {
+        const SynthesisResult result = synthesise(mechanism, {.advice = false});
+        for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
+        if (!result.made()) return false;
+        const double half = 0.5 * mechanism.tendon.diameter;
+        const Polygon floor1 = parallel(result.p1, -half), floor2 = parallel(result.p2, -half);
+        RC_ASSERT(is_convex(floor1));
+        RC_ASSERT(is_convex(floor2));
+        const RewindResult wound = rewind(mechanism, floor1, floor2);
+        RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
+        RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);
+        return true;
+      },
+      testing::random_sheathed_mechanism);
+}
+
 TEST(ProfileLaws, WhatIsRefusedSaysWhy) {
   expect_law(400, [](const Mechanism& mechanism) {
     const SynthesisResult result = synthesise(mechanism, {.advice = false});

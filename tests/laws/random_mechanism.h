@@ -78,6 +78,17 @@ inline Mechanism random_wide_mechanism() {
   return mechanism;
 }
 
+/// Plain or wide, with its motor behind sheaths.
+inline Mechanism random_sheathed_mechanism() {
+  using detail::between;
+  Mechanism mechanism = *rc::gen::element(true, false) ? random_mechanism() : random_wide_mechanism();
+  const double arm = mechanism.joint.is_plain() ? 0.55 * mechanism.joint.R : mechanism.joint.R;
+  const double size = mechanism.pulley.law == Law::linear ? arm / mechanism.pulley.ratio : mechanism.pulley.r1;
+  mechanism.sheath = {*between(50.0, 2000.0),    radians(*between(0.0, 540.0)), *between(0.0, 0.3), 0,
+                      size * *between(0.2, 2.5), size * *between(1.2, 7.0)};
+  return mechanism;
+}
+
 /// Checks `property(mechanism)` on random mechanisms, the same ones every time: `usual_cases` of them, or FUSEE_LAW_CASES.
 /// A property asserts with RC_ASSERT and returns whether the mechanism was possible; some of each kind must have been met.
 template <typename Property>

@@ -23,7 +23,9 @@ TEST(Fields, NamesAreUniqueAndFound) {
 
 TEST(Fields, TheUnitStandsInTheName) {
   for (const Field& field : fields()) {
-    const std::string unit = field.unit == "%" ? "percent" : std::string(field.unit);
+    const std::string unit = field.unit == "%"      ? "percent"
+                             : field.unit == "N/mm" ? "N_per_mm"
+                                                    : std::string(field.unit);
     EXPECT_TRUE(unit.empty() || field.key.ends_with("_" + unit)) << field.name();
   }
 }

@@ -112,6 +112,21 @@ TEST(Reader, AttachmentsAndDrum) {
   EXPECT_THAT(only_error(wide, {{"joint.attachment2_mm[1]", "x"}}), HasSubstr("joint.attachment2_mm must be"));
 }
 
+TEST(Reader, Sheaths) {
+  EXPECT_FALSE(parse_mechanism(k_good_file, "f.toml").sheath.is_there());
+  const std::string sheathed = with(
+      "[pulley]\n", "[sheath]\nlength_mm = 400\nbend_deg = 180\nexit_across_mm = 20\nexit_above_mm = 60\n[pulley]\n");
+  const DeclaredMechanism m = parse_mechanism(sheathed, "f.toml");
+  EXPECT_EQ(m.sheath, (Sheath{400, radians(180), 0.08, 0, 20, 60}));
+  EXPECT_FALSE(m.is_papers());
+  EXPECT_THAT(only_error(with("[pulley]\n", "[sheath]\nlength_mm = 400\nbend_deg = 9\nexit_above_mm = 60\n[pulley]\n")),
+              HasSubstr("missing key sheath.exit_across_mm (a sheath needs it)"));
+  EXPECT_THAT(only_error(sheathed, {{"pulley.method", "paper"}}),
+              HasSubstr("[sheath] does not go with pulley.method = \"paper\""));
+  EXPECT_THAT(only_error(sheathed, {{"sheath.exit_above_mm", "0"}}), HasSubstr("out of range"));
+  EXPECT_THAT(only_error(sheathed, {{"sheath.friction", "nan"}}), HasSubstr("finite"));
+}
+
 TEST(Reader, Idlers) {
   const std::string idlers = with("OE_mm = -40\n", "OE_mm = -40\nradius_mm = 6.0\nkind = \"idler\"\n");
   std::vector<Diagnostic> warnings;

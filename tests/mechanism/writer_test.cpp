@@ -59,7 +59,8 @@ DeclaredMechanism random_mechanism() {
   DeclaredMechanism mechanism;
   const bool other_joint = *rc::gen::inRange(0, 5) == 0;
   for (const Field& field : fields()) {
-    const bool of_mechanism = field.table == "joint" || field.table == "guides" || field.table == "pulley";
+    const bool of_mechanism =
+        field.table == "joint" || field.table == "guides" || field.table == "sheath" || field.table == "pulley";
     if (other_joint ? of_mechanism : field.table == "transmission") continue;
     set_random(field, mechanism);
   }
@@ -79,7 +80,8 @@ DeclaredMechanism random_mechanism() {
   } else {
     guides.bearing_radius = std::min(guides.bearing_radius, guides.radius);
   }
-  if (!mechanism.joint.is_plain()) mechanism.pulley.method = Method::exact;
+  if (other_joint || *rc::gen::element(true, false)) mechanism.sheath = default_mechanism().sheath;
+  if (!mechanism.joint.is_plain() || mechanism.sheath.is_there()) mechanism.pulley.method = Method::exact;
   mechanism.body.horn = "lynxmotion-ses";
   mechanism.horn = {};
   mechanism.body.shaft = "none";
@@ -132,7 +134,8 @@ TEST(Writer, EveryKeyStandsThereWithItsMeaning) {
   for (const Field& field : fields()) {
     if (field.table == "transmission") continue;
     if (field.is_set != nullptr && !field.is_set(default_mechanism())) {
-      EXPECT_THAT(text, testing::Not(HasSubstr(std::string(field.key) + " =")));
+      // A sheath's keys have names that others have too.
+      EXPECT_THAT(text, testing::Not(HasSubstr(field.table == "sheath" ? "[sheath]" : std::string(field.key) + " =")));
       continue;
     }
     EXPECT_THAT(text, HasSubstr("\n" + std::string(is_used(field, default_mechanism()) ? "" : "# ") +

@@ -93,6 +93,31 @@ TEST(Feasibility, ATendonThatCutsTheOthersPin) {
   EXPECT_EQ(failed(result).name, "tendon_2_clear_of_pin_B");
 }
 
+TEST(Feasibility, AMouthInThePulley) {
+  Mechanism mechanism = testing::sheathed_wrist();
+  mechanism.sheath.exit_across = 5.0;
+  mechanism.sheath.exit_above = 12.0;
+  expect_refused(mechanism, "line_reaches_mouth_1", "the mouth of sheath 1 stands");
+  // Near enough that the turning line makes the curve hollow, or has no way to it.
+  mechanism.sheath.exit_above = 18.0;
+  const SynthesisResult near = synthesise(mechanism);
+  ASSERT_FALSE(near.made());
+  EXPECT_FALSE(near.advice.empty());
+}
+
+TEST(Feasibility, ATendonOffItsPinGoesPastItsSheath) {
+  Mechanism mechanism = testing::sheathed_wrist();
+  mechanism.joint.theta_max = radians(36.0);
+  mechanism.guides.EB = 35.0;
+  expect_refused(mechanism, "tendon_on_pin_B", "down into its sheath, is");
+}
+
+TEST(Feasibility, NoAdviceMovesAPulleyThatStandsAnywhere) {
+  Mechanism mechanism = testing::sheathed_wrist();
+  mechanism.sheath.exit_above = 12.0;
+  for (const Change& change : synthesise(mechanism).advice) EXPECT_NE(change.key, "pulley.EF_mm");
+}
+
 /// P2 is drawn with the inverse of tendon 1's arm, which bends upwards where that tendon leaves the drum.
 TEST(Feasibility, BesideARoundP1ALiftOffOfTendon1IsHollow) {
   Mechanism mechanism = testing::finger();

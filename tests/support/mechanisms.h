@@ -80,6 +80,14 @@ inline DeclaredMechanism ankle() {
   return mechanism;
 }
 
+/// A wrist whose motor sits elsewhere: sheaths with friction that give way.
+inline DeclaredMechanism sheathed_wrist() {
+  DeclaredMechanism mechanism = linear_wrist();
+  mechanism.name = "sheathed wrist";
+  mechanism.sheath = {450.0, radians(150.0), 0.08, 200.0, 30.0, 100.0};
+  return mechanism;
+}
+
 /// The mirror image of a joint: what was left is right.
 inline Mechanism mirrored(Mechanism mechanism) {
   std::swap(mechanism.guides.EB, mechanism.guides.ED);
@@ -95,8 +103,10 @@ inline Mechanism mirrored(Mechanism mechanism) {
 
 /// Every length times `factor`.
 inline Mechanism scaled(Mechanism mechanism, double factor) {
-  for (double* length : {&mechanism.joint.R, &mechanism.guides.EB, &mechanism.guides.ED, &mechanism.guides.OE, &mechanism.guides.radius,
-                         &mechanism.pulley.EF, &mechanism.pulley.r1, &mechanism.tendon.diameter}) {
+  for (double* length :
+       {&mechanism.joint.R, &mechanism.guides.EB, &mechanism.guides.ED, &mechanism.guides.OE, &mechanism.guides.radius,
+        &mechanism.pulley.EF, &mechanism.pulley.r1, &mechanism.tendon.diameter, &mechanism.sheath.length,
+        &mechanism.sheath.exit_across, &mechanism.sheath.exit_above}) {
     *length *= factor;
   }
   return mechanism;

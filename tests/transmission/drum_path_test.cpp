@@ -229,6 +229,113 @@ TEST(DrumPath, ADrumOnWhichBothTendonsStayIsAPlainPulley) {
   }
 }
 
+/// A tendon through its sheath: from its end over drum and pin by the brute string, straight down into the sheath, and
+/// from its mouth round the pulley. Of the transmission it takes θ(α) and the radii; the pulley is the envelope of the
+/// lines that pass its axis at these radii on their way to the mouth, drawn as crossings of neighbours, and the string
+/// is laid round its corners by looking.
+class StringThroughSheath {
+ public:
+  StringThroughSheath(const Mechanism& mechanism, const Transmission& law, Side side)
+      : law_(law),
+        sign_(mirror_sign(side)),
+        upper_(law.place(side)),
+        mouth_(mechanism.sheath.exit_across, mechanism.sheath.exit_above) {
+    constexpr int lines = 6000;
+    const double beyond = 0.02 * (law.alpha_max() - law.alpha_min());
+    const double from = sign_ > 0 ? law.alpha_min() - beyond : law.alpha_max() + beyond;
+    const double to = sign_ > 0 ? law.alpha_max() + beyond : law.alpha_min() - beyond;
+    Vec2 normal_before(0, 0);
+    double p_before = 0;
+    for (int i = 0; i <= lines; ++i) {
+      const double alpha = from + (to - from) * i / lines;
+      const TransmissionPoint at = law.at_alpha(alpha);
+      const double p = side == Side::right ? at.t2.p : at.t1.p;
+      // The foot of the axis' perpendicular on the line, right of the way from the axis to the mouth.
+      const double c = mouth_.norm(), ahead = p * p / c, aside = p * std::sqrt(1.0 - p * p / (c * c));
+      const Vec2 towards = mouth_ / c, right(towards.y(), -towards.x());
+      const Vec2 normal = turned(Vec2((ahead * towards + aside * right) / p), sign_ * alpha);
+      if (i > 0) {
+        const double det = cross(normal_before, normal);
+        corners_.push_back(Vec2((p_before * normal.y() - p * normal_before.y()) / det,
+                                (p * normal_before.x() - p_before * normal.x()) / det));
+        along_.push_back(i == 1 ? 0.0 : along_.back() + (corners_.back() - corners_[corners_.size() - 2]).norm());
+      }
+      normal_before = normal;
+      p_before = p;
+    }
+  }
+
+  double length(double alpha) {
+    const Vec2 mouth = turned(mouth_, sign_ * alpha);
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < corners_.size(); ++i) {
+      if (right_of(corners_[best], mouth, corners_[i]) > 0) best = i;
+    }
+    return upper_.length(sign_ * law_.theta(alpha)) + (mouth - corners_[best]).norm() + along_[best];
+  }
+
+ private:
+  static Vec2 turned(const Vec2& v, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+  }
+
+  const Transmission& law_;
+  double sign_;
+  BruteString upper_;
+  Vec2 mouth_;  ///< from the pulley's axis
+  std::vector<Vec2> corners_;
+  std::vector<double> along_;
+};
+
+TEST(SheathPath, IsAsLongAtEveryAngle) {
+  Mechanism finger = testing::finger(), ankle = testing::ankle();
+  finger.sheath = {300.0, 2.0, 0.1, 0.0, 15.0, 40.0};
+  ankle.sheath = {600.0, 3.0, 0.1, 0.0, 60.0, 130.0};
+  for (const Mechanism& mechanism : {finger, ankle, testing::mirrored(ankle)}) {
+    const Transmission law(mechanism);
+    ASSERT_FALSE(law.dead_centre());
+    for (const Side side : {Side::left, Side::right}) {
+      StringThroughSheath string(mechanism, law, side);
+      const double home = string.length(0.0);
+      for (int i = 0; i <= 20; ++i) {
+        const double alpha = law.alpha_min() + (law.alpha_max() - law.alpha_min()) * i / 20;
+        EXPECT_NEAR(string.length(alpha), home, 1e-4)
+            << mechanism.name << " " << i << (side == Side::left ? " left" : "");
+      }
+    }
+  }
+}
+
+TEST(SheathPath, ThePulleyMayStandAnywhere) {
+  const Mechanism mechanism = testing::sheathed_wrist();
+  Mechanism elsewhere = mechanism;
+  elsewhere.pulley.EF = 1234.0;
+  const Transmission one(mechanism), other(elsewhere);
+  for (const double theta : {-0.4, 0.0, 0.3}) {
+    const TransmissionPoint here = one.at_theta(theta), there = other.at_theta(theta);
+    EXPECT_EQ(here.t1.length, there.t1.length);
+    EXPECT_EQ(here.t2.lower_normal, there.t2.lower_normal);
+    EXPECT_EQ(here.t2.wrap, there.t2.wrap);
+  }
+}
+
+/// Mouths where the pins were, straight below which nothing else would be: a line from pin to pulley that does not
+/// wrap.
+TEST(SheathPath, AMouthInThePlaceOfAPointPinIsThatPinsLine) {
+  Mechanism pins = testing::reference(), sheaths = pins;
+  pins.tendon.diameter = sheaths.tendon.diameter = 0.0;
+  sheaths.sheath = {400.0, 1.0, 0.1, 0.0, pins.guides.ED, pins.pulley.EF};
+  const Transmission one(pins), other(sheaths);
+  for (const double theta : {-0.5, -0.1, 0.0, 0.4}) {
+    const TransmissionPoint here = one.at_theta(theta), there = other.at_theta(theta);
+    EXPECT_EQ(here.alpha, there.alpha);
+    EXPECT_EQ(here.t2.p, there.t2.p);
+    EXPECT_EQ(here.t1.lower_normal, there.t1.lower_normal);
+    EXPECT_NEAR(here.t2.length + 400.0, there.t2.length, 1e-12);
+  }
+}
+
 TEST(DrumPath, TheEndCMayBeWrittenAsAnAttachment) {
   const Mechanism plain = testing::unsymmetric();
   Mechanism same = plain;

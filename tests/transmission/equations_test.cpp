@@ -62,7 +62,7 @@ TEST(Equations, AsIntervalsHoldThePlainPath) {
       const TransmissionPoint at = law.at_theta(theta);
       const PaperForces forces = paper_forces(mechanism, at);
       const double torque = load_torque(mechanism, theta), stiffness = section_stiffness(mechanism.tendon);
-      const double c = pin.c(), phi = pin.phi(), normal = upper_span(pin, theta).normal;
+      const double c = pin.lower().c(), phi = pin.lower().phi(), normal = upper_span(pin, theta).normal;
       const RoundingUp rounding;
       const auto expect = [](const Jet& jet, double value, const char* what) {
         EXPECT_TRUE(holds(jet, value)) << what;

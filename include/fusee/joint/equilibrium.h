@@ -1,7 +1,8 @@
 /// \file
 /// The joint in quasi-static equilibrium along any sequence of pulley angles and loads, history carried along.
 ///
-/// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them; what is wound on a
+/// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them, or at pin and in
+/// sheath together; what is wound on a
 /// pulley slides in its groove as far as friction lets it (JointModel::groove_friction); a tendon cannot push. Source
 /// of the limits: the paper's [6]-[11] (tension.h).
 #pragma once
@@ -70,7 +71,7 @@ struct EquilibriumPoint {
   /// … and with pins and groove that let it pass at the present ratio of tensions (large ones, whole tendons).
   double stiffness = 0;
   double stored = 0;           ///< elastic energy, above that of home unloaded, N·mm
-  double friction = 0;         ///< lost at the pins and in the joint's bearing since home, N·mm
+  double friction = 0;         ///< lost at pins, in sheaths and in the joint's bearing since home, N·mm
   double groove_friction = 0;  ///< lost in the grooves since home, N·mm
 };
 

@@ -25,7 +25,8 @@ struct MountedMechanism {
 struct LowerPath {
   double p = 0;       ///< moment arm about the pulley's axis
   double normal = 0;  ///< direction of the line's outward normal
-  double reach = 0;   ///< from the pin's tangent point to where the pulley is touched: the free span
+  double reach =
+      0;  ///< from the pin's tangent point, or the sheath's mouth, to where the pulley is touched: the free span
   double wound = 0;   ///< arc length that lies on the pulley, up to there, but for a constant
 };
 
@@ -39,11 +40,14 @@ class MadePulleys {
 
   /// Both tendons (left, right) at the pulley angle `alpha`. NaN where a tendon touches a part of the curve that the
   /// law does not define.
-  std::array<LowerPath, 2> paths(const std::array<PinPlace, 2>& mounted, double alpha) const;
+  std::array<LowerPath, 2> paths(const std::array<LowerGuide, 2>& mounted, double alpha) const;
+  std::array<LowerPath, 2> paths(const std::array<PinPlace, 2>& mounted, double alpha) const {
+    return paths(std::array{mounted[0].lower(), mounted[1].lower()}, alpha);
+  }
   const Transmission& declared() const { return declared_; }
 
  private:
-  LowerPath path(Side side, const PinPlace& mounted, double alpha, const TransmissionPoint& first) const;
+  LowerPath path(Side side, const LowerGuide& mounted, double alpha, const TransmissionPoint& first) const;
 
   Transmission declared_;
   double offset_ = 0;
@@ -65,6 +69,7 @@ struct JointModel {
   std::function<double(double alpha)> expected;  ///< about where θ will be: a root finder's start
   double EA = 0;                                 ///< stiffness of a tendon's section: tension per strain, N
   GuideFriction guide;                           ///< of the pins or idlers
+  SheathLoad sheath;                             ///< of each tendon's sheath
   double pretension = 0;                         ///< of tendon 1 at home, unloaded, N
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
   double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm

@@ -26,6 +26,7 @@ struct Field {
   std::string_view unit;  ///< "mm", "deg", "N", "MPa", "%" or "" (a plain number)
   /// Must be written. Where [transmission] stands in place of the mechanism, only its own keys must.
   bool required = false;
+  bool needed_in_table = false;  ///< must be written where its table is
   /// "pulley.law=compensate": the key is used only then, and where pulley.law itself is (a warning otherwise), and must
   /// be written then if it has no default.
   std::string_view only_when;

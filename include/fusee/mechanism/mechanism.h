@@ -61,6 +61,22 @@ struct Guides {
   bool operator==(const Guides&) const = default;
 };
 
+/// A Bowden sheath round each tendon, from its pin to the motor: the pulley lies where the motor is. The tendon goes
+/// straight down from its pin's outer side into the sheath, and comes out of it at the mouth, a point of its centre
+/// line.
+struct Sheath {
+  double length = 0;       ///< of each tendon's; 0: there is none
+  double bend = 0;         ///< sum of its bends, rad
+  double mu = 0;           ///< capstan coefficient in it
+  double stiffness = 0;    ///< in compression, N/mm; 0: rigid
+  double exit_across = 0;  ///< mouths stand at (± this, exit_above) from the pulley's axis
+  double exit_above = 0;
+
+  bool operator==(const Sheath&) const = default;
+
+  bool is_there() const { return length > 0; }
+};
+
 enum class Law { compensate, linear, table };
 enum class Method { exact, paper };
 
@@ -74,7 +90,7 @@ struct LawRow {
 
 /// Where the pulley sits and what it must do. (The body that comes out is solid/pulley.h's Pulley.)
 struct PulleyDrive {
-  double EF = 0;  ///< from the pins' line down to the pulley's axis G
+  double EF = 0;  ///< from the pins' line down to the pulley's axis G; with a sheath only where it is drawn
   double r1 = 0;  ///< P1's pitch radius (law = compensate)
   Law law = Law::compensate;
   double ratio = 0;          ///< α per θ (law = linear)
@@ -231,6 +247,7 @@ struct Mechanism {
   std::string name;
   Joint joint;
   Guides guides;
+  Sheath sheath;
   PulleyDrive pulley;
   Tendon tendon;
   Load load;
@@ -252,8 +269,8 @@ struct Mechanism {
   bool has_point_pins() const { return seen_pitch_radius() == 0; }
   /// Of the drum, to the centre line of a tendon that lies on it; 0 without a drum. mm
   double drum_pitch_radius() const { return joint.drum_radius != 0 ? joint.drum_radius + 0.5 * tendon.diameter : 0.0; }
-  /// The joint that optimize's closed formulas are of: one lever point, and pins.
-  bool is_papers() const { return joint.is_plain() && guides.kind == GuideKind::pin; }
+  /// The joint that optimize's closed formulas are of: one lever point, and pins above their pulley.
+  bool is_papers() const { return joint.is_plain() && guides.kind == GuideKind::pin && !sheath.is_there(); }
   /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
   double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
 };

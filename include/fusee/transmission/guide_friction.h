@@ -1,5 +1,5 @@
 /// \file
-/// What a tendon loses at a guide: on a pin that it slides over, or on an idler that turns with it.
+/// What a tendon loses at a guide: on a pin that it slides over, or on an idler that turns with it; and in its sheath.
 #pragma once
 
 #include "fusee/mechanism/mechanism.h"
@@ -21,7 +21,15 @@ struct GuideFriction {
 };
 
 GuideFriction guide_friction(const Mechanism& mechanism);
-/// The same guides without any.
-Guides without_friction(Guides guides);
+/// What a tendon loses in its sheath, and what the sheath adds to its length under tension. All zero without one.
+struct SheathLoad {
+  double length = 0;     ///< of tendon in it, mm
+  double give = 0;       ///< by how much it gets shorter, and its tendon longer beside it, mm/N
+  double log_ratio = 0;  ///< ln of the tensions' ratio that friction holds: μ times its bends
+};
+
+SheathLoad sheath_load(const Mechanism& mechanism);
+/// The same mechanism without friction at guides and in sheaths.
+Mechanism without_friction(Mechanism mechanism);
 
 }  // namespace fusee

@@ -5,6 +5,7 @@
 /// One derivation serves both tendons: tendon 1 is the mirror image of tendon 2 (x → −x, θ → −θ, α → −α).
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -21,6 +22,18 @@ constexpr std::string_view pulley_name(Side side) { return side == Side::left ? 
 /// +1 for the right, −1 for the left: the factor between the mechanism's θ, α, x and those of the right-hand image.
 constexpr double mirror_sign(Side side) { return side == Side::right ? 1.0 : -1.0; }
 
+/// What a tendon comes from where it goes onto its pulley, in its right-hand image: its pin, or the mouth of its
+/// sheath. As seen from the pulley's axis. mm.
+struct LowerGuide {
+  double across = 0;
+  double above = 0;
+  double rho = 0;  ///< to the tendon's centre line; 0: a point, as a mouth is
+
+  /// c and φ.
+  double c() const { return std::hypot(across, above); }
+  double phi() const { return std::atan2(above, across); }
+};
+
 /// Pin and pulley axis of one tendon in its right-hand image. mm.
 struct PinPlace {
   double e;    ///< EB or ED: the pin stands at (e, −OE)
@@ -31,12 +44,16 @@ struct PinPlace {
   double twist = 0;  ///< that end's angle at home, clockwise from OC, rad
   double drum = 0;   ///< ρ0: drum radius to the tendon's centre line, R or less; 0: there is none
   bool at_C = true;  ///< the end is C, and moves with it
+  /// Of the sheath between pin and pulley: there the tendon leaves the pin straight down.
+  std::optional<LowerGuide> mouth = std::nullopt;
+  double in_sheath = 0;  ///< length of tendon between pin and mouth
 
   Vec2 pin() const { return {e, -oe}; }
   Vec2 pulley_axis() const { return {0.0, -oe - ef}; }
-  /// c and φ: the pin seen from the pulley's axis.
-  double c() const { return std::hypot(e, ef); }
-  double phi() const { return std::atan2(ef, e); }
+  LowerGuide lower() const { return mouth ? *mouth : LowerGuide{e, ef, rho}; }
+  /// Outward normal where the tendon leaves the pin, rad: that of its line to the pulley, or of its way into the
+  /// sheath.
+  double off_pin(double lower_normal) const { return mouth ? 0.0 : lower_normal; }
 };
 
 /// An end between the drum's surface and its pitch circle is taken onto that circle: there the tendon comes out of the

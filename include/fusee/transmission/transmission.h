@@ -20,8 +20,9 @@ struct TendonPoint {
   double lower_normal = 0;  ///< world direction of the outward normal of pin–pulley, rad
   double wrap = 0;          ///< turning over the pin [8], rad; negative: the tendon has left the pin
   double free_upper = 0;    ///< C to pin, mm
-  double lower_reach = 0;   ///< from the foot of G's perpendicular to the pin's tangent point, mm
-  double length = 0;        ///< free_upper + ρp·wrap + lower_reach: to the foot of the perpendicular, mm
+  double lower_reach = 0;   ///< from the foot of G's perpendicular to the pin's tangent point or the mouth, mm
+  double in_sheath = 0;     ///< what lies in a sheath, mm
+  double length = 0;        ///< free_upper + ρp·wrap + in_sheath + lower_reach: to the foot of the perpendicular, mm
 };
 
 struct TransmissionPoint {

@@ -17,7 +17,7 @@ std::vector<CaliperReading> right_by_caliper(const DeclaredMechanism& declared) 
 std::vector<CaliperReading> down_by_caliper(const DeclaredMechanism& declared) {
   std::vector<CaliperReading> both = hand_reading(declared.prior.OE, declared.guides.OE);
   const std::vector<double>& EF = declared.prior.EF;
-  if (EF.size() == 2) both.push_back({declared.pulley.EF - EF[0], EF[1]});
+  if (EF.size() == 2 && !declared.sheath.is_there()) both.push_back({declared.pulley.EF - EF[0], EF[1]});
   return both;
 }
 
