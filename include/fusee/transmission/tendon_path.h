@@ -31,6 +31,8 @@ struct PinPlace {
   double twist = 0;  ///< that end's angle at home, clockwise from OC, rad
   double drum = 0;   ///< ρ0: drum radius to the tendon's centre line, R or less; 0: there is none
   bool at_C = true;  ///< the end is C, and moves with it
+  double drum_off = 0;    ///< from O to the drum's centre, which turns with the link
+  double drum_twist = 0;  ///< that centre's angle at home, clockwise from OC, rad
 
   Vec2 pin() const { return {e, -oe}; }
   Vec2 pulley_axis() const { return {0.0, -oe - ef}; }
@@ -42,6 +44,9 @@ struct PinPlace {
 /// An end between the drum's surface and its pitch circle is taken onto that circle: there the tendon comes out of the
 /// drum.
 PinPlace pin_place(const Mechanism& mechanism, Side side, double rho);
+
+/// Of the drum at joint angle `theta` of the image.
+Vec2 drum_centre(const PinPlace& place, double theta);
 
 /// Of the right-hand image: where it is larger the tendon is free of the drum, elsewhere on it. Null without a drum,
 /// and where the pin stands in it.
