@@ -10,7 +10,8 @@ namespace {
 
 /// Tendon that moves over a pin by this much has the friction of its new direction, but for 1/e. mm
 constexpr double k_bristle = 2e-4;
-constexpr double k_furthest = radians(85.0);
+constexpr double k_furthest = radians(85.0);       // of a joint that is not declared to go further
+constexpr double k_beyond_range = radians(25.0);
 /// The knot lies this much further along the groove than the tendon leaves it anywhere in the range. mm
 constexpr double k_knot_beyond = 5.0;
 /// Of the quickest part of creep: the middle of the first decade. s
@@ -135,6 +136,8 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
     friction_ = 0;
     turning_ = bearing * declared.guides.bearing_radius / to_cord;
   }
+  furthest_ = std::max({k_furthest, declared.joint.theta_max + k_beyond_range, k_beyond_range - declared.joint.theta_min});
+  if (declared.joint.is_plain()) furthest_ = k_furthest;
   torque_declared_ = declared.load.torque;
   weight_ = 9.80665 * declared.load.mass * declared.load.lever;
   tilt_ = declared.load.tilt;
@@ -209,8 +212,12 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
   tendon.lower = cord.material(below, tension) + 0.25 * slack;
   tendon.wound = low.arc;
   tendon.corner = low.corner;
-  const Circle at_end{turned(seen.centre, unwound), seen.radius};
-  const double knot = lower_string(tendon.hull, at_end, low.corner).arc - k_knot_beyond;
+  // By steps: past half a turn a string would be looked for the other way round.
+  LowerString at_end = low;
+  const int steps = 1 + static_cast<int>(std::abs(unwound));
+  for (int i = 1; i <= steps; ++i)
+    at_end = lower_string(tendon.hull, {turned(seen.centre, unwound * i / steps), seen.radius}, at_end.corner);
+  const double knot = at_end.arc - k_knot_beyond;
   tendon.laid = GrooveChain(tendon.hull, knot, low.arc, tension, hidden_.groove_friction, cord);
   tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
   tendon.push = tendon.home_push = tension * (turned(low.normal, -0.5 * k_pi) - turned(up.normal, -0.5 * k_pi));
@@ -336,7 +343,7 @@ double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double
     low = high;
     at_low = at_high;
     high *= 2.0;
-    if (!(std::abs(theta_ + towards * high) < k_furthest)) return std::numeric_limits<double>::quiet_NaN();
+    if (!(std::abs(theta_ + towards * high) < furthest_)) return std::numeric_limits<double>::quiet_NaN();
     at_high = left(high);
   }
   return theta_ + towards * crossing(low, at_low, high, at_high, 1e-12, left);

@@ -147,8 +147,8 @@ void say_ends_moved(Imperfections& at) {
   at.joint.end1 = {1.0, -0.7};
   at.joint.end2 = {-0.6, 0.9};
 }
-void rub_idlers(Hidden& h) { h.bearing_friction = 0.3; }
-void say_idlers_rub(Imperfections& at) { at.pins.bearing_friction = 0.3; }
+void rub_idlers(Hidden& h) { h.bearing_friction = 0.8; }
+void say_idlers_rub(Imperfections& at) { at.pins.bearing_friction = 0.8; }
 
 const std::vector<WideFault> k_wide_faults{
     {"finger_mcp", 0.7, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
