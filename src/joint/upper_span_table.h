@@ -43,7 +43,7 @@ class UpperSpanTable {
   double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; from there on it is looked up
   double on_drum_from_ = 0;
   UpperSpan on_drum_;  ///< at on_drum_from_
-  Pieces over_drum_;    ///< of a drum off the axis; about it: none
+  Pieces over_drum_;   ///< of a drum off the axis; about it: none
   Pieces free_;
 };
 

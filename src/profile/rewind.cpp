@@ -160,13 +160,15 @@ class String {
       return turned_near(own, 0.5 * k_pi);
     };
     const Vec2 from_centre = end_ - drum_centre_;
-    const double tangent = counted(direction(from_centre)) - std::acos(std::clamp(drum_ / from_centre.norm(), -1.0, 1.0));
+    const double tangent =
+        counted(direction(from_centre)) - std::acos(std::clamp(drum_ / from_centre.norm(), -1.0, 1.0));
     return tangent - counted(from_pin_to(with_link(drum_centre_, theta), drum_).normal) - hand_ * theta;
   }
 
   /// Where a place of the link at home is, turned clockwise with it.
   static Vec2 with_link(const Vec2& home, double theta) {
-    return {std::cos(theta) * home.x() + std::sin(theta) * home.y(), std::cos(theta) * home.y() - std::sin(theta) * home.x()};
+    return {std::cos(theta) * home.x() + std::sin(theta) * home.y(),
+            std::cos(theta) * home.y() - std::sin(theta) * home.x()};
   }
 
   Polygon corners_;

@@ -145,9 +145,9 @@ std::optional<double> lift_off(const PinPlace& place) {
   return leaves;
 }
 
-// With a drum, the end's direction from its centre is π/2 − θ − τ, and the tangent from it to the drum has its normal an
-// opening of acos(ρ0/R) before that. Where this is further round than the line from drum to pin, what is between lies on
-// the drum.
+// With a drum, the end's direction from its centre is π/2 − θ − τ, and the tangent from it to the drum has its normal
+// an opening of acos(ρ0/R) before that. Where this is further round than the line from drum to pin, what is between
+// lies on the drum.
 UpperSpan upper_span(const PinPlace& place, double theta) {
   const double turned = place.twist == 0 ? theta : theta + place.twist;
   if (!(place.drum > 0)) return free_span(place, turned);

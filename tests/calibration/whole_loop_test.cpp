@@ -110,20 +110,20 @@ INSTANTIATE_TEST_SUITE_P(WholeLoop, Known,
                          });
 
 // Of the joints that people build: what only they have.
-INSTANTIATE_TEST_SUITE_P(
-    Wide, Known,
-    testing::Values(std::tuple{"profiles/finger_mcp.toml", "drum_radius"},
-                    std::tuple{"profiles/finger_mcp.toml", "drum_runout"},
-                    std::tuple{"profiles/finger_pip.toml", "attachment1_place"},
-                    std::tuple{"profiles/ankle_exo.toml", "attachment1_place"},
-                    std::tuple{"profiles/ankle_exo.toml", "attachment2_place"},
-                    std::tuple{"profiles/elbow_idlers.toml", "drum_radius"},
-                    std::tuple{"profiles/elbow_idlers.toml", "drum_runout"},
-                    std::tuple{"profiles/elbow_idlers.toml", "attachment1_place"}),
-    [](const auto& each) {
-      const std::string file = std::get<0>(each.param);
-      return file.substr(file.find('/') + 1, file.find('.') - file.find('/') - 1) + "_" + std::get<1>(each.param);
-    });
+INSTANTIATE_TEST_SUITE_P(Wide, Known,
+                         testing::Values(std::tuple{"profiles/finger_mcp.toml", "drum_radius"},
+                                         std::tuple{"profiles/finger_mcp.toml", "drum_runout"},
+                                         std::tuple{"profiles/finger_pip.toml", "attachment1_place"},
+                                         std::tuple{"profiles/ankle_exo.toml", "attachment1_place"},
+                                         std::tuple{"profiles/ankle_exo.toml", "attachment2_place"},
+                                         std::tuple{"profiles/elbow_idlers.toml", "drum_radius"},
+                                         std::tuple{"profiles/elbow_idlers.toml", "drum_runout"},
+                                         std::tuple{"profiles/elbow_idlers.toml", "attachment1_place"}),
+                         [](const auto& each) {
+                           const std::string file = std::get<0>(each.param);
+                           return file.substr(file.find('/') + 1, file.find('.') - file.find('/') - 1) + "_" +
+                                  std::get<1>(each.param);
+                         });
 
 BuildResult built(const DeclaredMechanism& corrected, double tolerance = 0.01) {
   MechanismFile file;
@@ -260,8 +260,8 @@ class FoundWide : public testing::TestWithParam<std::tuple<const char*, const ch
 TEST_P(FoundWide, FaultIsTakenOutByThePulley) {
   const auto [file, name] = GetParam();
   const Joint joint = joint_of(file);
-  const LoopOutcome outcome =
-      turn_loop(joint.made, write_mechanism(joint.made.declared), case_of(joint, name), scratch(std::string("wide_") + name));
+  const LoopOutcome outcome = turn_loop(joint.made, write_mechanism(joint.made.declared), case_of(joint, name),
+                                        scratch(std::string("wide_") + name));
   EXPECT_LT(outcome.after, 0.15 * outcome.before + 2 * outcome.declared) << outcome.found;
   RecordProperty("before_deg", std::to_string(degrees(outcome.before)));
   RecordProperty("after_deg", std::to_string(degrees(outcome.after)));

@@ -10,7 +10,7 @@ namespace {
 
 /// Tendon that moves over a pin by this much has the friction of its new direction, but for 1/e. mm
 constexpr double k_bristle = 2e-4;
-constexpr double k_furthest = radians(85.0);       // of a joint that is not declared to go further
+constexpr double k_furthest = radians(85.0);  // of a joint that is not declared to go further
 constexpr double k_beyond_range = radians(25.0);
 /// The knot lies this much further along the groove than the tendon leaves it anywhere in the range. mm
 constexpr double k_knot_beyond = 5.0;
@@ -136,7 +136,8 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
     friction_ = 0;
     turning_ = bearing * declared.guides.bearing_radius / to_cord;
   }
-  furthest_ = std::max({k_furthest, declared.joint.theta_max + k_beyond_range, k_beyond_range - declared.joint.theta_min});
+  furthest_ =
+      std::max({k_furthest, declared.joint.theta_max + k_beyond_range, k_beyond_range - declared.joint.theta_min});
   if (declared.joint.is_plain()) furthest_ = k_furthest;
   torque_declared_ = declared.load.torque;
   weight_ = 9.80665 * declared.load.mass * declared.load.lever;
@@ -170,7 +171,8 @@ void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMech
   tendon.end = own ? seen(Vec2(own->across, own->along) + hidden_.end_moved[side]) : Vec2(0.0, R_);
   if (!(joint.drum_radius > 0)) return;
   const double radius = joint.drum_radius + hidden_.drum_radius + 0.5 * declared.tendon.diameter;
-  const Vec2 centre = seen(hidden_.drum_runout * Vec2(std::cos(hidden_.drum_runout_phase), std::sin(hidden_.drum_runout_phase)));
+  const Vec2 centre =
+      seen(hidden_.drum_runout * Vec2(std::cos(hidden_.drum_runout_phase), std::sin(hidden_.drum_runout_phase)));
   // What is tied in the drum comes out of it at the cord's own height.
   const Vec2 from_centre = tendon.end - centre;
   if (from_centre.norm() < radius) tendon.end = centre + radius / from_centre.norm() * from_centre;

@@ -98,7 +98,7 @@ class Bench {
   double R_ = 0;
   double EA_ = 0;
   double friction_ = 0;
-  double turning_ = 0;  ///< of idlers: friction of the bearing, at its radius per the idler's; 0: pins
+  double turning_ = 0;   ///< of idlers: friction of the bearing, at its radius per the idler's; 0: pins
   double furthest_ = 0;  ///< θ at which nothing is thought to hold the joint
   double torque_declared_ = 0;
   double weight_ = 0;  ///< times its lever, N·mm

@@ -45,7 +45,8 @@ constexpr const char* k_usage =
     "  --jobs N            joints at work at once (2)\n"
     "  --most-missed P     exit code 4 when more than P % of the named faults are missed\n"
     "  --most-blamed P     exit code 4 when more than P % of the joints, of either kind, are falsely blamed\n"
-    "  --joint FILE        this joint, without its [load], and none drawn at random: faults of its drum, attachments and\n"
+    "  --joint FILE        this joint, without its [load], and none drawn at random: faults of its drum, attachments "
+    "and\n"
     "                      idlers\n"
     "  --list              the truths\n";
 
@@ -314,7 +315,8 @@ class ScratchFolder {
 };
 
 int list(const Request& request) {
-  for (const Truth& truth : request.joint ? wide_truths(*request.joint) : all_truths()) std::printf("%s\n", truth.name.c_str());
+  for (const Truth& truth : request.joint ? wide_truths(*request.joint) : all_truths())
+    std::printf("%s\n", truth.name.c_str());
   return 0;
 }
 

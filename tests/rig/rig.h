@@ -62,7 +62,7 @@ struct Hidden {
   double guide_down = 0;                ///< both pins, mm
   std::array<double, 2> pin_outward{};  ///< each pin beyond that, mm; [0] is tendon 1's
   std::array<double, 2> pin_down{};
-  double bearing_friction = 0;          ///< added to the coefficient of idlers' bearings
+  double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
   double frame_give = 0;  ///< pins move by this along the tendon's force on them, mm/N
 
   // Joint.

@@ -250,8 +250,8 @@ TEST(DrumPath, TheMirroredJointHasTheMirroredArms) {
   }
 }
 
-/// A drum whose centre goes round the joint's axis. Second routes: the string laid by hand of a drum about O, on which it
-/// turns, seen from the drum's own centre, and differences.
+/// A drum whose centre goes round the joint's axis. Second routes: the string laid by hand of a drum about O, on which
+/// it turns, seen from the drum's own centre, and differences.
 PinPlace random_place_off_axis(std::mt19937& random) {
   PinPlace place = random_place(random);
   place.drum_off = place.drum * 0.04 * (1 + static_cast<double>(random() % 3));

@@ -2,6 +2,9 @@
 /// Internal: what both tendons' attachments have in common.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "fusee/mechanism/effect.h"
 #include "mechanism/effects/by_hand.h"
 

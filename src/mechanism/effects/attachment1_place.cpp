@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "mechanism/effects/attachment.h"
 
 namespace fusee {

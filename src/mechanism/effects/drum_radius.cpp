@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "fusee/mechanism/effect.h"
 #include "mechanism/effects/by_hand.h"
 
@@ -21,7 +23,8 @@ Effect drum_radius(JointKind) {
   effect.name = "drum_radius";
   effect.place = ChainPlace::joint;
   effect.rank = 4;
-  effect.signature = "in proportion to theta where tendons lie on the drum, no direction; a load turns the joint less far";
+  effect.signature =
+      "in proportion to theta where tendons lie on the drum, no direction; a load turns the joint less far";
   effect.separating_run = "measure the drum on the joint with a caliper";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true, .drum = true};

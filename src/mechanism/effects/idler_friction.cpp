@@ -10,15 +10,16 @@ double idler_total(double added, const Mechanism& declared) {
 
 }  // namespace
 
-// What capstan_friction is on pins. A ball bearing's coefficient is some thousandths; dry, dirty, or pressed askew it is
-// twenty times that, and a bush's anyway.
+// What capstan_friction is on pins. A ball bearing's coefficient is some thousandths; dry, dirty, or pressed askew it
+// is twenty times that, and a bush's anyway.
 Effect idler_friction(JointKind) {
   Effect effect;
   effect.name = "idler_friction";
   effect.place = ChainPlace::pins;
   effect.rank = 5;
   effect.signature = "a loop that grows with load and hardly with wrap, with a transition after each reversal";
-  effect.separating_run = "take a tendon off and turn each idler by hand; or run at two loads, with which its loop grows";
+  effect.separating_run =
+      "take a tendon off and turn each idler by hand; or run at two loads, with which its loop grows";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true, .idlers = true};
   effect.parameters = {{.name = "mu",
