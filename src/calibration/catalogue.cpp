@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "fusee/joint/joint_effects.h"
 #include "measurement/seen_span.h"
 
 namespace fusee {
@@ -31,7 +32,7 @@ bool has_warming(const Measurement& measurement) {
 
 bool can_be_seen(const Needs& needs, const Mechanism& declared, const Measurement& measurement) {
   return !(needs.time && !all(measurement, &Run::has_time)) && !(needs.load && !has_load(declared, measurement)) &&
-         !(needs.temperature && !has_warming(measurement)) && !(needs.tendons && declared.transmission);
+         !(needs.temperature && !has_warming(measurement)) && has_part(declared, needs);
 }
 
 }  // namespace

@@ -16,11 +16,13 @@ namespace {
 
 bool changes_geometry(const Imperfections& at) {
   return at.pins.left != PinPlaceError{} || at.pins.right != PinPlaceError{} || at.pins.radius != 0 ||
-         at.joint.length != 0;
+         at.joint.length != 0 || at.joint.drum != DrumError{} || at.joint.end1 != AttachmentError{} ||
+         at.joint.end2 != AttachmentError{};
 }
 bool changes_statics(const Imperfections& at) {
   return at.tendon.stretch != 0 || at.tendon.pretension != 0 || at.pins.friction != 0 ||
-         at.tendon.groove_friction != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
+         at.pins.bearing_friction != 0 || at.tendon.groove_friction != 0 || at.joint.weight != WeightError{} ||
+         at.joint.mean_load != 0;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "joint/outline_error.h"
 
@@ -12,22 +13,53 @@ namespace {
 /// Far below any sensor's noise, and far below what a fit's steps move θ by. rad
 constexpr double k_last_step = 1e-9;
 
+constexpr double k_least_drum = 1e-3;       // mm: a drum that is hardly one is still a drum
 constexpr double k_least_stiffness = 1e-3;  // of the declared EA
+
+/// An end that is tied on the drum is tied on the drum as it is.
+void tie_on_drum(std::optional<Attachment>& end, const Joint& joint) {
+  if (!end) return;
+  const double across = end->across - joint.drum_centre.across, along = end->along - joint.drum_centre.along;
+  const double away = std::hypot(across, along);
+  if (away >= joint.drum_radius || away == 0) return;
+  const double out = joint.drum_radius / away;
+  end = Attachment{joint.drum_centre.across + out * across, joint.drum_centre.along + out * along};
+}
+
+void mount_drum(Joint& joint, const JointError& at) {
+  if (joint.drum_radius > 0) {
+    joint.drum_radius = std::max(k_least_drum, joint.drum_radius + at.drum.radius);
+    joint.drum_centre.across += at.drum.across;
+    joint.drum_centre.along += at.drum.along;
+  }
+  const auto move = [](std::optional<Attachment>& end, const AttachmentError& by) {
+    if (end) end = Attachment{end->across + by.across, end->along + by.along};
+  };
+  move(joint.attachment1, at.end1);
+  move(joint.attachment2, at.end2);
+  if (at.drum == DrumError{} && at.end1 == AttachmentError{} && at.end2 == AttachmentError{}) return;
+  tie_on_drum(joint.attachment1, joint);
+  tie_on_drum(joint.attachment2, joint);
+}
 
 }  // namespace
 
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   Mechanism mechanism = declared;
   mechanism.joint.R += at.joint.length;
+  mount_drum(mechanism.joint, at.joint);
   mechanism.guides.EB += at.pins.left.outward;
   mechanism.guides.ED += at.pins.right.outward;
   mechanism.guides.OE += at.pins.left.down;
   mechanism.pulley.EF -= at.pins.left.down;  // the pulley's axis stays
   mechanism.guides.D_below_B += at.pins.right.down - at.pins.left.down;
   mechanism.guides.radius = std::max(0.0, mechanism.guides.radius + at.pins.radius);
-  double& at_guides =
-      mechanism.guides.kind == GuideKind::idler ? mechanism.guides.bearing_friction : mechanism.guides.mu;
-  at_guides = std::max(0.0, at_guides + at.pins.friction);
+  Guides& guides = mechanism.guides;
+  if (guides.kind == GuideKind::idler) {
+    guides.bearing_friction = std::max(0.0, guides.bearing_friction + at.pins.friction + at.pins.bearing_friction);
+  } else {
+    guides.mu = std::max(0.0, guides.mu + at.pins.friction);
+  }
   mechanism.pulley.mu = std::max(0.0, mechanism.pulley.mu + at.tendon.groove_friction);
   mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.tendon.stretch);
   mechanism.tendon.pretension = std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);
@@ -35,7 +67,8 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
 }
 
 GeometryError geometry_of(const Imperfections& at) {
-  return {at.pulley, at.pins.left, at.pins.right, at.pins.radius, at.joint.length};
+  return {at.pulley,       at.pins.left,  at.pins.right, at.pins.radius,
+          at.joint.length, at.joint.drum, at.joint.end1, at.joint.end2};
 }
 
 /// Pulleys made for `declared` and imperfect themselves, seen from pins as mounted.

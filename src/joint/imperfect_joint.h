@@ -15,6 +15,9 @@ struct GeometryError {
   PinPlaceError right_pin;
   double pin_radius = 0;
   double joint_length = 0;
+  DrumError drum;
+  AttachmentError end1;
+  AttachmentError end2;
 
   bool operator==(const GeometryError&) const = default;
 };

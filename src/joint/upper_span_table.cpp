@@ -49,39 +49,48 @@ Knot knot_at(const PinPlace& place, double theta, double h) {
 }  // namespace
 
 // No piece reaches over the place where the tendon leaves the drum, at which its arm has a kink: below it the span is a
-// straight line of θ.
+// straight line of θ, or, on a drum off the axis, has pieces of its own.
 UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most) {
   if (const auto leaves = lift_off(place); leaves && *leaves > least) {
+    // The free branch begins a hair beyond, with slopes of its own.
+    constexpr double k_hair = 1e-12;
     on_drum_until_ = std::min(*leaves, most);
     on_drum_ = upper_span(place, least);
     on_drum_from_ = least;
-    // The free branch begins a hair beyond, with slopes of its own.
-    constexpr double k_hair = 1e-12;
+    if (place.drum_off != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair);
     least = *leaves + k_hair;
     if (least >= most) return;
   }
-  least_ = least;
-  step_ = (most - least) / k_pieces;
-  pieces_.reserve(k_pieces);
-  Knot from = knot_at(place, least, step_);
+  free_ = pieces(place, least, most);
+}
+
+UpperSpanTable::Pieces UpperSpanTable::pieces(const PinPlace& place, double least, double most) {
+  Pieces all;
+  all.least = least;
+  all.step = (most - least) / k_pieces;
+  all.curves.reserve(k_pieces);
+  Knot from = knot_at(place, least, all.step);
   for (std::size_t i = 1; i <= k_pieces; ++i) {
-    const Knot to = knot_at(place, least + step_ * static_cast<double>(i), step_);
-    pieces_.push_back({between(from.length, to.length), between(from.m, to.m), between(from.normal, to.normal)});
+    const Knot to = knot_at(place, least + all.step * static_cast<double>(i), all.step);
+    all.curves.push_back({between(from.length, to.length), between(from.m, to.m), between(from.normal, to.normal)});
     from = to;
   }
+  return all;
 }
 
 UpperSpanTable::Look UpperSpanTable::at(double theta) const {
-  if (theta <= on_drum_until_ || pieces_.empty()) {
+  const bool on_drum = theta <= on_drum_until_ || free_.curves.empty();
+  if (on_drum && over_drum_.curves.empty()) {
     const double turned = std::clamp(theta, on_drum_from_, on_drum_until_) - on_drum_from_;
     return {on_drum_.length - on_drum_.m * turned, on_drum_.m, 0, on_drum_.normal, 0};
   }
-  const double place = std::clamp((theta - least_) / step_, 0.0, static_cast<double>(k_pieces));
+  const Pieces& pieces = on_drum ? over_drum_ : free_;
+  const double place = std::clamp((theta - pieces.least) / pieces.step, 0.0, static_cast<double>(k_pieces));
   const std::size_t i = std::min(static_cast<std::size_t>(place), k_pieces - 1);
   const double u = place - static_cast<double>(i);
-  const Piece& piece = pieces_[i];
-  return {value_at(piece.length, u), value_at(piece.m, u), slope_at(piece.m, u) / step_, value_at(piece.normal, u),
-          slope_at(piece.normal, u) / step_};
+  const Piece& piece = pieces.curves[i];
+  return {value_at(piece.length, u), value_at(piece.m, u), slope_at(piece.m, u) / pieces.step,
+          value_at(piece.normal, u), slope_at(piece.normal, u) / pieces.step};
 }
 
 }  // namespace fusee

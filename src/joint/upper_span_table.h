@@ -33,12 +33,18 @@ class UpperSpanTable {
   struct Piece {
     Quintic length, m, normal;
   };
+  struct Pieces {
+    double least = 0;
+    double step = 1;
+    std::vector<Piece> curves;
+  };
+  static Pieces pieces(const PinPlace& place, double least, double most);
+
   double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; from there on it is looked up
   double on_drum_from_ = 0;
   UpperSpan on_drum_;  ///< at on_drum_from_
-  double least_ = 0;
-  double step_ = 1;
-  std::vector<Piece> pieces_;
+  Pieces over_drum_;   ///< of a drum off the axis; about it: none
+  Pieces free_;
 };
 
 /// Of the left tendon's image and of the right one.

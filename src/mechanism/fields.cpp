@@ -665,6 +665,13 @@ void add_prior(std::vector<Field>& table) {
   reading.operator()<&Prior::pulley_scale>("prior.pulley_scale",
                                            "the same of the made pulley's size per the drawn one");
   reading.operator()<&Prior::modulus>("prior.modulus_MPa", "the same of tendon.modulus_MPa");
+  reading.operator()<&Prior::drum_radius>("prior.drum_radius_mm", "the same of joint.drum_radius_mm");
+  reading.operator()<&Prior::attachment1_across>("prior.attachment1_across_mm",
+                                                 "the same of joint.attachment1_mm's first number");
+  reading.operator()<&Prior::attachment1_along>("prior.attachment1_along_mm", "the same of its second");
+  reading.operator()<&Prior::attachment2_across>("prior.attachment2_across_mm",
+                                                 "the same of joint.attachment2_mm's first number");
+  reading.operator()<&Prior::attachment2_along>("prior.attachment2_along_mm", "the same of its second");
 }
 
 std::vector<Field> make_table() {

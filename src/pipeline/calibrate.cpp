@@ -112,19 +112,7 @@ std::vector<std::string> output_names(const MechanismFile& file) {
   return names;
 }
 
-/// The model knows drum and attachments; the catalogue has no errors of theirs.
-void warn_of_parts_without_effects(MechanismFile& file) {
-  const Joint& joint = file.mechanism.joint;
-  if (file.mechanism.transmission || joint.is_plain()) return;
-  const char* key = joint.drum_radius > 0 ? "joint.drum_radius_mm"
-                    : joint.attachment1   ? "joint.attachment1_mm"
-                                          : "joint.attachment2_mm";
-  file.warnings.push_back({Severity::warning, file.place_of(key),
-                           "calibrate has no effects of a drum and of attachments of their own yet",
-                           "an error of theirs is named as another's, or stays unexplained: measure them by hand"});
-}
-
-/// The same of sheaths.
+/// The model knows sheaths; the catalogue has no errors of theirs.
 void warn_of_sheaths(MechanismFile& file) {
   if (!file.mechanism.sheath.is_there()) return;
   file.warnings.push_back({Severity::warning, file.place_of("sheath.length_mm"),
@@ -147,7 +135,6 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
                           const CalibrateOptions& options) {
   CalibrateResult result;
   result.product.file = with_doubts(file);
-  warn_of_parts_without_effects(result.product.file);
   warn_of_sheaths(result.product.file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fusee/base/text.h"
+#include "fusee/joint/joint_effects.h"
 
 namespace fusee {
 namespace {
@@ -119,8 +120,8 @@ double rms_apart(const std::vector<std::vector<double>>& one, const std::vector<
 std::vector<const EffectParameter*> hand_readable(const Mechanism& declared) {
   std::vector<const EffectParameter*> readable;
   if (declared.transmission) return readable;
-  for (const Effect& effect : effects(kind_of(declared))) {
-    for (const EffectParameter& parameter : effect.parameters) {
+  for (const Effect* effect : effects_of(declared)) {
+    for (const EffectParameter& parameter : effect->parameters) {
       if (!parameter.by_hand.words.empty()) readable.push_back(&parameter);
     }
   }

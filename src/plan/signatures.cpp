@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fusee/joint/as_it_is.h"
+#include "fusee/joint/joint_effects.h"
 #include "fusee/joint/simulate.h"
 #include "joint/forward.h"
 #include "plan/thresholds.h"
@@ -57,12 +58,12 @@ double usual_size(const EffectParameter& number, double largest_load) {
 
 Signatures::Signatures(const DeclaredMechanism& declared, const Bench& bench, double noise)
     : expected_(expected_joint(declared)), bench_(bench), noise_(noise) {
-  for (const Effect& effect : effects(kind_of(declared))) {
-    const std::string reason = why_not(effect);
+  for (const Effect* effect : effects_of(declared)) {
+    const std::string reason = why_not(*effect);
     if (reason.empty()) {
-      add(effect);
+      add(*effect);
     } else {
-      left_out_.emplace_back(effect.name, reason);
+      left_out_.emplace_back(effect->name, reason);
     }
   }
   model_first_ = columns_;

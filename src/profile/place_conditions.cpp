@@ -20,7 +20,9 @@ Condition attachment_outside_drum(const Mechanism& mechanism, Side side) {
   constexpr double rounding = 1e-9;
   Condition condition;
   condition.name = "attachment_outside_drum_" + tendon;
-  condition.value = (own ? std::hypot(own->across, own->along) : joint.R) - joint.drum_radius;
+  const Attachment end = own.value_or(Attachment{0, joint.R});
+  condition.value =
+      std::hypot(end.across - joint.drum_centre.across, end.along - joint.drum_centre.along) - joint.drum_radius;
   condition.unit = "mm";
   condition.ok = condition.value >= -rounding * joint.drum_radius;
   if (!condition.ok) {
@@ -34,7 +36,7 @@ Condition drum_clear_of_pin(const Mechanism& mechanism, Side side) {
   const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
   Condition condition;
   condition.name = "drum_clear_of_pin_" + name_of_pin(side);
-  condition.value = place.pin().norm() - mechanism.joint.drum_radius - mechanism.guides.radius;
+  condition.value = place.pin().norm() - place.drum_off - mechanism.joint.drum_radius - mechanism.guides.radius;
   condition.unit = "mm";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
@@ -62,11 +64,12 @@ double upper_clearance(const PinPlace& place, double theta, const Vec2& point) {
   const Vec2 end = place.R * Vec2(std::sin(turned), std::cos(turned)),
              at_pin = place.pin() + place.rho * unit(span.normal);
   if (span.on_drum == 0) return distance_to_segment(point, end, at_pin);
-  const double clearance = std::min(distance_to_segment(point, end, place.drum * unit(span.end_normal)),
-                                    distance_to_segment(point, place.drum * unit(span.normal), at_pin));
-  const double beyond = std::atan2(point.y(), point.x()) - span.normal;
+  const Vec2 centre = drum_centre(place, theta), seen = point - centre;
+  const double clearance = std::min(distance_to_segment(point, end, centre + place.drum * unit(span.end_normal)),
+                                    distance_to_segment(point, centre + place.drum * unit(span.normal), at_pin));
+  const double beyond = std::atan2(seen.y(), seen.x()) - span.normal;
   if (beyond - k_two_pi * std::floor(beyond / k_two_pi) > span.on_drum) return clearance;
-  return std::min(clearance, std::abs(point.norm() - place.drum));
+  return std::min(clearance, std::abs(seen.norm() - place.drum));
 }
 
 Vec2 other_pin(const Transmission& transmission, Side side) {

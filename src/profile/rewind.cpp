@@ -54,12 +54,14 @@ class String {
         lower_rho_(sheathed_ ? 0.0 : rho_),
         end_(end_of(mechanism, hand)),
         drum_(mechanism.joint.drum_radius != 0 ? mechanism.joint.drum_radius + half_ : 0.0),
+        drum_centre_(mechanism.joint.drum_centre.across, mechanism.joint.drum_centre.along),
         pin_(pin_of(mechanism, hand)),
         from_axis_(above_pulley(mechanism, hand)) {
     const std::string name = pulley_name();
     // Out of the drum a string comes at its own height.
-    if (end_.norm() < drum_) end_ *= drum_ / end_.norm();
-    if (drum_ > 0 && !(pin_.norm() > drum_ - half_ + mechanism.guides.radius))
+    if (const double away = (end_ - drum_centre_).norm(); away < drum_)
+      end_ = drum_centre_ + drum_ / away * (end_ - drum_centre_);
+    if (drum_ > 0 && !(pin_.norm() - drum_centre_.norm() > drum_ - half_ + mechanism.guides.radius))
       throw InputError("", "a guide pin stands in the drum", "joint.drum_radius_mm smaller, or pins further out");
     if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
     double along = 0;
@@ -150,13 +152,14 @@ class String {
   }
 
   double over_pin_and_up(double theta) const {
-    const Vec2 end(std::cos(theta) * end_.x() + std::sin(theta) * end_.y(),
-                   std::cos(theta) * end_.y() - std::sin(theta) * end_.x());
+    const Vec2 end = with_link(end_, theta);
     Piece up = from_pin_to(end, 0.0);
     const double wound = drum_ > 0 ? wound_on_drum(theta) : 0.0;
     if (wound > 0) {
-      up = from_pin_to(Vec2(0, 0), drum_);
-      up.length += drum_ * wound + std::sqrt(std::max(0.0, (end.norm() - drum_) * (end.norm() + drum_)));
+      const Vec2 centre = with_link(drum_centre_, theta);
+      const double away = (end - centre).norm();
+      up = from_pin_to(centre, drum_);
+      up.length += drum_ * wound + std::sqrt(std::max(0.0, (away - drum_) * (away + drum_)));
     }
     // Into a sheath it goes straight down from the pin's outer side; what lies in there keeps its length.
     const double lower_normal = !sheathed_ ? normal_ - alpha_ : hand_ > 0 ? 0.0 : k_pi;
@@ -171,8 +174,16 @@ class String {
       const double own = hand_ > 0 ? angle : k_pi - angle;
       return turned_near(own, 0.5 * k_pi);
     };
-    const double tangent = counted(direction(end_)) - std::acos(std::clamp(drum_ / end_.norm(), -1.0, 1.0));
-    return tangent - counted(from_pin_to(Vec2(0, 0), drum_).normal) - hand_ * theta;
+    const Vec2 from_centre = end_ - drum_centre_;
+    const double tangent =
+        counted(direction(from_centre)) - std::acos(std::clamp(drum_ / from_centre.norm(), -1.0, 1.0));
+    return tangent - counted(from_pin_to(with_link(drum_centre_, theta), drum_).normal) - hand_ * theta;
+  }
+
+  /// Where a place of the link at home is, turned clockwise with it.
+  static Vec2 with_link(const Vec2& home, double theta) {
+    return {std::cos(theta) * home.x() + std::sin(theta) * home.y(),
+            std::cos(theta) * home.y() - std::sin(theta) * home.x()};
   }
 
   Polygon corners_;
@@ -187,6 +198,7 @@ class String {
   double lower_rho_;  ///< of what it comes to the pulley from; 0: a mouth
   Vec2 end_;          ///< in the link at home
   double drum_;       ///< to the string's centre line; 0: none
+  Vec2 drum_centre_;  ///< in the link at home
   Vec2 pin_;          ///< in the world
   Vec2 from_axis_;    ///< what it comes to the pulley from, seen from the axis at home
 

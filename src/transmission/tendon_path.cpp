@@ -19,37 +19,84 @@ PinPlace seen_from_C(const Mechanism& mechanism, Side side, double rho) {
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr UpperSpan k_no_span = {k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, k_nan};
 
-/// The line that touches drum and pin, both on its inner side: it passes O at ρ0 and the pin's centre at ρ, so that
-/// P·n = ρ0 − ρ, and going up it meets the pin first.
+/// The line that touches drum and pin, both on its inner side: it passes the drum's centre E at ρ0 and the pin's centre
+/// at ρ, so that (P − E)·n = ρ0 − ρ, and going up it meets the pin first.
 struct DrumLine {
   double normal = 0;
   double length = 0;  ///< from tangent point to tangent point
 };
 
-std::optional<DrumLine> drum_line(const PinPlace& place) {
-  const double to_pin = place.pin().norm();
+std::optional<DrumLine> drum_line(const PinPlace& place, const Vec2& centre) {
+  const Vec2 to_pin = place.pin() - centre;
+  const double distance = to_pin.norm();
   const double beyond = place.drum - place.rho;
-  if (!(std::abs(beyond) < to_pin)) return std::nullopt;
-  return DrumLine{std::atan2(-place.oe, place.e) + std::acos(beyond / to_pin),
-                  std::sqrt((to_pin - beyond) * (to_pin + beyond))};
+  if (!(std::abs(beyond) < distance)) return std::nullopt;
+  return DrumLine{std::atan2(to_pin.y(), to_pin.x()) + std::acos(beyond / distance),
+                  std::sqrt((distance - beyond) * (distance + beyond))};
+}
+
+/// The tendon's end seen from the drum's centre.
+struct FromDrum {
+  double away = 0;
+  double twist = 0;  ///< at home, clockwise from OC, rad
+};
+
+FromDrum end_from_drum(const PinPlace& place) {
+  if (place.drum_off == 0) return {place.R, place.twist};
+  const double ahead = place.drum_twist - place.twist;
+  const Vec2 seen(-place.drum_off * std::sin(ahead), place.R - place.drum_off * std::cos(ahead));
+  return {std::max(place.drum, seen.norm()), place.twist + std::atan2(seen.x(), seen.y())};
 }
 
 /// How far the tendon's end stands behind the normal of the tangent from it to the drum.
-double opening(const PinPlace& place) { return std::acos(place.drum / place.R); }
+double opening(const PinPlace& place, const FromDrum& end) { return std::acos(place.drum / end.away); }
 
-/// Over the drum: the line at the pin stands still, and what the joint turns by, the drum winds.
-UpperSpan span_on_drum(const PinPlace& place, const DrumLine& line, double wound) {
+double wound_on(const PinPlace& place, const FromDrum& end, const DrumLine& line, double theta) {
+  const double turned = end.twist == 0 ? theta : theta + end.twist;
+  return 0.5 * k_pi - turned - opening(place, end) - line.normal;
+}
+
+// The drum's centre E goes round O by e = OE: (P − E)·n = ρ0 − ρ is the free tendon's (C − P)·n = ρ (free_span) with E
+// for C and ρ − ρ0 for ρ, so that normal and line move as there, with k = e sin(θ + ε + ψ) for its arm:
+//
+//   m = ρ0 + k      a = e cos(θ + ε + ψ)      ψ' = −a/f      ω = 1 + ψ'      f' = −k − (ρ − ρ0)ψ'
+//   m' = aω         ψ'' = (kω − ψ'f')/f       m'' = −kω² + aψ''
+//
+// and, what lies on the drum being π/2 − θ − opening − ψ, for the length L' = ρ0 (−1 − ψ') + f' + ρψ' = −m. A drum
+// about O has e = 0: the line at the pin stands still, and what the joint turns by, the drum winds.
+UpperSpan span_on_drum(const PinPlace& place, const FromDrum& end, const DrumLine& line, double wound, double theta) {
   UpperSpan span;
   span.m = place.drum;
   span.normal = line.normal;
   span.on_drum = wound;
   span.end_normal = line.normal + wound;
-  span.free = std::sqrt((place.R - place.drum) * (place.R + place.drum)) + place.drum * wound + line.length;
+  span.free = std::sqrt((end.away - place.drum) * (end.away + place.drum)) + place.drum * wound + line.length;
   span.length = span.free + place.rho * span.normal;
+  if (place.drum_off == 0) return span;
+  const double direction = theta + place.drum_twist + line.normal;
+  const double arm = place.drum_off * std::sin(direction), a = place.drum_off * std::cos(direction);
+  const double omega = 1.0 - a / line.length;
+  const double dlength = -arm - (place.rho - place.drum) * (omega - 1.0);
+  span.dnormal = omega - 1.0;
+  span.d2normal = (arm * omega - span.dnormal * dlength) / line.length;
+  span.m += arm;
+  span.dm = a * omega;
+  span.d2m = -arm * omega * omega + a * span.d2normal;
   return span;
 }
 
 UpperSpan free_span(const PinPlace& place, double theta);
+
+/// An end that a drum off the axis would swallow comes out on its pitch circle.
+void keep_out_of_drum(PinPlace& place) {
+  const Vec2 centre = drum_centre(place, 0.0);
+  const Vec2 end = place.R * Vec2(std::sin(place.twist), std::cos(place.twist));
+  const Vec2 away = end - centre;
+  if (away.norm() >= place.drum) return;
+  const Vec2 out = centre + place.drum * away.normalized();
+  place.R = out.norm();
+  place.twist += std::atan2(cross(out, end), out.dot(end));  // clockwise
+}
 
 }  // namespace
 
@@ -70,25 +117,49 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
     place.twist = x == 0 && own->along < 0 ? k_pi : std::atan2(x, own->along);
   }
   place.R = std::max(place.R, place.drum);
+  if (const Attachment& centre = joint.drum_centre; place.drum > 0 && centre != Attachment{}) {
+    const double x = mirror_sign(side) * centre.across;
+    place.drum_off = std::hypot(x, centre.along);
+    place.drum_twist = std::atan2(x, centre.along);
+    keep_out_of_drum(place);
+  }
   return place;
+}
+
+Vec2 drum_centre(const PinPlace& place, double theta) {
+  if (place.drum_off == 0) return Vec2(0.0, 0.0);
+  const double turned = theta + place.drum_twist;
+  return place.drum_off * Vec2(std::sin(turned), std::cos(turned));
 }
 
 std::optional<double> lift_off(const PinPlace& place) {
   if (!(place.drum > 0)) return std::nullopt;
-  const auto line = drum_line(place);
-  if (!line) return std::nullopt;
-  return 0.5 * k_pi - opening(place) - line->normal - place.twist;
+  const FromDrum end = end_from_drum(place);
+  const auto home = drum_line(place, drum_centre(place, 0.0));
+  if (!home) return std::nullopt;
+  double leaves = 0.5 * k_pi - opening(place, end) - home->normal - end.twist;
+  // About a drum off the axis the line turns a little too: what is wound falls with θ by 1 + ψ', which is nearly 1.
+  for (int i = 0; i < 60 && place.drum_off != 0; ++i) {
+    const auto line = drum_line(place, drum_centre(place, leaves));
+    if (!line) return std::nullopt;
+    const double wound = wound_on(place, end, *line, leaves);
+    leaves += wound;
+    if (std::abs(wound) < 1e-14) break;
+  }
+  return leaves;
 }
 
-// With a drum, the end's direction is π/2 − θ − τ, and the tangent from it to the drum has its normal an opening of
-// acos(ρ0/R) before that. Where this is further round than the line from drum to pin, what is between lies on the drum.
+// With a drum, the end's direction from its centre is π/2 − θ − τ, and the tangent from it to the drum has its normal
+// an opening of acos(ρ0/R) before that. Where this is further round than the line from drum to pin, what is between
+// lies on the drum.
 UpperSpan upper_span(const PinPlace& place, double theta) {
   const double turned = place.twist == 0 ? theta : theta + place.twist;
   if (!(place.drum > 0)) return free_span(place, turned);
-  const auto line = drum_line(place);
+  const auto line = drum_line(place, drum_centre(place, theta));
   if (!line) return k_no_span;
-  const double wound = 0.5 * k_pi - turned - opening(place) - line->normal;
-  return wound >= 0 ? span_on_drum(place, *line, wound) : free_span(place, turned);
+  const FromDrum end = end_from_drum(place);
+  const double wound = wound_on(place, end, *line, theta);
+  return wound >= 0 ? span_on_drum(place, end, *line, wound, theta) : free_span(place, turned);
 }
 
 namespace {

@@ -51,6 +51,40 @@ TEST(RigidJoint, DerivativesAreThoseOfDifferences) {
   }
 }
 
+// The drum's centre is no dimension of a file, but calibrate finds it off the axis. Moving the drum changes the path by
+// what the straight pieces on either side pull on it.
+template <bool is_across>
+void move_drum(Alteration& joint, double by) {
+  (is_across ? joint.mounted.joint.drum_centre.across : joint.mounted.joint.drum_centre.along) += by;
+}
+template <bool is_across>
+double by_drum_centre(const PinPlace& pin, const LowerPath&, Side side, double theta, double) {
+  const UpperSpan span = upper_span(pin, theta);
+  const Vec2 across(std::cos(theta), -std::sin(theta)), along(std::sin(theta), std::cos(theta));
+  const Vec2 pulled = turned_left(unit(span.normal)) - turned_left(unit(span.end_normal));
+  return pulled.dot(is_across ? Vec2(mirror_sign(side) * across) : along);
+}
+
+TEST(RigidJoint, ADrumOffTheAxisIsThePullOnItByDifferences) {
+  constexpr double step = 1e-4;
+  const std::vector<Dimension> centre = {{"across", move_drum<true>, by_drum_centre<true>},
+                                         {"along", move_drum<false>, by_drum_centre<false>}};
+  for (const Mechanism& mechanism : {testing::finger(), testing::ankle()}) {
+    const Transmission transmission(mechanism);
+    const MadePulleys made(mechanism);
+    for (const Dimension& dimension : centre) {
+      const RigidJoint more = altered(made, mechanism, dimension, step);
+      const RigidJoint less = altered(made, mechanism, dimension, -step);
+      for (const double theta : {-0.3, 0.15, 0.4}) {
+        const double alpha = transmission.alpha(theta);
+        const RigidPoint rate = derivative(as_declared(mechanism), dimension, alpha);
+        EXPECT_NEAR((more.at(alpha).theta - less.at(alpha).theta) / (2 * step), rate.theta, 1e-6) << dimension.key;
+        EXPECT_NEAR((more.at(alpha).slack - less.at(alpha).slack) / (2 * step), rate.slack, 1e-5) << dimension.key;
+      }
+    }
+  }
+}
+
 TEST(RigidJoint, ScalingAllLengthsChangesNothing) {
   // An exact null direction of the mechanism: by Euler, length times derivative over all lengths adds up to zero.
   const Mechanism m = unsymmetric();

@@ -102,6 +102,18 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
     c.hidden.gravity_direction = 0.5;
     c.plans = about_zero(load);
   });
+  if (declared.joint.drum_radius > 0) {
+    const double drum = declared.joint.drum_radius;
+    add("drum_radius", [&](LoopCase& c) { c.hidden.drum_radius = -0.02 * drum; });
+    add("drum_runout", [&](LoopCase& c) { c.hidden.drum_runout = 0.02 * drum, c.hidden.drum_runout_phase = 2.0; });
+  }
+  const auto add_end = [&](const std::string& name, std::size_t tendon, const std::optional<Attachment>& own) {
+    if (!own) return;
+    const double away = std::hypot(own->across, own->along);
+    add(name, [&](LoopCase& c) { c.hidden.end_moved[tendon] = away * Vec2(tendon == 0 ? -0.02 : 0.02, 0.01); });
+  };
+  add_end("attachment1_place", 0, declared.joint.attachment1);
+  add_end("attachment2_place", 1, declared.joint.attachment2);
   return cases;
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 /// Tendon that moves over a pin by this much has the friction of its new direction, but for 1/e. mm
 constexpr double k_bristle = 2e-4;
-constexpr double k_furthest = radians(85.0);
+constexpr double k_furthest = radians(85.0);  // of a joint that is not declared to go further
+constexpr double k_beyond_range = radians(25.0);
 /// The knot lies this much further along the groove than the tendon leaves it anywhere in the range. mm
 constexpr double k_knot_beyond = 5.0;
 /// Of the quickest part of creep: the middle of the first decade. s
@@ -89,12 +90,32 @@ double softer_at_rest(double EA, double pretension, double hardening) {
   return EA / (1.0 + 2.0 * x);
 }
 
+/// Seen upside down the drum is a pulley below its pin.
+Vec2 flipped(const Vec2& point) { return {point.x(), -point.y()}; }
+
+constexpr int k_drum_corners = 2048;
+
 double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+/// The string from where a link holds it, over its drum, down to the pin. The link stands still and the pin goes round
+/// it, which `over` follows.
+UpperString string_up(const BenchTendon& tendon, const Circle& pin, double theta, std::ptrdiff_t& over) {
+  if (tendon.drum.corners.empty()) return upper_string(turned(tendon.end, -theta), pin);
+  const LowerString string = lower_string(tendon.drum, {flipped(turned(pin.centre, theta)), pin.radius}, over);
+  const auto count = static_cast<std::ptrdiff_t>(tendon.drum.corners.size());
+  over = string.corner;
+  const auto turns = static_cast<double>((string.corner - tendon.tied) / count);
+  const std::size_t at = static_cast<std::size_t>(((string.corner % count) + count) % count);
+  double on_drum = tendon.drum.arc[at] - tendon.drum.arc[static_cast<std::size_t>(tendon.tied)];
+  on_drum += tendon.drum.around * std::max(0.0, turns);
+  if (string.corner >= tendon.tied && on_drum < 0) on_drum += tendon.drum.around;
+  return {string.length + on_drum, turned(flipped(string.normal), -theta), string.arm};
 }
 
 }  // namespace
@@ -109,6 +130,18 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
   const DeclaredMechanism& declared = joint.declared;
   R_ = declared.joint.R + hidden.joint_length;
   friction_ = std::max(0.0, declared.guides.mu + hidden.friction);
+  if (declared.guides.kind == GuideKind::idler) {
+    const double to_cord = declared.guides.radius + hidden.guide_radius + 0.5 * declared.tendon.diameter;
+    const double bearing = std::max(0.0, declared.guides.bearing_friction + hidden.bearing_friction);
+    friction_ = 0;
+    turning_ = bearing * declared.guides.bearing_radius / to_cord;
+  }
+  furthest_ =
+      std::max({k_furthest, declared.joint.theta_max + k_beyond_range, k_beyond_range - declared.joint.theta_min});
+  if (declared.joint.is_plain()) furthest_ = k_furthest;
+  torque_declared_ = declared.load.torque;
+  weight_ = 9.80665 * declared.load.mass * declared.load.lever;
+  tilt_ = declared.load.tilt;
   const double modulus = hidden.modulus > 0 ? hidden.modulus : declared.tendon.modulus;
   EA_ = modulus * k_pi * declared.tendon.diameter * declared.tendon.diameter / 4.0;
   if (hidden.hardening > 0) EA_ = softer_at_rest(EA_, declared.tendon.pretension, hidden.hardening);
@@ -121,8 +154,9 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
         (side == 0 ? declared.guides.EB : declared.guides.ED) + hidden.guide_outward + hidden.pin_outward[side];
     tendon.pin = {{outward, -declared.guides.OE - hidden.guide_down - hidden.pin_down[side]},
                   declared.guides.radius + hidden.guide_radius + 0.5 * declared.tendon.diameter};
+    build_link(tendon, side, declared);
     tendon.axis = {0.0, -declared.guides.OE - declared.pulley.EF};
-    const double own_arm = upper_string({0.0, R_}, tendon.pin).arm;
+    const double own_arm = string_up(tendon, tendon.pin, 0.0, tendon.over).arm;
     const double pretension = hidden.slack > 0 ? 0.0 : declared.tendon.pretension;
     hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
          side == 0 ? -joint.alpha_max : joint.alpha_min);
@@ -130,10 +164,46 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
   }
 }
 
+void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMechanism& declared) const {
+  const Joint& joint = declared.joint;
+  const auto& own = side == 0 ? joint.attachment1 : joint.attachment2;
+  const auto seen = [side](const Vec2& place) { return side == 0 ? mirrored(place) : place; };
+  tendon.end = own ? seen(Vec2(own->across, own->along) + hidden_.end_moved[side]) : Vec2(0.0, R_);
+  if (!(joint.drum_radius > 0)) return;
+  const double radius = joint.drum_radius + hidden_.drum_radius + 0.5 * declared.tendon.diameter;
+  const Vec2 centre =
+      seen(hidden_.drum_runout * Vec2(std::cos(hidden_.drum_runout_phase), std::sin(hidden_.drum_runout_phase)));
+  // What is tied in the drum comes out of it at the cord's own height.
+  const Vec2 from_centre = tendon.end - centre;
+  if (from_centre.norm() < radius) tendon.end = centre + radius / from_centre.norm() * from_centre;
+  Polygon corners = {flipped(tendon.end)};
+  for (int i = 0; i < k_drum_corners; ++i) {
+    const double angle = k_two_pi * i / k_drum_corners;
+    corners.push_back(flipped(centre) + radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  tendon.drum = hull_of(corners);
+  const auto nearer = [&](const Vec2& a, const Vec2& b) { return (a - corners[0]).norm() < (b - corners[0]).norm(); };
+  const Polygon& hull = tendon.drum.corners;
+  tendon.over = tendon.tied = std::min_element(hull.begin(), hull.end(), nearer) - hull.begin();
+}
+
+/// Lower per upper tension at this share of the friction. An idler's bearing is pressed by both as vectors.
+double Bench::ratio(double wrap, double bristle) const {
+  if (turning_ == 0) return std::exp(friction_ * wrap * bristle);
+  double lower = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double pressed = std::sqrt(1.0 + lower * lower - 2.0 * lower * std::cos(wrap));
+    const double next = 1.0 + bristle * turning_ * pressed;
+    if (std::abs(next - lower) < 1e-15) break;
+    lower = next;
+  }
+  return lower;
+}
+
 /// Cut to length so that it carries `tension` at home; no friction is in use. The knot is met at the image's angle
 /// `unwound`.
 void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwound) {
-  const UpperString up = upper_string({0.0, R_}, tendon.pin);
+  const UpperString up = string_up(tendon, tendon.pin, 0.0, tendon.over);
   const Circle seen{tendon.pin.centre - tendon.axis, tendon.pin.radius};
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
   const Cord cord{EA_, hidden_.hardening, 1.0};
@@ -144,8 +214,12 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
   tendon.lower = cord.material(below, tension) + 0.25 * slack;
   tendon.wound = low.arc;
   tendon.corner = low.corner;
-  const Circle at_end{turned(seen.centre, unwound), seen.radius};
-  const double knot = lower_string(tendon.hull, at_end, low.corner).arc - k_knot_beyond;
+  // By steps: past half a turn a string would be looked for the other way round.
+  LowerString at_end = low;
+  const int steps = 1 + static_cast<int>(std::abs(unwound));
+  for (int i = 1; i <= steps; ++i)
+    at_end = lower_string(tendon.hull, {turned(seen.centre, unwound * i / steps), seen.radius}, at_end.corner);
+  const double knot = at_end.arc - k_knot_beyond;
   tendon.laid = GrooveChain(tendon.hull, knot, low.arc, tension, hidden_.groove_friction, cord);
   tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
   tendon.push = tendon.home_push = tension * (turned(low.normal, -0.5 * k_pi) - turned(up.normal, -0.5 * k_pi));
@@ -188,6 +262,7 @@ Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer,
   const LowerString string = lower_string(tendon.hull, seen, tendon.corner);
   below.normal = direction(turned(string.normal, -image_angle));
   below.corner = string.corner;
+  below.over = tendon.over;
   below.wound = string.arc;
   below.length = string.length + tendon.pin.radius * (tendon.mark - below.normal);
   below.length += tendon.sign * (lump(at.alpha) - lump(0.0)) + longer;
@@ -205,11 +280,10 @@ Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer,
 Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
   const BenchTendon& tendon = tendons_[side];
   const double image_theta = tendon.sign * theta;
-  const Vec2 end(R_ * std::sin(image_theta), R_ * std::cos(image_theta));
-  const UpperString up = upper_string(end, below.pin);
+  const UpperString up = string_up(tendon, below.pin, image_theta, below.over);
   const double normal = direction(up.normal);
   const double length = up.length + below.pin.radius * (normal - tendon.mark);
-  const double grip = friction_ * std::max(0.0, normal - below.normal);
+  const double wrap = std::max(0.0, normal - below.normal);
   Trial trial;
   const auto slip = [&](double slipped) {
     const double towards = slipped > 0 ? 1.0 : -1.0;
@@ -220,7 +294,7 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
   const auto too_little = [&](double tension) {
     trial.lower_tension = tension;
     slip(below.cord.material(below.length, tension) - below.material + below.laid.taken(tension));
-    return trial.upper_tension * std::exp(grip * trial.bristle) - tension;
+    return trial.upper_tension * ratio(wrap, trial.bristle) - tension;
   };
   const double loose = too_little(0.0);
   if (loose > 0) {
@@ -240,6 +314,7 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
 double Bench::excess(std::array<Below, 2>& below, double theta, const Conditions& at) const {
   const double weight = hidden_.gravity * std::sin(theta - hidden_.gravity_direction);
   double all = tried(1, below[1], theta).torque - tried(0, below[0], theta).torque - at.load * R_ + weight;
+  all -= torque_declared_ + weight_ * std::sin(tilt_ - theta);
   if (!torque_.empty()) {
     Moment then = at;
     then.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);
@@ -270,7 +345,7 @@ double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double
     low = high;
     at_low = at_high;
     high *= 2.0;
-    if (!(std::abs(theta_ + towards * high) < k_furthest)) return std::numeric_limits<double>::quiet_NaN();
+    if (!(std::abs(theta_ + towards * high) < furthest_)) return std::numeric_limits<double>::quiet_NaN();
     at_high = left(high);
   }
   return theta_ + towards * crossing(low, at_low, high, at_high, 1e-12, left);
@@ -309,6 +384,7 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
     tendon.laid = std::move(lower[side].laid);
     tendon.wound = lower[side].wound;
     tendon.corner = lower[side].corner;
+    tendon.over = lower[side].over;
     tendon.bristle = now[side].bristle;
     tendon.let_go = at.let_go[side];
     tendon.upper_tension = now[side].upper_tension;

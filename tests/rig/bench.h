@@ -24,6 +24,10 @@ struct BenchTendon {
   Circle pin;
   Vec2 axis = Vec2::Zero();   ///< of the pulley
   double sign = 1;            ///< of the image's angles
+  Vec2 end = Vec2::Zero();    ///< where it is tied, in the link at home
+  Hull drum;                  ///< with that end, in the link at home, upside down; empty: no drum
+  std::ptrdiff_t tied = 0;    ///< the corner of `drum` that the end is
+  std::ptrdiff_t over = 0;    ///< and the one at which the string to the pin leaves it
   double mark = 0;            ///< direction of the point of the pin's rim between the upper and the lower part
   double upper = 0;           ///< unstretched length above the mark, mm
   double lower = 0;           ///< below it, up to the pulley
@@ -63,6 +67,7 @@ class Bench {
     double wound = 0;
     double normal = 0;
     std::ptrdiff_t corner = 0;
+    std::ptrdiff_t over = 0;
     Cord cord;
     GrooveChain laid;
     double guess = 0;  ///< of the tension above the groove, N
@@ -77,6 +82,8 @@ class Bench {
     Vec2 push = Vec2::Zero();
   };
 
+  void build_link(BenchTendon& tendon, std::size_t side, const DeclaredMechanism& declared) const;
+  double ratio(double wrap, double bristle) const;
   void hang(BenchTendon& tendon, double tension, double slack, double unwound);
   Cord cord(std::size_t side, const Conditions& conditions) const;
   void creep(BenchTendon& tendon, double seconds) const;
@@ -91,6 +98,11 @@ class Bench {
   double R_ = 0;
   double EA_ = 0;
   double friction_ = 0;
+  double turning_ = 0;   ///< of idlers: friction of the bearing, at its radius per the idler's; 0: pins
+  double furthest_ = 0;  ///< θ at which nothing is thought to hold the joint
+  double torque_declared_ = 0;
+  double weight_ = 0;  ///< times its lever, N·mm
+  double tilt_ = 0;
   double step_ = 0;  ///< of θ, the last one
   double theta_ = 0;
   std::array<BenchTendon, 2> tendons_;

@@ -36,12 +36,15 @@ struct Fault {
 };
 
 struct FaultList {
-  std::string split;  ///< "named", or the split of faults without a name
+  std::string split;  ///< "named", "wide", or the split of faults without a name
   std::vector<Fault> faults;
 };
 
 /// Every effect of the catalogue by its name, in the order of the chain.
 std::vector<Fault> named_faults();
+/// The same of parts that only joints of the wider class have: drum, attachments, idlers. A list of its own: which
+/// faults random joints have is drawn from the other.
+std::vector<Fault> wide_faults();
 /// Without a name: those that thresholds may be tuned on.
 std::vector<Fault> tuning_faults();
 /// Without a name, and by another hand: kept aside, nothing is tuned on them and they are run once.

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <ostream>
+#include <string>
 
 #include "fusee/joint/joint_model.h"
 #include "fusee/joint/simulate.h"
+#include "fusee/mechanism/file.h"
 #include "rig/rig.h"
 #include "rig/string_geometry.h"
 #include "support/mechanisms.h"
@@ -90,18 +92,17 @@ std::vector<double> less(std::vector<double> one, const std::vector<double>& oth
   return one;
 }
 
-TEST_P(Same, FaultDoesTheSameInBoth) {
-  DeclaredMechanism declared = testing::forearm();
-  declared.tendon.modulus = 8000;
+/// Holds a fault's part of the reading, and the whole reading, by the rig against the model's.
+void expect_same(const DeclaredMechanism& declared, const SameFault& fault, double load) {
   const MadeJoint joint = make_joint(declared);
   Hidden hidden;
-  GetParam().hide(hidden);
+  fault.hide(hidden);
   SensorPlan silent;
   silent.noise = 0;
   MotionPlan motion;
   motion.rows_per_stroke = 60;
   motion.loaded_first = true;  // as the model, which does not know what happened before a run, comes to its first row
-  const std::vector<RunPlan> runs = full_protocol(10);
+  const std::vector<RunPlan> runs = full_protocol(load);
   const std::vector<Log> faulty = log_runs(joint, hidden, runs, silent, motion);
   BenchLog log;
   for (const Log& run : faulty) {
@@ -110,15 +111,70 @@ TEST_P(Same, FaultDoesTheSameInBoth) {
     for (const Row& row : run) bench.rows.push_back({row.time, row.alpha, row.load, row.temperature});
   }
   Imperfections at;
-  GetParam().say(at);
+  fault.say(at);
   const std::vector<double> shown = less(flat(faulty), flat(log_runs(joint, {}, runs, silent, motion)));
   const std::vector<double> said = less(flat(predict(declared, at, log)), flat(predict(declared, {}, log)));
   const double size = rms(shown, std::vector<double>(shown.size(), 0.0));
   const double miss = rms(shown, said);
   EXPECT_GT(degrees(size), 0.01);
-  EXPECT_LT(miss, GetParam().share * size) << degrees(size) << " deg, missed " << degrees(miss);
+  EXPECT_LT(miss, fault.share * size) << degrees(size) << " deg, missed " << degrees(miss);
   EXPECT_LT(degrees(rms(flat(faulty), flat(predict(declared, at, log)))), 0.005);
 }
+
+TEST_P(Same, FaultDoesTheSameInBoth) {
+  DeclaredMechanism declared = testing::forearm();
+  declared.tendon.modulus = 8000;
+  expect_same(declared, GetParam(), 10);
+}
+
+/// Of the joints that people build, each with a load that its tendons bear beside their pretension.
+struct WideFault {
+  const char* profile;
+  double load;
+  SameFault fault;
+};
+
+void PrintTo(const WideFault& fault, std::ostream* out) { *out << fault.profile << " " << fault.fault.name; }
+
+void make_drum_larger(Hidden& h) { h.drum_radius = 0.15; }
+void say_drum_larger(Imperfections& at) { at.joint.drum.radius = 0.15; }
+void put_drum_off(Hidden& h) { h.drum_runout = 0.12, h.drum_runout_phase = 0.8; }
+void say_drum_off(Imperfections& at) {
+  at.joint.drum.across = 0.12 * std::cos(0.8), at.joint.drum.along = 0.12 * std::sin(0.8);
+}
+void move_ends(Hidden& h) { h.end_moved = {Vec2(1.0, -0.7), Vec2(-0.6, 0.9)}; }
+void say_ends_moved(Imperfections& at) {
+  at.joint.end1 = {1.0, -0.7};
+  at.joint.end2 = {-0.6, 0.9};
+}
+void rub_idlers(Hidden& h) { h.bearing_friction = 0.8; }
+void say_idlers_rub(Imperfections& at) { at.pins.bearing_friction = 0.8; }
+
+const std::vector<WideFault> k_wide_faults{
+    {"finger_mcp", 0.7, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
+    {"finger_mcp", 0.7, {"drum_runout", put_drum_off, say_drum_off, 0.02}},
+    {"finger_pip", 0.8, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
+    {"finger_pip", 0.8, {"drum_runout", put_drum_off, say_drum_off, 0.02}},
+    {"finger_pip", 0.8, {"attachments", move_ends, say_ends_moved, 0.02}},
+    {"ankle_exo", 20, {"attachments", move_ends, say_ends_moved, 0.02}},
+    {"elbow_idlers", 2.5, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
+    {"elbow_idlers", 2.5, {"drum_runout", put_drum_off, say_drum_off, 0.02}},
+    {"elbow_idlers", 2.5, {"attachments", move_ends, say_ends_moved, 0.02}},
+    {"elbow_idlers", 2.5, {"idler_friction", rub_idlers, say_idlers_rub, 0.05}},
+};
+
+class SameWide : public ::testing::TestWithParam<WideFault> {};
+
+TEST_P(SameWide, FaultDoesTheSameInBoth) {
+  const std::string file = std::string(FUSEE_SOURCE_DIR) + "/profiles/" + GetParam().profile + ".toml";
+  DeclaredMechanism declared = read_mechanism(file).mechanism;
+  declared.load = {};
+  expect_same(declared, GetParam().fault, GetParam().load);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fault, SameWide, ::testing::ValuesIn(k_wide_faults), [](const auto& fault) {
+  return std::string(fault.param.profile) + "_" + fault.param.fault.name;
+});
 
 /// A string wound on the polygon that was made, against the model's paths: what is free and what lies on the pulley.
 struct Wound {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/mechanism/file.h"
 #include "rig/judge.h"
 
 namespace fusee::rig {
@@ -44,6 +45,9 @@ constexpr const char* k_usage =
     "  --jobs N            joints at work at once (2)\n"
     "  --most-missed P     exit code 4 when more than P % of the named faults are missed\n"
     "  --most-blamed P     exit code 4 when more than P % of the joints, of either kind, are falsely blamed\n"
+    "  --joint FILE        this joint, without its [load], and none drawn at random: faults of its drum, attachments "
+    "and\n"
+    "                      idlers\n"
     "  --list              the truths\n";
 
 constexpr const char* k_full_words =
@@ -64,6 +68,7 @@ struct Request {
   std::vector<std::string> only;
   std::vector<std::string> kinds;
   std::string split = "tuning";
+  std::optional<MadeJoint> joint;
   std::string leave_out;
   std::optional<Protocol> protocol;
   bool any_groove = false;
@@ -133,6 +138,10 @@ bool read_word(const std::string& word, const std::string& text, Request& reques
     request.split = text;
   } else if (word == "--leave-out") {
     request.leave_out = text;
+  } else if (word == "--joint") {
+    DeclaredMechanism declared = read_mechanism(text).mechanism;
+    declared.load = {};
+    request.joint = make_joint(declared);
   } else if (word == "--csv") {
     request.csv = text;
   } else if (word == "--protocol") {
@@ -185,7 +194,7 @@ std::optional<Request> read_request(const std::vector<std::string>& words) {
 
 /// The truths asked for. InputError for one that there is not.
 std::vector<Truth> truths_of(const Request& request) {
-  const std::vector<Truth> all = all_truths();
+  const std::vector<Truth> all = request.joint ? wide_truths(*request.joint) : all_truths();
   if (request.only.empty()) return all;
   std::vector<Truth> chosen;
   for (const std::string& name : request.only) {
@@ -254,7 +263,8 @@ std::vector<Judgement> work(const std::vector<Job>& jobs, const Request& request
   const auto one = [&](std::size_t i) {
     std::string words;
     try {
-      const CaseOptions options{protocol_of(request), request.any_groove || request.joints > 0};
+      const CaseOptions options{protocol_of(request), request.any_groove || request.joints > 0,
+                                request.joint ? &*request.joint : nullptr};
       const Case made = make_case(jobs[i].truth, jobs[i].seed, options);
       if (request.calibration) {
         answers[i] = calibrate_case(made, folder / folder_name(jobs[i]), jobs[i].without);
@@ -304,8 +314,9 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-int list() {
-  for (const Truth& truth : all_truths()) std::printf("%s\n", truth.name.c_str());
+int list(const Request& request) {
+  for (const Truth& truth : request.joint ? wide_truths(*request.joint) : all_truths())
+    std::printf("%s\n", truth.name.c_str());
   return 0;
 }
 
@@ -330,7 +341,7 @@ int run(const std::vector<std::string>& words) {
     std::fputs(k_usage, stderr);
     return 2;
   }
-  if (request->list) return list();
+  if (request->list) return list(*request);
   const std::vector<Job> jobs = jobs_of(*request);
   std::optional<ScratchFolder> scratch;
   if (request->csv.empty()) scratch.emplace();

@@ -6,8 +6,10 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
+#include "fusee/joint/joint_effects.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/mechanism/file.h"
+#include "fusee/transmission/transmission.h"
 
 namespace fusee::rig {
 namespace {
@@ -36,13 +38,21 @@ SensorPlan usual_sensors(const std::string& truth, std::uint64_t seed) {
   return sensors;
 }
 
-Programme programme_of(const Case& made, Protocol protocol, Random& random) {
+/// Of both tendons at home, per the lever of a tip force: what a newton of tendon holds at the tip.
+double least_arm(const MadeJoint& joint) {
+  const TransmissionPoint home = Transmission(joint.declared).at_alpha(0.0);
+  return std::min(home.t1.m, home.t2.m) / joint.declared.joint.R;
+}
+
+Programme programme_of(const Case& made, const CaseOptions& options, Random& random) {
+  const Protocol protocol = options.protocol;
   Programme programme;
   if (protocol == Protocol::random) {
     programme = random_programme(random, made.joint);
   } else {
     // As much more than the pretension as the joints of tests/data/rig carry.
-    const double load = std::round(made.joint.declared.tendon.pretension * (1.4 + 0.4 * random.share()));
+    const double pull = made.joint.declared.tendon.pretension * (1.4 + 0.4 * random.share());
+    const double load = options.joint != nullptr ? pull * least_arm(made.joint) : std::round(pull);
     programme = {
         protocol == Protocol::full ? full_protocol(load) : single_protocol(), {}, usual_sensors(made.truth, made.seed)};
   }
@@ -107,8 +117,8 @@ Sized sized(const Fault& fault, const Character& character, const Case& made, co
 }
 
 bool try_joint(Case& made, Random& random, const CaseOptions& options) {
-  made.joint = random_joint(random);
-  const Programme programme = programme_of(made, options.protocol, random);
+  made.joint = options.joint != nullptr ? *options.joint : random_joint(random);
+  const Programme programme = programme_of(made, options, random);
   made.plans = programme.runs;
   made.motion = programme.motion;
   made.sensors = programme.sensors;
@@ -163,8 +173,21 @@ std::vector<std::string> fault_names() {
 }
 
 bool has_name(const std::string& name) {
-  const std::vector<std::string> named = names_in("named");
-  return find_fault(name).name == name && std::find(named.begin(), named.end(), name) != named.end();
+  const auto in = [&](const char* split) {
+    const std::vector<std::string> names = names_in(split);
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return find_fault(name).name == name && (in("named") || in("wide"));
+}
+
+std::vector<Truth> wide_truths(const MadeJoint& joint) {
+  std::vector<Truth> truths = {{"nothing", {}}};
+  const std::vector<const Effect*> possible = effects_of(joint.declared);
+  for (const std::string& name : names_in("wide")) {
+    const auto is = [&](const Effect* effect) { return effect->name == name; };
+    if (std::any_of(possible.begin(), possible.end(), is)) truths.push_back({name, {name}});
+  }
+  return truths;
 }
 
 std::vector<std::string> kin_of(const std::string& name) { return find_fault(name).kin; }

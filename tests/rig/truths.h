@@ -30,6 +30,9 @@ std::vector<std::string> kin_of(const std::string& fault);
 /// Nothing at all (three kinds of noise), every fault alone but those of a split that is kept aside, and pairs.
 std::vector<Truth> all_truths();
 
+/// Nothing, and every fault of the wide list that this joint can have, alone.
+std::vector<Truth> wide_truths(const MadeJoint& joint);
+
 /// What a joint drawn at random is like.
 enum class Kind {
   nothing,
@@ -47,6 +50,7 @@ enum class Protocol { full, single, random };
 struct CaseOptions {
   Protocol protocol = Protocol::full;
   bool any_groove = false;  ///< the groove's friction is 0.05 … 0.5 while the file says 0.2
+  const MadeJoint* joint = nullptr;  ///< this one, and none drawn at random; loads are those that its tendons bear
 };
 
 /// A joint, its fault and its data.

@@ -357,5 +357,72 @@ TEST(DrumPath, TheMirroredJointHasTheMirroredArms) {
   }
 }
 
+/// A drum whose centre goes round the joint's axis. Second routes: the string laid by hand of a drum about O, on which
+/// it turns, seen from the drum's own centre, and differences.
+PinPlace random_place_off_axis(std::mt19937& random) {
+  PinPlace place = random_place(random);
+  place.drum_off = place.drum * 0.04 * (1 + static_cast<double>(random() % 3));
+  place.drum_twist = radians(static_cast<double>(random() % 360) - 180.0);
+  place.R = std::max(place.R, place.drum + place.drum_off);
+  return place;
+}
+
+TEST(DrumOffTheAxis, IsAtEveryAngleTheStringOfADrumAboutItsOwnCentre) {
+  std::mt19937 random(11);
+  int wound = 0, free = 0;
+  for (int i = 0; i < 200; ++i) {
+    const PinPlace place = random_place_off_axis(random);
+    for (double theta = -1.2; theta < 1.2; theta += 0.17) {
+      const UpperSpan span = upper_span(place, theta);
+      if (!(span.m > 0.1 * place.drum) || span.free < 0.3 * place.drum) break;
+      // The same pin and end from the drum's centre: a joint of another lever, at another angle.
+      const Vec2 centre = drum_centre(place, theta);
+      const double turned = theta + place.twist;
+      const Vec2 end = place.R * Vec2(std::sin(turned), std::cos(turned)) - centre;
+      PinPlace seen = place;
+      seen.e -= centre.x();
+      seen.oe += centre.y();
+      seen.drum_off = seen.drum_twist = 0;
+      seen.R = end.norm();
+      seen.twist = place.twist;
+      double angle = std::atan2(end.x(), end.y()) - place.twist;
+      angle -= k_two_pi * std::round((angle - theta) / k_two_pi);
+      const UpperSpan there = upper_span(seen, angle);
+      EXPECT_NEAR(there.length, span.length, 1e-9 * place.drum) << i << " " << theta;
+      EXPECT_NEAR(there.on_drum, span.on_drum, 1e-9) << i << " " << theta;
+      (span.on_drum > 0 ? wound : free) += 1;
+    }
+  }
+  EXPECT_GT(wound, 300);
+  EXPECT_GT(free, 100);
+}
+
+TEST(DrumOffTheAxis, DerivativesAreThoseOfDifferencesAndTheArmIsVirtualWork) {
+  std::mt19937 random(12);
+  int seen = 0;
+  for (int i = 0; i < 300; ++i) {
+    const PinPlace place = random_place_off_axis(random);
+    const double leaves = *lift_off(place);
+    for (const double off : {-0.9, -0.4, -0.01, 0.01, 0.3}) {
+      constexpr double step = 1e-4;
+      const double theta = leaves + off;
+      const UpperSpan at = upper_span(place, theta), less = upper_span(place, theta - step),
+                      more = upper_span(place, theta + step);
+      if (!(at.m > 0.1 * place.drum) || at.free < 0.5 * place.drum) continue;
+      EXPECT_EQ(at.on_drum > 0, off < 0);
+      EXPECT_NEAR(at.m, -(more.length - less.length) / (2 * step), 1e-6 * place.drum) << i << " " << off;
+      EXPECT_NEAR(at.dm, (more.m - less.m) / (2 * step), 1e-5 * place.drum) << i << " " << off;
+      EXPECT_NEAR(at.d2m, (more.dm - less.dm) / (2 * step), 1e-4 * place.drum) << i << " " << off;
+      EXPECT_NEAR(at.dnormal, (more.normal - less.normal) / (2 * step), 1e-6) << i << " " << off;
+      EXPECT_NEAR(at.d2normal, (more.dnormal - less.dnormal) / (2 * step), 1e-5) << i << " " << off;
+      ++seen;
+    }
+    const UpperSpan on = upper_span(place, leaves - 1e-9), after = upper_span(place, leaves + 1e-9);
+    EXPECT_NEAR(on.length, after.length, 1e-7 * place.drum);
+    EXPECT_NEAR(on.m, after.m, 1e-6 * place.drum);
+  }
+  EXPECT_GT(seen, 500);
+}
+
 }  // namespace
 }  // namespace fusee

@@ -96,6 +96,11 @@ void reset(Imperfections& joint, const EffectParameter& parameter);
 /// What must be logged for an effect to be seen at all.
 struct Needs {
   bool tendons = false;  ///< the joint is declared with its tendons
+  bool drum = false;     ///< the joint has a drum, and a tendon lies on it somewhere in the range
+  bool end1 = false;     ///< tendon 1 has an attachment of its own, and is free of any drum somewhere in the range
+  bool end2 = false;     ///< the same of tendon 2
+  bool pins = false;     ///< tendons slide over their guides
+  bool idlers = false;   ///< tendons turn them
   bool time = false;
   bool load = false;         ///< declared or logged
   bool temperature = false;  ///< that changes

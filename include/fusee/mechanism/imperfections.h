@@ -73,7 +73,8 @@ struct PinError {
   PinPlaceError left;
   PinPlaceError right;
   double radius = 0;    ///< added to both pins' radius, mm
-  double friction = 0;  ///< added to the capstan coefficient
+  double friction = 0;  ///< added to the capstan coefficient, of idlers to that of their bearings
+  double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
   double give = 0;      ///< each pin moves along the tendon's force on it, mm/N
 
   bool operator==(const PinError&) const = default;
@@ -87,9 +88,29 @@ struct WeightError {
   bool operator==(const WeightError&) const = default;
 };
 
+/// Of the joint's drum, fixed to the link.
+struct DrumError {
+  double radius = 0;  ///< added to it, mm
+  double across = 0;  ///< its centre off the joint's axis, in the link at home, to the right, mm
+  double along = 0;   ///< and along OC
+
+  bool operator==(const DrumError&) const = default;
+};
+
+/// Where a tendon ends beside where its own attachment is declared, in the link at home. mm
+struct AttachmentError {
+  double across = 0;  ///< to the right
+  double along = 0;   ///< along OC
+
+  bool operator==(const AttachmentError&) const = default;
+};
+
 struct JointError {
   double length = 0;    ///< added to OC, mm
   double friction = 0;  ///< dry friction of the bearing, N·mm
+  DrumError drum;
+  AttachmentError end1;
+  AttachmentError end2;
   WeightError weight;
   double mean_load = 0;  ///< tip force beside the declared one, under which the joint is to follow its law, N
 

@@ -37,6 +37,8 @@ struct Joint {
   double drum_radius = 0;
   std::optional<Attachment> attachment1 = std::nullopt;  ///< of tendon 1 where it is not C
   std::optional<Attachment> attachment2 = std::nullopt;
+  /// The drum's centre off O, fixed to the link. No key has it: joints are found to be so (mounted()).
+  Attachment drum_centre = {};
 
   bool operator==(const Joint&) const = default;
 
@@ -238,6 +240,7 @@ struct RatioTransmission {
 /// What was measured of the joint by hand: value and its standard uncertainty, in the file's unit; empty where nothing was.
 struct Prior {
   std::vector<double> EB, ED, OE, EF, guide_radius, length, radius_offset, pulley_scale, modulus;
+  std::vector<double> drum_radius, attachment1_across, attachment1_along, attachment2_across, attachment2_along;
 
   bool operator==(const Prior&) const = default;
 };

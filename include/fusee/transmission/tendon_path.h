@@ -47,6 +47,8 @@ struct PinPlace {
   /// Of the sheath between pin and pulley: there the tendon leaves the pin straight down.
   std::optional<LowerGuide> mouth = std::nullopt;
   double in_sheath = 0;  ///< length of tendon between pin and mouth
+  double drum_off = 0;    ///< from O to the drum's centre, which turns with the link
+  double drum_twist = 0;  ///< that centre's angle at home, clockwise from OC, rad
 
   Vec2 pin() const { return {e, -oe}; }
   Vec2 pulley_axis() const { return {0.0, -oe - ef}; }
@@ -59,6 +61,9 @@ struct PinPlace {
 /// An end between the drum's surface and its pitch circle is taken onto that circle: there the tendon comes out of the
 /// drum.
 PinPlace pin_place(const Mechanism& mechanism, Side side, double rho);
+
+/// Of the drum at joint angle `theta` of the image.
+Vec2 drum_centre(const PinPlace& place, double theta);
 
 /// Of the right-hand image: where it is larger the tendon is free of the drum, elsewhere on it. Null without a drum,
 /// and where the pin stands in it.

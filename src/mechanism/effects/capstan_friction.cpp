@@ -35,6 +35,7 @@ Effect capstan_friction(JointKind kind) {
                                 "of a joint declared by a ratio: half loop per unit of load")}};
     return effect;
   }
+  effect.needs = {.pins = true};
   effect.parameters = {
       {.name = "mu",
        .number = [](Imperfections& at) -> double& { return at.pins.friction; },

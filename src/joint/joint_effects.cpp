@@ -1,0 +1,47 @@
+#include "fusee/joint/joint_effects.h"
+
+#include "fusee/transmission/tendon_path.h"
+
+namespace fusee {
+namespace {
+
+struct OnDrum {
+  bool somewhere = false;
+  bool everywhere = false;
+};
+
+OnDrum on_drum(const Mechanism& mechanism, Side side) {
+  if (!(mechanism.joint.drum_radius > 0)) return {};
+  const auto leaves = lift_off(pin_place(mechanism, side, mechanism.seen_pitch_radius()));
+  if (!leaves) return {};
+  const double least = side == Side::right ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
+  const double most = side == Side::right ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
+  return {*leaves > least, *leaves >= most};
+}
+
+bool has_free_end(const Mechanism& mechanism, Side side) {
+  const auto& own = side == Side::left ? mechanism.joint.attachment1 : mechanism.joint.attachment2;
+  return own && !on_drum(mechanism, side).everywhere;
+}
+
+}  // namespace
+
+bool has_part(const Mechanism& mechanism, const Needs& needs) {
+  if (mechanism.transmission)
+    return !(needs.tendons || needs.drum || needs.end1 || needs.end2 || needs.pins || needs.idlers);
+  const bool is_idler = mechanism.guides.kind == GuideKind::idler;
+  return !(needs.pins && is_idler) && !(needs.idlers && !is_idler) &&
+         !(needs.drum && !on_drum(mechanism, Side::left).somewhere && !on_drum(mechanism, Side::right).somewhere) &&
+         !(needs.end1 && !has_free_end(mechanism, Side::left)) &&
+         !(needs.end2 && !has_free_end(mechanism, Side::right));
+}
+
+std::vector<const Effect*> effects_of(const Mechanism& mechanism) {
+  std::vector<const Effect*> all;
+  for (const Effect& effect : effects(kind_of(mechanism))) {
+    if (has_part(mechanism, effect.needs)) all.push_back(&effect);
+  }
+  return all;
+}
+
+}  // namespace fusee

@@ -1,0 +1,39 @@
+#include <vector>
+
+#include "mechanism/effects/attachment.h"
+
+namespace fusee {
+namespace {
+
+std::vector<CaliperReading> across1_by_caliper(const DeclaredMechanism& declared) {
+  if (!declared.joint.attachment1) return {};
+  return hand_reading(declared.prior.attachment1_across, declared.joint.attachment1->across);
+}
+std::vector<CaliperReading> along1_by_caliper(const DeclaredMechanism& declared) {
+  if (!declared.joint.attachment1) return {};
+  return hand_reading(declared.prior.attachment1_along, declared.joint.attachment1->along);
+}
+
+}  // namespace
+
+Effect attachment1_place(JointKind) {
+  Effect effect = attachment_effect(1);
+  effect.name = "attachment1_place";
+  effect.parameters = {
+      attachment_part(
+          "across_mm", [](Imperfections& at) -> double& { return at.joint.end1.across; },
+          key::plain("attachment1_across_mm", "mm", -10000, 10000, "added to the first number of joint.attachment1_mm"),
+          {"measure how far to the right of the joint's axis tendon 1 is tied at home and write [prior] "
+           "attachment1_across_mm",
+           k_caliper, across1_by_caliper},
+          {"tendon 1 is tied further left", "tendon 1 is tied further right"}),
+      attachment_part("along_mm", [](Imperfections& at) -> double& { return at.joint.end1.along; },
+                      key::plain("attachment1_along_mm", "mm", -10000, 10000, "added to its second number"),
+                      {"measure how far along the link from the joint's axis tendon 1 is tied and write [prior] "
+                       "attachment1_along_mm",
+                       k_caliper, along1_by_caliper},
+                      {"tendon 1 is tied nearer to the axis", "tendon 1 is tied further along"})};
+  return effect;
+}
+
+}  // namespace fusee

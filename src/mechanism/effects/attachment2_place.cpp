@@ -1,0 +1,39 @@
+#include <vector>
+
+#include "mechanism/effects/attachment.h"
+
+namespace fusee {
+namespace {
+
+std::vector<CaliperReading> across2_by_caliper(const DeclaredMechanism& declared) {
+  if (!declared.joint.attachment2) return {};
+  return hand_reading(declared.prior.attachment2_across, declared.joint.attachment2->across);
+}
+std::vector<CaliperReading> along2_by_caliper(const DeclaredMechanism& declared) {
+  if (!declared.joint.attachment2) return {};
+  return hand_reading(declared.prior.attachment2_along, declared.joint.attachment2->along);
+}
+
+}  // namespace
+
+Effect attachment2_place(JointKind) {
+  Effect effect = attachment_effect(2);
+  effect.name = "attachment2_place";
+  effect.parameters = {
+      attachment_part(
+          "across_mm", [](Imperfections& at) -> double& { return at.joint.end2.across; },
+          key::plain("attachment2_across_mm", "mm", -10000, 10000, "added to the first number of joint.attachment2_mm"),
+          {"measure how far to the right of the joint's axis tendon 2 is tied at home and write [prior] "
+           "attachment2_across_mm",
+           k_caliper, across2_by_caliper},
+          {"tendon 2 is tied further left", "tendon 2 is tied further right"}),
+      attachment_part("along_mm", [](Imperfections& at) -> double& { return at.joint.end2.along; },
+                      key::plain("attachment2_along_mm", "mm", -10000, 10000, "added to its second number"),
+                      {"measure how far along the link from the joint's axis tendon 2 is tied and write [prior] "
+                       "attachment2_along_mm",
+                       k_caliper, along2_by_caliper},
+                      {"tendon 2 is tied nearer to the axis", "tendon 2 is tied further along"})};
+  return effect;
+}
+
+}  // namespace fusee
