@@ -110,6 +110,7 @@ HelixPoint helix_point(const Climb& climb, Side side, const FreePath& path, doub
   const double up = rise(climb, side, sigma);
   point.slope = std::atan2(up, path.sloping);
   point.fleet = point.slope + climbing(side) * std::atan(climb.slope);
+  point.free = path.whole - path.sloping + std::hypot(path.sloping, up);
   point.wound = sigma * std::sqrt(1.0 + climb.slope * climb.slope);
   return point;
 }

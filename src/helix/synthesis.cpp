@@ -48,14 +48,14 @@ void append(std::vector<Condition>& conditions, std::vector<Condition> more) {
   std::move(more.begin(), more.end(), std::back_inserter(conditions));
 }
 
-void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, double lip, const LeastLead& least_lead,
+void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const HelixGroove& groove,
                      const SynthesisOptions& options) {
   const Transmission planar(mechanism);
   result.conditions = attempt(mechanism, planar, Turns::many).conditions;
   if (!all_hold(result.conditions)) return;
   append(result.conditions, turn_conditions(mechanism, planar));
   if (!all_hold(result.conditions)) return;
-  const Windings windings = wind(mechanism, least_lead);
+  const Windings windings = wind(mechanism, groove.least_lead);
   const Transmission& law = *windings.transmission;
   const Attempt tried = attempt(mechanism, law, Turns::many);
   result.conditions = tried.conditions;
@@ -63,10 +63,10 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, double 
   if (!all_hold(result.conditions)) return;
   result.closure = windings.closure;
   result.stroke = stroke_over_range(law, options.stroke_steps);
-  const SpiralDrawing drawing{.tolerance = options.tolerance, .reach = lip + mechanism.tendon.diameter};
+  const SpiralDrawing drawing{.tolerance = options.tolerance, .reach = groove.lip + mechanism.tendon.diameter};
   for (const Side side : {Side::left, Side::right})
     result.sides[side == Side::left ? 0 : 1] = make_side(mechanism, windings, side, result.stroke, drawing);
-  append(result.conditions, helix_conditions(mechanism, result, windings, lip));
+  append(result.conditions, helix_conditions(mechanism, result, windings, groove.lip));
   if (!all_hold(result.conditions)) return;
   result.warnings = bend_warnings(mechanism, tried);
   for (std::string& warning : helix_warnings(result)) result.warnings.push_back(std::move(warning));
@@ -75,20 +75,10 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, double 
 
 }  // namespace
 
-HelixSynthesis synthesise_helix(const Mechanism& mechanism, double lip, const LeastLead& least_lead,
+HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove,
                                 const SynthesisOptions& options) {
   HelixSynthesis result;
-  synthesise_into(result, mechanism, lip, least_lead, options);
-  if (result.made() || !options.advice) return result;
-  SynthesisOptions coarse = options;
-  coarse.tolerance = 0.05;
-  coarse.stroke_steps = 36;
-  const auto possible = [&](const Mechanism& changed) {
-    HelixSynthesis trial;
-    synthesise_into(trial, changed, lip, least_lead, coarse);
-    return trial.made();
-  };
-  result.advice = nearest_changes(mechanism, possible, {"body.lead_mm"});
+  synthesise_into(result, mechanism, groove, options);
   return result;
 }
 

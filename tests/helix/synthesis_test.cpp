@@ -11,9 +11,10 @@
 namespace fusee {
 namespace {
 
-constexpr double k_lip = 0.6;
-
-double lead_for_tests(double step) { return 2.0 + std::abs(step); }
+/// A shallow groove, and 45° wherever a turn stands out over its neighbour.
+HelixGroove groove() {
+  return {0.6, [](double step) { return 2.0 + std::abs(step); }};
+}
 
 Mechanism wrist() {
   Mechanism m;
@@ -61,7 +62,7 @@ std::string failures(const HelixSynthesis& made) {
 }
 
 void expect_closed(const Mechanism& m, double limit = 0.004) {
-  const HelixSynthesis made = synthesise_helix(m, k_lip, lead_for_tests, {.tolerance = 1e-5, .advice = false});
+  const HelixSynthesis made = synthesise_helix(m, groove(), {.tolerance = 1e-5});
   ASSERT_TRUE(made.made()) << failures(made);
   for (const Side side : {Side::left, Side::right}) {
     const Variation variation = variation_of(m, made, side);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "fusee/helix/spiral.h"
-#include "fusee/profile/advice.h"
 #include "fusee/profile/synthesis.h"
 #include "fusee/transmission/transmission.h"
 
@@ -20,6 +19,7 @@ struct HelixPoint {
   double slope = 0;  ///< of the free path's sloping part, rising from the joint's side to the pulley, rad
   double fleet = 0;  ///< between that and the groove where it leaves it, rad
   double wound = 0;  ///< along the groove, from where it leaves at home: more is wound where it is positive, mm
+  double free = 0;   ///< length of what is not wound, from its end on the joint, mm
 };
 
 struct HelixSide {
@@ -41,7 +41,6 @@ struct HelixSynthesis {
   std::vector<TransmissionPoint> stroke;  ///< evenly spaced in α over the range, home included
   std::vector<Condition> conditions;
   std::vector<std::string> warnings;
-  std::vector<Change> advice;  ///< of an infeasible one
   /// By how much the tendons' lengths in space vary over the range by the formulas that the curves are drawn from. mm
   double closure = 0;
 
@@ -52,15 +51,21 @@ struct HelixSynthesis {
 /// sign). mm
 using LeastLead = std::function<double(double step)>;
 
+/// What a mechanism's helical grooves are like across: the solid's to say.
+struct HelixGroove {
+  double lip = 0;  ///< over the floor, walls at 45°, mm
+  LeastLead least_lead;
+};
+using GrooveOf = std::function<HelixGroove(const Mechanism&)>;
+
 /// No more turns are made than this, without the spare ones.
 constexpr double k_most_turns = 12;
 /// Fleet angles that are noted, and warned of. rad
 constexpr double k_noted_fleet = radians(1.5);
 constexpr double k_warned_fleet = radians(2.0);
 
-/// `lip`: height of a groove's lip over its floor, walls at 45°, mm.
-/// options.advice: of numbers that alone would make it possible.
-HelixSynthesis synthesise_helix(const Mechanism& mechanism, double lip, const LeastLead& least_lead,
+/// Looks for no advice.
+HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove,
                                 const SynthesisOptions& options = {});
 
 }  // namespace fusee
