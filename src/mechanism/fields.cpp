@@ -29,7 +29,7 @@ struct NumberAccess {
 constexpr std::array<std::string_view, 3> names(Law) { return {"compensate", "linear", "table"}; }
 constexpr std::array<std::string_view, 2> names(GuideKind) { return {"pin", "idler"}; }
 constexpr std::array<std::string_view, 2> names(Method) { return {"exact", "paper"}; }
-constexpr std::array<std::string_view, 2> names(Winding) { return {"auto", "one_turn"}; }
+constexpr std::array<std::string_view, 2> names(WindingChoice) { return {"auto", "one_turn"}; }
 constexpr std::array<std::string_view, 3> names(Groove) { return {"u", "v", "flat"}; }
 constexpr std::array<std::string_view, 2> names(Flange) { return {"follow", "round"}; }
 constexpr std::array<std::string_view, 6> names(Bore) { return {"round", "d", "hex", "square", "keyway", "horn"}; }
@@ -347,7 +347,7 @@ void add_mechanism(std::vector<Field>& table) {
       {"pulley.winding", "", "\"auto\"",
        "auto: a tendon is wound several times, in a helical groove, where one turn does not suffice; one_turn: such a "
        "pulley is refused"}));
-  table.back().is_set = [](const DeclaredMechanism& m) { return m.pulley.winding != Winding::automatic; };
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.pulley.winding != WindingChoice::automatic; };
   table.push_back(
       number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));
   table.push_back(number<tendon, &Tendon::modulus>(

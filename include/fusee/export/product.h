@@ -41,7 +41,7 @@ struct Product {
   Holding holding;  ///< of its tendons
   RewindResult as_built;
   std::vector<Check> checks;
-  std::optional<HelixProduct> helix = {};  ///< of several turns; `synthesis` then has no outlines, `pulley` no anchors
+  std::optional<HelixProduct> helix = {};  ///< wound several times; `synthesis` then has no outlines, `pulley` no anchors
 };
 
 }  // namespace fusee

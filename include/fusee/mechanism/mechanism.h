@@ -65,7 +65,7 @@ struct Guides {
 enum class Law { compensate, linear, table };
 enum class Method { exact, paper };
 /// automatic: a tendon is wound several times, in a helical groove, where one turn does not suffice.
-enum class Winding { automatic, one_turn };
+enum class WindingChoice { automatic, one_turn };
 
 /// One row of a declared law θ(α). rad.
 struct LawRow {
@@ -85,7 +85,7 @@ struct PulleyDrive {
   std::vector<LawRow> rows;  ///< its contents, by increasing α
   Method method = Method::exact;
   double mu = 0;             ///< friction between tendon and groove, effective
-  Winding winding = Winding::automatic;
+  WindingChoice winding = WindingChoice::automatic;
 
   bool operator==(const PulleyDrive&) const = default;
 };
