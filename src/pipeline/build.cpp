@@ -208,7 +208,7 @@ void check_meshes(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_pulley));
   shop.step("winding tendons on it");
   product.helix->as_built = shop.take(as_built);
-  product.as_built = product.helix->as_built.turn;
+  product.as_built = product.helix->as_built.result;
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
   shop.add(shop.take(of_printing));
@@ -257,7 +257,7 @@ bool passes_checks_of_several_turns(const Product& product, const BuildOptions& 
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
   return all_ok(check_several_turns(product, mesh)) && all_ok(print_checks(mechanism.print, mesh)) &&
-         all_ok(as_built_checks(mechanism, rewind_several_turns(product, mesh).turn, options.limits));
+         all_ok(as_built_checks(mechanism, rewind_several_turns(product, mesh).result, options.limits));
 }
 
 /// Curves, body and plates with the checks that a design can fail; the other files say the same. Nothing is written.

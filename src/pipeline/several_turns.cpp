@@ -20,7 +20,7 @@ HelixGroove groove_of(const Mechanism& mechanism) {
 
 /// What the tables of a body do not say of several turns.
 std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct& helix) {
-  const FreeEnds ends = helix.free_ends(mechanism.guides.collar);
+  const TendonsLaid ends = helix.laid(mechanism.guides.collar);
   const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
                                                     : "the tendons end on the joint at the heights ";
   const double left = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
@@ -95,7 +95,8 @@ bool design_several_turns(Product& product, double tolerance,
 
 HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh) {
   const Mechanism& mechanism = product.joint.mechanism;
-  return rewind_helical(mesh, mechanism, product.helix->free_ends(mechanism.guides.collar), product.pulley.layout.scale);
+  return rewind_helical(mesh, mechanism, product.synthesis.stroke, product.helix->laid(mechanism.guides.collar),
+                        product.pulley.layout.scale);
 }
 
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh) {

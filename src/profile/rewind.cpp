@@ -7,6 +7,7 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/transmission/transmission.h"
+#include "profile/string_above.h"
 #include "transmission/alpha_range.h"
 
 // The second route. Nothing here knows a support function, a derivative or an envelope: a string is laid round the corners of a
@@ -16,41 +17,12 @@
 namespace fusee {
 namespace {
 
-/// `angle` turned by full turns to within half a turn of `near`.
-double turned_near(double angle, double near) { return angle - k_two_pi * std::round((angle - near) / k_two_pi); }
-
-double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
-
-/// The centre of a string's pin, seen from the joint.
-Vec2 pin_of(const Mechanism& mechanism, double hand) {
-  const Guides& guides = mechanism.guides;
-  return hand > 0 ? Vec2(guides.ED, -guides.OE - guides.D_below_B) : Vec2(-guides.EB, -guides.OE);
-}
-
-/// Where a string ends in the link at home.
-Vec2 end_of(const Mechanism& mechanism, double hand) {
-  const Joint& joint = mechanism.joint;
-  const auto& own = hand > 0 ? joint.attachment2 : joint.attachment1;
-  return own ? Vec2(own->across, own->along) : Vec2(0.0, joint.R);
-}
-
 /// One string on its pulley, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
 class String {
  public:
   String(const Mechanism& mechanism, const Polygon& floor, double hand)
-      : corners_(convex_hull(floor)),
-        hand_(hand),
-        half_(0.5 * mechanism.tendon.diameter),
-        rho_(mechanism.guides.radius + half_),
-        end_(end_of(mechanism, hand)),
-        drum_(mechanism.joint.drum_radius != 0 ? mechanism.joint.drum_radius + half_ : 0.0),
-        pin_(pin_of(mechanism, hand)),
-        pin_from_axis_(pin_.x(), pin_.y() + mechanism.guides.OE + mechanism.pulley.EF) {
+      : corners_(convex_hull(floor)), hand_(hand), half_(0.5 * mechanism.tendon.diameter), above_(mechanism, hand) {
     const std::string name = pulley_name();
-    // Out of the drum a string comes at its own height.
-    if (end_.norm() < drum_) end_ *= drum_ / end_.norm();
-    if (drum_ > 0 && !(pin_.norm() > drum_ - half_ + mechanism.guides.radius))
-      throw InputError("", "a guide pin stands in the drum", "joint.drum_radius_mm smaller, or pins further out");
     if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
     double along = 0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -69,15 +41,13 @@ class String {
   /// Moves the pulley; small steps, so that turns are counted.
   void turn_to(double alpha) {
     alpha_ = alpha;
-    // Seen from the pulley, which turns clockwise, the world turns the other way.
-    const Vec2 pin(std::cos(alpha) * pin_from_axis_.x() - std::sin(alpha) * pin_from_axis_.y(),
-                   std::sin(alpha) * pin_from_axis_.x() + std::cos(alpha) * pin_from_axis_.y());
+    const Vec2 pin = above_.pin_seen_from_pulley(alpha);
     find_corner(pin);
     const double normal = tangent_normal(pin, corner_);
     normal_ = started_ ? turned_near(normal, normal_) : normal;
     started_ = true;
     const double reach = (pin - corners_[corner_]).norm();
-    span_ = std::sqrt((reach - (half_ - rho_)) * (reach + (half_ - rho_)));
+    span_ = std::sqrt((reach - (half_ - above_.rho())) * (reach + (half_ - above_.rho())));
     if (!(span_ > 0)) throw InputError("", "the groove floor of " + pulley_name() + " swallows its guide pin");
   }
 
@@ -91,12 +61,12 @@ class String {
   std::string pulley_name() const { return hand_ > 0 ? "P2" : "P1"; }
 
   /// But for a constant.
-  double length(double theta) const { return hand_ * wound() + span_ + over_pin_and_up(theta); }
+  double length(double theta) const { return hand_ * wound() + span_ + above_.length(theta, normal_ - alpha_); }
 
   /// Outward normal of the line that touches the disc about a corner and the pin's disc, both on their outer side.
   double tangent_normal(const Vec2& pin, std::size_t corner) const {
     const Vec2 away = pin - corners_[corner];
-    return direction(away) - hand_ * std::acos(std::clamp((half_ - rho_) / away.norm(), -1.0, 1.0));
+    return direction(away) - hand_ * std::acos(std::clamp((half_ - above_.rho()) / away.norm(), -1.0, 1.0));
   }
 
   /// Walks to the corner whose tangent leaves all others inside.
@@ -123,43 +93,6 @@ class String {
     return along_[corner_] + girth_ * turns + half_ * normal_;
   }
 
-  /// What joins two discs with the string on the outer side of both, or a disc and a point.
-  struct Piece {
-    double normal = 0;  ///< outward, rad
-    double length = 0;
-  };
-  Piece from_pin_to(const Vec2& centre, double radius) const {
-    const Vec2 away = centre - pin_;
-    const double distance = away.norm(), larger = rho_ - radius;
-    return {direction(away) - hand_ * std::acos(std::clamp(larger / distance, -1.0, 1.0)),
-            std::sqrt(std::max(0.0, (distance - larger) * (distance + larger)))};
-  }
-
-  double over_pin_and_up(double theta) const {
-    const Vec2 end(std::cos(theta) * end_.x() + std::sin(theta) * end_.y(),
-                   std::cos(theta) * end_.y() - std::sin(theta) * end_.x());
-    Piece up = from_pin_to(end, 0.0);
-    const double wound = drum_ > 0 ? wound_on_drum(theta) : 0.0;
-    if (wound > 0) {
-      up = from_pin_to(Vec2(0, 0), drum_);
-      up.length += drum_ * wound + std::sqrt(std::max(0.0, (end.norm() - drum_) * (end.norm() + drum_)));
-    }
-    const double lower_normal = normal_ - alpha_;
-    const double wrap = turned_near(hand_ * (up.normal - lower_normal), 0.5 * k_pi);
-    return rho_ * wrap + up.length;
-  }
-
-  /// Over which angle the string lies on the drum; it is free of it below 0. An end at home is reached over the drum's
-  /// outer side: both its direction and the pin's are counted from straight below O, the string's own way round.
-  double wound_on_drum(double theta) const {
-    const auto counted = [this](double angle) {
-      const double own = hand_ > 0 ? angle : k_pi - angle;
-      return turned_near(own, 0.5 * k_pi);
-    };
-    const double tangent = counted(direction(end_)) - std::acos(std::clamp(drum_ / end_.norm(), -1.0, 1.0));
-    return tangent - counted(from_pin_to(Vec2(0, 0), drum_).normal) - hand_ * theta;
-  }
-
   Polygon corners_;
   std::vector<double> along_;         ///< length of the edges before each corner
   std::vector<double> edge_normals_;  ///< of the edge that leaves each corner, increasing
@@ -167,11 +100,7 @@ class String {
   double home_length_ = 0;
   double hand_;
   double half_;
-  double rho_;
-  Vec2 end_;            ///< in the link at home
-  double drum_;         ///< to the string's centre line; 0: none
-  Vec2 pin_;            ///< in the world
-  Vec2 pin_from_axis_;  ///< from the pulley's axis, at home
+  StringAbove above_;
 
   double alpha_ = 0;
   std::size_t corner_ = 0;

@@ -47,9 +47,10 @@ std::string failures(const std::vector<Check>& checks) {
 }
 
 void expect_good(const HelicalPulley& pulley, const std::string& name) {
+  const HelicalSection section = helical_section(plain());
   keep(pulley.mesh, name);
   ASSERT_TRUE(pulley.made) << pulley.brief();
-  EXPECT_EQ(failures(pulley.mesh_checks), "");
+  EXPECT_EQ(failures(check_helical_pulley(pulley.mesh, pulley, section)), "");
   EXPECT_EQ(failures(check_print(pulley.mesh)), "");
 }
 

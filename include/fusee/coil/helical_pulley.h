@@ -33,10 +33,9 @@ HelicalSection helical_section(const Mechanism& mechanism);
 /// The least axial distance of two neighbouring turns: the groove's width, a rib, and where the upper turn's lip stands
 /// out by `growth` over the lower one's as much as its step takes to print. `growth` below 0: the upper is the smaller.
 double least_lead(const HelicalSection& section, double growth);
-/// Is the turn of larger angle the lower one in the print? Both pulleys have the same hand, in which P1's last row and
-/// P2's first lie at the outer faces. True always; a mirror image in z of a spiral is the same spiral to the tendon.
-inline constexpr bool k_later_turns_lie_lower = true;
-
+/// In the part the turns of larger angle lie lower, whatever the sign of a spiral's slope: P1's last row and P2's first
+/// are then at the outer faces. (To a tendon, a spiral and its image in z are one.) So of a turn and its next one, by
+/// angle, whose radius is larger by `step`, `growth` is −step.
 /// Where a spiral lies in the part: height above the lower face = offset + direction · SpiralRow::z.
 struct SpiralPlace {
   double offset = 0;
@@ -77,6 +76,6 @@ HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, 
 /// What a mesh of this pulley must be, measured on `mesh`: check_mesh, Euler number, volume, and by half-planes through
 /// the axis the thinnest rib, the shallowest groove and the thinnest wall to the bore.
 std::vector<Check> check_helical_pulley(const TriangleMesh& mesh, const HelicalPulley& pulley,
-                                        const HelicalSection& section);
+                                        const HelicalSection& section, double tolerance = 0.01);
 
 }  // namespace fusee

@@ -24,10 +24,10 @@ struct HelixProduct {
   HelicalPulley pulley;      ///< its mesh and conditions are Product::pulley's
   HelicalRewind as_built;
 
-  /// Where tendons end on the joint (with collars: stand on their guides), above the part's lower face. mm
-  FreeEnds free_ends(bool collar) const {
-    return {pulley.p1.height(synthesis.sides[0].attachment_z), pulley.p2.height(synthesis.sides[1].attachment_z),
-            collar};
+  /// Heights above the part's lower face: of the tendons' ends on the joint, or of their guides' collars.
+  TendonsLaid laid(bool collar) const {
+    return tendons_laid(pulley, synthesis.sides[0].spiral, synthesis.sides[1].spiral, synthesis.sides[0].attachment_z,
+                        synthesis.sides[1].attachment_z, collar);
   }
 };
 
