@@ -19,6 +19,8 @@ namespace {
 
 // A groove has at least this depth; what is shallower is a chamfer's edge or a chord.
 constexpr double k_least_depth = 0.3;
+// Half-planes on either side of a place over which a groove's slope is measured.
+constexpr std::size_t k_slope_window = 40;
 // One string in its helical groove. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
 class HelicalString {
  public:
@@ -43,7 +45,7 @@ class HelicalString {
     home_length_ = length(0.0);
   }
 
-  // Moves the pulley; small steps.
+  // Moves the pulley; by less than half a turn.
   void turn_to(double alpha) {
     alpha_ = alpha;
     const Vec2 pin = above_.pin_seen_from_pulley(alpha);
@@ -97,8 +99,12 @@ class HelicalString {
     const auto after = std::upper_bound(planar_.begin() + 1, planar_.end() - 1, planar);
     const auto b = static_cast<std::size_t>(after - planar_.begin()), a = b - 1;
     const double share = (planar - planar_[a]) / (planar_[b] - planar_[a]);
-    const double rise = floor_[b].z() - floor_[a].z();
-    return {wound_[a] + share * (wound_[b] - wound_[a]), floor_[a].z() + share * rise, rise / (planar_[b] - planar_[a])};
+    // At a corner of the polygon the centre line turns without rising, between two it rises the more: the slope is that
+    // of several corners.
+    const std::size_t from = a > k_slope_window ? a - k_slope_window : 0,
+                      to = std::min(b + k_slope_window, planar_.size() - 1);
+    return {wound_[a] + share * (wound_[b] - wound_[a]), floor_[a].z() + share * (floor_[b].z() - floor_[a].z()),
+            (floor_[to].z() - floor_[from].z()) / (planar_[to] - planar_[from])};
   }
 
   // On the right the knot is where the groove begins, on the left where it ends.
@@ -178,7 +184,7 @@ class Winder {
 
  private:
   void wind_at(const TransmissionPoint& place) {
-    for (HelicalString& string : strings_) string.turn_to(place.alpha);
+    turn_to(place.alpha);
     RewindPoint point{place.alpha, place.theta, 0, 0};
     point.theta = taut_angle(strings_[0], place.alpha, place.theta);
     point.slack = -strings_[1].excess(point.theta);
@@ -190,6 +196,15 @@ class Winder {
       rewind_.max_fleet_at = place.alpha;
       rewind_.max_fleet_side = string.hand() > 0 ? Side::right : Side::left;
     }
+  }
+
+  // In small steps, so that turns are counted without a jump.
+  void turn_to(double alpha) {
+    const int steps = 1 + static_cast<int>(std::abs(alpha - alpha_) / radians(10));
+    for (int k = 1; k <= steps; ++k) {
+      for (HelicalString& string : strings_) string.turn_to(alpha_ + (alpha - alpha_) * k / steps);
+    }
+    alpha_ = alpha;
   }
 
   void note(const RewindPoint& point) {
@@ -207,6 +222,7 @@ class Winder {
   }
 
   std::vector<HelicalString> strings_;
+  double alpha_ = 0;
   HelicalRewind rewind_;
 };
 

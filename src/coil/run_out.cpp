@@ -16,7 +16,7 @@ namespace {
 constexpr double k_least_channel = 0.6;
 // The channel begins this far before the groove's end, in the open groove: its wall is gone there for sure.
 constexpr double k_before_end = 0.12;
-constexpr double k_before_share = 0.93;  // of its mouth's size
+constexpr double k_past_end = 0.06;
 constexpr int k_channel_facets = 14;
 constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
@@ -69,12 +69,14 @@ TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int vari
     for (const Vec2& point : section) ring.push_back(centre + radius * (point.x() * level + point.y() * up));
     return ring;
   };
-  std::vector<std::vector<Vec3>> sections{ring_at(start_of(end) - (k_before_end + 0.017 * variant) * along, along, k_before_share * sizes.mouth_radius)};
-  for (int k = 0; k <= k_arc_steps; ++k) {
+  // The groove's end wall stands between the first two, in the plane of neither.
+  std::vector<std::vector<Vec3>> sections;
+  for (const double place : {-k_before_end - 0.017 * variant, k_past_end + 0.005 * variant})
+    sections.push_back(ring_at(start_of(end) + place * along, along, sizes.mouth_radius));
+  for (int k = 1; k <= k_arc_steps; ++k) {
     const double turn = 0.5 * k_pi * k / k_arc_steps;
     sections.push_back(ring_at(arc_point(end, sizes.bend_radius, turn),
-                               std::cos(turn) * along + std::sin(turn) * towards,
-                               k == 0 ? sizes.mouth_radius : sizes.channel_radius));
+                               std::cos(turn) * along + std::sin(turn) * towards, sizes.channel_radius));
   }
   // On into the cone.
   sections.push_back(
