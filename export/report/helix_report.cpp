@@ -65,11 +65,11 @@ Figure spiral_figure(const Product& product, Side side) {
   Figure figure;
   figure.width = figure.height = k_size;
   figure.title = pulley + " in plan, " + readable(helix.turns, 2) + " turns over the range";
-  const std::string ink = side == Side::left ? "p1" : "p2";
-  figure.body = svg_path("line thin", drawn(0, helix.spiral.first_used)) +
-                svg_path("line thin", drawn(helix.spiral.last_used, rows.size() - 1)) +
-                svg_path("line " + ink, drawn(helix.spiral.first_used, helix.spiral.last_used)) +
-                svg_words("title", {k_margin, 2 * k_margin}, figure.title);
+  const std::string ink = side == Side::left ? "p1" : "p2 whole";
+  figure.body = svg_path("thin " + ink, drawn(0, helix.spiral.first_used)) +
+                svg_path("thin " + ink, drawn(helix.spiral.last_used, rows.size() - 1)) +
+                svg_path("curve " + ink, drawn(helix.spiral.first_used, helix.spiral.last_used)) +
+                svg_words("heading", {k_margin, 2 * k_margin}, figure.title);
   return figure;
 }
 
