@@ -113,7 +113,7 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) 
   sizes.mouth_radius = mouth_radius(mechanism, sizes.channel_radius);
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket : std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
-  sizes.roof_slope = layout.roof_slope > 0 ? layout.roof_slope : radians(45);
+  sizes.roof_slope = gable_slope(layout);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
   // The pocket leaves a wall to the rim, and the arc is no sharper than twice the tendon.
   const double to_rim = sizes.pocket_radius + layout.min_wall - (layout.groove_depth - 0.5 * d);
