@@ -2,10 +2,10 @@
 // decimals. A cell is empty where there is no such number.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "export/report/csv_cells.h"
 #include "fusee/base/units.h"
@@ -35,6 +35,34 @@ void put_outline(std::string& table, const Outline& outline) {
   }
 }
 
+/// turn_deg is the direction of the normal, unrolled over all turns; z_mm the height of the tendon's centre line above
+/// the part's lower face.
+void put_spiral(std::string& table, Side side, const Spiral& spiral, const SpiralPlace& place) {
+  const std::string pulley = std::string(pulley_name(side)) + ",";
+  for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
+    const SpiralRow& row = spiral.rows[i];
+    const bool is_used = i >= spiral.first_used && i <= spiral.last_used;
+    table += pulley + csv_cell(degrees(std::atan2(row.y, row.x))) + ',' + csv_cell(row.x) + ',' + csv_cell(row.y) +
+             ',' + csv_cell(row.rho) + (is_used ? ",1," : ",0,") +
+             csv_cell(degrees(std::remainder(row.turn, k_two_pi))) + ',' + csv_cell(degrees(row.turn)) + ',' +
+             csv_cell(place.height(row.z)) + '\n';
+  }
+}
+
+/// Planar forces are the level parts of tensions along a sloped path: of the path of the tendon that carries.
+double sloped_cosine(const Product& product, std::size_t i, const PaperForces& forces) {
+  if (!product.helix) return 1.0;
+  const std::size_t carries = forces.T2 > 0 ? 1 : 0;
+  return std::cos(product.helix->synthesis.sides.at(carries).stroke[i].slope);
+}
+
+void add_slopes(std::vector<double>& row, const HelixProduct& helix, std::size_t i) {
+  for (const HelixSide& side : helix.synthesis.sides) {
+    row.push_back(degrees(side.stroke[i].slope));
+    row.push_back(degrees(side.stroke[i].fleet));
+  }
+}
+
 struct AsBuilt {
   double theta = k_none;
   double slack = k_none;
@@ -59,6 +87,14 @@ AsBuilt as_built_at(const std::vector<RewindPoint>& points, double alpha) {
 /// counter-clockwise from x at home. active: 1 where a tendon leaves the pulley within the range.
 std::string profile_csv(const Product& product) {
   std::string table = "pulley,angle_deg,x_mm,y_mm,radius_of_curvature_mm,active,normal_deg\n";
+  if (product.helix) {
+    table.back() = ',';
+    table += "turn_deg,z_mm\n";
+    const HelixProduct& helix = *product.helix;
+    put_spiral(table, Side::left, helix.synthesis.sides[0].spiral, helix.pulley.p1);
+    put_spiral(table, Side::right, helix.synthesis.sides[1].spiral, helix.pulley.p2);
+    return table;
+  }
   put_outline(table, product.synthesis.p1);
   put_outline(table, product.synthesis.p2);
   return table;
@@ -70,23 +106,30 @@ std::string transmission_csv(const Product& product) {
   std::string table =
       "alpha_deg,theta_deg,r1_mm,r2_mm,m1_mm,m2_mm,gamma2_deg,T2_N,phi_deg,Tb_N,elongation_mm,theta_error_deg,"
       "theta_as_built_deg,slack_mm\n";
-  for (const TransmissionPoint& point : product.synthesis.stroke) {
+  if (product.helix) {
+    table.back() = ',';
+    table += "slope1_deg,fleet1_deg,slope2_deg,fleet2_deg\n";
+  }
+  for (std::size_t i = 0; i < product.synthesis.stroke.size(); ++i) {
+    const TransmissionPoint& point = product.synthesis.stroke[i];
     const PaperForces forces = paper_forces(product.joint.mechanism, point);
     const AsBuilt as_built = as_built_at(product.as_built.points, point.alpha);
-    const std::array<double, 14> row = {degrees(point.alpha),
+    const double along = sloped_cosine(product, i, forces);
+    std::vector<double> row = {degrees(point.alpha),
                                         degrees(point.theta),
                                         point.t1.p,
                                         point.t2.p,
                                         point.t1.m,
                                         point.t2.m,
                                         degrees(forces.gamma2),
-                                        forces.T2,
+                                        forces.T2 / along,
                                         degrees(forces.phi),
-                                        forces.Tb,
+                                        forces.Tb / along,
                                         forces.elongation,
                                         degrees(forces.theta_error),
                                         degrees(as_built.theta),
                                         as_built.slack};
+    if (product.helix) add_slopes(row, *product.helix, i);
     put_row(table, row);
   }
   return table;

@@ -99,10 +99,37 @@ Json as_built_json(const RewindResult& as_built) {
           {"max_slack_at_alpha_deg", number(degrees(as_built.max_slack_at))}};
 }
 
+Json fleet_json(const HelicalRewind& as_built) {
+  return {{"max_fleet_angle_deg", number(degrees(as_built.max_fleet))},
+          {"max_fleet_angle_at_alpha_deg", number(degrees(as_built.max_fleet_at))}};
+}
+
 /// The grooves' planes in the mesh as written, shrinkage compensation included.
 Json grooves_json(const BodyLayout& layout) {
   return {{{"pulley", "P1"}, {"z_mm", number(layout.z_p1 * layout.scale)}},
           {{"pulley", "P2"}, {"z_mm", number(layout.z_p2 * layout.scale)}}};
+}
+
+/// Of several turns: in the mesh as written, too, up from its lower face. z_mm is the middle of what the range winds.
+Json helical_groove_json(const Product& product, Side which) {
+  const bool left = which == Side::left;
+  const HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
+  const SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+  const double scale = product.pulley.layout.scale;
+  const auto height = [&](double z) { return number(scale * place.height(z)); };
+  const double first = side.spiral.rows.at(side.spiral.first_used).z, last = side.spiral.rows.at(side.spiral.last_used).z;
+  return {{"pulley", pulley_name(which)},
+          {"z_mm", height(0.5 * (first + last))},
+          {"z_first_mm", height(first)},
+          {"z_last_mm", height(last)},
+          {"turns", number(side.turns)},
+          {"lead_mm", number(side.lead)},
+          {"joint_end_z_mm", height(side.attachment_z)},
+          {"max_fleet_angle_deg", number(degrees(side.fleet))}};
+}
+
+Json helical_grooves_json(const Product& product) {
+  return {helical_groove_json(product, Side::left), helical_groove_json(product, Side::right)};
 }
 
 Json tendons_json(const Product& product) {
@@ -169,10 +196,11 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   // The name alone: the same input gives the same bytes wherever it lies.
   manifest["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
                        {"sha256", product.file.sha256}};
-  manifest["grooves"] = grooves_json(product.pulley.layout);
+  manifest["grooves"] = product.helix ? helical_grooves_json(product) : grooves_json(product.pulley.layout);
   manifest["tendon"] = {{"diameter_mm", number(product.joint.mechanism.tendon.diameter)}};
   manifest["print"] = print_json(product.pulley);
   manifest["as_built"] = as_built_json(product.as_built);
+  if (product.helix) manifest["as_built"].update(fleet_json(product.helix->as_built));
   manifest["tendons_at_home"] = tendons_json(product);
   manifest["knots"] = knots_json(product);
   manifest["mechanism"] = mechanism_json(product.file.mechanism);

@@ -10,6 +10,7 @@
 #include "export/report/calibration_words.h"
 #include "export/report/derived.h"
 #include "export/report/drawing.h"
+#include "export/report/helix_report.h"
 #include "export/report/html.h"
 #include "export/report/mesh_code.h"
 #include "export/report/moving_joint.h"
@@ -27,6 +28,12 @@ namespace {
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
+
+std::string all_in_divs(const std::vector<Plot>& plots) {
+  std::string html;
+  for (const Plot& plot : plots) html += in_div(plot_figure(plot));
+  return html;
+}
 
 // Verdict -------------------------------------------------------------------------------------------------------------
 
@@ -213,11 +220,15 @@ std::string part_view(const Product& product) {
   const auto code = encode_mesh(product.pulley.mesh);
   if (!code) return "<p>There is no mesh to show.</p>";
   const BodyLayout& layout = product.pulley.layout;
+  const auto tint = [&](double z, const GrooveWalls& walls) {
+    // Grooves that climb lie in no plane that could be tinted.
+    return product.helix ? vector_words(Vec3(0, 0, 0)) : groove_words(layout, z, walls);
+  };
   std::string html =
       "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
       vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(layout, layout.z_p1, layout.p1) +
-      "\" data-groove2=\"" + groove_words(layout, layout.z_p2, layout.p2) + "\"></canvas>";
+      std::to_string(code->triangles) + "\" data-groove1=\"" + tint(layout.z_p1, layout.p1) +
+      "\" data-groove2=\"" + tint(layout.z_p2, layout.p2) + "\"></canvas>";
   html +=
       "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button "
       "data-view=\"top\">Top</button>"
@@ -253,7 +264,17 @@ std::vector<Pose> poses(const Product& product) {
   return result;
 }
 
+constexpr std::string_view k_mechanism_words =
+    "<p class=\"lead\">To scale. Both tendons run on their true path at the centre line: from C over the pin to the "
+    "pulley, and along the groove to their anchor.\nThe pulleys are shown by their pitch curves; the dash-dotted ray "
+    "points to home.</p>\n<p class=\"key\"><span class=\"swatch p1\">tendon 1, pulley P1</span><span class=\"swatch "
+    "p2\">tendon 2, pulley P2</span><span class=\"swatch dot\">take-off point</span></p>\n";
+constexpr std::string_view k_profile_words =
+    "<p class=\"lead\">Radii are measured to the tendon’s centre line, before the scale for shrinkage. a: anchor under "
+    "load; s: spare anchor.</p>\n";
+
 std::string mechanism_panels(const Product& product) {
+  if (product.helix) return all_in_divs(helix_plots(product));
   std::string html;
   for (const Figure& figure : mechanism_figures(product.joint.mechanism, product.synthesis, poses(product)))
     html += in_div(figure);
@@ -261,15 +282,10 @@ std::string mechanism_panels(const Product& product) {
 }
 
 std::string moving_section(const Product& product) {
+  if (product.helix) return "";
   const std::string joint = moving_joint(product.joint.mechanism, product.synthesis, product.holding.loaded);
   if (joint.empty()) return "";
   return "<section id=\"moving\"><h2>The joint moves</h2>" + std::string(k_moving_words) + joint + "</section>";
-}
-
-std::string all_in_divs(const std::vector<Plot>& plots) {
-  std::string html;
-  for (const Plot& plot : plots) html += in_div(plot_figure(plot));
-  return html;
 }
 
 std::string forces_section(const Product& product) {
@@ -376,7 +392,10 @@ std::vector<std::string> steps(const Product& product) {
   }
   items.push_back("Measure the bore and the groove with callipers before going on." + polyhole_words(layout.bore));
   items.push_back(mounting(product));
-  items.push_back(
+  if (product.helix) {
+    items.push_back(std::string(k_winding_words));
+    items.push_back(helix_heights(product));
+  } else items.push_back(
       "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
       "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
   items.push_back("Tighten both until tendon 1 carries " + with_unit(product.joint.mechanism.tendon.pretension, "N") +
@@ -416,8 +435,12 @@ std::string files_table(const Product& product) {
   const bool has_step = std::any_of(product.checks.begin(), product.checks.end(),
                                     [](const Check& check) { return check.name.rfind("step_", 0) == 0; });
   if (has_step) html += "<tr><td><code>pulley.step</code></td><td>the part for CAD</td></tr>";
-  for (const File& file : k_files)
+  for (const File& file : k_files) {
+    // Of several turns they are not made.
+    if (product.helix && (file.name == "pulley.scad" || file.name == "profile.dxf" || file.name == "plates.dxf"))
+      continue;
     html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
+  }
   return html + "</tbody></table></div>";
 }
 
@@ -445,6 +468,10 @@ std::string conditions(const Product& product) {
 
 std::string profiles(const Product& product) {
   std::string html;
+  if (product.helix) {
+    for (const Side side : {Side::left, Side::right}) html += in_div(spiral_figure(product, side));
+    return html;
+  }
   for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
     html += in_div(profile_figure(product.joint.mechanism, *outline, product.pulley));
   }
@@ -475,11 +502,15 @@ std::string report_html(const Product& product) {
                                               {"key_numbers", key_numbers(product)},
                                               {"part", part_view(product)},
                                               {"moving", moving_section(product)},
+                                              {"mechanism_words", std::string(product.helix ? k_helix_words
+                                                                                            : k_mechanism_words)},
                                               {"mechanism", mechanism_panels(product)},
                                               {"transmission_plots", all_in_divs(transmission_plots(product))},
                                               {"as_built_words", safe_text(as_built_words(product))},
                                               {"as_built_plots", all_in_divs(as_built_plots(product))},
                                               {"forces", forces_section(product)},
+                                              {"profile_words", std::string(product.helix ? k_spiral_words
+                                                                                          : k_profile_words)},
                                               {"profiles", profiles(product)},
                                               {"checks", checks_tables(product.checks)},
                                               {"conditions", conditions(product)},

@@ -56,6 +56,14 @@ Plot deviation_plot(const std::vector<Vec2>& theta, const BestLine& line) {
   return plot;
 }
 
+/// Over the unrolled direction of the normal: what the range winds.
+PlotSeries curvature_of_turns(const HelixSide& helix, Side side) {
+  PlotSeries series{std::string(pulley_name(side)), side == Side::left ? Ink::p1 : Ink::p2, {}};
+  for (std::size_t i = helix.spiral.first_used; i <= helix.spiral.last_used; ++i)
+    series.points.emplace_back(degrees(helix.spiral.rows[i].turn), helix.spiral.rows[i].rho);
+  return series;
+}
+
 /// Points of the arc (active or closing), a gap where the other one is.
 PlotSeries curvature_series(const Outline& outline, bool active) {
   const bool left = outline.side == Side::left;
@@ -86,7 +94,16 @@ Plot curvature_plot(const Product& product) {
             {},
             {}};
   std::vector<double> active_radii;
+  if (product.helix) {
+    plot.title = "Radius of curvature of the pitch curves";
+    plot.series = {curvature_of_turns(product.helix->synthesis.sides[0], Side::left),
+                   curvature_of_turns(product.helix->synthesis.sides[1], Side::right)};
+    for (const PlotSeries& series : plot.series) {
+      for (const Vec2& point : series.points) active_radii.push_back(point.y());
+    }
+  }
   for (const bool active : {false, true}) {
+    if (product.helix) break;
     for (const Outline* outline : {&product.synthesis.p1, &product.synthesis.p2}) {
       plot.series.push_back(curvature_series(*outline, active));
       if (!active) continue;

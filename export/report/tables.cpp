@@ -29,6 +29,12 @@ constexpr PlainName k_plain_names[] = {
     {"convex_floor_P#", "P#’s groove floor is convex (its smallest radius)"},
     {"free_span_#", "Tendon # has a free span between P# and its pin"},
     {"one_turn_P#", "P# fits into one turn (room for anchors and closing arc)"},
+    {"turns_P#", "Turns that the range winds on P#"},
+    {"on_drum_all_the_way", "No tendon leaves the joint’s drum within the range"},
+    {"sloped_paths_close", "The tendons keep their length along their sloped paths"},
+    {"spare_turns_P#", "P#’s spare turns are convex (smallest radius of the floor)"},
+    {"neighbouring_turns_P#", "Lead of P#: room for groove, rib and step from turn to turn"},
+    {"fleet_angle_#", "Tendon #’s fleet angle, below that at which it lies on the lip"},
     {"closing_arc_P#", "P#’s closing arc has room to turn"},
     // solid: conditions of the body
     {"groove_depth", "Depth of the grooves"},

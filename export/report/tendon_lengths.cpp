@@ -47,6 +47,28 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   return result;
 }
 
+/// Along the sloped path and the groove, and straight from its end to the pocket.
+TendonLength length_on_helix(const Product& product, const HelicalAnchor& anchor) {
+  const bool left = anchor.side == Side::left;
+  const HelixSide& side = product.helix->synthesis.sides.at(left ? 0 : 1);
+  const std::vector<SpiralRow>& rows = side.spiral.rows;
+  const auto home = std::min_element(side.stroke.begin(), side.stroke.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.wound) < std::abs(b.wound);
+  });
+  // P1's tendon stays wound at its spiral's last row, P2's at its first.
+  const SpiralRow& end = left ? rows.back() : rows.front();
+  const double climb = end.z - home->z;
+  TendonLength result;
+  result.side = anchor.side;
+  result.joint_knot = attachment(product.joint.mechanism, anchor.side, 0.0);
+  result.pulley_knot = product.pulley.layout.scale * anchor.pocket;
+  result.between_knots = home->free + std::hypot(climb, climb / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
+  result.cut = cut_length(result.between_knots + 2.0 * tendon_end(product.joint.mechanism.tendon));
+  const SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);
+  result.spare_lap = std::abs(end.turn - used.turn);
+  return result;
+}
+
 }  // namespace
 
 double tendon_end(const Tendon& tendon) { return k_knot_ratio * tendon.diameter + k_tail; }
@@ -55,6 +77,10 @@ double cut_length(double needed) { return k_cut_grain * std::ceil(needed / k_cut
 std::vector<TendonLength> tendon_lengths(const Product& product) {
   std::vector<TendonLength> lengths;
   if (product.synthesis.stroke.empty()) return lengths;
+  if (product.helix) {
+    for (const HelicalAnchor& anchor : product.helix->pulley.anchors) lengths.push_back(length_on_helix(product, anchor));
+    return lengths;
+  }
   for (const Anchor& anchor : product.pulley.anchors) {
     if (anchor.wound_end) lengths.push_back(length_to(product, anchor));
   }

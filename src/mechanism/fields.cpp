@@ -29,6 +29,7 @@ struct NumberAccess {
 constexpr std::array<std::string_view, 3> names(Law) { return {"compensate", "linear", "table"}; }
 constexpr std::array<std::string_view, 2> names(GuideKind) { return {"pin", "idler"}; }
 constexpr std::array<std::string_view, 2> names(Method) { return {"exact", "paper"}; }
+constexpr std::array<std::string_view, 2> names(WindingChoice) { return {"auto", "one_turn"}; }
 constexpr std::array<std::string_view, 3> names(Groove) { return {"u", "v", "flat"}; }
 constexpr std::array<std::string_view, 2> names(Flange) { return {"follow", "round"}; }
 constexpr std::array<std::string_view, 6> names(Bore) { return {"round", "d", "hex", "square", "keyway", "horn"}; }
@@ -357,6 +358,11 @@ void add_mechanism(std::vector<Field>& table) {
        "coefficient of friction there: 0.0015 to 0.005 of balls, 0.1 to 0.2 of plastic on steel", "guides.kind=idler"},
       "", 0, 1));
   table.back().is_set = has_idlers;
+  table.push_back(boolean<guides, &Guides::collar>(
+      {"guides.collar", "", "false",
+       "true: a collar keeps a tendon that is wound several times at its guide's height, and its lower span alone "
+       "slopes; false: it finds its height on the guide, and slopes as a whole"}));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.guides.collar; };
   add_sheath(table);
   table.push_back(number<pulley, &PulleyDrive::EF>({"pulley.EF_mm", "EF", "",
                                                     "from the line of the pins down to the pulley's axis; with a "
@@ -382,6 +388,11 @@ void add_mechanism(std::vector<Field>& table) {
        "effective friction between tendon and groove: what lies on the pulley slides as far as this lets it, up to a "
        "knot 5 mm of arc beyond the range; in a V of full angle b the material's over sin(b/2)"},
       "", 0, 2));
+  table.push_back(choice<pulley, &PulleyDrive::winding>(
+      {"pulley.winding", "", "\"auto\"",
+       "auto: a tendon is wound several times, in a helical groove, where one turn does not suffice; one_turn: such a "
+       "pulley is refused"}));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.pulley.winding != WindingChoice::automatic; };
   table.push_back(
       number<tendon, &Tendon::diameter>({"tendon.diameter_mm", "d", "", "thickness of the tendon"}, "mm", 0.01, 50));
   table.push_back(number<tendon, &Tendon::modulus>(
@@ -477,6 +488,16 @@ void add_body(std::vector<Field>& table) {
   table.push_back(number<body, &Body::min_wall>(
       {"body.min_wall_mm", "", "0", "no wall of the part may be thinner; 0: 1.2 mm, thinner on small pulleys"}, "mm", 0,
       50));
+  table.push_back(number<body, &Body::lead>(
+      {"body.lead_mm", "", "0",
+       "of helical grooves: least height from one turn to the next; 0: what groove and rib need"},
+      "mm", 0, 50));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.body.lead != 0; };
+  table.push_back(number<body, &Body::spare_turns>(
+      {"body.spare_turns", "", "1",
+       "of helical grooves: turns before and after what the range winds; they take the tension from the knot"},
+      "", 0.25, 5));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.body.spare_turns != 1; };
 }
 
 void add_horn(std::vector<Field>& table) {

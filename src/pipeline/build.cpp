@@ -19,6 +19,7 @@
 #include "fusee/solid/print.h"
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
+#include "pipeline/several_turns.h"
 
 namespace fusee {
 namespace {
@@ -101,6 +102,23 @@ void stage_step(Workshop& shop, StepFile file) {
 bool has_step(const Workshop& shop) {
   const auto& outputs = shop.result.outputs;
   return std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& file) { return file.name == k_step; });
+}
+
+/// Of several turns: what is no mesh would show grooves in a plane.
+DracoFile write_meshes(Workshop& shop) {
+  const Product& product = shop.result.product;
+  const TriangleMesh& mesh = product.pulley.mesh;
+  const std::string& name = product.file.mechanism.name;
+  shop.step("writing meshes");
+  auto draco = beside([&] { return draco_file(mesh, shop.options.tolerance); });
+  auto threemf = beside([&] { return threemf_bytes(mesh, name); });
+  auto obj = beside([&] { return obj_text(mesh, name); });
+  shop.stage("pulley.stl", stl_bytes(mesh, name));
+  shop.stage("pulley.obj", shop.take(obj));
+  shop.stage("pulley.3mf", shop.take(threemf));
+  DracoFile file = shop.take(draco);
+  shop.stage("pulley.drc", file.bytes);
+  return file;
 }
 
 /// The Draco file and what was found of it.
@@ -206,10 +224,33 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_plates), "plates_dxf_");
 }
 
+void check_meshes(Workshop& shop, const DracoFile& draco) {
+  Product& product = shop.result.product;
+  const Mechanism& mechanism = product.joint.mechanism;
+  shop.step("checking what was written");
+  const TriangleMesh mesh = shop.mesh_of("pulley.stl");
+  auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
+  auto of_3mf = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.3mf")); });
+  auto of_obj = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
+  auto of_pulley = beside([&] { return check_several_turns(product, mesh); });
+  auto of_printing = beside([&] { return print_checks(mechanism.print, mesh); });
+  auto as_built = beside([&] { return rewind_several_turns(product, mesh); });
+  shop.add(shop.take(of_pulley));
+  shop.step("winding tendons on it");
+  product.helix->as_built = shop.take(as_built);
+  product.as_built = product.helix->as_built.result;
+  shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
+  shop.step("checking the other files");
+  shop.add(shop.take(of_printing));
+  shop.add(shop.take(of_obj), "obj_");
+  shop.add(shop.take(of_3mf), "3mf_");
+  shop.add(shop.take(of_draco), "drc_");
+}
+
 /// Looks at what is staged. A file of ours that cannot be used is nobody's bad input.
 void check_written(Workshop& shop, const DracoFile& draco) {
   try {
-    check_parts(shop, draco);
+    shop.result.product.helix ? check_meshes(shop, draco) : check_parts(shop, draco);
   } catch (const InputError& error) {
     throw Bug(std::string("what was written cannot be used: ") + error.what());
   }
@@ -228,6 +269,27 @@ void write_texts(Workshop& shop) {
   shop.stage("manifest.json", shop.take(manifest));
 }
 
+/// One turn where it suffices, else several: false when neither can be made. Where several are not for this file, what
+/// keeps it to one is said.
+bool design_any(Product& product, double tolerance, const std::function<void(std::string_view step)>& before_step,
+                TieOffSearch search = TieOffSearch::thorough) {
+  if (design(product, tolerance, before_step, search)) return true;
+  if (!need_several_turns(product.synthesis)) return false;
+  const auto kept = kept_to_one_turn(product.file.mechanism);
+  if (!kept) return design_several_turns(product, tolerance, before_step);
+  for (Condition& condition : product.synthesis.conditions) {
+    if (!condition.ok) condition.message += " (" + *kept + ")";
+  }
+  return false;
+}
+
+bool passes_checks_of_several_turns(const Product& product, const BuildOptions& options) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const TriangleMesh& mesh = product.pulley.mesh;
+  return all_ok(check_several_turns(product, mesh)) && all_ok(print_checks(mechanism.print, mesh)) &&
+         all_ok(as_built_checks(mechanism, rewind_several_turns(product, mesh).result, options.limits));
+}
+
 /// Curves, body and plates with the checks that a design can fail; the other files say the same. Nothing is written.
 bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   Product product;
@@ -237,7 +299,8 @@ bool passes_checks(const MechanismFile& file, const BuildOptions& options) {
   quietly.before_step = [&options](std::string_view) {
     if (options.between_tries) options.between_tries();
   };
-  if (!design(product, quietly.tolerance, quietly.before_step, TieOffSearch::brief)) return false;
+  if (!design_any(product, quietly.tolerance, quietly.before_step, TieOffSearch::brief)) return false;
+  if (product.helix) return passes_checks_of_several_turns(product, options);
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;
   announce(quietly, "checking its mesh");
@@ -335,6 +398,11 @@ class Look {
 
 Advice advice_for(const Product& product, const BuildOptions& options) {
   const MechanismFile& file = product.file;
+  if (product.helix) {
+    return advice_for_several_turns(
+        product, [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); },
+        options.between_tries);
+  }
   const Look look(product, options);
   std::atomic<int> begun = 0;
   const Judge judge{.obstacles = [&](const Mechanism& changed) { return look(changed); },
@@ -348,7 +416,7 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
 }
 
 void write_and_check(Workshop& shop) {
-  const DracoFile draco = write_parts(shop);
+  const DracoFile draco = shop.result.product.helix ? write_meshes(shop) : write_parts(shop);
   check_written(shop, draco);
   write_texts(shop);
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
@@ -383,7 +451,7 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   if (const auto why = options.step ? step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   target.claim(output_names());  // before the work: a refusal should not cost a wait
-  if (!design(result.product, options.tolerance, options.before_step)) {
+  if (!design_any(result.product, options.tolerance, options.before_step)) {
     result.status = BuildStatus::infeasible;
     announce(options, "looking for what would make it possible");
     result.advice = advice_for(result.product, options);

@@ -215,8 +215,12 @@ Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<Take
   condition.unit = "deg";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
-    condition.message = "P" + number(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
-                        rounded(degrees(lap), 3) + "° for the anchor: more than one turn (helical grooves are not made yet)";
+    condition.message =
+        "P" + number(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
+        rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
+        (mechanism.pulley.winding == WindingChoice::automatic && mechanism.pulley.method == Method::exact
+             ? ", and only 'fusee build' winds several"
+             : "");
   }
   return condition;
 }
@@ -301,13 +305,15 @@ std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<Ta
   return std::nullopt;
 }
 
-SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs) {
+SideAttempt attempt_side(std::vector<Condition>& conditions, const Mechanism& mechanism, const TakeOffs& take_offs,
+                         Turns turns) {
   SideAttempt side{take_offs, take_samples(mechanism, take_offs), std::nullopt, {}};
   if (!judge(conditions, path_probes(mechanism, take_offs), take_offs, side.samples)) return side;
   const bool exact = mechanism.pulley.method == Method::exact;
   // A polar drawing is not asked to be the envelope of anything: it is drawn, and what it does wrong is measured.
   if (exact && !judge(conditions, curve_probes(mechanism, take_offs), take_offs, side.samples)) return side;
   if (exact && !judge_lift_offs(conditions, mechanism, take_offs, side)) return side;
+  if (turns == Turns::many) return side;
   conditions.push_back(one_turn(mechanism, take_offs.side(), side.samples));
   if (!exact || !conditions.back().ok) return side;
   side.closing = close(mechanism, side.samples);
@@ -323,7 +329,7 @@ bool Attempt::feasible() const {
 
 std::string at_alpha_text(double alpha) { return "α = " + rounded(degrees(alpha), 3) + "°"; }
 
-Attempt attempt(const Mechanism& mechanism, const Transmission& transmission) {
+Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Turns turns) {
   Attempt attempt{place_conditions(mechanism), {}};
   if (!attempt.feasible()) return attempt;
   attempt.conditions.push_back(dead_centre(transmission));
@@ -334,7 +340,7 @@ Attempt attempt(const Mechanism& mechanism, const Transmission& transmission) {
   }
   for (const Side side : {Side::left, Side::right}) {
     const TakeOffs take_offs(transmission, side);
-    attempt.sides[side == Side::left ? 0 : 1] = attempt_side(attempt.conditions, mechanism, take_offs);
+    attempt.sides[side == Side::left ? 0 : 1] = attempt_side(attempt.conditions, mechanism, take_offs, turns);
   }
   return attempt;
 }
@@ -377,7 +383,7 @@ std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmi
   }
   for (const Side side : {Side::left, Side::right}) {
     conditions.clear();
-    attempt_side(conditions, mechanism, TakeOffs(transmission, side));
+    attempt_side(conditions, mechanism, TakeOffs(transmission, side), Turns::one);
     if (auto failed = first_of(conditions)) return failed;
   }
   return std::nullopt;

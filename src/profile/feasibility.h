@@ -27,8 +27,11 @@ struct Attempt {
   bool feasible() const;
 };
 
+/// many: the curves do not close, and may be as long as they like.
+enum class Turns { one, many };
+
 /// Looks at everything. Conditions that an earlier failure makes meaningless are left out. The attempt refers to `transmission`.
-Attempt attempt(const Mechanism& mechanism, const Transmission& transmission);
+Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Turns turns = Turns::one);
 
 /// The first condition found that does not hold; null where all do. What costs least to see is looked at first: the
 /// law, then a few places of both curves, all of them only then, and the closing arcs last.

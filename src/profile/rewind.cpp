@@ -7,6 +7,7 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/transmission/transmission.h"
+#include "profile/string_above.h"
 #include "transmission/alpha_range.h"
 
 // The second route. Nothing here knows a support function, a derivative or an envelope: a string is laid round the corners of a
@@ -16,53 +17,12 @@
 namespace fusee {
 namespace {
 
-/// `angle` turned by full turns to within half a turn of `near`.
-double turned_near(double angle, double near) { return angle - k_two_pi * std::round((angle - near) / k_two_pi); }
-
-double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
-
-/// The centre of a string's pin, seen from the joint.
-Vec2 pin_of(const Mechanism& mechanism, double hand) {
-  const Guides& guides = mechanism.guides;
-  return hand > 0 ? Vec2(guides.ED, -guides.OE - guides.D_below_B) : Vec2(-guides.EB, -guides.OE);
-}
-
-/// Where a string ends in the link at home.
-Vec2 end_of(const Mechanism& mechanism, double hand) {
-  const Joint& joint = mechanism.joint;
-  const auto& own = hand > 0 ? joint.attachment2 : joint.attachment1;
-  return own ? Vec2(own->across, own->along) : Vec2(0.0, joint.R);
-}
-
-/// What a string comes to its pulley from, seen from the pulley's axis: its pin, or the mouth of its sheath.
-Vec2 above_pulley(const Mechanism& mechanism, double hand) {
-  if (mechanism.sheath.is_there()) return {hand * mechanism.sheath.exit_across, mechanism.sheath.exit_above};
-  const Vec2 pin = pin_of(mechanism, hand);
-  return {pin.x(), pin.y() + mechanism.guides.OE + mechanism.pulley.EF};
-}
-
-/// One string on its pulley, sheath, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on
-/// the left.
+/// One string on its pulley, pin, drum and joint. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
 class String {
  public:
   String(const Mechanism& mechanism, const Polygon& floor, double hand)
-      : corners_(convex_hull(floor)),
-        hand_(hand),
-        half_(0.5 * mechanism.tendon.diameter),
-        rho_(mechanism.guides.radius + half_),
-        sheathed_(mechanism.sheath.is_there()),
-        lower_rho_(sheathed_ ? 0.0 : rho_),
-        end_(end_of(mechanism, hand)),
-        drum_(mechanism.joint.drum_radius != 0 ? mechanism.joint.drum_radius + half_ : 0.0),
-        drum_centre_(mechanism.joint.drum_centre.across, mechanism.joint.drum_centre.along),
-        pin_(pin_of(mechanism, hand)),
-        from_axis_(above_pulley(mechanism, hand)) {
+      : corners_(convex_hull(floor)), hand_(hand), half_(0.5 * mechanism.tendon.diameter), above_(mechanism, hand) {
     const std::string name = pulley_name();
-    // Out of the drum a string comes at its own height.
-    if (const double away = (end_ - drum_centre_).norm(); away < drum_)
-      end_ = drum_centre_ + drum_ / away * (end_ - drum_centre_);
-    if (drum_ > 0 && !(pin_.norm() - drum_centre_.norm() > drum_ - half_ + mechanism.guides.radius))
-      throw InputError("", "a guide pin stands in the drum", "joint.drum_radius_mm smaller, or pins further out");
     if (corners_.size() < 3) throw InputError("", "the groove floor of " + name + " is not a closed curve with an inside");
     double along = 0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -81,18 +41,16 @@ class String {
   /// Moves the pulley; small steps, so that turns are counted.
   void turn_to(double alpha) {
     alpha_ = alpha;
-    // Seen from the pulley, which turns clockwise, the world turns the other way.
-    const Vec2 pin(std::cos(alpha) * from_axis_.x() - std::sin(alpha) * from_axis_.y(),
-                   std::sin(alpha) * from_axis_.x() + std::cos(alpha) * from_axis_.y());
+    const Vec2 pin = above_.guide_seen_from_pulley(alpha);
     find_corner(pin);
     const double normal = tangent_normal(pin, corner_);
     normal_ = started_ ? turned_near(normal, normal_) : normal;
     started_ = true;
     const double reach = (pin - corners_[corner_]).norm();
-    span_ = std::sqrt((reach - (half_ - lower_rho_)) * (reach + (half_ - lower_rho_)));
+    span_ = std::sqrt((reach - (half_ - above_.lower_rho())) * (reach + (half_ - above_.lower_rho())));
     if (!(span_ > 0)) {
-      throw InputError(
-          "", "the groove floor of " + pulley_name() + " swallows its " + (sheathed_ ? "sheath's mouth" : "guide pin"));
+      throw InputError("", "the groove floor of " + pulley_name() + " swallows its " +
+                               (above_.is_sheathed() ? "sheath's mouth" : "guide pin"));
     }
   }
 
@@ -106,13 +64,13 @@ class String {
   std::string pulley_name() const { return hand_ > 0 ? "P2" : "P1"; }
 
   /// But for a constant.
-  double length(double theta) const { return hand_ * wound() + span_ + over_pin_and_up(theta); }
+  double length(double theta) const { return hand_ * wound() + span_ + above_.length(theta, normal_ - alpha_); }
 
   /// Outward normal of the line that touches the disc about a corner and the pin's disc (or goes through the mouth),
   /// both on their outer side.
   double tangent_normal(const Vec2& pin, std::size_t corner) const {
     const Vec2 away = pin - corners_[corner];
-    return direction(away) - hand_ * std::acos(std::clamp((half_ - lower_rho_) / away.norm(), -1.0, 1.0));
+    return direction(away) - hand_ * std::acos(std::clamp((half_ - above_.lower_rho()) / away.norm(), -1.0, 1.0));
   }
 
   /// Walks to the corner whose tangent leaves all others inside.
@@ -139,53 +97,6 @@ class String {
     return along_[corner_] + girth_ * turns + half_ * normal_;
   }
 
-  /// What joins two discs with the string on the outer side of both, or a disc and a point.
-  struct Piece {
-    double normal = 0;  ///< outward, rad
-    double length = 0;
-  };
-  Piece from_pin_to(const Vec2& centre, double radius) const {
-    const Vec2 away = centre - pin_;
-    const double distance = away.norm(), larger = rho_ - radius;
-    return {direction(away) - hand_ * std::acos(std::clamp(larger / distance, -1.0, 1.0)),
-            std::sqrt(std::max(0.0, (distance - larger) * (distance + larger)))};
-  }
-
-  double over_pin_and_up(double theta) const {
-    const Vec2 end = with_link(end_, theta);
-    Piece up = from_pin_to(end, 0.0);
-    const double wound = drum_ > 0 ? wound_on_drum(theta) : 0.0;
-    if (wound > 0) {
-      const Vec2 centre = with_link(drum_centre_, theta);
-      const double away = (end - centre).norm();
-      up = from_pin_to(centre, drum_);
-      up.length += drum_ * wound + std::sqrt(std::max(0.0, (away - drum_) * (away + drum_)));
-    }
-    // Into a sheath it goes straight down from the pin's outer side; what lies in there keeps its length.
-    const double lower_normal = !sheathed_ ? normal_ - alpha_ : hand_ > 0 ? 0.0 : k_pi;
-    const double wrap = turned_near(hand_ * (up.normal - lower_normal), 0.5 * k_pi);
-    return rho_ * wrap + up.length;
-  }
-
-  /// Over which angle the string lies on the drum; it is free of it below 0. An end at home is reached over the drum's
-  /// outer side: both its direction and the pin's are counted from straight below O, the string's own way round.
-  double wound_on_drum(double theta) const {
-    const auto counted = [this](double angle) {
-      const double own = hand_ > 0 ? angle : k_pi - angle;
-      return turned_near(own, 0.5 * k_pi);
-    };
-    const Vec2 from_centre = end_ - drum_centre_;
-    const double tangent =
-        counted(direction(from_centre)) - std::acos(std::clamp(drum_ / from_centre.norm(), -1.0, 1.0));
-    return tangent - counted(from_pin_to(with_link(drum_centre_, theta), drum_).normal) - hand_ * theta;
-  }
-
-  /// Where a place of the link at home is, turned clockwise with it.
-  static Vec2 with_link(const Vec2& home, double theta) {
-    return {std::cos(theta) * home.x() + std::sin(theta) * home.y(),
-            std::cos(theta) * home.y() - std::sin(theta) * home.x()};
-  }
-
   Polygon corners_;
   std::vector<double> along_;         ///< length of the edges before each corner
   std::vector<double> edge_normals_;  ///< of the edge that leaves each corner, increasing
@@ -193,14 +104,7 @@ class String {
   double home_length_ = 0;
   double hand_;
   double half_;
-  double rho_;
-  bool sheathed_;
-  double lower_rho_;  ///< of what it comes to the pulley from; 0: a mouth
-  Vec2 end_;          ///< in the link at home
-  double drum_;       ///< to the string's centre line; 0: none
-  Vec2 drum_centre_;  ///< in the link at home
-  Vec2 pin_;          ///< in the world
-  Vec2 from_axis_;    ///< what it comes to the pulley from, seen from the axis at home
+  StringAbove above_;
 
   double alpha_ = 0;
   std::size_t corner_ = 0;

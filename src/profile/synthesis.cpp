@@ -17,20 +17,6 @@ double flange_reach(const Mechanism& mechanism) {
   return mechanism.groove_depth() + mechanism.tendon.diameter;
 }
 
-std::vector<TransmissionPoint> stroke_table(const Transmission& transmission, int steps) {
-  std::vector<double> alphas = alphas_over_range(transmission, steps);
-  // Home is a row of its own, in place of the nearest one when that is home but for rounding.
-  const auto after = std::lower_bound(alphas.begin(), alphas.end(), -1e-9);
-  if (after != alphas.end() && *after < 1e-9) {
-    *after = 0.0;
-  } else {
-    alphas.insert(after, 0.0);
-  }
-  std::vector<TransmissionPoint> points;
-  for (const double alpha : alphas) points.push_back(transmission.at_alpha(alpha));
-  return points;
-}
-
 /// A chord that turns by δ is shorter than its arc by δ²/24 of it. On pulleys about as large as the joint's own drum
 /// that is so much of the joint's angle as well: over a wide range chords are shorter, for 0.0015° at its end. Joints
 /// without drum and with one attachment turn less, by levers longer than their pulleys.
@@ -89,7 +75,7 @@ SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& o
   SynthesisResult result;
   const Transmission transmission(mechanism);
   Attempt tried = attempt(mechanism, transmission);
-  if (!transmission.dead_centre()) result.stroke = stroke_table(transmission, options.stroke_steps);
+  if (!transmission.dead_centre()) result.stroke = stroke_over_range(transmission, options.stroke_steps);
   if (tried.feasible()) {
     result.status = SynthesisStatus::made;
     draw(result, mechanism, tried, options);

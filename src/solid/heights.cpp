@@ -14,9 +14,6 @@
 namespace fusee {
 namespace {
 
-// Roofs are made steeper than the flattest slope by this: slicers take a slope of up to a degree more for too flat
-// (PrusaSlicer 2.5 supports 45.5° at a threshold of 45°, and 46° no longer), and coordinates are floats.
-constexpr double k_slope_margin = radians(2.5);
 // What the chamfer at the bed leaves of the lip, outwards and upwards.
 constexpr double k_lip_left = 0.2;
 

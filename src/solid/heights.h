@@ -2,9 +2,14 @@
 /// The sections of both grooves and where everything lies along the axis. mm, rad.
 #pragma once
 
+#include "fusee/base/units.h"
 #include "solid/body.h"
 
 namespace fusee {
+
+/// Roofs are made steeper than the flattest slope by this: slicers take a slope of up to a degree more for too flat
+/// (PrusaSlicer 2.5 supports 45.5° at a threshold of 45°, and 46° no longer), and coordinates are floats.
+inline constexpr double k_slope_margin = radians(2.5);
 
 /// Groove walls, channels, flanges, cones, chamfer and heights of a part that is printed in one piece or in two; no
 /// bore, no hub.

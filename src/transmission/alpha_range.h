@@ -2,6 +2,7 @@
 /// Internal: places along a declared law.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "fusee/transmission/transmission.h"
@@ -13,6 +14,21 @@ inline std::vector<double> alphas_over_range(const Transmission& law, int steps)
   std::vector<double> alphas;
   for (int i = 0; i <= steps; ++i) alphas.push_back(law.alpha_min() + (law.alpha_max() - law.alpha_min()) * i / steps);
   return alphas;
+}
+
+/// The law evenly in α over its range, home included.
+inline std::vector<TransmissionPoint> stroke_over_range(const Transmission& transmission, int steps) {
+  std::vector<double> alphas = alphas_over_range(transmission, steps);
+  // Home is a row of its own, in place of the nearest one when that is home but for rounding.
+  const auto after = std::lower_bound(alphas.begin(), alphas.end(), -1e-9);
+  if (after != alphas.end() && *after < 1e-9) {
+    *after = 0.0;
+  } else {
+    alphas.insert(after, 0.0);
+  }
+  std::vector<TransmissionPoint> points;
+  for (const double alpha : alphas) points.push_back(transmission.at_alpha(alpha));
+  return points;
 }
 
 }  // namespace fusee

@@ -26,12 +26,18 @@ Arm arm(const PinPlace& place, Side side, double theta) {
 
 double to_world(Side side, double image_angle) { return side == Side::right ? image_angle : k_pi - image_angle; }
 
-TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, double g, double dg, double d2g) {
+/// By how much a pulley's radius differs from that of a planar tendon, and its derivatives.
+struct Excess {
+  double p = 0, dp = 0, d2p = 0;
+};
+
+TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, double g, double dg, double d2g,
+                         const Excess& excess) {
   TendonPoint point;
   point.m = arm.m;
-  point.p = pulley_radius(arm.m, g);
-  point.dp = arm.dm * g * g + arm.m * dg;
-  point.d2p = arm.d2m * g * g * g + 3.0 * arm.dm * g * dg + arm.m * d2g;
+  point.p = pulley_radius(arm.m, g) + excess.p;
+  point.dp = arm.dm * g * g + arm.m * dg + excess.dp;
+  point.d2p = arm.d2m * g * g * g + 3.0 * arm.dm * g * dg + arm.m * d2g + excess.d2p;
   Domain unasked;  // where a pin stands in a pulley the numbers are NaN
   const LowerGuide guide = place.lower();
   const LowerLine<double> lower = lower_line(point.p, guide.rho, guide.c(), guide.phi(), unasked);
@@ -43,6 +49,21 @@ TendonPoint tendon_point(const PinPlace& place, Side side, const Arm& arm, doubl
   point.in_sheath = place.in_sheath;
   point.length = point.free_upper + place.rho * point.wrap + point.lower_reach + point.in_sheath;
   return point;
+}
+
+/// θ(a(α)) with a = α + q/r1: the chain rule, three times.
+void lengthen(TransmissionPoint& point, const SmoothSeries::Value& q, double r1) {
+  const double d1 = 1.0 + q.d1 / r1, d2 = q.d2 / r1, d3 = q.d3 / r1;
+  const double g = point.g, dg = point.dg, d2g = point.d2g;
+  point.g = g * d1;
+  point.dg = dg * d1 * d1 + g * d2;
+  point.d2g = d2g * d1 * d1 * d1 + 3.0 * dg * d1 * d2 + g * d3;
+}
+
+/// dq/dα of the tendon's image: L + σ = q + const, and d(L + σ) = −m dθ + p dα there.
+Excess excess_of(const SmoothSeries::Value& q, Side side) {
+  const double sign = mirror_sign(side);
+  return {sign * q.d1, sign * q.d2, sign * q.d3};
 }
 
 /// A place where `holds` turns false between `good` and `bad`, to the last digits.
@@ -80,6 +101,12 @@ constexpr double k_margin = 0.02;
 Transmission::Transmission(const Mechanism& mechanism)
     : Transmission(mechanism, mechanism.seen_pitch_radius()) {}
 
+Transmission::Transmission(const Mechanism& mechanism, std::shared_ptr<const SlopedPaths> paths)
+    : Transmission(mechanism) {
+  paths_ = std::move(paths);
+  if (paths_ != nullptr && !dead_centre_) find_range();
+}
+
 Transmission::Transmission(const Mechanism& mechanism, double rho)
     : law_(mechanism.pulley.law),
       r1_(mechanism.pulley.r1),
@@ -102,12 +129,35 @@ Transmission::Transmission(const Mechanism& mechanism, double rho)
       if (!has_arms(theta)) dead_centre_ = i == 0 ? 0.0 : border(end * (i - 1) / steps, theta, has_arms);
     }
   }
-  if (dead_centre_) return;
-  alpha_min_ = alpha(theta_min_);
-  alpha_max_ = alpha(theta_max_);
+  if (!dead_centre_) find_range();
 }
 
+void Transmission::find_range() {
+  const double first = alpha(theta_min_), last = alpha(theta_max_);
+  alpha_min_ = first;
+  alpha_max_ = last;
+}
+
+// A round P1 pays out r1 α, of which q1 does not reach the joint: what is left turns it as a planar tendon does at
+//   α + q1(α)/r1
 double Transmission::alpha(double theta) const {
+  const double planar = planar_alpha(theta);
+  if (law_ != Law::compensate || paths_ == nullptr) return planar;
+  double alpha = planar;
+  for (int i = 0; i < 60; ++i) {
+    const double next = planar - paths_->q1.at(alpha).d0 / r1_;
+    if (std::abs(next - alpha) <= 1e-15 * (1.0 + std::abs(alpha))) return next;
+    alpha = next;
+  }
+  return alpha;
+}
+
+double Transmission::theta(double alpha) const {
+  const bool is_lengthened = law_ == Law::compensate && paths_ != nullptr;
+  return planar_theta(is_lengthened ? alpha + paths_->q1.at(alpha).d0 / r1_ : alpha);
+}
+
+double Transmission::planar_alpha(double theta) const {
   switch (law_) {
     case Law::compensate:
       // Tendon 1 is wound on a round pulley: what its upper span takes, P1 pays out.
@@ -124,7 +174,7 @@ double Transmission::alpha(double theta) const {
   });
 }
 
-double Transmission::theta(double alpha) const {
+double Transmission::planar_theta(double alpha) const {
   switch (law_) {
     case Law::compensate: break;
     case Law::linear: return alpha / ratio_;
@@ -155,6 +205,7 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
       point.g = slope_over_round_pulley(r1_, arm1.m);
       point.dg = -arm1.dm * point.g * point.g / arm1.m;
       point.d2g = -(arm1.d2m * point.g * point.g * point.g + 3.0 * arm1.dm * point.g * point.dg) / arm1.m;
+      if (paths_ != nullptr) lengthen(point, paths_->q1.at(alpha), r1_);
       break;
     case Law::linear: point.g = 1.0 / ratio_; break;
     case Law::table: {
@@ -165,8 +216,13 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
       break;
     }
   }
-  point.t1 = tendon_point(left_, Side::left, arm1, point.g, point.dg, point.d2g);
-  point.t2 = tendon_point(right_, Side::right, arm2, point.g, point.dg, point.d2g);
+  Excess excess1, excess2;
+  if (paths_ != nullptr) {
+    excess1 = excess_of(paths_->q1.at(alpha), Side::left);
+    excess2 = excess_of(paths_->q2.at(alpha), Side::right);
+  }
+  point.t1 = tendon_point(left_, Side::left, arm1, point.g, point.dg, point.d2g, excess1);
+  point.t2 = tendon_point(right_, Side::right, arm2, point.g, point.dg, point.d2g, excess2);
   if (law_ == Law::compensate) {
     // Exactly round, not round to the last digit: a circle in gives a circle out.
     point.t1.p = r1_;

@@ -59,6 +59,7 @@ struct Guides {
   GuideKind kind = GuideKind::pin;  ///< idler: turns on a bearing, and the tendon does not slide on it
   double bearing_radius = 0;        ///< of an idler's bearing, where its friction acts
   double bearing_friction = 0;
+  bool collar = false;  ///< a groove or collar keeps the tendon at the guide's height where it is wound several times
 
   bool operator==(const Guides&) const = default;
 };
@@ -81,6 +82,8 @@ struct Sheath {
 
 enum class Law { compensate, linear, table };
 enum class Method { exact, paper };
+/// automatic: a tendon is wound several times, in a helical groove, where one turn does not suffice.
+enum class WindingChoice { automatic, one_turn };
 
 /// One row of a declared law θ(α). rad.
 struct LawRow {
@@ -100,6 +103,7 @@ struct PulleyDrive {
   std::vector<LawRow> rows;  ///< its contents, by increasing α
   Method method = Method::exact;
   double mu = 0;             ///< friction between tendon and groove, effective
+  WindingChoice winding = WindingChoice::automatic;
 
   bool operator==(const PulleyDrive&) const = default;
 };
@@ -164,6 +168,8 @@ struct Body {
   Marks marks = Marks::engraved;
   double mark_depth = 0;
   double min_wall = 0;          ///< 0: 1.2 mm, thinner on small pulleys
+  double lead = 0;              ///< of helical grooves: least height from turn to turn; 0: what groove and rib need
+  double spare_turns = 1;       ///< of helical grooves, before and after what the range winds
 
   bool operator==(const Body&) const = default;
 };

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fusee/mechanism/mechanism.h"
+#include "fusee/transmission/sloped_paths.h"
 #include "fusee/transmission/tendon_path.h"
 
 namespace fusee {
@@ -45,6 +46,9 @@ class Transmission {
   Transmission(const Mechanism& mechanism, double rho);
   /// With the pins as the mechanism's method sees them (seen_pitch_radius).
   explicit Transmission(const Mechanism& mechanism);
+  /// With tendons wound several times, whose paths slope: p_i = m_i dθ/dα + dq_i/dα in the tendon's image, and a round P1
+  /// turns the joint as if α were α + q1/r1. `paths` null: planar tendons.
+  Transmission(const Mechanism& mechanism, std::shared_ptr<const SlopedPaths> paths);
 
   /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, or a formula has no value; null when
   /// the law exists over the whole range. The other members, but alpha() and place(), may be called only when it is
@@ -64,6 +68,9 @@ class Transmission {
  private:
   struct TableLaw;
   TransmissionPoint at(double alpha, double theta) const;
+  double planar_theta(double alpha) const;
+  double planar_alpha(double theta) const;
+  void find_range();
 
   Law law_;
   double r1_;
@@ -71,6 +78,7 @@ class Transmission {
   PinPlace left_;
   PinPlace right_;
   std::shared_ptr<const TableLaw> table_;
+  std::shared_ptr<const SlopedPaths> paths_;
   double home_length_ = 0;
   std::optional<double> dead_centre_;
   double theta_min_, theta_max_;

@@ -1,0 +1,27 @@
+/// \file
+/// The pitch curve of a helical groove: what a tendon's centre line lies on over several turns.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace fusee {
+
+/// One row of the pitch curve of a helical groove.
+struct SpiralRow {
+  double x = 0, y = 0;  ///< mm, on the pitch curve (tendon's centre line in plan), pulley frame at home
+  double turn = 0;      ///< rad, angle of the outward normal, unrolled over all turns, monotone
+  double rho = 0;       ///< mm, radius of curvature in plan, > 0
+  double s = 0;         ///< mm, planar arc length from the first row
+  double z = 0;         ///< mm, height of the tendon's centre line: linear in s
+};
+
+/// The outward normal at a row is (cos turn, sin turn). One turn on, z is larger by groove, rib and the step between
+/// both radii at least.
+struct Spiral {
+  std::vector<SpiralRow> rows;   ///< in growing `turn`, spare turns at both ends included
+  double slope = 0;              ///< tan λ = dz/ds
+  std::size_t first_used = 0, last_used = 0;  ///< rows of the working arc, without the spare turns
+};
+
+}  // namespace fusee

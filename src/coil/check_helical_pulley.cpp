@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "coil/half_planes.h"
+#include "fusee/coil/helical_pulley.h"
+#include "fusee/solid/mesh.h"
+#include "solid/euler.h"
+#include "solid/place.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::size_t k_gauge_planes = 360;
+// Grooves are at least this deep: smaller grounds are chords of something else.
+constexpr double k_least_groove = 0.3;
+// What floats and the formats' own grains take of a thickness.
+constexpr double k_grain_of_gauge = 1e-4;
+// Ribs are measured at this share of a groove's depth: above, a chord may lie under the lip.
+constexpr double k_share_of_depth = 0.9;
+// Between volumes of the same facets, relative.
+constexpr double k_volume_grain = 1e-5;
+
+// The least of something, and where.
+struct Least {
+  double value = std::numeric_limits<double>::infinity();
+  Vec3 at = Vec3::Zero();
+
+  void note(double here, double angle, double r, double z) {
+    if (here >= value) return;
+    value = here;
+    at = {r * std::cos(angle), r * std::sin(angle), z};
+  }
+  Check check(const std::string& name, double limit) const {
+    return at_least(name, value, limit, "mm", value >= limit ? std::string() : "at " + place_of(at));
+  }
+};
+
+// In the finished part's sizes.
+class PartGauge {
+ public:
+  PartGauge(const TriangleMesh& mesh, const HelicalPulley& pulley, const HelicalSection& section)
+      : layout_(pulley.layout), section_(section) {
+    auto cuts = half_plane_cuts(mesh, k_gauge_planes);
+    std::vector<std::vector<OutlinePiece>> outlines;
+    std::vector<std::vector<FloorPlace>> floors, whole(k_gauge_planes);
+    for (std::vector<OutlinePiece>& cut : cuts) {
+      for (OutlinePiece& piece : cut) {
+        for (double* size : {&piece.z0, &piece.r0, &piece.z1, &piece.r1}) *size /= layout_.scale;
+      }
+      outlines.push_back(outermost(cut));
+      floors.push_back(floors_of(outlines.back(), k_least_groove));
+    }
+    for (const FloorTrace& trace : floor_traces(floors)) {
+      for (std::size_t k = 0; k < trace.places.size(); ++k)
+        whole[(trace.first + k) % k_gauge_planes].push_back(trace.places[k]);
+    }
+    for (std::size_t k = 0; k < k_gauge_planes; ++k) {
+      std::sort(whole[k].begin(), whole[k].end(), [](const FloorPlace& a, const FloorPlace& b) { return a.z < b.z; });
+      measure(half_plane_angle(k, k_gauge_planes), cuts[k], outlines[k], whole[k]);
+    }
+  }
+
+  void add_checks(std::vector<Check>& checks, double tolerance) const {
+    checks.push_back(rib_.check("rib", section_.rib - k_grain_of_gauge));
+    checks.push_back(depth_.check("groove_depth", section_.depth - tolerance));
+    checks.push_back(wall_.check("bore_wall", layout_.min_wall - k_grain_of_gauge));
+  }
+
+ private:
+  void measure(double angle, const std::vector<OutlinePiece>& pieces, const std::vector<OutlinePiece>& outline,
+               const std::vector<FloorPlace>& floors) {
+    for (std::size_t i = 0; i < floors.size(); ++i) {
+      const FloorPlace& floor = floors[i];
+      depth_.note(std::min(floor.low_lip, floor.high_lip) - floor.r, angle, floor.r, floor.z);
+      wall_.note(floor.r - bore_at(pieces, floor.z), angle, floor.r, floor.z);
+      if (i > 0) rib_.note(thickness_between(outline, floors[i - 1], floor), angle, floor.r, floor.z);
+    }
+  }
+
+  // Height over which the outline stands out further than the nearer floor's groove is deep.
+  double thickness_between(const std::vector<OutlinePiece>& outline, const FloorPlace& low, const FloorPlace& high) const {
+    const double level = std::min(low.r, high.r) + k_share_of_depth * section_.depth;
+    double thickness = 0;
+    for (const OutlinePiece& piece : outline) {
+      if (piece.z1 <= low.z || piece.z0 >= high.z) continue;
+      const double least = std::min(piece.r0, piece.r1), most = std::max(piece.r0, piece.r1);
+      if (most <= level) continue;
+      const double share = least >= level ? 1.0 : (most - level) / (most - least);
+      thickness += share * (std::min(piece.z1, high.z) - std::max(piece.z0, low.z));
+    }
+    return thickness;
+  }
+
+  // How far the bore, or a horn's hole, reaches at this height.
+  double bore_at(const std::vector<OutlinePiece>& pieces, double z) const {
+    double reach = layout_.bore.radius;
+    for (const Polygon& hole : layout_.bore.screw_holes) reach = std::max(reach, circumradius(hole));
+    double furthest = 0;
+    for (const OutlinePiece& piece : pieces) {
+      const double r = std::max(piece.r0, piece.r1);
+      if (piece.z0 <= z && z <= piece.z1 && r <= reach + layout_.min_wall) furthest = std::max(furthest, r);
+    }
+    return furthest;
+  }
+
+  const BodyLayout& layout_;
+  const HelicalSection& section_;
+  Least rib_, depth_, wall_;
+};
+
+}  // namespace
+
+std::vector<Check> check_helical_pulley(const TriangleMesh& mesh, const HelicalPulley& pulley,
+                                        const HelicalSection& section, double tolerance) {
+  std::vector<Check> checks = check_mesh(mesh);
+  if (!all_ok(checks)) return checks;
+  checks.push_back(exactly("euler_number", euler_number(mesh), pulley.expected_euler, "1"));
+  const double off = std::abs(enclosed_volume(mesh) - pulley.expected_volume);
+  checks.push_back(at_most("volume", off, k_volume_grain * pulley.expected_volume, "mm³"));
+  PartGauge(mesh, pulley, section).add_checks(checks, tolerance);
+  return checks;
+}
+
+}  // namespace fusee

@@ -1,0 +1,321 @@
+#include "coil/helical_blank.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
+#include "solid/caps.h"
+
+// The outer surface is a fan of columns, one for each common direction of the normal. Up a column stand, one over the
+// other: the lower face's rim, P1's turns, the middle flange's two rings, P2's turns, the upper face's rim. From column
+// to column a turn goes on as the next row of its groove, a ring as itself: each strip between two columns is a ladder
+// of bands, section by section and rib by rib, so that a rib belongs to the turn under it and to the one over it. Only
+// where a groove begins or ends has one side of a strip two more corners, and the groove's section is closed by a wall.
+
+namespace fusee {
+namespace {
+
+using Index = std::uint32_t;
+
+// How a hub's circle is drawn: its sagitta.
+constexpr double k_hub_sagitta = 0.01;
+
+// Where in its turn a ring begins to leave the outermost turn for where it has to end, of 2π.
+constexpr double k_blend_from = 0.5;
+
+// 0 up to k_blend_from of a turn, 1 after all of it.
+double blend(double share) {
+  const double t = std::clamp((share - k_blend_from) / (1.0 - k_blend_from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+// A closed ring that follows the outermost turn of a groove, lowest or highest: a turn of an open spiral, so that it
+// leaves it on the half where there is most room beside it, for the place where the turn began.
+std::vector<Vec2> ring_about(const Winding& winding, std::size_t columns, bool lowest, double outward) {
+  const bool from_front = lowest != winding.falls;
+  const std::size_t last = winding.rows.size() - 1;
+  const auto row_at = [&](std::size_t k) -> const WindingRow& { return winding.rows[from_front ? k : last - k]; };
+  const Vec2 gap = row_at(0).position - row_at(columns).position;
+  const double turn = std::abs(row_at(columns).turn - row_at(0).turn);
+  std::vector<Vec2> ring(columns);
+  for (std::size_t k = 0; k < columns; ++k) {
+    const WindingRow& row = row_at(k);
+    const std::size_t column = winding.first_column + (from_front ? k : last - k);
+    const double share = std::abs(row.turn - row_at(0).turn) / turn;
+    ring[column % columns] = row.position + outward * row.normal + blend(share) * gap;
+  }
+  return ring;
+}
+
+class BlankBuilder {
+ public:
+  BlankBuilder(const Fan& fan, const HelicalSection& section, const BodyLayout& layout, const RingHeights& heights)
+      : fan_(fan), layout_(layout), heights_(heights), columns_(fan.columns()), lip_(section.depth - 0.5 * layout.tendon_diameter) {
+    const auto& below = section.walls.below;
+    const auto& above = section.walls.above;
+    for (std::size_t k = below.size(); k-- > 1;) section_.push_back({below[k].offset, -below[k].dz});
+    for (std::size_t k = 1; k < above.size(); ++k) section_.push_back(above[k]);
+  }
+
+  TriangleMesh build() {
+    std::vector<Ladder> ladder = features();
+    for (std::size_t i = 0; i < columns_; ++i) add_strip(ladder, i);
+    add_end_walls(ladder);
+    add_faces();
+    return std::move(mesh_);
+  }
+
+ private:
+  // What goes up through the strips: a ring, or a groove with all its turns.
+  struct Ladder {
+    const Winding* winding = nullptr;  // null: a ring
+    Index first = 0;                   // its first vertex
+  };
+
+  // A ring's vertex or a turn's section in one column: first to last, upwards.
+  struct Rung {
+    Index low = 0, high = 0;
+  };
+
+  Index add(const Vec2& plan, double z) {
+    mesh_.vertices.emplace_back(plan.x(), plan.y(), z);
+    return static_cast<Index>(mesh_.vertices.size() - 1);
+  }
+
+  Ladder ring(const std::vector<Vec2>& plan, double z) {
+    const Ladder here{nullptr, static_cast<Index>(mesh_.vertices.size())};
+    for (const Vec2& point : plan) add(point, z);
+    return here;
+  }
+
+  Ladder groove(const Winding& winding) {
+    const Ladder here{&winding, static_cast<Index>(mesh_.vertices.size())};
+    for (const WindingRow& row : winding.rows) {
+      for (const GroovePoint& point : section_)
+        add(row.position + (point.offset - 0.5 * layout_.tendon_diameter) * row.normal, row.height + point.dz);
+    }
+    return here;
+  }
+
+  std::vector<Ladder> features() {
+    std::vector<Ladder> all;
+    const double foot = layout_.elephant_foot;
+    if (foot > 0) all.push_back(ring(ring_about(fan_.p1, columns_, true, lip_ - foot), 0.0));
+    lowest_ = 0;
+    all.push_back(ring(ring_about(fan_.p1, columns_, true, lip_), foot > 0 ? rise_of(layout_, foot) : 0.0));
+    all.push_back(groove(fan_.p1));
+    all.push_back(ring(ring_about(fan_.p1, columns_, false, lip_), heights_.lower));
+    all.push_back(ring(ring_about(fan_.p2, columns_, true, lip_), heights_.upper));
+    all.push_back(groove(fan_.p2));
+    all.push_back(ring(ring_about(fan_.p2, columns_, false, lip_), heights_.top));
+    highest_ = all.back().first;
+    return all;
+  }
+
+  Index section_vertex(const Ladder& groove, std::size_t row, std::size_t k) const {
+    return groove.first + static_cast<Index>(row * section_.size() + k);
+  }
+  Rung rung(const Ladder& groove, std::size_t row) const {
+    return {section_vertex(groove, row, 0), section_vertex(groove, row, section_.size() - 1)};
+  }
+
+  // Rows of a groove in a column, upwards.
+  std::vector<std::size_t> rows_in(const Winding& winding, std::size_t column) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t j = (column + columns_ - winding.first_column) % columns_; j < winding.rows.size(); j += columns_)
+      rows.push_back(j);
+    if (winding.falls) std::reverse(rows.begin(), rows.end());
+    return rows;
+  }
+
+  void triangle(Index a, Index b, Index c) { mesh_.triangles.push_back({a, b, c}); }
+
+  // From the column on the left (of smaller angle) to that on the right, both upwards, between what they stand on and
+  // what they end in; seen from outside the right one is on the right hand.
+  void band(const std::vector<Index>& left, const std::vector<Index>& right) {
+    const auto height = [this](Index v) { return mesh_.vertices[v].z(); };
+    const auto share = [&](const std::vector<Index>& chain, std::size_t k) {
+      const double low = height(chain.front()), high = height(chain.back());
+      return high > low ? (height(chain[k]) - low) / (high - low) : 1.0;
+    };
+    std::size_t l = 0, r = 0;
+    while (l + 1 < left.size() || r + 1 < right.size()) {
+      const bool climb_left = l + 1 < left.size() && (r + 1 == right.size() || share(left, l + 1) < share(right, r + 1));
+      if (climb_left) {
+        triangle(left[l], right[r], left[l + 1]);
+        ++l;
+      } else {
+        triangle(left[l], right[r], right[r + 1]);
+        ++r;
+      }
+    }
+  }
+
+  // Everything in a strip from below: bands join what the strip's two columns have one over the other.
+  void add_strip(const std::vector<Ladder>& ladder, std::size_t i) {
+    const std::size_t next = (i + 1) % columns_;
+    std::vector<Index> left, right;  // since the last feature of both columns
+    const auto meet = [&](Rung on_left, Rung on_right) {
+      left.push_back(on_left.low);
+      right.push_back(on_right.low);
+      if (left.size() > 1) band(left, right);
+      left = {on_left.high};
+      right = {on_right.high};
+    };
+    for (const Ladder& step : ladder) {
+      if (step.winding == nullptr) {
+        const Index a = step.first + static_cast<Index>(i), b = step.first + static_cast<Index>(next);
+        meet({a, a}, {b, b});
+        continue;
+      }
+      add_groove(step, rows_in(*step.winding, i), rows_in(*step.winding, next), left, right, meet);
+    }
+  }
+
+  void add_groove(const Ladder& groove, const std::vector<std::size_t>& on_left, const std::vector<std::size_t>& on_right,
+                  std::vector<Index>& left, std::vector<Index>& right, const auto& meet) {
+    std::size_t l = 0, r = 0;
+    const std::size_t last = groove.winding->rows.size() - 1;
+    while (l < on_left.size() || r < on_right.size()) {
+      if (l < on_left.size() && on_left[l] == last) {
+        const Rung end = rung(groove, on_left[l++]);
+        left.insert(left.end(), {end.low, end.high});
+      } else if (r < on_right.size() && on_right[r] == 0) {
+        const Rung end = rung(groove, on_right[r++]);
+        right.insert(right.end(), {end.low, end.high});
+      } else {
+        demand(l < on_left.size() && r < on_right.size() && on_right[r] == on_left[l] + 1, "turns that do not go on");
+        meet(rung(groove, on_left[l]), rung(groove, on_right[r]));
+        for (std::size_t k = 0; k + 1 < section_.size(); ++k) {
+          const Index a = section_vertex(groove, on_left[l], k), b = section_vertex(groove, on_right[r], k);
+          triangle(a, b, b + 1);
+          triangle(a, b + 1, a + 1);
+        }
+        ++l;
+        ++r;
+      }
+    }
+  }
+
+  // The section is convex towards the axis: a fan from its lower lip.
+  void add_end_walls(const std::vector<Ladder>& ladder) {
+    for (const Ladder& groove : ladder) {
+      if (groove.winding == nullptr) continue;
+      const std::size_t last = groove.winding->rows.size() - 1;
+      for (std::size_t k = 1; k + 1 < section_.size(); ++k) {
+        triangle(section_vertex(groove, 0, 0), section_vertex(groove, 0, k), section_vertex(groove, 0, k + 1));
+        triangle(section_vertex(groove, last, 0), section_vertex(groove, last, k + 1), section_vertex(groove, last, k));
+      }
+    }
+  }
+
+  std::vector<Index> ring_indices(Index first) const {
+    std::vector<Index> indices;
+    for (std::size_t i = 0; i < columns_; ++i) indices.push_back(first + static_cast<Index>(i));
+    return indices;
+  }
+  std::vector<Index> loop_at(const Polygon& loop, double z) {
+    std::vector<Index> indices;
+    for (const Vec2& point : loop) indices.push_back(add(point, z));
+    return indices;
+  }
+
+  // loops[0] without the others, all at one height.
+  void face(const std::vector<std::vector<Index>>& loops, bool up) {
+    std::vector<Polygon> polygons;
+    std::vector<Index> index;
+    for (const auto& loop : loops) {
+      polygons.emplace_back();
+      for (const Index v : loop) {
+        polygons.back().push_back(mesh_.vertices[v].head<2>());
+        index.push_back(v);
+      }
+    }
+    for (const auto& [a, b, c] : triangulate(polygons)) {
+      if (up)
+        triangle(index[a], index[b], index[c]);
+      else
+        triangle(index[a], index[c], index[b]);
+    }
+  }
+
+  // Between two levels of a loop that runs counter-clockwise; `outward`: the solid is inside of it.
+  void wall(const std::vector<Index>& low, const std::vector<Index>& high, bool outward) {
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      const std::size_t n = (i + 1) % low.size();
+      if (outward) {
+        triangle(low[i], low[n], high[n]);
+        triangle(low[i], high[n], high[i]);
+      } else {
+        triangle(low[n], low[i], high[i]);
+        triangle(low[n], high[i], high[n]);
+      }
+    }
+  }
+
+  std::vector<Polygon> bores() const {
+    std::vector<Polygon> holes{layout_.bore.outline};
+    holes.insert(holes.end(), layout_.bore.screw_holes.begin(), layout_.bore.screw_holes.end());
+    for (Polygon& hole : holes) {
+      if (signed_area(hole) < 0) std::reverse(hole.begin(), hole.end());
+    }
+    return holes;
+  }
+
+  void add_faces() {
+    std::vector<std::vector<Index>> below{ring_indices(lowest_)}, above;
+    const double top = layout_.hub_radius > 0 ? heights_.hub_top : heights_.top;
+    if (layout_.hub_radius > 0) {
+      const Polygon circle = hub_circle();
+      const std::vector<Index> foot = loop_at(circle, heights_.top), head = loop_at(circle, top);
+      face({ring_indices(highest_), foot}, true);
+      wall(foot, head, true);
+      above.push_back(head);
+    } else {
+      above.push_back(ring_indices(highest_));
+    }
+    for (const Polygon& hole : bores()) {
+      below.push_back(loop_at(hole, 0.0));
+      above.push_back(loop_at(hole, top));
+      wall(below.back(), above.back(), false);
+    }
+    face(below, false);
+    face(above, true);
+  }
+
+  Polygon hub_circle() const {
+    const double radius = layout_.hub_radius;
+    const int facets = std::max(24, static_cast<int>(std::ceil(k_pi / std::acos(1.0 - k_hub_sagitta / radius))));
+    Polygon circle;
+    for (int k = 0; k < facets; ++k) circle.push_back(radius * unit(k_two_pi * (k + 0.5) / facets));
+    return circle;
+  }
+
+  const Fan& fan_;
+  const BodyLayout& layout_;
+  const RingHeights& heights_;
+  std::size_t columns_;
+  double lip_;
+  std::vector<GroovePoint> section_;  // upwards, offsets from the floor
+  TriangleMesh mesh_;
+  Index lowest_ = 0, highest_ = 0;
+};
+
+}  // namespace
+
+double middle_step(const Fan& fan, double lip) {
+  const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, lip), upper = ring_about(fan.p2, fan.columns(), true, lip);
+  double step = 0;
+  for (std::size_t i = 0; i < fan.columns(); ++i) step = std::max(step, (upper[i] - lower[i]).dot(unit(fan.angles[i])));
+  return step;
+}
+
+TriangleMesh helical_blank(const Fan& fan, const HelicalSection& section, const BodyLayout& layout,
+                           const RingHeights& heights) {
+  return BlankBuilder(fan, section, layout, heights).build();
+}
+
+}  // namespace fusee

@@ -1,0 +1,326 @@
+#include "fusee/coil/helical_pulley.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "coil/helical_blank.h"
+#include "coil/run_out.h"
+#include "coil/winding.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "solid/boolean.h"
+#include "solid/bore.h"
+#include "solid/groove.h"
+#include "solid/heights.h"
+#include "solid/hub.h"
+#include "solid/self_intersection.h"
+#include "solid/set_screw.h"
+#include "solid/tools.h"
+
+namespace fusee {
+namespace {
+
+// A rib of two lines of a nozzle of 0.4 mm, and what printers lose of one.
+constexpr double k_rib = 0.9;
+// Diameters to try for an automatic bore, and walls: as of one-turn pulleys.
+constexpr std::array<double, 6> k_bore_diameters{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
+constexpr double k_most_wall = 1.2, k_wall_of_radius = 0.12, k_thinnest_wall = 0.4;
+// A cut whose rounding to float left a fault is tried again with other facets on the tools.
+constexpr int k_cut_variants = 8;
+// What the chamfer at the bed leaves of the lip.
+constexpr double k_left_of_lip = 0.2;
+// The middle flange's two rings are never one, whatever stands on them.
+constexpr double k_least_cone = 0.2;
+
+Condition condition_of(std::string name, bool ok, double value, double limit, std::string message) {
+  Condition condition;
+  condition.name = std::move(name);
+  condition.ok = ok;
+  condition.value = value;
+  condition.limit = limit;
+  condition.unit = "mm";
+  condition.message = std::move(message);
+  return condition;
+}
+
+std::string mm(double value) { return rounded(value, 3) + " mm"; }
+
+class Planner {
+ public:
+  Planner(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance)
+      : mechanism_(mechanism), p1_(p1), p2_(p2), tolerance_(tolerance), d_(mechanism.tendon.diameter), section_(helical_section(mechanism)) {}
+
+  HelicalPulley make() {
+    if (!spirals_are_whole()) return std::move(pulley_);
+    lay_out();
+    place_along_axis();
+    conditions();
+    if (!failed_of(pulley_.conditions).empty()) return std::move(pulley_);
+    cut();
+    return std::move(pulley_);
+  }
+
+ private:
+  void add(std::string name, double value, double limit, std::string message) {
+    pulley_.conditions.push_back(condition_of(std::move(name), value >= limit, value, limit, std::move(message)));
+  }
+
+  bool spirals_are_whole() {
+    for (const Side side : {Side::left, Side::right}) {
+      const std::vector<SpiralRow>& rows = spiral(side).rows;
+      const auto stands_still = [](const SpiralRow& a, const SpiralRow& b) { return !(b.turn > a.turn); };
+      const bool grows = rows.size() >= 2 && std::adjacent_find(rows.begin(), rows.end(), stands_still) == rows.end();
+      const double turn = grows ? rows.back().turn - rows.front().turn : 0.0;
+      // A little more than a turn, so that every column has a row.
+      constexpr double k_least_turn = k_two_pi + radians(10);
+      Condition condition = condition_of(
+          fmt::format("whole_turn_{}", pulley_name(side)), turn >= k_least_turn, degrees(turn), degrees(k_least_turn),
+          grows ? fmt::format("{}'s groove is {:.0f}° long, a helical one takes {:.0f}° (body.spare_turns)", pulley_name(side),
+                              degrees(turn), degrees(k_least_turn))
+                : fmt::format("{}'s pitch curve runs straight somewhere: a helical groove cannot follow it yet", pulley_name(side)));
+      condition.unit = "deg";
+      pulley_.conditions.push_back(condition);
+    }
+    return failed_of(pulley_.conditions).empty();
+  }
+
+  const Spiral& spiral(Side side) const { return side == Side::left ? p1_ : p2_; }
+
+  double floor_radius(const Spiral& spiral) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const SpiralRow& row : spiral.rows) least = std::min(least, (Vec2(row.x, row.y) - 0.5 * d_ * unit(row.turn)).norm());
+    return least - tolerance_;
+  }
+  double least_floor() const { return std::min(floor_radius(p1_), floor_radius(p2_)); }
+
+  // All but heights, bore and hub.
+  void lay_out() {
+    BodyLayout& layout = pulley_.layout;
+    layout.parts = Parts::one;
+    layout.tendon_diameter = d_;
+    layout.roof_slope = section_.roof_slope;
+    layout.p1 = layout.p2 = section_.walls;
+    layout.groove_depth = section_.depth;
+    layout.flange_thickness = mechanism_.body.flange_thickness;
+    layout.scale = 1.0 / (1.0 - mechanism_.material.shrinkage);
+    layout.min_wall = mechanism_.body.min_wall > 0
+                          ? mechanism_.body.min_wall
+                          : std::clamp(k_wall_of_radius * least_floor(), k_thinnest_wall, k_most_wall);
+    layout.elephant_foot =
+        std::clamp(std::min(section_.depth - k_left_of_lip, (layout.flange_thickness - k_left_of_lip) / rise_of(layout, 1.0)),
+                   0.0, mechanism_.material.elephant_foot);
+    sizes_ = run_out_sizes(mechanism_, layout);
+    layout.channel_width = 2.0 * sizes_.channel_radius;
+    layout.pocket_radius = sizes_.pocket_radius;
+    layout.notes.push_back("no marks, no slots for the tails: a pulley of several turns is made without");
+  }
+
+  // Both fall as the turn grows: the ends that stay wound, P1's last and P2's first, are the outer ones.
+  SpiralPlace placed(const Spiral& spiral, double lowest_at) const {
+    SpiralPlace place;
+    place.direction = spiral.slope > 0 ? -1.0 : 1.0;
+    place.offset = lowest_at - place.direction * spiral.rows.back().z;
+    return place;
+  }
+
+  void place_along_axis() {
+    BodyLayout& layout = pulley_.layout;
+    const double flange = layout.flange_thickness;
+    layout.z_p1 = std::max(flange + section_.walls.below_width(), sizes_.height());
+    pulley_.p1 = placed(p1_, layout.z_p1);
+    pulley_.p2 = placed(p2_, 0.0);
+    const double lip = section_.depth - 0.5 * d_;
+    fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), lip, 0.5 * d_, tolerance_);
+    heights_.lower = fan_.p1.rows.front().height + section_.walls.above_width() + 0.5 * flange;
+    layout.middle_cone = layout.roof_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, lip))) : 0.0;
+    heights_.upper = heights_.lower + std::max(layout.middle_cone, k_least_cone);
+    const double lowest = heights_.upper + 0.5 * flange + section_.walls.below_width() - fan_.p2.rows.back().height;
+    pulley_.p2.offset += lowest;
+    for (WindingRow& row : fan_.p2.rows) row.height += lowest;
+    layout.z_p2 = fan_.p2.rows.front().height;
+    layout.z_middle = heights_.lower;
+    layout.z_mate = heights_.upper;
+    layout.z_top = layout.z_p2 + std::max(flange + section_.walls.above_width(), sizes_.height());
+    layout.z_hub = layout.z_top;
+    heights_.top = layout.z_top;
+    ends_ = {GrooveEnd{Side::left, fan_.p1.rows.back(), 1.0, -1.0, 0.0},
+             GrooveEnd{Side::right, fan_.p2.rows.front(), -1.0, 1.0, layout.z_top}};
+    choose_bore();
+    double room = std::numeric_limits<double>::infinity();
+    for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + lip);
+    choose_hub(layout, mechanism_, std::min(room, pocket_inside(ends_[1])));
+    heights_.hub_top = layout.z_hub;
+  }
+
+  // How near to the axis a pocket comes.
+  double pocket_inside(const GrooveEnd& end) const { return pocket_place(end, sizes_).norm() - sizes_.pocket_radius; }
+  double room_for_bore() const {
+    return std::min({least_floor(), pocket_inside(ends_[0]), pocket_inside(ends_[1])}) - pulley_.layout.min_wall;
+  }
+
+  void choose_bore() {
+    BodyLayout& layout = pulley_.layout;
+    const bool is_given = mechanism_.body.bore_diameter > 0 || mechanism_.body.bore == Bore::horn;
+    for (const double diameter : k_bore_diameters) {
+      layout.bore = bore_layout(mechanism_, is_given ? std::max(mechanism_.body.bore_diameter, 0.0) : diameter);
+      if (is_given || reach() <= room_for_bore()) {
+        if (!is_given && diameter < k_bore_diameters.front())
+          layout.notes.push_back(fmt::format("no room for a bore of {} mm: made {} mm", k_bore_diameters.front(), diameter));
+        return;
+      }
+    }
+  }
+  // Of the bore and a horn's holes.
+  double reach() const {
+    double furthest = pulley_.layout.bore.radius;
+    for (const Polygon& hole : pulley_.layout.bore.screw_holes) furthest = std::max(furthest, circumradius(hole));
+    return furthest;
+  }
+
+  void conditions() {
+    const BodyLayout& layout = pulley_.layout;
+    neighbours(fan_.p1, Side::left);
+    neighbours(fan_.p2, Side::right);
+    free_end(Side::left, p1_.rows[p1_.first_used].s - p1_.rows.front().s, p1_.rows[p1_.first_used].rho);
+    free_end(Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
+    add("bore_wall", least_floor() - reach(), layout.min_wall,
+        fmt::format("the bore leaves {} to a groove's floor, it takes {} (body.min_wall_mm)", mm(least_floor() - reach()),
+                    mm(layout.min_wall)));
+    for (const GrooveEnd& end : ends_) {
+      const double hub = end.side == Side::right ? layout.hub_radius : 0.0;
+      const double wall = pocket_inside(end) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0);
+      add(fmt::format("knot_pocket_{}", pulley_name(end.side)), wall, layout.min_wall,
+          fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to the bore or the hub, it takes {} "
+                      "(body.min_wall_mm)",
+                      pulley_name(end.side), mm(2.0 * sizes_.pocket_radius), mm(wall), mm(layout.min_wall)));
+    }
+    if (layout.bore.horn_recess > 0)
+      pulley_.conditions.push_back(condition_of("horn_recess", false, layout.bore.horn_recess, 0.0,
+                                                "a pulley of several turns takes a flat horn or a shaft: one that sinks "
+                                                "in (horn.boss_height_mm, horn.spline_length_mm) is not made yet"));
+    if (mechanism_.print.parts == Parts::two)
+      pulley_.conditions.push_back(condition_of("parts", false, 2, 1, "a pulley of several turns is printed in one part (print.parts)"));
+  }
+
+  void neighbours(const Winding& winding, Side side) {
+    double least = std::numeric_limits<double>::infinity(), lead = 0, needed = 0;
+    const WindingRow* place = nullptr;
+    for (std::size_t j = 0; j + fan_.columns() < winding.rows.size(); ++j) {
+      const WindingRow *low = &winding.rows[j], *high = &winding.rows[j + fan_.columns()];
+      if (low->height > high->height) std::swap(low, high);
+      const double here = high->height - low->height;
+      const double wanted = least_lead(section_, (high->position - low->position).dot(low->normal));
+      if (here - wanted >= least) continue;
+      least = here - wanted;
+      lead = here;
+      needed = wanted;
+      place = low;
+    }
+    if (place == nullptr) return;
+    // What rounding may take of a lead that is just large enough.
+    constexpr double k_grain = 1e-6;
+    add(fmt::format("neighbouring_turns_{}", pulley_name(side)), lead, needed - k_grain,
+        fmt::format("{}'s turns lie {} apart at {:.0f}°, a groove, its rib and the step between them take {} (body.lead_mm)",
+                    pulley_name(side), mm(lead), degrees(std::remainder(place->turn, k_two_pi)), mm(needed)));
+  }
+
+  // The straight tendon must rise over the lip before the groove ends.
+  void free_end(Side side, double there, double rho) {
+    const double rise = section_.depth, needed = std::sqrt(rise * (2.0 * rho + rise));
+    add(fmt::format("free_end_{}", pulley_name(side)), there, needed,
+        fmt::format("{}'s groove ends {} beyond the arc that the tendon leaves from, it takes {} for the tendon to clear the "
+                    "end (body.spare_turns)",
+                    pulley_name(side), mm(there), mm(needed)));
+  }
+
+  TriangleMesh scaled(TriangleMesh mesh) const {
+    for (Vec3& vertex : mesh.vertices) vertex *= pulley_.layout.scale;
+    return rounded_to_float(std::move(mesh));
+  }
+
+  void cut() {
+    const BodyLayout& layout = pulley_.layout;
+    const TriangleMesh blank = scaled(helical_blank(fan_, section_, layout, heights_));
+    const double volume = enclosed_volume(blank);
+    const bool screw = layout.set_screw.present;
+    pulley_.expected_euler = 2 - 2 * (1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) +
+                                      (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
+    for (int variant = 0; variant < k_cut_variants; ++variant) {
+      std::vector<TriangleMesh> tools;
+      for (const GrooveEnd& end : ends_) tools.push_back(run_out_tool(end, sizes_, variant));
+      if (screw) tools.push_back(set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
+      if (cut_with(blank, volume, tools)) return;
+    }
+    pulley_.conditions.push_back(condition_of("features", false, 0, 1,
+                                              fmt::format("run-outs and screw run into one another: none of {} ways to cut "
+                                                          "them leaves a solid",
+                                                          k_cut_variants)));
+  }
+
+  bool cut_with(const TriangleMesh& blank, double volume, const std::vector<TriangleMesh>& tools) {
+    TriangleMesh mesh = blank;
+    for (const TriangleMesh& tool : tools) {
+      const auto outcome = subtract(mesh, scaled(tool));
+      if (!outcome) return false;
+      mesh = outcome->mesh;
+      volume -= outcome->common_volume;
+    }
+    std::vector<Check> checks = check_mesh(mesh);
+    if (!all_ok(checks)) return false;
+    pulley_.mesh = std::move(mesh);
+    pulley_.mesh_checks = std::move(checks);
+    pulley_.expected_volume = volume;
+    for (const GrooveEnd& end : ends_) pulley_.anchors.push_back(anchor_at(end, sizes_));
+    pulley_.made = true;
+    return true;
+  }
+
+  const Mechanism& mechanism_;
+  const Spiral &p1_, &p2_;
+  double tolerance_, d_;
+  HelicalSection section_;
+  HelicalPulley pulley_;
+  RunOutSizes sizes_;
+  Fan fan_;
+  RingHeights heights_;
+  std::array<GrooveEnd, 2> ends_;
+};
+
+}  // namespace
+
+HelicalSection helical_section(const Mechanism& mechanism) {
+  HelicalSection section;
+  section.depth = mechanism.groove_depth();
+  section.rib = k_rib;
+  section.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
+  const double lean = 0.5 * mechanism.body.groove_angle;
+  const auto half = [&](double angle) { return groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth); };
+  section.walls = {half(lean), half(std::max(lean, section.roof_slope))};
+  return section;
+}
+
+double least_lead(const HelicalSection& section, double growth) {
+  const double step = section.roof_slope > 0 ? std::max(0.0, growth) * std::tan(section.roof_slope) : 0.0;
+  return section.width() + std::max(section.rib, step);
+}
+
+std::string HelicalPulley::brief() const {
+  if (made) return fmt::format("a body of several turns, {} facets, {:.1f} cm³", mesh.triangles.size(), expected_volume / 1000.0);
+  std::string text = "no such body of several turns can be made";
+  for (const Condition& condition : conditions) {
+    if (!condition.ok) text += "; " + condition.message;
+  }
+  return text;
+}
+
+HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance) {
+  return Planner(mechanism, p1, p2, tolerance).make();
+}
+
+}  // namespace fusee

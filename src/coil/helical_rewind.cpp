@@ -1,0 +1,275 @@
+#include "fusee/coil/helical_rewind.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "coil/half_planes.h"
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+#include "profile/string_above.h"
+
+// The second route. A string is laid on what half-planes found of a groove's floor: in plan round the corners of an open
+// polygon, half its thickness off them; along the axis at the height of the floor's band. Its free path is straight when
+// it is unrolled.
+
+namespace fusee {
+namespace {
+
+// A groove has at least this depth; what is shallower is a chamfer's edge or a chord.
+constexpr double k_least_depth = 0.3;
+// Half-planes on either side of a place over which a groove's slope is measured.
+constexpr std::size_t k_slope_window = 40;
+// One string in its helical groove. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
+class HelicalString {
+ public:
+  HelicalString(const FloorLine& floor, const Mechanism& mechanism, double hand, double end_height, bool collar,
+                double home_from_knot)
+      : floor_(floor),
+        hand_(hand),
+        half_(0.5 * mechanism.tendon.diameter),
+        above_(mechanism, hand),
+        end_height_(end_height),
+        collar_(collar) {
+    along_.push_back(0.0);
+    for (std::size_t i = 0; i + 1 < floor.size(); ++i) {
+      const Vec2 edge = plan(i + 1) - plan(i);
+      along_.push_back(along_.back() + edge.norm());
+      const double normal = direction(edge) - 0.5 * k_pi;
+      edge_normals_.push_back(i == 0 ? normal : turned_near(normal, edge_normals_.back()));
+    }
+    lay_centre_line();
+    start(home_from_knot);
+    turn_to(0.0);
+    home_length_ = length(0.0);
+  }
+
+  // Moves the pulley; by less than half a turn.
+  void turn_to(double alpha) {
+    alpha_ = alpha;
+    const Vec2 pin = above_.guide_seen_from_pulley(alpha);
+    find_corner(pin);
+    normal_ = turned_near(tangent_normal(pin), edge_normals_[corner_]);
+    const double reach = (pin - plan(corner_)).norm();
+    span_ = std::sqrt((reach - (half_ - above_.lower_rho())) * (reach + (half_ - above_.lower_rho())));
+    if (!(span_ > 0)) throw InputError("", "the groove floor of " + pulley() + " swallows its guide pin");
+    take_off_ = centre_line_at(along_[corner_] + half_ * normal_);
+  }
+
+  double hand() const { return hand_; }
+  double excess(double theta) const { return length(theta) - home_length_; }
+  std::string name() const { return hand_ > 0 ? "tendon 2" : "tendon 1"; }
+
+  // Between the free path and the groove where it leaves it.
+  double fleet(double theta) const {
+    const double rise = end_height_ - take_off_.height;
+    return std::atan2(rise, sloping(theta)) - std::atan(hand_ * take_off_.slope);
+  }
+
+ private:
+  struct Place {
+    double wound = 0;   // along the centre line in space
+    double height = 0;
+    double slope = 0;   // of the centre line, per planar length
+  };
+
+  std::string pulley() const { return std::string(pulley_name(hand_ > 0 ? Side::right : Side::left)); }
+  Vec2 plan(std::size_t i) const { return floor_[i].head<2>(); }
+
+  double length(double theta) const {
+    const double rise = end_height_ - take_off_.height, flat = planar(theta) - sloping(theta);
+    return hand_ * take_off_.wound + std::hypot(sloping(theta), rise) + flat;
+  }
+  double planar(double theta) const { return span_ + above_.length(theta, normal_ - alpha_); }
+  double sloping(double theta) const { return collar_ ? span_ : planar(theta); }
+
+  // Corner by corner: arcs of half the thickness about corners, edges between them.
+  void lay_centre_line() {
+    const std::size_t last = floor_.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+      const double before = edge_normals_[i == 0 ? 0 : i - 1], after = edge_normals_[i == last ? last - 1 : i];
+      planar_.push_back(along_[i] + half_ * 0.5 * (before + after));
+      const double step = i == 0 ? 0.0 : std::hypot(planar_[i] - planar_[i - 1], floor_[i].z() - floor_[i - 1].z());
+      wound_.push_back(i == 0 ? 0.0 : wound_[i - 1] + step);
+    }
+  }
+
+  Place centre_line_at(double planar) const {
+    const auto after = std::upper_bound(planar_.begin() + 1, planar_.end() - 1, planar);
+    const auto b = static_cast<std::size_t>(after - planar_.begin()), a = b - 1;
+    const double share = (planar - planar_[a]) / (planar_[b] - planar_[a]);
+    // At a corner of the polygon the centre line turns without rising, between two it rises the more: the slope is that
+    // of several corners.
+    const std::size_t from = a > k_slope_window ? a - k_slope_window : 0,
+                      to = std::min(b + k_slope_window, planar_.size() - 1);
+    return {wound_[a] + share * (wound_[b] - wound_[a]), floor_[a].z() + share * (floor_[b].z() - floor_[a].z()),
+            (floor_[to].z() - floor_[from].z()) / (planar_[to] - planar_[from])};
+  }
+
+  // On the right the knot is where the groove begins, on the left where it ends.
+  void start(double home_from_knot) {
+    const double wanted = hand_ > 0 ? edge_normals_.front() + home_from_knot : edge_normals_.back() - home_from_knot;
+    // The same direction as the span has at home, on the turn that is wanted.
+    double normal = wanted;
+    for (int round = 0; round < 3; ++round) {
+      const auto edge = std::lower_bound(edge_normals_.begin(), edge_normals_.end(), normal);
+      corner_ = static_cast<std::size_t>(edge - edge_normals_.begin());
+      normal = turned_near(tangent_normal(above_.guide_seen_from_pulley(0.0)), wanted);
+    }
+  }
+
+  double tangent_normal(const Vec2& pin) const {
+    const Vec2 away = pin - plan(corner_);
+    return direction(away) - hand_ * std::acos(std::clamp((half_ - above_.lower_rho()) / away.norm(), -1.0, 1.0));
+  }
+
+  // Walks to the corner whose tangent leaves its neighbours inside.
+  void find_corner(const Vec2& pin) {
+    for (std::size_t steps = 0; steps < floor_.size(); ++steps) {
+      if (corner_ == 0 || corner_ + 1 >= floor_.size())
+        throw InputError("", "the groove of " + pulley() + " ends within the range, at α = " + rounded(degrees(alpha_), 4) + "°");
+      const double normal = turned_near(tangent_normal(pin), edge_normals_[corner_]);
+      if (normal < edge_normals_[corner_ - 1])
+        --corner_;
+      else if (normal > edge_normals_[corner_])
+        ++corner_;
+      else
+        return;
+    }
+    // Two neighbours that each point to the other, by rounding: both are right.
+  }
+
+  const FloorLine& floor_;
+  double hand_, half_;
+  StringAbove above_;
+  double end_height_;
+  bool collar_;
+  std::vector<double> along_, edge_normals_;  // in plan; of the edge that leaves each corner
+  std::vector<double> planar_, wound_;        // of the centre line at each corner: in plan, in space
+  double home_length_ = 0;
+
+  double alpha_ = 0;
+  std::size_t corner_ = 0;
+  double normal_ = 0, span_ = 0;
+  Place take_off_;
+};
+
+// The joint angle at which the string is as long as at home.
+double taut_angle(const HelicalString& string, double alpha, double guess) {
+  const auto growing = [&string](double theta) { return -string.hand() * string.excess(theta); };
+  double reach = 0.005;
+  while (!(growing(guess - reach) < 0 && growing(guess + reach) > 0)) {
+    reach *= 2;
+    if (reach > 0.7)
+      throw InputError("", "no joint angle near the declared one makes " + string.name() + " taut at α = " + rounded(degrees(alpha), 4) + "°",
+                       "is this the pulley of this mechanism, in mm, its axis at the origin?");
+  }
+  double low = guess - reach, high = guess + reach;
+  for (int i = 0; i < 52; ++i) {
+    const double middle = 0.5 * (low + high);
+    (growing(middle) < 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+class Winder {
+ public:
+  Winder(HelicalString first, HelicalString second) : strings_{std::move(first), std::move(second)} {}
+
+  HelicalRewind wind(const std::vector<TransmissionPoint>& stroke) {
+    for (const TransmissionPoint& place : stroke) wind_at(place);
+    return std::move(rewind_);
+  }
+
+ private:
+  void wind_at(const TransmissionPoint& place) {
+    turn_to(place.alpha);
+    RewindPoint point{place.alpha, place.theta, 0, 0};
+    point.theta = taut_angle(strings_[0], place.alpha, place.theta);
+    point.slack = -strings_[1].excess(point.theta);
+    note(point);
+    for (const HelicalString& string : strings_) {
+      const double fleet = std::abs(string.fleet(point.theta));
+      if (fleet < rewind_.max_fleet) continue;
+      rewind_.max_fleet = fleet;
+      rewind_.max_fleet_at = place.alpha;
+      rewind_.max_fleet_side = string.hand() > 0 ? Side::right : Side::left;
+    }
+  }
+
+  // In small steps, so that turns are counted without a jump.
+  void turn_to(double alpha) {
+    const int steps = 1 + static_cast<int>(std::abs(alpha - alpha_) / radians(10));
+    for (int k = 1; k <= steps; ++k) {
+      for (HelicalString& string : strings_) string.turn_to(alpha_ + (alpha - alpha_) * k / steps);
+    }
+    alpha_ = alpha;
+  }
+
+  void note(const RewindPoint& point) {
+    RewindResult& result = rewind_.result;
+    result.points.push_back(point);
+    const double error = std::abs(point.theta - point.theta_declared);
+    if (error >= result.max_theta_error) {
+      result.max_theta_error = error;
+      result.max_theta_error_at = point.alpha;
+    }
+    if (std::abs(point.slack) >= result.max_slack) {
+      result.max_slack = std::abs(point.slack);
+      result.max_slack_at = point.alpha;
+    }
+  }
+
+  std::vector<HelicalString> strings_;
+  double alpha_ = 0;
+  HelicalRewind rewind_;
+};
+
+}  // namespace
+
+std::vector<FloorLine> helical_floors(const TriangleMesh& mesh, double scale, int half_planes) {
+  const auto planes = static_cast<std::size_t>(half_planes);
+  std::vector<std::vector<FloorPlace>> floors;
+  for (auto& cut : half_plane_cuts(mesh, planes)) floors.push_back(floors_of(outermost(std::move(cut)), k_least_depth));
+  std::vector<FloorLine> lines;
+  for (const FloorTrace& trace : floor_traces(floors)) {
+    FloorLine& line = lines.emplace_back();
+    for (std::size_t k = 0; k < trace.places.size(); ++k) {
+      const Vec2 point = trace.places[k].r * unit(half_plane_angle((trace.first + k) % planes, planes));
+      line.push_back(Vec3(point.x(), point.y(), trace.places[k].z) / scale);
+    }
+  }
+  return lines;
+}
+
+TendonsLaid tendons_laid(const HelicalPulley& pulley, const Spiral& p1, const Spiral& p2, double attachment1,
+                         double attachment2, bool collar) {
+  TendonsLaid laid;
+  laid.z1 = pulley.p1.height(attachment1);
+  laid.z2 = pulley.p2.height(attachment2);
+  laid.collar = collar;
+  laid.spare1 = p1.rows.back().turn - p1.rows[p1.last_used].turn;
+  laid.spare2 = p2.rows[p2.first_used].turn - p2.rows.front().turn;
+  return laid;
+}
+
+HelicalRewind rewind_floors(const FloorLine& floor1, const FloorLine& floor2, const Mechanism& mechanism,
+                            const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid) {
+  demand(!stroke.empty(), "a stroke without places");
+  const double alpha_min = stroke.front().alpha, alpha_max = stroke.back().alpha;
+  return Winder(HelicalString(floor1, mechanism, -1.0, laid.z1, laid.collar, laid.spare1 + alpha_max),
+                HelicalString(floor2, mechanism, +1.0, laid.z2, laid.collar, laid.spare2 - alpha_min))
+      .wind(stroke);
+}
+
+HelicalRewind rewind_helical(const TriangleMesh& mesh, const Mechanism& mechanism,
+                             const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid, double scale) {
+  const std::vector<FloorLine> floors = helical_floors(mesh, scale);
+  if (floors.size() != 2)
+    throw InputError("", "the mesh has " + std::to_string(floors.size()) + " grooves of more than half a turn, a helical pulley has 2",
+                     "is it whole, in mm, its axis along z at the origin?");
+  return rewind_floors(floors[0], floors[1], mechanism, stroke, laid);
+}
+
+}  // namespace fusee

@@ -1,0 +1,148 @@
+#include "coil/run_out.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
+#include "solid/boolean.h"
+#include "solid/tools.h"
+
+namespace fusee {
+namespace {
+
+// Thinner channels close in the print (the same bound as of one-turn pulleys' channels).
+constexpr double k_least_channel = 0.6;
+// The channel begins this far before the groove's end, in the open groove: its wall is gone there for sure.
+constexpr double k_before_end = 0.12;
+constexpr double k_past_end = 0.06;
+constexpr int k_channel_facets = 14;
+constexpr int k_pocket_facets = 28;
+constexpr int k_arc_steps = 9;
+
+// Ring of a tube about `centre`, its plane spanned by two unit vectors.
+std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up, double radius, int facets, double start) {
+  std::vector<Vec3> ring;
+  for (int k = 0; k < facets; ++k) {
+    const double angle = k_two_pi * (k + start) / facets;
+    ring.push_back(centre + radius * (std::cos(angle) * across + std::sin(angle) * up));
+  }
+  return ring;
+}
+
+// Along: the tendon's way at the groove's end. Towards: from there inwards and to the face, at 45°.
+struct Directions {
+  Vec3 along, towards;
+};
+
+Directions directions_of(const GrooveEnd& end) {
+  const Vec2 tangent = end.along * turned_left(end.row.normal);
+  const Vec3 along(tangent.x(), tangent.y(), 0.0);
+  const Vec3 towards = Vec3(-end.row.normal.x(), -end.row.normal.y(), end.outward).normalized();
+  return {along, towards};
+}
+
+Vec3 start_of(const GrooveEnd& end) { return {end.row.position.x(), end.row.position.y(), end.row.height}; }
+
+Vec3 arc_point(const GrooveEnd& end, double radius, double turn) {
+  const auto [along, towards] = directions_of(end);
+  return start_of(end) + radius * (std::sin(turn) * along + (1.0 - std::cos(turn)) * towards);
+}
+
+// A channel's section in its own plane, x level and y up: a circle under a gable that prints.
+std::vector<Vec2> channel_section(double radius, double roof_slope, int facets) {
+  std::vector<Vec2> points;
+  for (int k = 0; k <= facets; ++k)
+    points.push_back(radius * unit(0.5 * k_pi + roof_slope + (k_two_pi - 2.0 * roof_slope) * k / facets));
+  points.emplace_back(0.0, radius / std::cos(roof_slope));
+  return points;
+}
+
+// However a channel dives, its section stands across it with a level x: its roof is then no flatter than the section's.
+TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+  const auto [along, towards] = directions_of(end);
+  const std::vector<Vec2> section = channel_section(1.0, sizes.roof_slope, k_channel_facets + variant);
+  const auto ring_at = [&](const Vec3& centre, const Vec3& ahead, double radius) {
+    const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized(), up = level.cross(ahead);
+    std::vector<Vec3> ring;
+    for (const Vec2& point : section) ring.push_back(centre + radius * (point.x() * level + point.y() * up));
+    return ring;
+  };
+  // The groove's end wall stands between the first two, in the plane of neither.
+  std::vector<std::vector<Vec3>> sections;
+  for (const double place : {-k_before_end - 0.017 * variant, k_past_end + 0.005 * variant})
+    sections.push_back(ring_at(start_of(end) + place * along, along, sizes.mouth_radius));
+  for (int k = 1; k <= k_arc_steps; ++k) {
+    const double turn = 0.5 * k_pi * k / k_arc_steps;
+    sections.push_back(ring_at(arc_point(end, sizes.bend_radius, turn),
+                               std::cos(turn) * along + std::sin(turn) * towards, sizes.channel_radius));
+  }
+  // On into the cone.
+  sections.push_back(
+      ring_at(arc_point(end, sizes.bend_radius, 0.5 * k_pi) + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius));
+  return strip(sections);
+}
+
+TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+  const Vec2 place = pocket_place(end, sizes);
+  const auto ring_at = [&](double in, double radius) {
+    return ring_of({place.x(), place.y(), end.face - end.outward * in}, Vec3::UnitX(), Vec3::UnitY(), radius,
+                   k_pocket_facets + variant, 0.23);
+  };
+  return strip({ring_at(-k_overshoot, sizes.pocket_radius), ring_at(sizes.pocket_depth, sizes.pocket_radius),
+                ring_at(sizes.pocket_depth + sizes.cone, sizes.channel_radius)});
+}
+
+// In a round seat the mouth stays a little inside of the groove's section: the channel then cuts the groove's end wall
+// alone, and no face of it runs along the seat.
+double mouth_radius(const Mechanism& mechanism, double channel_radius) {
+  constexpr double k_inside_seat = 0.03;  // of the tendon
+  const double d = mechanism.tendon.diameter, within = (mechanism.body.seat_ratio - k_inside_seat) * d;
+  const bool fits = mechanism.body.groove == Groove::u && within >= 0.5 * d;
+  return fits ? std::min(within, channel_radius) : channel_radius;
+}
+
+}  // namespace
+
+RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) {
+  const double d = mechanism.tendon.diameter;
+  RunOutSizes sizes;
+  sizes.channel_radius =
+      0.5 * (mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel));
+  sizes.mouth_radius = mouth_radius(mechanism, sizes.channel_radius);
+  sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket : std::max(1.75 * d, 2.0 * sizes.channel_radius);
+  sizes.pocket_depth = sizes.pocket_radius;
+  sizes.roof_slope = gable_slope(layout);
+  sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
+  // The pocket leaves a wall to the rim, and the arc is no sharper than twice the tendon.
+  const double to_rim = sizes.pocket_radius + layout.min_wall - (layout.groove_depth - 0.5 * d);
+  sizes.inward = std::max(to_rim, std::sqrt(2.0) * d);
+  sizes.bend_radius = std::sqrt(2.0) * sizes.inward;
+  return sizes;
+}
+
+Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes) {
+  return arc_point(end, sizes.bend_radius, 0.5 * k_pi).head<2>();
+}
+
+HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes) {
+  const Vec2 place = pocket_place(end, sizes);
+  HelicalAnchor anchor;
+  anchor.side = end.side;
+  anchor.exit = start_of(end);
+  anchor.pocket = {place.x(), place.y(), end.face};
+  anchor.pocket_radius = sizes.pocket_radius;
+  anchor.pocket_depth = sizes.pocket_depth;
+  anchor.bend_radius = sizes.bend_radius;
+  return anchor;
+}
+
+TriangleMesh run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+  const auto both =
+      unite(rounded_to_float(channel_of(end, sizes, variant)), rounded_to_float(pocket_of(end, sizes, variant)));
+  demand(both.has_value(), "run-out and knot pocket do not join");
+  return both->mesh;
+}
+
+}  // namespace fusee

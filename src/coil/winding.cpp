@@ -1,0 +1,134 @@
+#include "coil/winding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/diagnostics.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+// Ends of grooves nearer than this share a column: a column so thin would be a sliver, and this much of a run-out is
+// nothing.
+constexpr double k_same_column = 0.004;
+// The fan is a little finer than the tolerance asks: radii of curvature are those of the columns alone.
+constexpr double k_share_of_tolerance = 0.9;
+constexpr double k_widest_column = radians(8);
+
+double into_turn(double angle, double first) { return angle - k_two_pi * std::floor((angle - first) / k_two_pi); }
+
+std::vector<double> marks_of(const SpiralCurve& p1, const SpiralCurve& p2) {
+  const double first = p1.begin();
+  std::vector<double> marks{first};
+  for (const double end : {p1.end(), p2.begin(), p2.end()}) {
+    const double mark = into_turn(end, first);
+    const bool is_new = std::none_of(marks.begin(), marks.end(), [mark](double known) {
+      return std::abs(std::remainder(mark - known, k_two_pi)) < k_same_column;
+    });
+    if (is_new) marks.push_back(mark);
+  }
+  std::sort(marks.begin(), marks.end());
+  return marks;
+}
+
+// The steps between two marks follow the density that curvature asks for: each takes an equal share of its integral.
+void add_columns(std::vector<double>& angles, double from, double to, const auto& step_at) {
+  constexpr int k_probes = 64;
+  std::vector<double> count{0.0};
+  for (int k = 0; k < k_probes; ++k) {
+    const double step = std::min(step_at(from + (to - from) * k / k_probes), step_at(from + (to - from) * (k + 1) / k_probes));
+    count.push_back(count.back() + (to - from) / k_probes / step);
+  }
+  const int steps = std::max(1, static_cast<int>(std::ceil(count.back())));
+  int probe = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double wanted = count.back() * i / steps;
+    while (count[static_cast<std::size_t>(probe) + 1] <= wanted && probe + 1 < k_probes) ++probe;
+    const double low = count[static_cast<std::size_t>(probe)], high = count[static_cast<std::size_t>(probe) + 1];
+    angles.push_back(from + (to - from) * (probe + (wanted - low) / (high - low)) / k_probes);
+  }
+}
+
+std::size_t nearest_column(const std::vector<double>& angles, double angle) {
+  const double wanted = into_turn(angle + 0.5 * k_same_column, angles.front());
+  std::size_t best = 0;
+  double least = k_two_pi;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double away = std::abs(std::remainder(wanted - 0.5 * k_same_column - angles[i], k_two_pi));
+    if (away < least) {
+      least = away;
+      best = i;
+    }
+  }
+  return best;
+}
+
+Winding winding_on(const std::vector<double>& angles, const SpiralCurve& curve, double floor_inward) {
+  Winding winding;
+  winding.first_column = nearest_column(angles, curve.begin());
+  const std::size_t columns = angles.size();
+  const double base = angles[winding.first_column];
+  const double whole = curve.begin() - base;
+  const double turns = k_two_pi * std::round(whole / k_two_pi);
+  const auto turn_of = [&](std::size_t j) {
+    const std::size_t i = winding.first_column + j;
+    return angles[i % columns] + k_two_pi * static_cast<double>(i / columns) + turns;
+  };
+  for (std::size_t j = 0; turn_of(j) <= curve.end() + k_same_column; ++j) {
+    WindingRow row = curve.at(turn_of(j));
+    const double before = j > 0 ? turn_of(j) - turn_of(j - 1) : turn_of(j + 1) - turn_of(j);
+    const double after = turn_of(j + 1) - turn_of(j);
+    // A third of the sagitta of the floor's chord, ρ step²/8, on both sides.
+    row.position += (row.rho - floor_inward) * 0.5 * (before * before + after * after) / 24.0 * row.normal;
+    winding.rows.push_back(row);
+  }
+  winding.falls = winding.rows.back().height < winding.rows.front().height;
+  return winding;
+}
+
+}  // namespace
+
+WindingRow SpiralCurve::at(double turn) const {
+  const std::vector<SpiralRow>& rows = spiral_.rows;
+  const auto after = std::upper_bound(rows.begin() + 1, rows.end() - 1, turn,
+                                      [](double value, const SpiralRow& row) { return value < row.turn; });
+  const SpiralRow &a = *(after - 1), &b = *after;
+  const double step = b.turn - a.turn, u = (turn - a.turn) / step;
+  // Hermite's cubics: places and derivatives dX/dψ = ρ t, dz/dψ = ρ tan λ.
+  const double from = (1 + 2 * u) * (1 - u) * (1 - u), to = u * u * (3 - 2 * u);
+  const double out_of = u * (1 - u) * (1 - u) * step, into = u * u * (u - 1) * step;
+  WindingRow row;
+  row.turn = turn;
+  row.normal = unit(turn);
+  row.rho = a.rho + (b.rho - a.rho) * std::clamp(u, 0.0, 1.0);
+  row.position = from * Vec2(a.x, a.y) + to * Vec2(b.x, b.y) + out_of * a.rho * turned_left(unit(a.turn)) +
+                 into * b.rho * turned_left(unit(b.turn));
+  row.height = place_.height(from * a.z + to * b.z + (out_of * a.rho + into * b.rho) * spiral_.slope);
+  return row;
+}
+
+double SpiralCurve::largest_rho(double turn) const {
+  double rho = 0;
+  for (double t = into_turn(turn, begin()); t <= end() + k_same_column; t += k_two_pi) rho = std::max(rho, at(t).rho);
+  return rho;
+}
+
+Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance) {
+  const auto step_at = [&](double angle) {
+    const double rho = std::max(p1.largest_rho(angle), p2.largest_rho(angle)) + outward;
+    return std::min(k_widest_column, std::sqrt(8.0 * k_share_of_tolerance * tolerance / rho));
+  };
+  Fan fan;
+  std::vector<double> marks = marks_of(p1, p2);
+  marks.push_back(marks.front() + k_two_pi);
+  for (std::size_t k = 0; k + 1 < marks.size(); ++k) add_columns(fan.angles, marks[k], marks[k + 1], step_at);
+  fan.p1 = winding_on(fan.angles, p1, floor_inward);
+  fan.p2 = winding_on(fan.angles, p2, floor_inward);
+  for (const Winding* winding : {&fan.p1, &fan.p2})
+    demand(winding->rows.size() > fan.columns(), "a spiral of less than a turn: " + std::to_string(winding->rows.size()) +
+                                                     " rows on a fan of " + std::to_string(fan.columns()));
+  return fan;
+}
+
+}  // namespace fusee

@@ -1,0 +1,59 @@
+/// \file
+/// Spirals on a common fan of normals: the rows of the helical grid.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fusee/base/plane.h"
+#include "fusee/coil/helical_pulley.h"
+#include "fusee/helix/spiral.h"
+
+namespace fusee {
+
+/// A place on the pitch curve, in the part's frame.
+struct WindingRow {
+  Vec2 position = Vec2::Zero();
+  Vec2 normal = Vec2::UnitX();
+  double turn = 0;
+  double rho = 0;
+  double height = 0;
+};
+
+/// A spiral at any turn: cubic through its rows' places, tangents and radii of curvature.
+class SpiralCurve {
+ public:
+  SpiralCurve(const Spiral& spiral, const SpiralPlace& place) : spiral_(spiral), place_(place) {}
+
+  double begin() const { return spiral_.rows.front().turn; }
+  double end() const { return spiral_.rows.back().turn; }
+  /// A little beyond the ends is extrapolated.
+  WindingRow at(double turn) const;
+  /// The largest radius of curvature within a turn's distance, of all turns with this normal.
+  double largest_rho(double turn) const;
+
+ private:
+  const Spiral& spiral_;
+  SpiralPlace place_;
+};
+
+/// One groove's rows on the fan: row j has the normal of column (first_column + j) mod columns.
+struct Winding {
+  std::size_t first_column = 0;
+  std::vector<WindingRow> rows;
+  bool falls = false;  ///< as the turn grows
+};
+
+/// Normals that both grooves have rows at, the ends of both among them.
+struct Fan {
+  std::vector<double> angles;  ///< over one turn, growing
+  Winding p1, p2;
+
+  std::size_t columns() const { return angles.size(); }
+};
+
+/// No chord of a curve parallel to the pitch curves, up to `outward` of them, has a sagitta larger than `tolerance`.
+/// Rows stand outward of the curve by a third of a chord's sagitta: the polygon is then as long as the curve is.
+Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance);
+
+}  // namespace fusee

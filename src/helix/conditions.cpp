@@ -1,0 +1,148 @@
+#include "helix/conditions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "profile/feasibility.h"
+#include "profile/pitch_curve.h"
+#include "profile/place_conditions.h"
+
+namespace fusee {
+namespace {
+
+constexpr std::array<Side, 2> k_sides = {Side::left, Side::right};
+
+Condition at_most(std::string name, double alpha, double value, double limit, std::string unit) {
+  Condition condition;
+  condition.name = std::move(name);
+  condition.alpha = alpha;
+  condition.value = value;
+  condition.limit = limit;
+  condition.unit = std::move(unit);
+  condition.ok = value <= limit;
+  return condition;
+}
+
+Condition number_of_turns(const Transmission& planar, Side side) {
+  const TakeOffs take_offs(planar, side);
+  const double first = take_offs.at(mirror_sign(side) * planar.theta(planar.alpha_min())).curve.psi;
+  const double last = take_offs.at(mirror_sign(side) * planar.theta(planar.alpha_max())).curve.psi;
+  const double turns = std::abs(last - first) / k_two_pi;
+  const double furthest = std::abs(planar.alpha_min()) > planar.alpha_max() ? planar.alpha_min() : planar.alpha_max();
+  const std::string pulley(pulley_name(side));
+  Condition condition = at_most("turns_" + pulley, furthest, turns, k_most_turns, "1");
+  if (!condition.ok) {
+    condition.message = pulley + " would wind " + rounded(turns, 3) + " turns over the range: at most " +
+                        rounded(k_most_turns) + " are made, " + rounded(100.0 * k_most_turns / turns, 2) +
+                        " % of this range";
+  }
+  return condition;
+}
+
+/// Where the tendon's end stands too far up or down the lip of the groove that it leaves is where it lies.
+Condition fleet(const HelixSide& side, Side which, double lip, double largest_radius) {
+  const double limit = std::atan(std::sqrt(lip / (2.0 * largest_radius)));
+  const std::string number = which == Side::left ? "1" : "2";
+  Condition condition =
+      at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
+  if (!condition.ok) {
+    condition.message = "tendon " + number + " leaves its groove at " + rounded(degrees(side.fleet), 3) +
+                        "° to it at " + at_alpha_text(side.fleet_at) + " and lies on the groove's lip from " +
+                        rounded(degrees(limit), 3) + "° on: a longer EF, a smaller lead or fewer turns make it less";
+  }
+  return condition;
+}
+
+Condition room_for_turns(const Mechanism& mechanism, const Climb& climb, Side side) {
+  const std::string pulley(pulley_name(side));
+  Condition condition;
+  condition.name = "neighbouring_turns_" + pulley;
+  condition.value = climb.slope * climb.circumference;
+  condition.limit = climb.needed_lead;
+  condition.unit = "mm";
+  condition.ok = condition.value >= condition.limit * (1.0 - 1e-9);
+  if (!condition.ok) {
+    condition.message = "a lead of " + rounded(mechanism.body.lead, 4) + " mm (body.lead_mm) is too small: groove, rib " +
+                        "and the step between neighbouring turns of " + pulley + " need " +
+                        rounded(climb.needed_lead, 4) + " mm";
+  }
+  return condition;
+}
+
+Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, Side side) {
+  const double half = 0.5 * mechanism.tendon.diameter;
+  const std::string pulley(pulley_name(side));
+  Condition condition;
+  condition.name = "spare_turns_" + pulley;
+  condition.unit = "mm";
+  condition.limit = k_least_floor_radius;
+  condition.value = 1e300;
+  for (const SpiralRow& row : spiral.rows) condition.value = std::min(condition.value, row.rho - half);
+  condition.ok = condition.value > condition.limit;
+  if (!condition.ok) {
+    condition.message = "the spare turns of " + pulley + " cannot go on from the range's ends as convex curves: the "
+                        "floor's radius falls to " + rounded(condition.value, 3) + " mm (more spare turns, or a radius "
+                        "that changes more slowly there)";
+  }
+  return condition;
+}
+
+Condition closure(const Windings& windings) {
+  constexpr double k_limit = 0.002;
+  Condition condition = at_most("sloped_paths_close", 0, windings.closure, k_limit, "mm");
+  if (!condition.ok) {
+    condition.message = "the curves' lengths along their sloped paths do not settle: " +
+                        rounded(windings.closure, 3) + " mm are left (a law with sharp bends, or a path too steep)";
+  }
+  return condition;
+}
+
+}  // namespace
+
+std::vector<Condition> turn_conditions(const Mechanism& mechanism, const Transmission& planar) {
+  std::vector<Condition> conditions;
+  for (const Side side : k_sides) {
+    conditions.push_back(number_of_turns(planar, side));
+    for (const double kink : lift_offs(mechanism, planar, side)) {
+      Condition condition;
+      condition.name = "on_drum_all_the_way";
+      condition.alpha = planar.alpha(mirror_sign(side) * kink);
+      condition.ok = false;
+      condition.message = "a tendon leaves the joint's drum at " + at_alpha_text(condition.alpha) +
+                          ": a pulley of several turns is made only where it stays on it, or off it";
+      conditions.push_back(condition);
+    }
+  }
+  return conditions;
+}
+
+std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
+                                        const Windings& windings, double lip) {
+  std::vector<Condition> conditions = {closure(windings)};
+  for (const Side side : k_sides) {
+    const std::size_t i = side == Side::left ? 0 : 1;
+    const HelixSide& helix = made.sides[i];
+    double largest = 0;
+    for (std::size_t k = helix.spiral.first_used; k <= helix.spiral.last_used; ++k)
+      largest = std::max(largest, helix.spiral.rows[k].rho);
+    conditions.push_back(spare_turns(mechanism, helix.spiral, side));
+    conditions.push_back(room_for_turns(mechanism, windings.climbs[i], side));
+    conditions.push_back(fleet(helix, side, lip, largest));
+  }
+  return conditions;
+}
+
+std::vector<std::string> helix_warnings(const HelixSynthesis& made) {
+  std::vector<std::string> warnings;
+  for (const Side side : k_sides) {
+    const HelixSide& helix = made.sides[side == Side::left ? 0 : 1];
+    if (helix.fleet <= k_warned_fleet) continue;
+    warnings.push_back("tendon " + std::string(side == Side::left ? "1" : "2") + " leaves its groove at up to " +
+                       rounded(degrees(helix.fleet), 3) + "° to it (" + at_alpha_text(helix.fleet_at) +
+                       "): above 2° it wears, and may climb the groove's wall; a longer EF or a smaller lead help");
+  }
+  return warnings;
+}
+
+}  // namespace fusee

@@ -1,0 +1,99 @@
+#include "helix/pitch_spiral.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+constexpr int k_samples = 192;
+
+/// 1 … 0 over the spare turns, level at both ends, with its derivatives.
+struct Fade {
+  double w = 0, d1 = 0, d2 = 0;
+};
+
+Fade fade(double u, double length) {
+  const double x = u / length;
+  return {1.0 - x * x * (3.0 - 2.0 * x), -6.0 * x * (1.0 - x) / length, -6.0 * (1.0 - 2.0 * x) / (length * length)};
+}
+
+/// ∫ sin u w(u) du from 0, Simpson's rule.
+double faded_integral(double u, double length) {
+  constexpr int k_steps = 64;
+  const auto value = [length](double v) { return std::sin(v) * fade(v, length).w; };
+  double sum = value(0.0) + value(u);
+  for (int i = 1; i < k_steps; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * value(u * i / k_steps);
+  return sum * u / (3.0 * k_steps);
+}
+
+}  // namespace
+
+PitchSpiral::PitchSpiral(const Mechanism& mechanism, const TakeOffs& take_offs, const SmoothSeries* lengthening)
+    : take_offs_(take_offs),
+      lengthening_(lengthening),
+      collar_(mechanism.guides.collar),
+      spare_(k_two_pi * mechanism.body.spare_turns),
+      home_(take_offs.at(0.0)) {
+  const double sign = mirror_sign(take_offs.side());
+  const double first = sign > 0 ? mechanism.joint.theta_min : -mechanism.joint.theta_max;
+  const double last = sign > 0 ? mechanism.joint.theta_max : -mechanism.joint.theta_min;
+  for (int i = 0; i <= k_samples; ++i)
+    samples_.push_back(take_offs.at(i == k_samples ? last : first + (last - first) * i / k_samples));
+}
+
+FreePath PitchSpiral::free_path(const TakeOff& take_off) const {
+  const TendonPoint& tendon = take_offs_.tendon(take_off);
+  FreePath path;
+  path.whole = tendon.length - take_off.curve.dh;
+  path.sloping = collar_ ? tendon.lower_reach - take_off.curve.dh : path.whole;
+  return path;
+}
+
+// L + σ = q + const.
+double PitchSpiral::sigma(const TakeOff& take_off) const {
+  return lengthened(take_off.stroke.alpha) - lengthened(home_.stroke.alpha) - free_path(take_off).whole +
+         free_path(home_).whole;
+}
+
+SpiralPoint PitchSpiral::at(double psi) const {
+  if (psi < working_begin()) return beyond(working_begin() - psi, {samples_.front().curve, sigma(samples_.front())}, -1);
+  if (psi > working_end()) return beyond(psi - working_end(), {samples_.back().curve, sigma(samples_.back())}, 1);
+  const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, psi,
+                                      [](double value, const TakeOff& sample) { return value < sample.curve.psi; });
+  const double sign = mirror_sign(take_offs_.side());
+  double low = sign * (above - 1)->stroke.theta, high = sign * above->stroke.theta;
+  TakeOff found = *(above - 1);
+  double theta = low;
+  for (int i = 0; i < 60; ++i) {
+    const double miss = found.curve.psi - psi;
+    if (std::abs(miss) < 1e-13 * (1.0 + std::abs(psi))) break;
+    (miss > 0 ? high : low) = theta;
+    double next = theta - miss * found.stroke.g / found.dpsi;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (next == theta) break;
+    theta = next;
+    found = take_offs_.at(theta);
+  }
+  return {found.curve, sigma(found)};
+}
+
+// Along u, outwards from the working arc, with d = ±dh/dψ there:
+//   p = h + d sin u w      p' = d (cos u w + sin u w')      ρ = p + p'' = h + d (2 cos u w' + sin u w'')
+//   ∫ρ du = p' − d + h u + d ∫ sin u w du
+SpiralPoint PitchSpiral::beyond(double turned, const SpiralPoint& from, double direction) const {
+  const double u = std::min(turned, spare_);
+  const double d = direction * from.curve.dh;
+  const Fade w = fade(u, spare_);
+  const double slope = d * (std::cos(u) * w.w + std::sin(u) * w.d1);
+  SpiralPoint point;
+  point.curve.psi = from.curve.psi + direction * u;
+  point.curve.h = from.curve.h + d * std::sin(u) * w.w;
+  point.curve.dh = direction * slope;
+  point.curve.radius = from.curve.h + d * (2.0 * std::cos(u) * w.d1 + std::sin(u) * w.d2);
+  const double length = slope - d + from.curve.h * u + d * faded_integral(u, spare_);
+  point.sigma = from.sigma + direction * length;
+  return point;
+}
+
+}  // namespace fusee

@@ -1,0 +1,85 @@
+#include "fusee/helix/synthesis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "helix/conditions.h"
+#include "helix/draw_spiral.h"
+#include "helix/winding.h"
+#include "profile/feasibility.h"
+#include "transmission/alpha_range.h"
+
+namespace fusee {
+namespace {
+
+HelixSide make_side(const Mechanism& mechanism, const Windings& windings, Side which,
+                    const std::vector<TransmissionPoint>& stroke, const SpiralDrawing& drawing) {
+  const std::size_t i = which == Side::left ? 0 : 1;
+  const Climb& climb = windings.climbs[i];
+  const TakeOffs take_offs(*windings.transmission, which);
+  const PitchSpiral curve(mechanism, take_offs, i == 0 ? &windings.paths->q1 : &windings.paths->q2);
+  HelixSide side;
+  side.spiral = draw_spiral(curve, which, climb.slope, drawing);
+  side.turns = (curve.working_end() - curve.working_begin()) / k_two_pi;
+  side.circumference = climb.circumference;
+  side.lead = climb.slope * climb.circumference;
+  // Of the spiral's first row: P1 is drawn from its image's end.
+  const double sigma0 = curve.at(which == Side::left ? curve.end() : curve.begin()).sigma;
+  const double home = -climbing(which) * climb.slope * sigma0;
+  side.attachment_z = home - climb.below;
+  for (const TransmissionPoint& point : stroke) {
+    const TakeOff take_off = take_offs.at(mirror_sign(which) * point.theta);
+    const double sigma = curve.sigma(take_off);
+    HelixPoint at = helix_point(climb, which, curve.free_path(take_off), sigma);
+    at.z = home + climbing(which) * climb.slope * sigma;
+    side.stroke.push_back(at);
+    if (std::abs(at.fleet) <= side.fleet) continue;
+    side.fleet = std::abs(at.fleet);
+    side.fleet_at = point.alpha;
+  }
+  return side;
+}
+
+bool all_hold(const std::vector<Condition>& conditions) {
+  return std::all_of(conditions.begin(), conditions.end(), [](const Condition& condition) { return condition.ok; });
+}
+
+void append(std::vector<Condition>& conditions, std::vector<Condition> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(conditions));
+}
+
+void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const HelixGroove& groove,
+                     const SynthesisOptions& options) {
+  const Transmission planar(mechanism);
+  result.conditions = attempt(mechanism, planar, Turns::many).conditions;
+  if (!all_hold(result.conditions)) return;
+  append(result.conditions, turn_conditions(mechanism, planar));
+  if (!all_hold(result.conditions)) return;
+  const Windings windings = wind(mechanism, groove.least_lead);
+  const Transmission& law = *windings.transmission;
+  const Attempt tried = attempt(mechanism, law, Turns::many);
+  result.conditions = tried.conditions;
+  append(result.conditions, turn_conditions(mechanism, law));
+  if (!all_hold(result.conditions)) return;
+  result.closure = windings.closure;
+  result.stroke = stroke_over_range(law, options.stroke_steps);
+  const SpiralDrawing drawing{.tolerance = options.tolerance, .reach = groove.lip + mechanism.tendon.diameter};
+  for (const Side side : {Side::left, Side::right})
+    result.sides[side == Side::left ? 0 : 1] = make_side(mechanism, windings, side, result.stroke, drawing);
+  append(result.conditions, helix_conditions(mechanism, result, windings, groove.lip));
+  if (!all_hold(result.conditions)) return;
+  result.warnings = bend_warnings(mechanism, tried);
+  for (std::string& warning : helix_warnings(result)) result.warnings.push_back(std::move(warning));
+  result.status = SynthesisStatus::made;
+}
+
+}  // namespace
+
+HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove,
+                                const SynthesisOptions& options) {
+  HelixSynthesis result;
+  synthesise_into(result, mechanism, groove, options);
+  return result;
+}
+
+}  // namespace fusee

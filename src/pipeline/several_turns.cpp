@@ -1,0 +1,122 @@
+#include "pipeline/several_turns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/coil/helical_pulley.h"
+#include "fusee/coil/helical_rewind.h"
+#include "fusee/helix/synthesis.h"
+
+namespace fusee {
+namespace {
+
+HelixGroove groove_of(const Mechanism& mechanism) {
+  const HelicalSection section = helical_section(mechanism);
+  return {section.depth, [section](double step) {
+            return least_lead(section, k_later_turns_lie_lower ? -step : step);
+          }};
+}
+
+/// What the tables of a body do not say of several turns.
+std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct& helix) {
+  const TendonsLaid ends = helix.laid(mechanism.guides.collar);
+  const std::string where = mechanism.guides.collar ? "the guides' collars hold the tendons at the heights "
+                                                    : "the tendons end on the joint at the heights ";
+  const double left = std::exp(-mechanism.pulley.mu * k_two_pi * mechanism.body.spare_turns);
+  std::vector<std::string> notes = {
+      where + rounded(ends.z1, 4) + " mm (tendon 1) and " + rounded(ends.z2, 4) +
+          " mm (tendon 2) above the pulley's lower face: there the fleet angle is smallest",
+      "wound several times, " + rounded(helix.synthesis.sides[0].turns, 3) + " (P1) and " +
+          rounded(helix.synthesis.sides[1].turns, 3) + " turns (P2) over the range and " +
+          rounded(mechanism.body.spare_turns) + " spare at each end, which leave " + rounded(100.0 * left, 2) +
+          " % of a tension to the knot; lead " + rounded(helix.synthesis.sides[0].lead, 3) + " and " +
+          rounded(helix.synthesis.sides[1].lead, 3) + " mm",
+      "of several turns there is no pulley.scad, no profile.dxf and no plates.dxf: their grooves lie in no plane, and "
+      "plates have none that climb"};
+  for (const HelixSide& side : helix.synthesis.sides) {
+    if (side.fleet <= k_noted_fleet || side.fleet > k_warned_fleet) continue;
+    notes.push_back("a fleet angle of " + rounded(degrees(side.fleet), 3) +
+                    "° is more than the 1.5° of smooth drums, and within the 2° of grooved ones");
+  }
+  return notes;
+}
+
+void take_over(Product& product, const HelixProduct& helix) {
+  SynthesisResult& synthesis = product.synthesis;
+  synthesis = {};
+  synthesis.status = helix.synthesis.status;
+  synthesis.stroke = helix.synthesis.stroke;
+  synthesis.conditions = helix.synthesis.conditions;
+  synthesis.warnings = helix.synthesis.warnings;
+}
+
+}  // namespace
+
+bool need_several_turns(const SynthesisResult& synthesis) {
+  const std::vector<Condition> failed = failed_of(synthesis.conditions);
+  return !failed.empty() && std::all_of(failed.begin(), failed.end(), [](const Condition& condition) {
+    return condition.name.rfind("one_turn_", 0) == 0;
+  });
+}
+
+std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism) {
+  if (mechanism.pulley.winding == WindingChoice::one_turn) return "pulley.winding = \"one_turn\"";
+  if (mechanism.pulley.method == Method::paper) return "pulley.method = \"paper\" draws no spirals";
+  if (!(mechanism.identified == Imperfections{})) return "of a joint with [identified] none is made yet";
+  return std::nullopt;
+}
+
+bool design_several_turns(Product& product, double tolerance,
+                          const std::function<void(std::string_view step)>& before_step) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  if (before_step) before_step("winding both tendons several times");
+  HelixProduct& helix = product.helix.emplace();
+  SynthesisOptions options;
+  options.tolerance = tolerance;
+  helix.synthesis = synthesise_helix(mechanism, groove_of(mechanism), options);
+  take_over(product, helix);
+  if (!helix.synthesis.made()) return false;
+  if (before_step) before_step("making the body");
+  helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
+                                     tolerance);
+  Pulley& pulley = product.pulley;
+  pulley = {};
+  pulley.status = helix.pulley.made ? PulleyStatus::made : PulleyStatus::impossible;
+  pulley.layout = helix.pulley.layout;
+  pulley.mesh = std::move(helix.pulley.mesh);
+  pulley.conditions = helix.pulley.conditions;
+  pulley.expected_volume = helix.pulley.expected_volume;
+  pulley.expected_euler = helix.pulley.expected_euler;
+  pulley.mesh_checks = helix.pulley.mesh_checks;
+  for (std::string& note : notes_of(mechanism, helix)) pulley.layout.notes.push_back(std::move(note));
+  return pulley.made();
+}
+
+HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  return rewind_helical(mesh, mechanism, product.synthesis.stroke, product.helix->laid(mechanism.guides.collar),
+                        product.pulley.layout.scale);
+}
+
+std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh) {
+  return check_helical_pulley(mesh, product.helix->pulley, helical_section(product.joint.mechanism));
+}
+
+Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
+                                const std::function<void()>& between_tries) {
+  constexpr double k_trial_tolerance = 0.05;
+  const Judge judge{.obstacles =
+                        [&](const Mechanism& changed) {
+                          if (between_tries) between_tries();
+                          SynthesisOptions options;
+                          options.tolerance = k_trial_tolerance;
+                          options.stroke_steps = 36;
+                          return failed_of(synthesise_helix(changed, groove_of(changed), options).conditions);
+                        },
+                    .made = made,
+                    .is_dear = true};
+  return find_advice(product.file.mechanism, judge, {"body.lead_mm", "body.spare_turns", "body.groove_depth_mm"});
+}
+
+}  // namespace fusee

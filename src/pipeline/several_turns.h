@@ -1,0 +1,33 @@
+/// \file
+/// Internal: a pulley whose tendons are wound several times, where one turn does not suffice.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "fusee/export/product.h"
+#include "fusee/profile/advice.h"
+
+namespace fusee {
+
+/// The one thing that keeps these curves from being made is that they are longer than a turn.
+bool need_several_turns(const SynthesisResult& synthesis);
+/// Why this file's pulley is not wound several times; null where it is.
+std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism);
+
+/// Spirals and body of product.joint in place of what one turn could not be; as design() otherwise.
+bool design_several_turns(Product& product, double tolerance,
+                          const std::function<void(std::string_view step)>& before_step);
+
+/// Tendons wound in space on the grooves of a mesh of it.
+HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh);
+/// Of a mesh that was read back.
+std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh);
+
+/// What would make a refused one possible. `made`: the whole making.
+Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
+                                const std::function<void()>& between_tries);
+
+}  // namespace fusee

@@ -1,0 +1,97 @@
+#include "profile/string_above.h"
+
+#include <algorithm>
+
+#include "fusee/base/diagnostics.h"
+
+namespace fusee {
+namespace {
+
+/// The centre of a string's pin, seen from the joint.
+Vec2 pin_of(const Mechanism& mechanism, double hand) {
+  const Guides& guides = mechanism.guides;
+  return hand > 0 ? Vec2(guides.ED, -guides.OE - guides.D_below_B) : Vec2(-guides.EB, -guides.OE);
+}
+
+/// Where a string ends in the link at home.
+Vec2 end_of(const Mechanism& mechanism, double hand) {
+  const Joint& joint = mechanism.joint;
+  const auto& own = hand > 0 ? joint.attachment2 : joint.attachment1;
+  return own ? Vec2(own->across, own->along) : Vec2(0.0, joint.R);
+}
+
+/// What a string comes to its pulley from, seen from the pulley's axis: its pin, or the mouth of its sheath.
+Vec2 above_pulley(const Mechanism& mechanism, double hand) {
+  if (mechanism.sheath.is_there()) return {hand * mechanism.sheath.exit_across, mechanism.sheath.exit_above};
+  const Vec2 pin = pin_of(mechanism, hand);
+  return {pin.x(), pin.y() + mechanism.guides.OE + mechanism.pulley.EF};
+}
+
+/// Where a place of the link at home is, turned clockwise with it.
+Vec2 with_link(const Vec2& home, double theta) {
+  return {std::cos(theta) * home.x() + std::sin(theta) * home.y(),
+          std::cos(theta) * home.y() - std::sin(theta) * home.x()};
+}
+
+}  // namespace
+
+StringAbove::StringAbove(const Mechanism& mechanism, double hand)
+    : hand_(hand),
+      half_(0.5 * mechanism.tendon.diameter),
+      rho_(mechanism.guides.radius + half_),
+      sheathed_(mechanism.sheath.is_there()),
+      end_(end_of(mechanism, hand)),
+      drum_(mechanism.joint.drum_radius != 0 ? mechanism.joint.drum_radius + half_ : 0.0),
+      drum_centre_(mechanism.joint.drum_centre.across, mechanism.joint.drum_centre.along),
+      pin_(pin_of(mechanism, hand)),
+      from_axis_(above_pulley(mechanism, hand)) {
+  // Out of the drum a string comes at its own height.
+  if (const double away = (end_ - drum_centre_).norm(); away < drum_)
+    end_ = drum_centre_ + drum_ / away * (end_ - drum_centre_);
+  if (drum_ > 0 && !(pin_.norm() - drum_centre_.norm() > drum_ - half_ + mechanism.guides.radius))
+    throw InputError("", "a guide pin stands in the drum", "joint.drum_radius_mm smaller, or pins further out");
+}
+
+/// Seen from the pulley, which turns clockwise, the world turns the other way.
+Vec2 StringAbove::guide_seen_from_pulley(double alpha) const {
+  return {std::cos(alpha) * from_axis_.x() - std::sin(alpha) * from_axis_.y(),
+          std::sin(alpha) * from_axis_.x() + std::cos(alpha) * from_axis_.y()};
+}
+
+/// What joins two discs with the string on the outer side of both, or a disc and a point.
+StringAbove::Piece StringAbove::from_pin_to(const Vec2& centre, double radius) const {
+  const Vec2 away = centre - pin_;
+  const double distance = away.norm(), larger = rho_ - radius;
+  return {direction(away) - hand_ * std::acos(std::clamp(larger / distance, -1.0, 1.0)),
+          std::sqrt(std::max(0.0, (distance - larger) * (distance + larger)))};
+}
+
+double StringAbove::length(double theta, double lower_normal) const {
+  const Vec2 end = with_link(end_, theta);
+  Piece up = from_pin_to(end, 0.0);
+  const double wound = drum_ > 0 ? wound_on_drum(theta) : 0.0;
+  if (wound > 0) {
+    const Vec2 centre = with_link(drum_centre_, theta);
+    const double away = (end - centre).norm();
+    up = from_pin_to(centre, drum_);
+    up.length += drum_ * wound + std::sqrt(std::max(0.0, (away - drum_) * (away + drum_)));
+  }
+  // Into a sheath it goes straight down from the pin's outer side; what lies in there keeps its length.
+  const double below = !sheathed_ ? lower_normal : hand_ > 0 ? 0.0 : k_pi;
+  const double wrap = turned_near(hand_ * (up.normal - below), 0.5 * k_pi);
+  return rho_ * wrap + up.length;
+}
+
+/// Over which angle the string lies on the drum; it is free of it below 0. An end at home is reached over the drum's
+/// outer side: both its direction and the pin's are counted from straight below O, the string's own way round.
+double StringAbove::wound_on_drum(double theta) const {
+  const auto counted = [this](double angle) {
+    const double own = hand_ > 0 ? angle : k_pi - angle;
+    return turned_near(own, 0.5 * k_pi);
+  };
+  const Vec2 from_centre = end_ - drum_centre_;
+  const double tangent = counted(direction(from_centre)) - std::acos(std::clamp(drum_ / from_centre.norm(), -1.0, 1.0));
+  return tangent - counted(from_pin_to(with_link(drum_centre_, theta), drum_).normal) - hand_ * theta;
+}
+
+}  // namespace fusee

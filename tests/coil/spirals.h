@@ -1,0 +1,57 @@
+/// \file
+/// Spirals with a closed form. mm, rad.
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "fusee/base/plane.h"
+#include "fusee/base/units.h"
+#include "fusee/helix/spiral.h"
+
+namespace fusee::testing {
+
+/// From a support function p(ψ) with two derivatives: X = p n + p' t, ρ = p + p''. Rows every `step`.
+struct SupportCurve {
+  std::function<double(double)> p, dp, d2p;
+};
+
+inline Spiral spiral_of(const SupportCurve& curve, double begin, double turns, double slope, double step = 0.02) {
+  Spiral spiral;
+  spiral.slope = slope;
+  const int count = static_cast<int>(std::ceil(turns * k_two_pi / step));
+  double s = 0, before = begin;
+  for (int k = 0; k <= count; ++k) {
+    const double turn = begin + turns * k_two_pi * k / count;
+    const auto rho = [&curve](double at) { return curve.p(at) + curve.d2p(at); };
+    // Simpson's rule.
+    s += (turn - before) * (rho(before) + 4.0 * rho(0.5 * (before + turn)) + rho(turn)) / 6.0;
+    before = turn;
+    const Vec2 at = curve.p(turn) * unit(turn) + curve.dp(turn) * turned_left(unit(turn));
+    spiral.rows.push_back({at.x(), at.y(), turn, rho(turn), s, slope * s});
+  }
+  // A turn to spare at both ends.
+  const auto spare = static_cast<std::size_t>(std::lround(count / turns));
+  spiral.first_used = std::min(spare, spiral.rows.size() - 1);
+  spiral.last_used = spiral.rows.size() - 1 - spiral.first_used;
+  if (spiral.last_used < spiral.first_used) spiral.first_used = spiral.last_used = spiral.rows.size() / 2;
+  return spiral;
+}
+
+inline SupportCurve round_curve(double radius) {
+  return {[radius](double) { return radius; }, [](double) { return 0.0; }, [](double) { return 0.0; }};
+}
+/// p = a + b ψ: an involute of a circle of radius b.
+inline SupportCurve growing(double radius, double per_turn, double begin) {
+  const double rate = per_turn / k_two_pi;
+  return {[=](double t) { return radius + rate * (t - begin); }, [=](double) { return rate; }, [](double) { return 0.0; }};
+}
+/// An oval that grows.
+inline SupportCurve oval(double radius, double per_turn, double wave, double begin) {
+  const double rate = per_turn / k_two_pi;
+  return {[=](double t) { return radius + rate * (t - begin) + wave * std::cos(2.0 * t); },
+          [=](double t) { return rate - 2.0 * wave * std::sin(2.0 * t); },
+          [=](double t) { return -4.0 * wave * std::cos(2.0 * t); }};
+}
+
+}  // namespace fusee::testing

@@ -1,0 +1,84 @@
+#include "helix/spiral_string.h"
+
+#include <cmath>
+
+#include "fusee/base/plane.h"
+
+namespace fusee {
+namespace {
+
+/// From `from` to a circle that the string touches with the circle on its left (sense +1) or right (−1), seen along
+/// the string's way: the touching point.
+Vec2 touching(const Vec2& from, const Vec2& centre, double radius, double sense) {
+  const Vec2 to = centre - from;
+  const double distance = to.norm();
+  const double aside = std::asin(radius / distance);
+  const double reach = std::sqrt(distance * distance - radius * radius);
+  const double direction = std::atan2(to.y(), to.x()) - sense * aside;
+  return from + reach * unit(direction);
+}
+
+double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
+
+double wrapped(double angle) { return angle - k_two_pi * std::floor(angle / k_two_pi); }
+
+}  // namespace
+
+// Everything in the image in which the tendon is the right-hand one: it comes from C, has its pin on the right of its
+// way … and winds counter-clockwise on the turned pulley, seen from its take-off backwards.
+StringLength string_length(const Mechanism& mechanism, Side side, const Spiral& spiral, double attachment_z,
+                           double alpha, double theta) {
+  const double mirror = side == Side::right ? 1.0 : -1.0;
+  const Guides& guides = mechanism.guides;
+  const double e = side == Side::right ? guides.ED : guides.EB;
+  const double rho = guides.radius + 0.5 * mechanism.tendon.diameter;
+  const Vec2 pin(e, -guides.OE);
+  const Vec2 axis(0.0, -guides.OE - mechanism.pulley.EF);
+  const Vec2 lever = mechanism.joint.R * Vec2(std::sin(mirror * theta), std::cos(mirror * theta));
+  // The pulley has turned clockwise by α; in the image of the left one the other way.
+  const auto place = [&](const SpiralRow& row) {
+    return Vec2(axis + turned(Vec2(mirror * row.x, row.y), -mirror * alpha));
+  };
+  // The outer side of the pin: the circle lies on the left of the string's way down to it, and of that up from below.
+  const Vec2 upper = touching(lever, pin, rho, -1.0);
+  // Take-off: the row whose neighbours lie on the same side of the line to the pin, with the normal that the line has.
+  const std::size_t n = spiral.rows.size();
+  std::size_t best = 0;
+  double least = 1e300;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Vec2 here = place(spiral.rows[i]);
+    const Vec2 lower = touching(here, pin, rho, 1.0);
+    const Vec2 along = (lower - here).normalized();
+    // Its outward normal lies on the right of the way from the pulley to the pin.
+    const double normal = angle_of(-turned_left(along));
+    const double row = side == Side::right ? spiral.rows[i].turn : k_pi - spiral.rows[i].turn;
+    const double miss = std::abs(row - mirror * alpha - normal);
+    if (miss < least) {
+      least = miss;
+      best = i;
+    }
+  }
+  const SpiralRow& row = spiral.rows[best];
+  const Vec2 here = place(row);
+  const Vec2 lower = touching(here, pin, rho, 1.0);
+  const double on_pin = rho * wrapped(angle_of(upper - pin) - angle_of(lower - pin));
+  const double below = (lower - here).norm();
+  const double whole = (upper - lever).norm() + on_pin + below;
+  const double rise = row.z - attachment_z;
+  StringLength length;
+  length.total = guides.collar ? whole - below + std::hypot(below, rise) : std::hypot(whole, rise);
+  length.slope = std::atan2(rise, guides.collar ? below : whole);
+  double wound = 0;
+  for (std::size_t i = 1; i < n; ++i) {
+    const SpiralRow &a = spiral.rows[i - 1], &b = spiral.rows[i];
+    const bool is_wound = side == Side::right ? i <= best : i > best;
+    if (is_wound) wound += std::hypot(std::hypot(b.x - a.x, b.y - a.y), b.z - a.z);
+  }
+  length.total += wound;
+  const SpiralRow& next = spiral.rows[side == Side::right ? best - 1 : best + 1];
+  length.fleet = length.slope - std::atan2(row.z - next.z, -std::hypot(row.x - next.x, row.y - next.y)) - k_pi;
+  length.fleet = std::remainder(length.fleet, k_pi);
+  return length;
+}
+
+}  // namespace fusee
