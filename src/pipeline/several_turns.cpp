@@ -63,6 +63,7 @@ bool need_several_turns(const SynthesisResult& synthesis) {
 std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism) {
   if (mechanism.pulley.winding == WindingChoice::one_turn) return "pulley.winding = \"one_turn\"";
   if (mechanism.pulley.method == Method::paper) return "pulley.method = \"paper\" draws no spirals";
+  if (mechanism.sheath.is_there()) return "a tendon out of a sheath is not wound several times yet";
   if (!(mechanism.identified == Imperfections{})) return "of a joint with [identified] none is made yet";
   return std::nullopt;
 }
