@@ -457,6 +457,8 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
     result.advice = advice_for(result.product, options);
     return result;
   }
+  if (options.step && result.product.helix)
+    throw InputError("", "no pulley.step: of a pulley of several turns none is made yet", "build without --step");
   if (options.dry_run) {
     write_and_forget(result, options);
     return result;
