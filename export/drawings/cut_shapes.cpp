@@ -37,15 +37,17 @@ void put_on_arc(Polygon& points, std::size_t count, double radius) {
     points[i] = turned(first, turn * static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
-bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    if (distance_to_segment(point, polygon[j], polygon[i]) < margin) return true;
-  }
-  return false;
-}
-
 bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin) {
   return (point - low).minCoeff() < -margin || (high - point).minCoeff() < -margin;
+}
+
+bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
+  const double surely = margin * (1.0 + 1e-9);  // of an edge whose box is further off the distance need not be asked
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Vec2 &a = polygon[j], &b = polygon[i];
+    if (!beyond(a.cwiseMin(b), a.cwiseMax(b), point, surely) && distance_to_segment(point, a, b) < margin) return true;
+  }
+  return false;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "base/decompositions.h"
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 
@@ -95,14 +96,14 @@ Eigen::MatrixXd rough_curves(const std::vector<RowFacts>& facts) {
   for (Eigen::Index i = 0; i < k_nodes; ++i) {
     for (Eigen::Index j = 0; j < k_nodes; ++j) K(i, j) = kernel(node(i), node(j));
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);
+  const SymmetricEigen eigen = eigen_of(K);
   Eigen::MatrixXd at_rows(static_cast<Eigen::Index>(facts.size()), k_nodes);
   for (Eigen::Index i = 0; i < at_rows.rows(); ++i) {
     for (Eigen::Index j = 0; j < k_nodes; ++j)
       at_rows(i, j) = kernel(facts[static_cast<std::size_t>(i)].place, node(j));
   }
-  const Eigen::VectorXd size = eigen.eigenvalues().tail(k_rough).cwiseSqrt().cwiseInverse();
-  return at_rows * eigen.eigenvectors().rightCols(k_rough) * size.asDiagonal();
+  const Eigen::VectorXd size = eigen.values.tail(k_rough).cwiseSqrt().cwiseInverse();
+  return at_rows * eigen.vectors.rightCols(k_rough) * size.asDiagonal();
 }
 
 class Builder {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/decompositions.h"
 #include "calibration/fit.h"
 #include "calibration/unknown.h"
 
@@ -22,9 +23,7 @@ bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
   const Eigen::MatrixXd scaled = size.asDiagonal() * all * size.asDiagonal();
   const Eigen::MatrixXd part = size.asDiagonal() * rest * size.asDiagonal();
   const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(all.rows(), all.cols());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> shares(part + ridge, scaled + ridge,
-                                                                         Eigen::EigenvaluesOnly);
-  return shares.eigenvalues().minCoeff() > k_least_known;
+  return relative_eigenvalues(part + ridge, scaled + ridge).minCoeff() > k_least_known;
 }
 
 /// What is fitted: sums block by block and of what was measured by hand, where the numbers stand.

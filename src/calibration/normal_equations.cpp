@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/decompositions.h"
 #include "calibration/fit.h"
 
 namespace fusee {
@@ -41,7 +42,7 @@ NormalEquations& NormalEquations::operator-=(const NormalEquations& other) {
 Eigen::VectorXd least_squares_step(const NormalEquations& normal, const Eigen::VectorXd& x, double ridge) {
   if (normal.empty()) return {};
   const Eigen::MatrixXd A = normal.JJ + ridge * Eigen::MatrixXd::Identity(normal.JJ.rows(), normal.JJ.cols());
-  return A.ldlt().solve(normal.Jr - ridge * x);
+  return solved(A, Eigen::VectorXd(normal.Jr - ridge * x));
 }
 
 NormalEquations sums_of(const Block& block, const Fit& fit, double floor) {

@@ -1,12 +1,12 @@
 #include "joint/needed_law.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "base/decompositions.h"
 #include "base/golden_section.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/transmission/guide_friction.h"
@@ -112,21 +112,25 @@ std::vector<double> mean_motion(const Mechanism& joint, const std::vector<LawRow
 /// (a tendon that falls slack) would be a dent. What moderate loads do is smooth and comes through to 1e-5 of itself.
 class Smoothed {
  public:
-  explicit Smoothed(const std::vector<LawRow>& rows) : basis_(static_cast<Eigen::Index>(rows.size()), k_terms) {
-    const double middle = 0.5 * (rows.front().alpha + rows.back().alpha),
-                 half = 0.5 * (rows.back().alpha - rows.front().alpha);
-    for (Eigen::Index i = 0; i < basis_.rows(); ++i) {
-      const double x = std::clamp((rows[static_cast<std::size_t>(i)].alpha - middle) / half, -1.0, 1.0);
-      for (Eigen::Index k = 0; k < k_terms; ++k) basis_(i, k) = std::cos(static_cast<double>(k) * std::acos(x));
-    }
-    solver_.compute(basis_);
-  }
-  Eigen::VectorXd of(const Eigen::VectorXd& values) const { return basis_ * solver_.solve(values); }
+  explicit Smoothed(const std::vector<LawRow>& rows) : basis_(chebyshev_of(rows)), solver_(basis_) {}
+  Eigen::VectorXd of(const Eigen::VectorXd& values) const { return basis_ * solver_.nearest(values); }
 
  private:
   static constexpr Eigen::Index k_terms = 9;
+
+  static Eigen::MatrixXd chebyshev_of(const std::vector<LawRow>& rows) {
+    Eigen::MatrixXd basis(static_cast<Eigen::Index>(rows.size()), k_terms);
+    const double middle = 0.5 * (rows.front().alpha + rows.back().alpha),
+                 half = 0.5 * (rows.back().alpha - rows.front().alpha);
+    for (Eigen::Index i = 0; i < basis.rows(); ++i) {
+      const double x = std::clamp((rows[static_cast<std::size_t>(i)].alpha - middle) / half, -1.0, 1.0);
+      for (Eigen::Index k = 0; k < k_terms; ++k) basis(i, k) = std::cos(static_cast<double>(k) * std::acos(x));
+    }
+    return basis;
+  }
+
   Eigen::MatrixXd basis_;
-  Eigen::HouseholderQR<Eigen::MatrixXd> solver_;
+  LeastSquares solver_;
 };
 
 /// The rows drawn further by `miss`; null where θ would not grow with α or home is out of reach.

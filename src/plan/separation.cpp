@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.h"
 #include "plan/thresholds.h"
 
 namespace fusee {
@@ -16,7 +17,7 @@ Eigen::MatrixXd block(const Eigen::MatrixXd& squares, const Cause& one, const Ca
 double left_of(const Eigen::MatrixXd& own, const Eigen::MatrixXd& shared, const Eigen::MatrixXd& others,
                const Eigen::MatrixXd& precision) {
   if (others.size() == 0) return own.trace();
-  const Eigen::MatrixXd taken = shared * (precision + others).ldlt().solve(shared.transpose());
+  const Eigen::MatrixXd taken = shared * solved(precision + others, Eigen::MatrixXd(shared.transpose()));
   return std::max(0.0, (own - taken).trace());
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.h"
 #include "base/normal_numbers.h"
 #include "plan/thresholds.h"
 
@@ -72,8 +73,8 @@ class Court {
     for (const double size : k_unknown_sizes)
       unnamed_.push_back(
           with_model(signatures.unknown_first(), signatures.columns() - signatures.unknown_first(), size));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(known.runs + known.readings);
-    noise_ = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    const SymmetricEigen parts = eigen_of(known.runs + known.readings);
+    noise_ = parts.vectors * parts.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
     model_first_ = signatures.model_first();
     model_count_ = static_cast<Eigen::Index>(model.size());
   }

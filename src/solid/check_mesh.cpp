@@ -1,7 +1,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/beside.h"
 #include "fusee/base/text.h"
@@ -41,6 +48,24 @@ Check not_looked_at(std::string name, const std::string& reason) {
   return {std::move(name), 0, 0, "1", false, "not looked at: " + reason};
 }
 
+// Sorted by a vertex, and by `before` those of the same one: a handful, so that dealing them out takes a fraction of
+// the time of sorting all.
+template <typename Item, typename VertexOf, typename Before>
+std::vector<Item> dealt_by_vertex(const std::vector<Item>& items, std::size_t vertices, const VertexOf& vertex_of,
+                                  const Before& before) {
+  std::vector<std::size_t> first(vertices + 1, 0);
+  for (const Item& item : items) ++first[vertex_of(item) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  std::vector<Item> dealt(items.size());
+  for (const Item& item : items) dealt[next[vertex_of(item)]++] = item;
+  for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
+    std::sort(dealt.begin() + static_cast<std::ptrdiff_t>(first[vertex]),
+              dealt.begin() + static_cast<std::ptrdiff_t>(first[vertex + 1]), before);
+  }
+  return dealt;
+}
+
 // Each side of each facet, those of one edge together.
 struct EdgeSide {
   std::uint32_t low = 0, high = 0;
@@ -53,14 +78,15 @@ std::vector<EdgeSide> edge_sides(const TriangleMesh& mesh) {
   sides.reserve(3 * mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
+      const std::uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][k == 2 ? 0 : k + 1];
       sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(f), a < b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const EdgeSide& s, const EdgeSide& t) {
-    return std::tie(s.low, s.high, s.facet, s.upward) < std::tie(t.low, t.high, t.facet, t.upward);
-  });
-  return sides;
+  return dealt_by_vertex(
+      sides, mesh.vertices.size(), [](const EdgeSide& side) { return side.low; },
+      [](const EdgeSide& s, const EdgeSide& t) {
+        return std::tie(s.high, s.facet, s.upward) < std::tie(t.high, t.facet, t.upward);
+      });
 }
 
 template <typename Visit>
@@ -124,14 +150,16 @@ Tally degenerate_facets(const TriangleMesh& mesh) {
 }
 
 Tally duplicate_facets(const TriangleMesh& mesh) {
-  std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> sorted;
-  sorted.reserve(mesh.triangles.size());
+  using Sorted = std::pair<std::array<std::uint32_t, 3>, std::size_t>;
+  std::vector<Sorted> facets;
+  facets.reserve(mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     auto corners = mesh.triangles[f];
     std::sort(corners.begin(), corners.end());
-    sorted.emplace_back(corners, f);
+    facets.emplace_back(corners, f);
   }
-  std::sort(sorted.begin(), sorted.end());
+  const std::vector<Sorted> sorted = dealt_by_vertex(
+      facets, mesh.vertices.size(), [](const Sorted& facet) { return facet.first[0]; }, std::less<>());
   Tally duplicate;
   for (std::size_t k = 1; k < sorted.size(); ++k) {
     if (sorted[k].first == sorted[k - 1].first) duplicate.add(sorted[k].second);

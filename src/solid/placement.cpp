@@ -1,10 +1,11 @@
 #include "fusee/solid/placement.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.h"
 #include "fusee/base/units.h"
 #include "solid/corners.h"
 #include "solid/disjoint_sets.h"
@@ -169,7 +170,7 @@ std::optional<Vec2> centre_of_round(const Polygon& hole) {
   const Polygon corners = corners_of(hole);
   if (corners.size() < 4) return std::nullopt;
   const auto rows = static_cast<Eigen::Index>(corners.size());
-  Eigen::MatrixX3d lines(rows, 3);
+  Eigen::MatrixXd lines(rows, 3);
   Eigen::VectorXd squares(rows);
   const Vec2 near = corners.front();
   for (Eigen::Index i = 0; i < rows; ++i) {
@@ -177,7 +178,7 @@ std::optional<Vec2> centre_of_round(const Polygon& hole) {
     lines.row(i) << 2 * point.x(), 2 * point.y(), 1;
     squares[i] = point.squaredNorm();
   }
-  const Eigen::Vector3d solution = lines.colPivHouseholderQr().solve(squares);
+  const Eigen::Vector3d solution = LeastSquares(lines).nearest(squares);
   const Vec2 centre = near + solution.head<2>();
   const double radius = std::sqrt(std::max(0.0, solution[2] + solution.head<2>().squaredNorm()));
   const bool is_round = std::all_of(corners.begin(), corners.end(), [&](const Vec2& corner) {

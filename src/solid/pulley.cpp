@@ -50,11 +50,36 @@ constexpr const char* k_prints = "prints";  // a condition
 // Room between two parts on the printer.
 constexpr double k_between_parts = 5.0;
 
+// Formats and slicers keep fewer digits than a float near the axis has: faces that lie closer than this would cross
+// there. Draco's finest grid is about a tenth of it.
+bool stands_rounding(TriangleMesh mesh) {
+  constexpr double k_grain = 0x1p-15;  // mm
+  for (Vec3& vertex : mesh.vertices) vertex = k_grain * (vertex / k_grain).array().round().matrix();
+  return !find_crossing(mesh).facets;
+}
+
+// A facet this thin, a few grains of a float, has no normal that another program would find again, mm.
+constexpr double k_thinnest_facet = 1e-5;
+
+bool has_needles(const TriangleMesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const auto& triangle) {
+    const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    return (b - a).cross(c - a).norm() < k_thinnest_facet * longest;
+  });
+}
+
+// How well a mesh bears what other programs do to it: the larger, the better.
+constexpr int k_any = 0;
+constexpr int k_sound = 2;
+int soundness_of(const TriangleMesh& mesh) { return !stands_rounding(mesh) ? 0 : has_needles(mesh) ? 1 : k_sound; }
+
 // A body with its features, and what it must measure.
 struct Featured {
   TriangleMesh mesh;
   double volume = 0;
   std::vector<Check> checks = {};
+  int soundness = k_any;
 };
 
 // From where a piece stands in the whole to where it lies on the printer: P1 is turned over about the x axis.
@@ -103,7 +128,9 @@ class FeatureCutter {
       result = {outcome->mesh, result.volume + added - outcome->common_volume};
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
+    auto soundness = beside([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
     result.checks = check_mesh(result.mesh);
+    if (piece_ == Piece::whole) result.soundness = soundness.get();
     if (!all_ok(result.checks)) return std::nullopt;
     return result;
   }
@@ -182,30 +209,6 @@ int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   return static_cast<int>(count);
 }
 
-// Formats and slicers keep fewer digits than a float near the axis has: faces that lie closer than this would cross
-// there. Draco's finest grid is about a tenth of it.
-bool stands_rounding(TriangleMesh mesh) {
-  constexpr double k_grain = 0x1p-15;  // mm
-  for (Vec3& vertex : mesh.vertices) vertex = k_grain * (vertex / k_grain).array().round().matrix();
-  return !find_crossing(mesh).facets;
-}
-
-// A facet this thin, a few grains of a float, has no normal that another program would find again, mm.
-constexpr double k_thinnest_facet = 1e-5;
-
-bool has_needles(const TriangleMesh& mesh) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const auto& triangle) {
-    const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    return (b - a).cross(c - a).norm() < k_thinnest_facet * longest;
-  });
-}
-
-// How well a mesh bears what other programs do to it: the larger, the better.
-constexpr int k_any = 0;
-constexpr int k_sound = 2;
-int soundness_of(const TriangleMesh& mesh) { return !stands_rounding(mesh) ? 0 : has_needles(mesh) ? 1 : k_sound; }
-
 // A closed mesh without spare vertices is counted at a glance.
 bool has_euler(const TriangleMesh& mesh, int expected) {
   const auto at_a_glance =
@@ -218,6 +221,7 @@ struct Made {
   double volume = 0;
   int euler = 0;
   std::vector<Check> checks = {};
+  int soundness = k_any;  // of the whole
 };
 
 // A variant moves channels a little, within the walls to what is cut along the axis.
@@ -269,13 +273,15 @@ class PieceMaker {
 
   // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way
   // through that nobody planned: a mark that opens a channel.
-  std::vector<Made> cut(int variant) const {
+  std::vector<Made> cut(int variant, bool marked) const {
     std::vector<Made> made;
     if (variant > 0 && !keeps_walls(plan_, variant)) return made;
     for (const Blank& blank : blanks_) {
-      auto featured = FeatureCutter(mechanism_, plan_, marks_, blank.piece).cut(blank.mesh, blank.volume, variant);
+      auto featured = FeatureCutter(mechanism_, plan_, marked ? marks_ : k_no_marks, blank.piece)
+                          .cut(blank.mesh, blank.volume, variant);
       if (!featured || !has_euler(featured->mesh, blank.euler)) return {};
-      made.push_back({std::move(featured->mesh), featured->volume, blank.euler, std::move(featured->checks)});
+      made.push_back(
+          {std::move(featured->mesh), featured->volume, blank.euler, std::move(featured->checks), featured->soundness});
     }
     return made;
   }
@@ -294,6 +300,8 @@ class PieceMaker {
         plan_.layout.scale);
     blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
   }
+
+  inline static const std::vector<Mark> k_no_marks;
 
   const Mechanism& mechanism_;
   const BodyPlan& plan_;
@@ -392,62 +400,69 @@ struct BestCut {
 };
 
 // From a variant that may be on: the first that bears so much, or what bears most.
-BestCut best_cut(const PieceMaker& maker, const AnchorVariants& anchors, int first, int variants, int enough) {
-  // What is no solid has no cut, but is a bug and not a refusal.
-  auto gate = beside([&maker] { maker.demand_solids(); });
+BestCut best_cut(const PieceMaker& maker, bool marked, const AnchorVariants& anchors, int first, int variants,
+                 int enough) {
   BestCut taken;
   int best = k_any;
   for (int variant = first; variant < variants; ++variant) {
     if (variant > first && !anchors.may_be(variant)) continue;
-    std::vector<Made> made = maker.cut(variant);
+    std::vector<Made> made = maker.cut(variant, marked);
     if (made.empty()) continue;
     if (enough == k_any) {
       taken = {std::move(made), variant};
       break;
     }
-    const int soundness = soundness_of(made.front().mesh);
+    const int soundness = made.front().soundness;
     if (!taken.pieces.empty() && soundness <= best) continue;
     taken = {std::move(made), variant};
     best = soundness;
     if (best >= enough) break;
   }
-  gate.get();
   return taken;
 }
 
-// Whether it prints is another question.
-Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, const Effort& effort,
-                 int enough) {
+struct RatedPulley {
   Pulley pulley;
+  int soundness = k_any;
+};
+
+// Whether it prints is another question.
+RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, const Effort& effort,
+                      int enough) {
+  RatedPulley rated;
+  Pulley& pulley = rated.pulley;
   pulley.conditions = plan.conditions;
   pulley.layout = plan.layout;
-  if (!plan.possible()) return pulley;
+  if (!plan.possible()) return rated;
   const AnchorVariants anchors(mechanism, synthesis, plan);
   int first = 0;
   while (first < effort.variants && !anchors.may_be(first)) ++first;
   if (first == effort.variants) {
     pulley.conditions.push_back(*anchors.at(0).cut_into);
-    return pulley;
+    return rated;
   }
-  std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
+  const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   const PieceMaker maker(mechanism, synthesis, plan, marks);
+  // What is no solid has no cut, but is a bug and not a refusal.
+  auto gate = beside([&maker] { maker.demand_solids(); });
   const int variants = std::min(effort.variants, first + maker.ways(effort.variants));
-  BestCut cut = best_cut(maker, anchors, first, variants, enough);
+  bool is_marked = true;
+  BestCut cut = best_cut(maker, true, anchors, first, variants, enough);
   if (cut.pieces.empty() && !marks.empty()) {
-    cut = best_cut(PieceMaker(mechanism, synthesis, plan, {}), anchors, first, variants, enough);
-    if (!cut.pieces.empty()) {
-      plan.layout.notes.push_back("the marks would run into a tie-off: left out");
-      marks.clear();
-    }
+    cut = best_cut(maker, false, anchors, first, variants, enough);
+    is_marked = cut.pieces.empty();
+    if (!is_marked) plan.layout.notes.push_back("the marks would run into a tie-off: left out");
   }
+  gate.get();
   auto& [pieces, taken] = cut;
   pulley.layout = plan.layout;
   if (pieces.empty()) {
     pulley.conditions.push_back(uncut_features(variants - first));
-    return pulley;
+    return rated;
   }
+  rated.soundness = pieces.front().soundness;
   pulley.anchors = anchors.at(taken).anchors;
-  pulley.marks = std::move(marks);
+  if (is_marked) pulley.marks = marks;
   pulley.mesh = std::move(pieces.front().mesh);
   pulley.expected_volume = pieces.front().volume;
   pulley.expected_euler = pieces.front().euler;
@@ -457,7 +472,7 @@ Pulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, B
         {k == 1 ? Side::left : Side::right, std::move(pieces[k].mesh), pieces[k].volume, pieces[k].euler,
          std::move(pieces[k].checks)});
   pulley.status = PulleyStatus::made;
-  return pulley;
+  return rated;
 }
 
 std::vector<Vec3> unprintable_places(const Pulley& pulley, double overhang, Corners corners) {
@@ -506,17 +521,17 @@ Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResul
   wishes.mouth_lean = mouth_lean;
   for (int round = 0;; ++round) {
     const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
-    if (mechanism.print.supports) return pulley_of(mechanism, synthesis, plan, effort, k_sound);
+    if (mechanism.print.supports) return pulley_of(mechanism, synthesis, plan, effort, k_sound).pulley;
     // Any cut shows whether it prints; the best is looked for where it does.
-    Pulley pulley = pulley_of(mechanism, synthesis, plan, effort, k_any);
-    if (!pulley.made()) return pulley;
-    auto soundness = beside([&pulley] { return soundness_of(pulley.mesh); });
+    RatedPulley rated = pulley_of(mechanism, synthesis, plan, effort, k_any);
+    Pulley& pulley = rated.pulley;
+    if (!pulley.made()) return std::move(pulley);
     std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
-    if (soundness.get() != k_sound && places.empty()) {
-      pulley = pulley_of(mechanism, synthesis, plan, effort, k_sound);
+    if (rated.soundness != k_sound && places.empty()) {
+      pulley = pulley_of(mechanism, synthesis, plan, effort, k_sound).pulley;
       places = unprintable_places(pulley, mechanism.print.overhang, corners);
     }
-    if (places.empty()) return pulley;
+    if (places.empty()) return std::move(pulley);
     const std::vector<Rejection> blamed = news(blamed_for(places, plan), wishes.rejected);
     if (blamed.empty() || round == effort.rounds) return refused(std::move(pulley), mechanism, places);
     wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());

@@ -3,6 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string_view>
+
 namespace fusee {
 namespace {
 
@@ -12,6 +18,23 @@ TEST(Text, TrimmedFixedLosesZerosAndNothingElse) {
   EXPECT_EQ(trimmed_fixed(100, 0), "100");
   EXPECT_EQ(trimmed_fixed(0.0625, 9), "0.0625");
   EXPECT_EQ(trimmed_fixed(-1e-9, 3), "0");
+}
+
+TEST(Text, FixedRoundsAsPrintfDoes) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 100000; ++i) {
+    const double size = std::pow(10.0, static_cast<double>(random() % 20) - 9.0);
+    // Every fourth lies halfway between two numbers, as far as a double can.
+    const double value = i % 4 == 0 ? static_cast<double>(random() % 4096) / 64.0
+                                    : size * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+    const int decimals = static_cast<int>(random() % 13);
+    char expected[128];
+    std::snprintf(expected, sizeof expected, "%.*f", decimals, value);
+    const bool is_zero = std::string_view(expected).find_first_of("123456789") == std::string_view::npos;
+    ASSERT_EQ(fixed(value, decimals), expected + (is_zero && expected[0] == '-' ? 1 : 0));
+  }
+  EXPECT_EQ(fixed(1e300, 2).size(), 304u);
+  EXPECT_EQ(fixed(std::numeric_limits<double>::infinity(), 2), "inf");
 }
 
 TEST(Text, RoundedKeepsItsDigitsAndNoZerosBehindThem) {

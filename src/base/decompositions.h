@@ -1,0 +1,34 @@
+/// \file
+/// Eigen's decompositions of matrices of any size. Each costs seconds to compile: here once, and not where it is used.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+namespace fusee {
+
+/// Of a symmetric matrix, the least first; a column of `vectors` each.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+SymmetricEigen eigen_of(const Eigen::MatrixXd& symmetric);
+
+/// λ of A x = λ B x, the least first: A in units of B, which is positive definite.
+Eigen::VectorXd relative_eigenvalues(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// A⁻¹ b of a symmetric matrix that is not indefinite.
+Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+Eigen::MatrixXd solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// The x nearest to A x = b, for one A of full rank and any b.
+class LeastSquares {
+ public:
+  explicit LeastSquares(const Eigen::MatrixXd& A);
+  Eigen::VectorXd nearest(const Eigen::VectorXd& b) const;
+
+ private:
+  Eigen::HouseholderQR<Eigen::MatrixXd> factors_;
+};
+
+}  // namespace fusee

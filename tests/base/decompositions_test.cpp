@@ -1,0 +1,60 @@
+#include "base/decompositions.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace fusee {
+namespace {
+
+Eigen::MatrixXd some(Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd matrix(rows, columns);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index j = 0; j < columns; ++j)
+      matrix(i, j) = std::sin(1.0 + 3.7 * static_cast<double>(i * columns + j) + static_cast<double>(i * j));
+  }
+  return matrix;
+}
+
+Eigen::MatrixXd some_definite(Eigen::Index size) {
+  const Eigen::MatrixXd root = some(size, size);
+  return root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(size, size);
+}
+
+// Larger than a block of Eigen's algorithms, which treat small matrices otherwise.
+class Decompositions : public testing::TestWithParam<Eigen::Index> {};
+
+TEST_P(Decompositions, OfSymmetricMatricesMultiplyBack) {
+  const Eigen::MatrixXd A = some_definite(GetParam());
+  const SymmetricEigen eigen = eigen_of(A);
+  EXPECT_LT((A * eigen.vectors - eigen.vectors * eigen.values.asDiagonal()).norm(), 1e-11 * A.norm());
+  EXPECT_LT((eigen.vectors.transpose() * eigen.vectors - Eigen::MatrixXd::Identity(A.rows(), A.rows())).norm(), 1e-11);
+  for (Eigen::Index k = 1; k < A.rows(); ++k) EXPECT_LE(eigen.values[k - 1], eigen.values[k]);
+}
+
+TEST_P(Decompositions, OfTwoMatricesLeaveNothingOfTheirDifference) {
+  const Eigen::MatrixXd A = some_definite(GetParam()), B = A + 2.0 * some_definite(GetParam()).inverse();
+  const Eigen::VectorXd relative = relative_eigenvalues(A, B);
+  // Their product is the determinant of B⁻¹ A.
+  EXPECT_NEAR(relative.array().log().sum(), std::log(A.determinant()) - std::log(B.determinant()), 1e-6);
+}
+
+TEST_P(Decompositions, SolveWhatTheyAreGiven) {
+  const Eigen::MatrixXd A = some_definite(GetParam()), X = some(GetParam(), 3);
+  EXPECT_LT((solved(A, Eigen::MatrixXd(A * X)) - X).norm(), 1e-9 * X.norm());
+  EXPECT_LT((solved(A, Eigen::VectorXd(A * X.col(1))) - X.col(1)).norm(), 1e-9 * X.norm());
+}
+
+TEST_P(Decompositions, LeaveOfLeastSquaresWhatIsUprightOnTheColumns) {
+  const Eigen::MatrixXd A = some(2 * GetParam(), GetParam());
+  const Eigen::VectorXd b = some(2 * GetParam(), 1).col(0).array().cos();
+  const Eigen::VectorXd left = b - A * LeastSquares(A).nearest(b);
+  EXPECT_LT((A.transpose() * left).norm(), 1e-10 * b.norm() * A.norm());
+  EXPECT_GT(left.norm(), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Decompositions, testing::Values(2, 9, 70));
+
+}  // namespace
+}  // namespace fusee
