@@ -290,19 +290,23 @@ void Fitter::judge(Fit& fit) const {
   fit.by_run = hold_out(evidence(), fit, evidence().run_folds);
 }
 
-/// `fit` with the numbers of `effect` at zero, of what is searched at its first start.
-Fit Fitter::beside(const Fit& fit, const Effect& effect) const {
+/// `fit` with the numbers of `effect` at zero, of what is searched where it begins.
+Fit Fitter::beside(const Fit& fit, const Effect& effect, const std::vector<double>& start) const {
   Fit wider = fit;
   wider.effects.push_back(&effect);
   wider.parameters = model_.varied(wider.effects);
-  const std::vector<std::vector<double>> starts = starts_of(evidence(), fit, effect);
-  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-    const EffectParameter& parameter = effect.parameters[k];
-    if (parameter.searched && !starts.empty()) set_value(wider.at, parameter, starts.front()[k]);
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    if (effect.parameters[k].searched) set_value(wider.at, effect.parameters[k], start[k]);
   }
   wider.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wider.parameters.size()));
   wider.x.head(fit.x.size()) = fit.x;
   return wider;
+}
+
+/// At its first start.
+Fit Fitter::beside(const Fit& fit, const Effect& effect) const {
+  const std::vector<std::vector<double>> starts = starts_of(evidence(), fit, effect);
+  return beside(fit, effect, starts.empty() ? std::vector<double>() : starts.front());
 }
 
 Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
@@ -312,21 +316,42 @@ Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {
   return wider;
 }
 
+/// Over `size` in the number's own unit, or as much less where its upper bound is in the way.
+void Fitter::take_chord(Fit& wider, Eigen::Index k, double size) const {
+  const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
+  const double value = value_of(wider.at, parameter);
+  Imperfections moved = wider.at;
+  set_value(moved, parameter, value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
+  const double steps = (value_of(moved, parameter) - value) / parameter.step;
+  wider.J.col(k) = (wider.residual - model_.said(moved).residual) / steps;
+}
+
 Fit Fitter::with_chords(const Fit& fit, const Effect& effect) const {
   Fit wider = beside(fit, effect);
   wider.J.conservativeResize(wider.residual.size(), wider.x.size());
   for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
     const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
-    const double value = value_of(wider.at, parameter);
-    Imperfections moved = wider.at;
-    const double size = size_in_practice(evidence(), parameter) * parameter.step;
-    set_value(moved, parameter,
-              value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
-    const double steps = (value_of(moved, parameter) - value) / parameter.step;
-    wider.J.col(k) = (wider.residual - model_.said(moved).residual) / steps;
+    take_chord(wider, k, size_in_practice(evidence(), parameter) * parameter.step);
   }
   wider.usable = is_finite(evidence(), wider);
   return wider;
+}
+
+std::vector<Fit> Fitter::with_chords_of_starts(const Fit& fit, const Effect& effect) const {
+  std::vector<Fit> all;
+  for (const std::vector<double>& start : starts_that_differ(evidence(), fit, effect)) {
+    Fit wider = beside(fit, effect, start);
+    wider.J.conservativeResize(wider.residual.size(), wider.x.size());
+    for (Eigen::Index k = fit.x.size(); k < wider.x.size(); ++k) {
+      const EffectParameter& parameter = *wider.parameters[static_cast<std::size_t>(k)];
+      const auto own = static_cast<std::size_t>(&parameter - effect.parameters.data());
+      const double begun = own < start.size() ? start[own] : 0.0;
+      take_chord(wider, k, begun != 0 ? begun : size_in_practice(evidence(), parameter) * parameter.step);
+    }
+    wider.usable = is_finite(evidence(), wider);
+    all.push_back(std::move(wider));
+  }
+  return all;
 }
 
 }  // namespace fusee

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "calibration/held_out.h"
 #include "calibration/marginal.h"
@@ -58,12 +59,17 @@ class Fitter {
 
   /// The same with chords in place of slopes: each number's over its size in practice. Not weighed.
   Fit with_chords(const Fit& fit, const Effect& effect) const;
+  /// The same once for every start of the effect: with what is searched as it begins there, and each number's chord to
+  /// where it does. What begins at nothing, or acts otherwise when it is large, shows itself in some of them alone.
+  std::vector<Fit> with_chords_of_starts(const Fit& fit, const Effect& effect) const;
 
  private:
   const Evidence& evidence() const { return model_.evidence(); }
   Fit placed(const EffectSet& effects, const Imperfections& at) const;
   void take_slopes(Fit& fit, Eigen::Index from) const;
+  Fit beside(const Fit& fit, const Effect& effect, const std::vector<double>& start) const;
   Fit beside(const Fit& fit, const Effect& effect) const;
+  void take_chord(Fit& wider, Eigen::Index k, double size) const;
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
   Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const;
   void judge(Fit& fit) const;

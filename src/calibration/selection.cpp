@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 
 #include "calibration/catalogue.h"
 #include "calibration/thresholds.h"
@@ -10,9 +12,11 @@
 // A beam over sets of effects. A set is as good as its evidence, beside a discrepancy that may take any smooth shape,
 // and as its effects are common; the best set ever seen is what is looked at closely. A wider set is first looked at by
 // the slopes that each effect had alone and by chords beside what is there, and fitted only if either promises
-// something. Once nothing is gained, every member is left out and held against every effect in its place. Then all sets
-// ever seen are weighed together: a member stands if it, or what stands in its place elsewhere, is in nearly all of the
-// weight.
+// something. Once nothing is gained, every member is left out and held against every effect in its place; and once
+// that gains nothing either, one or two others are tried in the place of none, one or two members: a slip and an offset
+// imitated slack and a wave and a lever's length a profile, and no single exchange that was looked at led from one to
+// the other. Then all sets ever seen are weighed together: a member stands if it, or what stands in its place
+// elsewhere, is in nearly all of the weight.
 
 namespace fusee {
 namespace {
@@ -31,6 +35,74 @@ struct Addition {
   const Fit* base = nullptr;
   const Effect* effect = nullptr;
   double promise = 0;
+  Look look = {};  ///< by which it is promised
+};
+
+/// Two effects beside a base.
+struct PairBeside {
+  std::size_t base = 0;
+  const Addition* one = nullptr;
+  const Addition* other = nullptr;
+  double promise = 0;
+};
+
+/// Looks beside a base: what is summed over rows is summed once for all sets of them.
+class SharedLooks {
+ public:
+  SharedLooks(const Evidence& evidence, const Fit& base, const std::vector<const Look*>& looks)
+      : marginal_(*evidence.marginal) {
+    Tangent tangent = tangent_of(evidence, base);
+    own_ = tangent.x.size();
+    for (const Look* look : looks) {
+      first_.push_back(tangent.J.cols());
+      add(*look, tangent);
+    }
+    first_.push_back(tangent.J.cols());
+    all_ = marginal_.sums_of(tangent);
+    beside_ = marginal_.sized(base.explained.amplitudes, tangent.give);
+  }
+
+  /// With the base's discrepancy beside them; `chosen`: places in the looks.
+  double log_evidence(const std::vector<std::size_t>& chosen) const {
+    std::vector<Eigen::Index> columns(static_cast<std::size_t>(own_));
+    std::iota(columns.begin(), columns.end(), 0);
+    for (const std::size_t i : chosen) {
+      for (Eigen::Index k = first_[i]; k < first_[i + 1]; ++k) columns.push_back(k);
+    }
+    TangentSums sums = all_;
+    sums.JJ = all_.JJ(columns, columns);
+    sums.JD = all_.JD(columns, Eigen::all);
+    sums.Jr = all_.Jr(columns);
+    sums.x = all_.x(columns);
+    sums.prior = all_.prior(columns);
+    sums.read = all_.read(columns, columns);
+    sums.pull = all_.pull(columns);
+    return marginal_.at(sums, beside_).log_evidence;
+  }
+
+  /// One look more, where it does nothing.
+  static void add(const Look& look, Tangent& tangent) {
+    const Eigen::Index before = tangent.x.size();
+    const Eigen::Index all = before + look.J.cols();
+    tangent.J.conservativeResize(Eigen::NoChange, all);
+    tangent.J.rightCols(look.J.cols()) = look.J;
+    tangent.x.conservativeResize(all);
+    tangent.x.tail(look.J.cols()).setZero();
+    tangent.prior.conservativeResize(all);
+    tangent.prior.tail(look.J.cols()) = look.prior;
+    Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
+    read.topLeftCorner(before, before) = tangent.read;
+    tangent.read = read;
+    tangent.pull.conservativeResize(all);
+    tangent.pull.tail(look.J.cols()).setZero();
+  }
+
+ private:
+  const Marginal& marginal_;
+  TangentSums all_;
+  SizedDiscrepancy beside_;
+  Eigen::Index own_ = 0;
+  std::vector<Eigen::Index> first_;  ///< column of each look, and the end
 };
 
 class Selector {
@@ -46,7 +118,7 @@ class Selector {
   void keep(Fit fit);
   std::vector<const Fit*> ranked() const;
   double promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks, int rounds) const;
-  Look look_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
+  std::vector<Look> looks_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added);
   void try_singles();
   void try_pairs();
@@ -54,6 +126,9 @@ class Selector {
   void settle_best();
   std::vector<Addition> promising(const Fitter& fitter, const Fit& base, std::size_t most) const;
   bool challenge();
+  std::vector<Fit> reduced() const;
+  std::vector<PairBeside> pairs_beside(const Fit& base, std::size_t place, const std::vector<Addition>& looks) const;
+  bool exchange();
   std::vector<Weighed> weighed();
   void look_at_spread();
   bool drop_doubtful();
@@ -134,21 +209,8 @@ double Selector::promised(const Fit& base, const EffectSet& added, const std::ve
   double cost = base.log_evidence - score(base);
   for (const Effect* effect : added) cost += rareness_of(*effect);
   for (const Look* of_one : looks) {
-    const Look& look = *of_one;
-    if (look.J.size() == 0) return -std::numeric_limits<double>::infinity();
-    const Eigen::Index before = tangent.x.size();
-    const Eigen::Index all = before + look.J.cols();
-    tangent.J.conservativeResize(Eigen::NoChange, all);
-    tangent.J.rightCols(look.J.cols()) = look.J;
-    tangent.x.conservativeResize(all);
-    tangent.x.tail(look.J.cols()).setZero();
-    tangent.prior.conservativeResize(all);
-    tangent.prior.tail(look.J.cols()) = look.prior;
-    Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
-    read.topLeftCorner(before, before) = tangent.read;
-    tangent.read = read;
-    tangent.pull.conservativeResize(all);
-    tangent.pull.tail(look.J.cols()).setZero();
+    if (of_one->J.size() == 0) return -std::numeric_limits<double>::infinity();
+    SharedLooks::add(*of_one, tangent);
   }
   const double loose = base.explained.log_evidence - base.log_evidence;
   return evidence_.marginal->best(tangent, base.explained.amplitudes, rounds).log_evidence - loose - cost;
@@ -185,25 +247,44 @@ void Selector::try_pairs() {
   for (Fit& fit : fits) keep(std::move(fit));
 }
 
-/// By chords over the effect's size in practice.
-Look Selector::look_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const {
-  const Fit wider = fitter.with_chords(base, effect);
-  if (!wider.usable) return {};
-  const Tangent tangent = tangent_of(evidence_, wider);
-  const Eigen::Index more = wider.x.size() - base.x.size();
-  return {tangent.J.rightCols(more), tangent.prior.tail(more)};
+/// By chords over the effect's size in practice, and to each of its starts.
+std::vector<Look> Selector::looks_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const {
+  std::vector<Look> looks;
+  for (const Fit& wider : fitter.with_chords_of_starts(base, effect)) {
+    if (!wider.usable) continue;
+    const Tangent tangent = tangent_of(evidence_, wider);
+    const Eigen::Index more = wider.x.size() - base.x.size();
+    looks.push_back({tangent.J.rightCols(more), tangent.prior.tail(more)});
+  }
+  return looks;
 }
 
 /// Effects beside `base`, by a linear look the best first.
 std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base, std::size_t most) const {
+  EffectSet effects = selection_.catalogue;
+  std::erase_if(effects, [&](const Effect* effect) { return contains(base.effects, *effect); });
+  std::vector<std::vector<Look>> looks(effects.size());
+  std::vector<const Look*> flat;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    looks[i] = looks_beside(fitter, base, *effects[i]);
+    for (const Look& look : looks[i]) flat.push_back(&look);
+  }
+  const SharedLooks shared(evidence_, base, flat);
   std::vector<Addition> all;
-  for (std::size_t i = 0; i < selection_.catalogue.size(); ++i) {
-    if (contains(base.effects, *selection_.catalogue[i])) continue;
-    const Effect* effect = selection_.catalogue[i];
-    const Look beside = look_beside(fitter, base, *effect);
-    all.push_back({&base, effect,
-                   std::max(promised(base, {effect}, {&looks_[i]}, k_look_rounds),
-                            promised(base, {effect}, {&beside}, k_look_rounds))});
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const Look& alone = looks_[place_of(*effects[i])];
+    Addition best{&base, effects[i], promised(base, {effects[i]}, {&alone}, k_look_rounds), alone};
+    double most_likely = -std::numeric_limits<double>::infinity();
+    const Look* likeliest = nullptr;
+    for (const Look& look : looks[i]) {
+      const double likely = shared.log_evidence({place++});
+      if (likely > most_likely) most_likely = likely, likeliest = &look;
+    }
+    const double promise =
+        likeliest == nullptr ? most_likely : promised(base, {effects[i]}, {likeliest}, k_look_rounds);
+    if (promise > best.promise) best.promise = promise, best.look = *likeliest;
+    all.push_back(std::move(best));
   }
   std::stable_sort(all.begin(), all.end(), [](const Addition& a, const Addition& b) { return a.promise > b.promise; });
   all.resize(std::min(all.size(), most));
@@ -280,6 +361,99 @@ bool Selector::challenge() {
   const double before = score(best);
   for (const Fit& fit : selection_.without) keep(fit);
   for (const Rival& rival : selection_.rivals) keep(rival.fit);
+  return score(*ranked().front()) > before + k_thresholds.better;
+}
+
+/// The best without one or two of its members, the likeliest first.
+std::vector<Fit> Selector::reduced() const {
+  const Fit& best = selection_.best;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    for (std::size_t j = i + 1; j < best.effects.size(); ++j) pairs.emplace_back(i, j);
+  }
+  std::vector<Fit> all(pairs.size());
+  workers_.each(pairs.size(), [&](const Fitter& fitter, std::size_t k) {
+    const Effect& one = *best.effects[pairs[k].first];
+    const Effect& other = *best.effects[pairs[k].second];
+    all[k] = fitter.fit(without(without(best.effects, one), other), without(without(best.at, one), other));
+  });
+  all.insert(all.end(), selection_.without.begin(), selection_.without.end());
+  all.push_back(best);
+  std::erase_if(all, [](const Fit& fit) { return !fit.usable; });
+  std::stable_sort(all.begin(), all.end(), [](const Fit& a, const Fit& b) { return score(a) > score(b); });
+  all.resize(std::min(all.size(), k_thresholds.most_reduced));
+  return all;
+}
+
+/// The best of all pairs of `looks` by a linear look, sets that were not looked at.
+std::vector<PairBeside> Selector::pairs_beside(const Fit& base, std::size_t place,
+                                               const std::vector<Addition>& looks) const {
+  std::vector<const Look*> usable;
+  std::vector<const Addition*> owners;
+  for (const Addition& addition : looks) {
+    if (addition.look.J.size() == 0) continue;
+    usable.push_back(&addition.look);
+    owners.push_back(&addition);
+  }
+  const SharedLooks shared(evidence_, base, usable);
+  std::vector<PairBeside> pairs;
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    for (std::size_t j = i + 1; j < owners.size(); ++j) {
+      EffectSet effects = base.effects;
+      effects.insert(effects.end(), {owners[i]->effect, owners[j]->effect});
+      if (seen_.count(key_of(effects))) continue;
+      const double cost = rareness_of(*owners[i]->effect) + rareness_of(*owners[j]->effect);
+      pairs.push_back({place, owners[i], owners[j], shared.log_evidence({i, j}) - cost});
+    }
+  }
+  const auto keep_best = [&](std::size_t most) {
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const PairBeside& a, const PairBeside& b) { return a.promise > b.promise; });
+    pairs.resize(std::min(pairs.size(), most));
+  };
+  keep_best(k_thresholds.most_looks_instead);
+  for (PairBeside& pair : pairs)
+    pair.promise =
+        promised(base, {pair.one->effect, pair.other->effect}, {&pair.one->look, &pair.other->look}, k_look_rounds);
+  keep_best(k_thresholds.most_instead);
+  return pairs;
+}
+
+/// One or two others in the place of none, one or two members: what takes two exchanges at once, since either alone is
+/// worse. Whether a better set was found.
+bool Selector::exchange() {
+  const double before = score(selection_.best);
+  const std::vector<Fit> bases = reduced();
+  std::vector<std::vector<Addition>> looks(bases.size());
+  workers_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
+    if (bases[i].effects.size() < k_thresholds.most_effects)
+      looks[i] = promising(fitter, bases[i], selection_.catalogue.size());
+  });
+  std::vector<std::vector<PairBeside>> pairs(bases.size());
+  workers_.each(bases.size(), [&](const Fitter&, std::size_t i) {
+    if (bases[i].effects.size() + 2 <= k_thresholds.most_effects) pairs[i] = pairs_beside(bases[i], i, looks[i]);
+  });
+  std::vector<Addition> singles;
+  std::vector<PairBeside> both;
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    for (std::size_t k = 0; k < std::min(looks[i].size(), k_thresholds.most_instead); ++k) {
+      EffectSet effects = bases[i].effects;
+      effects.push_back(looks[i][k].effect);
+      if (looks[i][k].promise > before - k_thresholds.hopeless && !seen_.count(key_of(effects)))
+        singles.push_back(looks[i][k]);
+    }
+    for (const PairBeside& pair : pairs[i]) {
+      if (pair.promise > before - k_thresholds.hopeless) both.push_back(pair);
+    }
+  }
+  std::vector<Fit> fits = fitted("exchanging effects", singles);
+  std::vector<Fit> wider(both.size());
+  workers_.each(both.size(), [&](const Fitter& fitter, std::size_t k) {
+    const Fit one = fitter.with_effect(bases[both[k].base], *both[k].one->effect);
+    if (one.usable) wider[k] = fitter.with_effect(one, *both[k].other->effect);
+  });
+  for (Fit& fit : fits) keep(std::move(fit));
+  for (Fit& fit : wider) keep(std::move(fit));
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
@@ -364,7 +538,7 @@ Selection Selector::run() {
     while (widen()) {
     }
     settle_best();
-    if (!challenge()) break;
+    if (!challenge() && !exchange()) break;
   }
   while (drop_doubtful()) {
     while (drop_doubtful()) {

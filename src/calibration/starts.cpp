@@ -74,4 +74,10 @@ std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& 
   return starts;
 }
 
+std::vector<std::vector<double>> starts_that_differ(const Evidence& evidence, const Fit& base, const Effect& effect) {
+  std::vector<std::vector<double>> starts = starts_of(evidence, base, effect);
+  if (effect.starts_in_time) std::erase_if(starts, [](const std::vector<double>& start) { return start.front() != 0; });
+  return starts;
+}
+
 }  // namespace fusee

@@ -12,4 +12,7 @@ namespace fusee {
 /// places at which a step would take most out of what `base` leaves, with several sizes each.
 std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& base, const Effect& effect);
 
+/// Of these, those that a linear look tells apart: of a time one size.
+std::vector<std::vector<double>> starts_that_differ(const Evidence& evidence, const Fit& base, const Effect& effect);
+
 }  // namespace fusee
