@@ -82,7 +82,7 @@ namespace {
 // Of rows that are nearly the same: a circle, and the spline over another row's knots that stands for it.
 constexpr double k_sewn = 1e-5;
 // A file's floors are drawn this finely, mm and rad.
-constexpr double k_floor_sagitta = 2e-5;
+constexpr double k_floor_sagitta = 1e-5;
 constexpr double k_floor_turn = 0.02;
 constexpr double k_same_height = 1e-9;
 // From corner to corner of what is read, mm.
@@ -569,6 +569,8 @@ double area_of(const Polygon& points) {
 /// The loop of the section that surrounds most.
 Polygon floor_at(const TopoDS_Shape& shape, double z) {
   BRepAlgoAPI_Section section(shape, gp_Pln(about_axis(z)), false);
+  // Else its curves are chords.
+  section.Approximation(true);
   section.Build();
   Handle(TopTools_HSequenceOfShape) edges = new TopTools_HSequenceOfShape, wires = new TopTools_HSequenceOfShape;
   for (TopExp_Explorer found(section.Shape(), TopAbs_EDGE); found.More(); found.Next()) edges->Append(found.Current());

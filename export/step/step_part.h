@@ -121,7 +121,7 @@ struct StepReading {
   bool is_valid = false;   ///< to the kernel's own check
   double volume = 0;
   double area = 0;
-  Polygon floor1, floor2;  ///< sections at the grooves' planes, within 2e-5 mm; empty: there is none
+  Polygon floor1, floor2;  ///< sections at the grooves' planes, within some 1e-5 mm; empty: there is none
 };
 
 /// What the module `fusee-step` exports under this name.

@@ -314,8 +314,8 @@ StepTool sign(const Mark& mark, double low, double high) {
 }
 
 double facets_beyond_circle(double diameter) {
-  const double area = std::abs(signed_area(polyhole(diameter, Vec2::Zero())));
-  return area - 0.25 * k_pi * diameter * diameter;
+  const double radius = 0.5 * diameter;
+  return std::abs(signed_area(polyhole(diameter, Vec2::Zero()))) - k_pi * radius * radius;
 }
 
 }  // namespace
