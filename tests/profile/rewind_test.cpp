@@ -56,6 +56,18 @@ TEST(Rewind, SeesAScaledAndATurnedPulley) {
   EXPECT_GT(rewind(forearm(), parallel(made.p1, -0.5), turned).max_slack, 0.05);
 }
 
+TEST(Rewind, SeesAMouthThatStandsElsewhere) {
+  Mechanism mechanism = testing::sheathed_wrist();
+  const SynthesisResult made = synthesise(mechanism);
+  ASSERT_TRUE(made.made()) << made.brief();
+  const Polygon floor1 = parallel(made.p1, -0.5), floor2 = parallel(made.p2, -0.5);
+  EXPECT_LT(degrees(rewind(mechanism, floor1, floor2).max_theta_error), 0.005);
+  mechanism.pulley.EF = 1000.0;
+  EXPECT_LT(degrees(rewind(mechanism, floor1, floor2).max_theta_error), 0.005);
+  mechanism.sheath.exit_across += 5.0;
+  EXPECT_GT(degrees(rewind(mechanism, floor1, floor2).max_theta_error), 0.1);
+}
+
 TEST(Rewind, PassesFullTurns) {
   // A round pulley of 4 mm on both sides needs more than a turn each way; θ comes back as the compensating law says.
   Mechanism mechanism = forearm();

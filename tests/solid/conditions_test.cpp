@@ -86,6 +86,20 @@ TEST(Conditions, SetScrewThatIsAskedForMustFit) {
   expect_refused_for({"set_screw_height", &Body::hub_height, 4, 16}, mechanism);
 }
 
+/// Behind sheaths the pulley stands elsewhere: no pin is near it.
+TEST(Conditions, MouthInTheFlanges) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.sheath = {400.0, 1.0, 0.1, 0.0, 15.0, 15.0};
+  EXPECT_FALSE(condition_named(make_pulley(mechanism, round_pulley()), "mouth_clear_1").ok);
+  EXPECT_FALSE(condition_named(make_pulley(mechanism, round_pulley()), "mouth_clear_2").ok);
+  mechanism.sheath.exit_above = 25;
+  mechanism.guides.ED = 0.1;
+  mechanism.pulley.EF = 1.0;
+  const Pulley pulley = make_pulley(mechanism, round_pulley());
+  EXPECT_TRUE(condition_named(pulley, "mouth_clear_2").ok);
+  EXPECT_THROW(condition_named(pulley, "pin_clear_D"), std::out_of_range);
+}
+
 TEST(Conditions, PinInTheFlanges) {
   Mechanism mechanism = plain_mechanism();
   mechanism.guides.ED = 15;
