@@ -31,6 +31,8 @@ void insert_loop(Triangulation& triangulation, const Polygon& loop, std::uint32_
     handle->info() = first + static_cast<std::uint32_t>(i);
     handles.push_back(handle);
   }
+  // Before they are joined: a constraint from a point to itself is one step too far for CGAL.
+  demand(triangulation.number_of_vertices() == first + loop.size(), "a flat face has coinciding corners");
   for (std::size_t i = 0; i < handles.size(); ++i)
     triangulation.insert_constraint(handles[i], handles[(i + 1) % handles.size()]);
 }

@@ -93,6 +93,9 @@ INSTANTIATE_TEST_SUITE_P(
         Repro{"floats_of_a_giant", "tests/data/repro/floats_of_a_giant.toml", {}, 0.00262},
         Repro{"bridge_of_a_giant", "tests/data/repro/bridge_of_a_giant.toml", {}, 0.00434, BuildStatus::infeasible},
         Repro{"range_past_table", "tests/data/repro/range_past_table.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"arc_16_km_out", "tests/data/repro/arc_16_km_out.toml", {{"joint.range_deg", "[-18.6, 18.6]"}}, 0.01,
+              BuildStatus::infeasible},
+        Repro{"arc_16_km_out_was_advised", "tests/data/repro/arc_16_km_out.toml", {}, 0.01, BuildStatus::infeasible},
         Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
         Repro{
             "mouth_of_a_variant", "tests/data/repro/mouth_of_a_variant.toml", {{"joint.range_deg", "[-29.8, 29.8]"}}}),
