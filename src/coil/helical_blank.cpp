@@ -72,7 +72,8 @@ class BlankBuilder {
   // What goes up through the strips: a ring, or a groove with all its turns.
   struct Ladder {
     const Winding* winding = nullptr;  // null: a ring
-    Index first = 0;                   // its first vertex
+    Index first = 0;                   // a ring's first vertex
+    std::vector<Index> rows = {};      // a groove's: the first of each row
   };
 
   // A ring's vertex or a turn's section in one column: first to last, upwards.
@@ -86,16 +87,23 @@ class BlankBuilder {
   }
 
   Ladder ring(const std::vector<Vec2>& plan, double z) {
-    const Ladder here{nullptr, static_cast<Index>(mesh_.vertices.size())};
+    const Ladder here{nullptr, static_cast<Index>(mesh_.vertices.size()), {}};
     for (const Vec2& point : plan) add(point, z);
     return here;
   }
 
+  // A filled row has its two lips alone.
   Ladder groove(const Winding& winding) {
-    const Ladder here{&winding, static_cast<Index>(mesh_.vertices.size())};
-    for (const WindingRow& row : winding.rows) {
-      for (const GroovePoint& point : section_)
+    Ladder here{&winding, 0, {}};
+    for (std::size_t j = 0; j < winding.rows.size(); ++j) {
+      const WindingRow& row = winding.rows[j];
+      here.rows.push_back(static_cast<Index>(mesh_.vertices.size()));
+      for (std::size_t k = 0; k < section_.size(); ++k) {
+        const bool is_lip = k == 0 || k + 1 == section_.size();
+        if (winding.is_filled(j) && !is_lip) continue;
+        const GroovePoint& point = section_[k];
         add(row.position + (point.offset - 0.5 * layout_.tendon_diameter) * row.normal, row.height + point.dz);
+      }
     }
     return here;
   }
@@ -115,11 +123,9 @@ class BlankBuilder {
     return all;
   }
 
-  Index section_vertex(const Ladder& groove, std::size_t row, std::size_t k) const {
-    return groove.first + static_cast<Index>(row * section_.size() + k);
-  }
   Rung rung(const Ladder& groove, std::size_t row) const {
-    return {section_vertex(groove, row, 0), section_vertex(groove, row, section_.size() - 1)};
+    const Index first = groove.rows[row];
+    return {first, first + (groove.winding->is_filled(row) ? 1 : static_cast<Index>(section_.size() - 1))};
   }
 
   // Rows of a groove in a column, upwards.
@@ -189,14 +195,24 @@ class BlankBuilder {
       } else {
         demand(l < on_left.size() && r < on_right.size() && on_right[r] == on_left[l] + 1, "turns that do not go on");
         meet(rung(groove, on_left[l]), rung(groove, on_right[r]));
-        for (std::size_t k = 0; k + 1 < section_.size(); ++k) {
-          const Index a = section_vertex(groove, on_left[l], k), b = section_vertex(groove, on_right[r], k);
-          triangle(a, b, b + 1);
-          triangle(a, b + 1, a + 1);
-        }
+        add_step(groove, on_left[l]);
         ++l;
         ++r;
       }
+    }
+  }
+
+  // From a row to the next one.
+  void add_step(const Ladder& groove, std::size_t row) {
+    const Rung a = rung(groove, row), b = rung(groove, row + 1);
+    if (groove.winding->is_filled(row) || groove.winding->is_filled(row + 1)) {
+      triangle(a.low, b.low, b.high);
+      triangle(a.low, b.high, a.high);
+      return;
+    }
+    for (Index k = 0; a.low + k < a.high; ++k) {
+      triangle(a.low + k, b.low + k, b.low + k + 1);
+      triangle(a.low + k, b.low + k + 1, a.low + k + 1);
     }
   }
 
@@ -204,11 +220,10 @@ class BlankBuilder {
   void add_end_walls(const std::vector<Ladder>& ladder) {
     for (const Ladder& groove : ladder) {
       if (groove.winding == nullptr) continue;
-      const std::size_t last = groove.winding->rows.size() - 1;
-      for (std::size_t k = 1; k + 1 < section_.size(); ++k) {
-        triangle(section_vertex(groove, 0, 0), section_vertex(groove, 0, k), section_vertex(groove, 0, k + 1));
-        triangle(section_vertex(groove, last, 0), section_vertex(groove, last, k + 1), section_vertex(groove, last, k));
-      }
+      const Rung begin = rung(groove, groove.winding->filled_front);
+      const Rung end = rung(groove, groove.winding->rows.size() - 1 - groove.winding->filled_back);
+      for (Index k = 1; begin.low + k < begin.high; ++k) triangle(begin.low, begin.low + k, begin.low + k + 1);
+      for (Index k = 1; end.low + k < end.high; ++k) triangle(end.low, end.low + k + 1, end.low + k);
     }
   }
 

@@ -16,6 +16,7 @@
 #include "fusee/base/units.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
+#include "solid/euler.h"
 #include "solid/groove.h"
 #include "solid/heights.h"
 #include "solid/hub.h"
@@ -132,25 +133,27 @@ class Planner {
   void place_along_axis() {
     BodyLayout& layout = pulley_.layout;
     const double flange = layout.flange_thickness;
-    layout.z_p1 = std::max(flange + section_.walls.below_width(), sizes_.height());
+    const double filled = sizes_.bend_radius + 2.0 * sizes_.pocket_radius + layout.min_wall;
+    const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
+    layout.z_p1 = std::max(flange + section_.walls.below_width() + fall1, sizes_.height());
     pulley_.p1 = placed(p1_, layout.z_p1);
     pulley_.p2 = placed(p2_, 0.0);
     const double lip = section_.depth - 0.5 * d_;
-    fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), lip, 0.5 * d_, tolerance_);
+    fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), lip, 0.5 * d_, tolerance_, filled);
     heights_.lower = fan_.p1.rows.front().height + section_.walls.above_width() + 0.5 * flange;
     layout.middle_cone = layout.roof_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, lip))) : 0.0;
     heights_.upper = heights_.lower + std::max(layout.middle_cone, k_least_cone);
     const double lowest = heights_.upper + 0.5 * flange + section_.walls.below_width() - fan_.p2.rows.back().height;
     pulley_.p2.offset += lowest;
     for (WindingRow& row : fan_.p2.rows) row.height += lowest;
-    layout.z_p2 = fan_.p2.rows.front().height;
+    layout.z_p2 = fan_.p2.groove_front().height;
     layout.z_middle = heights_.lower;
     layout.z_mate = heights_.upper;
-    layout.z_top = layout.z_p2 + std::max(flange + section_.walls.above_width(), sizes_.height());
+    layout.z_top = layout.z_p2 + std::max(flange + section_.walls.above_width() + fall2, sizes_.height());
     layout.z_hub = layout.z_top;
     heights_.top = layout.z_top;
-    ends_ = {GrooveEnd{Side::left, fan_.p1.rows.back(), 1.0, -1.0, 0.0},
-             GrooveEnd{Side::right, fan_.p2.rows.front(), -1.0, 1.0, layout.z_top}};
+    ends_ = {GrooveEnd{Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
+             GrooveEnd{Side::right, fan_.p2.groove_front(), -1.0, 1.0, layout.z_top}};
     choose_bore();
     double room = std::numeric_limits<double>::infinity();
     for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + lip);
@@ -272,7 +275,8 @@ class Planner {
       volume -= outcome->common_volume;
     }
     std::vector<Check> checks = check_mesh(mesh);
-    if (!all_ok(checks)) return false;
+    // A chip that comes off, or a way through that nobody planned, is no pulley either.
+    if (!all_ok(checks) || euler_number(mesh) != pulley_.expected_euler) return false;
     pulley_.mesh = std::move(mesh);
     pulley_.mesh_checks = std::move(checks);
     pulley_.expected_volume = volume;

@@ -71,8 +71,9 @@ TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int vari
   };
   // The groove's end wall stands between the first two, in the plane of neither.
   std::vector<std::vector<Vec3>> sections;
+  const Vec3 mouth = start_of(end) + sizes.mouth_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);
   for (const double place : {-k_before_end - 0.017 * variant, k_past_end + 0.005 * variant})
-    sections.push_back(ring_at(start_of(end) + place * along, along, sizes.mouth_radius));
+    sections.push_back(ring_at(mouth + place * along, along, sizes.mouth_radius));
   for (int k = 1; k <= k_arc_steps; ++k) {
     const double turn = 0.5 * k_pi * k / k_arc_steps;
     sections.push_back(ring_at(arc_point(end, sizes.bend_radius, turn),
@@ -94,13 +95,17 @@ TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int varia
                 ring_at(sizes.pocket_depth + sizes.cone, sizes.channel_radius)});
 }
 
-// In a round seat the mouth stays a little inside of the groove's section: the channel then cuts the groove's end wall
-// alone, and no face of it runs along the seat.
-double mouth_radius(const Mechanism& mechanism, double channel_radius) {
-  constexpr double k_inside_seat = 0.03;  // of the tendon
-  const double d = mechanism.tendon.diameter, within = (mechanism.body.seat_ratio - k_inside_seat) * d;
-  const bool fits = mechanism.body.groove == Groove::u && within >= 0.5 * d;
-  return fits ? std::min(within, channel_radius) : channel_radius;
+// The mouth stays a little inside of the groove's section: the channel then cuts the groove's end wall alone, and no
+// face of it runs along the groove's. In a round seat it stands where the tendon lies, in others a little further out,
+// where their walls leave room.
+void set_mouth(RunOutSizes& sizes, const Body& body, double d) {
+  constexpr double k_inside = 0.03, k_further_out = 0.15, k_least = 0.5;  // of the tendon
+  double radius = body.seat_ratio;
+  if (body.groove != Groove::u) {
+    sizes.mouth_outward = k_further_out * d;
+    radius = k_least + k_further_out * std::sin(0.5 * body.groove_angle);
+  }
+  sizes.mouth_radius = std::min(std::max(radius - k_inside, k_least) * d, sizes.channel_radius);
 }
 
 }  // namespace
@@ -110,7 +115,7 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) 
   RunOutSizes sizes;
   sizes.channel_radius =
       0.5 * (mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel));
-  sizes.mouth_radius = mouth_radius(mechanism, sizes.channel_radius);
+  set_mouth(sizes, mechanism.body, d);
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket : std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
   sizes.roof_slope = gable_slope(layout);

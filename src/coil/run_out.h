@@ -11,7 +11,8 @@ namespace fusee {
 /// Sizes of a run-out, the same for both ends.
 struct RunOutSizes {
   double channel_radius = 0;
-  double mouth_radius = 0;  ///< of the channel where it leaves the groove
+  double mouth_radius = 0;   ///< of the channel where it leaves the groove
+  double mouth_outward = 0;  ///< of its middle, from the tendon's centre line
   double pocket_radius = 0;
   double pocket_depth = 0;  ///< of the straight part
   double cone = 0;          ///< height of the cone over it

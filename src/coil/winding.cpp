@@ -87,6 +87,34 @@ Winding winding_on(const std::vector<double>& angles, const SpiralCurve& curve, 
   return winding;
 }
 
+// The place `row`, a turn away, moved as far as the turn before has moved at the groove's end.
+WindingRow moved_on(WindingRow row, const WindingRow& end, const WindingRow& turn_before) {
+  row.position += end.position - turn_before.position;
+  row.height += end.height - turn_before.height;
+  row.turn += end.turn - turn_before.turn;
+  return row;
+}
+
+void fill_back(Winding& winding, std::size_t columns, double length) {
+  const std::size_t last = winding.rows.size() - 1;
+  const WindingRow end = winding.rows[last];
+  while ((winding.rows.back().position - end.position).norm() < length && winding.filled_back + 2 < columns) {
+    ++winding.filled_back;
+    winding.rows.push_back(
+        moved_on(winding.rows[last + winding.filled_back - columns], end, winding.rows[last - columns]));
+  }
+}
+
+void fill_front(Winding& winding, std::size_t columns, double length) {
+  const WindingRow begin = winding.rows.front();
+  std::vector<WindingRow> filled;
+  while ((filled.empty() || (filled.back().position - begin.position).norm() < length) && filled.size() + 2 < columns)
+    filled.push_back(moved_on(winding.rows[columns - filled.size() - 1], begin, winding.rows[columns]));
+  winding.filled_front = filled.size();
+  winding.first_column = (winding.first_column + columns - filled.size()) % columns;
+  winding.rows.insert(winding.rows.begin(), filled.rbegin(), filled.rend());
+}
+
 }  // namespace
 
 WindingRow SpiralCurve::at(double turn) const {
@@ -114,7 +142,8 @@ double SpiralCurve::largest_rho(double turn) const {
   return rho;
 }
 
-Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance) {
+Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance,
+             double filled) {
   const auto step_at = [&](double angle) {
     const double rho = std::max(p1.largest_rho(angle), p2.largest_rho(angle)) + outward;
     return std::min(k_widest_column, std::sqrt(8.0 * k_share_of_tolerance * tolerance / rho));
@@ -128,6 +157,8 @@ Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, doubl
   for (const Winding* winding : {&fan.p1, &fan.p2})
     demand(winding->rows.size() > fan.columns(), "a spiral of less than a turn: " + std::to_string(winding->rows.size()) +
                                                      " rows on a fan of " + std::to_string(fan.columns()));
+  fill_back(fan.p1, fan.columns(), filled);
+  fill_front(fan.p2, fan.columns(), filled);
   return fan;
 }
 

@@ -42,6 +42,13 @@ struct Winding {
   std::size_t first_column = 0;
   std::vector<WindingRow> rows;
   bool falls = false;  ///< as the turn grows
+  /// Rows at either end that go on as the turn before did, in which the groove is filled up to its lips: a channel that
+  /// leaves the groove has solid about it.
+  std::size_t filled_front = 0, filled_back = 0;
+
+  const WindingRow& groove_front() const { return rows[filled_front]; }
+  const WindingRow& groove_back() const { return rows[rows.size() - 1 - filled_back]; }
+  bool is_filled(std::size_t row) const { return row < filled_front || row + filled_back >= rows.size(); }
 };
 
 /// Normals that both grooves have rows at, the ends of both among them.
@@ -53,7 +60,9 @@ struct Fan {
 };
 
 /// No chord of a curve parallel to the pitch curves, up to `outward` of them, has a sagitta larger than `tolerance`.
+/// `filled`: how far P1's end and P2's beginning are followed by filled rows, at least, mm.
 /// Rows stand outward of the curve by a third of a chord's sagitta: the polygon is then as long as the curve is.
-Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance);
+Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, double floor_inward, double tolerance,
+             double filled);
 
 }  // namespace fusee

@@ -21,7 +21,9 @@ namespace fusee {
 namespace {
 
 constexpr int k_nodes = 48;
-constexpr int k_places_of_turn = 48;
+constexpr int k_places_of_turn = 72;
+/// Between the places that are looked at a pair of turns may need a little more.
+constexpr double k_spare_lead = 1.005;
 constexpr double k_settled = 1e-10;  // mm
 
 /// The least height from turn to turn, and what the tightest pair of them needs.
@@ -38,8 +40,8 @@ void look_at_turns(Climb& climb, const PitchSpiral& curve, Side side, const Leas
     climb.tightest_at = psi;
   }
   climb.circumference = circumference;
-  climb.needed_lead = least_slope * circumference;
-  climb.slope = wanted > 0 ? wanted / circumference : least_slope;
+  climb.needed_lead = k_spare_lead * least_slope * circumference;
+  climb.slope = (wanted > 0 ? wanted : climb.needed_lead) / circumference;
 }
 
 struct Place {

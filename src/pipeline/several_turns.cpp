@@ -13,9 +13,8 @@ namespace {
 
 HelixGroove groove_of(const Mechanism& mechanism) {
   const HelicalSection section = helical_section(mechanism);
-  return {section.depth, [section](double step) {
-            return least_lead(section, k_later_turns_lie_lower ? -step : step);
-          }};
+  // In the part a later turn lies below the one before.
+  return {section.depth, [section](double step) { return least_lead(section, -step); }};
 }
 
 /// What the tables of a body do not say of several turns.

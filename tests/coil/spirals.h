@@ -2,11 +2,13 @@
 /// Spirals with a closed form. mm, rad.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "fusee/base/plane.h"
 #include "fusee/base/units.h"
+#include "fusee/coil/helical_pulley.h"
 #include "fusee/helix/spiral.h"
 
 namespace fusee::testing {
@@ -52,6 +54,19 @@ inline SupportCurve oval(double radius, double per_turn, double wave, double beg
   return {[=](double t) { return radius + rate * (t - begin) + wave * std::cos(2.0 * t); },
           [=](double t) { return rate - 2.0 * wave * std::sin(2.0 * t); },
           [=](double t) { return -4.0 * wave * std::cos(2.0 * t); }};
+}
+
+/// The least slope at which neighbouring turns of `turns` turns of a curve clear each other.
+inline double slope_for(const SupportCurve& curve, double begin, double turns, const HelicalSection& section) {
+  double slope = 0;
+  const auto rho = [&curve](double at) { return curve.p(at) + curve.d2p(at); };
+  constexpr int k_steps = 400;
+  for (double at = begin; at + k_two_pi <= begin + turns * k_two_pi; at += 0.05) {
+    double s = 0;
+    for (int k = 0; k < k_steps; ++k) s += rho(at + k_two_pi * (k + 0.5) / k_steps) * k_two_pi / k_steps;
+    slope = std::max(slope, least_lead(section, curve.p(at) - curve.p(at + k_two_pi)) / s);
+  }
+  return slope;
 }
 
 }  // namespace fusee::testing

@@ -1,0 +1,102 @@
+// Helical pulleys of every kind: what is made is a solid that measures what it should; what is not says why.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include "coil/spirals.h"
+#include "fusee/coil/helical_pulley.h"
+#include "fusee/coil/helical_rewind.h"
+#include "fusee/solid/print.h"
+#include "support/mechanisms.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+struct Drawn {
+  Mechanism mechanism = testing::forearm();
+  Spiral p1, p2;
+  std::string words;
+};
+
+class Draw {
+ public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+
+  Drawn one() {
+    Drawn drawn;
+    Mechanism& m = drawn.mechanism;
+    m.body = testing::plain_mechanism().body;
+    m.material = testing::plain_mechanism().material;
+    m.print = testing::plain_mechanism().print;
+    m.tendon.diameter = within(0.4, 1.6);
+    m.body.groove = std::array{Groove::u, Groove::u, Groove::v, Groove::flat}[static_cast<std::size_t>(within(0, 3.999))];
+    m.body.groove_angle = radians(within(30, 90));
+    m.body.flange_thickness = within(0.8, 2.0);
+    const HelicalSection section = helical_section(m);
+    drawn.p1 = spiral(section, drawn.words);
+    drawn.p2 = spiral(section, drawn.words);
+    return drawn;
+  }
+
+ private:
+  double within(double low, double high) { return low + (high - low) * static_cast<double>(random_()) / 4294967295.0; }
+
+  Spiral spiral(const HelicalSection& section, std::string& words) {
+    const double turns = within(1.2, 8.0), radius = within(9, 28), begin = within(-10, 10);
+    const double per_turn = within(-0.5, 0.5) * (radius - 5.0) / turns, wave = within(0, 0.14) * std::min(radius, radius + per_turn * turns);
+    const testing::SupportCurve curve = testing::oval(radius, per_turn, wave, begin);
+    const double slope = (testing::slope_for(curve, begin, turns, section) * within(1.0, 1.3) + 1e-6) * (within(0, 1) < 0.2 ? -1 : 1);
+    words += " r " + std::to_string(radius) + " turns " + std::to_string(turns) + " per turn " + std::to_string(per_turn) + " wave " + std::to_string(wave);
+    Spiral spiral = testing::spiral_of(curve, begin, turns, slope);
+    // Enough of a free end for any of them.
+    spiral.first_used = spiral.last_used = spiral.rows.size() / 2;
+    return spiral;
+  }
+
+  std::mt19937 random_;
+};
+
+std::string failed(const std::vector<Check>& checks) {
+  std::string text;
+  for (const Check& check : checks) {
+    if (!check.ok) text += " " + check.name + " " + std::to_string(check.value) + " " + check.where;
+  }
+  return text;
+}
+
+// FUSEE_HELICES of them, and FUSEE_HELICES_SEED.
+TEST(RandomHelices, AreSolidsOrSayWhyNot) {
+  const char* wanted = std::getenv("FUSEE_HELICES");
+  const char* seed = std::getenv("FUSEE_HELICES_SEED");
+  const int count = wanted != nullptr ? std::atoi(wanted) : 12;
+  Draw draw(seed != nullptr ? static_cast<unsigned>(std::atoi(seed)) : 20261122u);
+  int made = 0;
+  double longest = 0;
+  for (int n = 0; n < count; ++n) {
+    const Drawn drawn = draw.one();
+    const auto begin = std::chrono::steady_clock::now();
+    const HelicalPulley pulley = make_helical_pulley(drawn.mechanism, drawn.p1, drawn.p2);
+    longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    const std::string which = std::to_string(n) + drawn.words + " d " + std::to_string(drawn.mechanism.tendon.diameter);
+    if (!pulley.made) {
+      EXPECT_EQ(pulley.brief().find("run into one another"), std::string::npos) << which << pulley.brief();
+      if (count > 50) printf("%d not made: %s\n", n, pulley.brief().c_str());
+      continue;
+    }
+    ++made;
+    EXPECT_EQ(failed(check_helical_pulley(pulley.mesh, pulley, helical_section(drawn.mechanism))), "") << which;
+    EXPECT_EQ(failed(check_print(pulley.mesh)), "") << which;
+    EXPECT_EQ(helical_floors(pulley.mesh, pulley.layout.scale).size(), 2u) << which;
+  }
+  EXPECT_GT(made, count / 2);
+  RecordProperty("made", made);
+  printf("%d of %d made, the longest took %.2f s\n", made, count, longest);
+}
+
+}  // namespace
+}  // namespace fusee
