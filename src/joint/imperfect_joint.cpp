@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/transmission/load.h"
 #include "joint/outline_error.h"
 
 namespace fusee {
@@ -17,6 +18,7 @@ constexpr double k_least_stiffness = 1e-3;  // of the declared EA
 
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   Mechanism mechanism = declared;
+  keep_law(mechanism);
   mechanism.joint.R += at.joint.length;
   mechanism.guides.EB += at.pins.left.outward;
   mechanism.guides.ED += at.pins.right.outward;

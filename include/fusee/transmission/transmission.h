@@ -24,6 +24,8 @@ struct TendonPoint {
   double length = 0;        ///< free_upper + ρp·wrap + lower_reach: to the foot of the perpendicular, mm
 };
 
+struct TorqueMatch;  // torque.h
+
 struct TransmissionPoint {
   double alpha = 0;  ///< rad
   double theta = 0;  ///< rad
@@ -37,7 +39,8 @@ struct TransmissionPoint {
 /// The declared law over its stroke. Cheap to copy; immutable.
 ///
 /// compensate: dθ/dα = r1/m1 [4]; α(θ) = (L1(θ) − L1(0))/r1 in closed form.  linear: θ = α/ratio.
-/// table: a quintic spline through the rows.  In every law p_i = m_i dθ/dα: virtual work.
+/// table: a quintic spline through the rows.
+/// torque: dθ/dα = M/τ, the wanted torque of the motor per that of the load; α(θ) is its integral.  In every law p_i = m_i dθ/dα: virtual work.
 class Transmission {
  public:
   /// `rho`: the pin radius to the centre line that the equations see.
@@ -45,7 +48,8 @@ class Transmission {
   /// With the pins as the mechanism's method sees them (seen_pitch_radius).
   explicit Transmission(const Mechanism& mechanism);
 
-  /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, or a formula has no value; null when
+  /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, a wanted torque does not hold its load,
+  /// or a formula has no value; null when
   /// the law exists over the whole range. The other members, but alpha() and place(), may be called only when it is
   /// null.
   std::optional<double> dead_centre() const { return dead_centre_; }
@@ -62,6 +66,8 @@ class Transmission {
 
  private:
   struct TableLaw;
+  struct TorqueLaw;
+  friend TorqueMatch tightest_torque(const Mechanism& mechanism);
   TransmissionPoint at(double alpha, double theta) const;
 
   Law law_;
@@ -70,6 +76,7 @@ class Transmission {
   PinPlace left_;
   PinPlace right_;
   std::shared_ptr<const TableLaw> table_;
+  std::shared_ptr<const TorqueLaw> torque_;
   double home_length_ = 0;
   std::optional<double> dead_centre_;
   double theta_min_, theta_max_;
