@@ -75,6 +75,9 @@ std::string bodies(const ModelProduct& product, const SimulatedBody& body, const
   const Vec2 axis = pin_place(mechanism, Side::left, 0).pulley_axis();
   const std::string thin = number(0.03 * mechanism.joint.R * 1e-3);
   const double J = body.armature, I = body.inertia;
+  const std::string spring = body.stiffness == 0 ? ""
+                                                 : " stiffness=\"" + number(body.stiffness) + "\" springref=\"" +
+                                                       number(body.spring_rest) + "\"";
   std::string text = "  <worldbody>\n    <light pos=\"0 0 " + metres(5 * mechanism.joint.R) + "\"/>\n" + world;
   text += "    <body name=\"pulley\" pos=\"" + place(axis) +
           "\">\n      <joint name=\"alpha\" type=\"hinge\" axis=\"0 0 -1\" range=\"" + number(map.alpha_min) + " " +
@@ -84,13 +87,11 @@ std::string bodies(const ModelProduct& product, const SimulatedBody& body, const
           " 0.005\" rgba=\"0.8 0.75 0.6 1\"/>\n      <geom name=\"mark\" type=\"capsule\" fromto=\"0 0 0.006 0 " +
           number(body.pulley_radius) + " 0.006\" size=\"" + number(0.1 * body.pulley_radius) +
           "\" rgba=\"0.2 0.2 0.2 1\"/>\n    </body>\n";
-  text +=
-      "    <body name=\"link\" pos=\"0 0 0\">\n      <joint name=\"theta\" type=\"hinge\" axis=\"0 0 -1\"/>\n      "
-      "<inertial pos=\"0 " +
-      number(body.lever) + " 0\" mass=\"" + number(body.mass) + "\" diaginertia=\"" + number(I) + " " +
-      number(0.05 * I) + " " + number(I) + "\"/>\n      <geom name=\"link\" type=\"capsule\" fromto=\"0 0 0 0 " +
-      metres(mechanism.joint.R) + " 0\" size=\"" + thin + "\" rgba=\"0.35 0.5 0.65 1\"/>\n" + link +
-      "    </body>\n  </worldbody>\n";
+  text += "    <body name=\"link\" pos=\"0 0 0\">\n      <joint name=\"theta\" type=\"hinge\" axis=\"0 0 -1\"" +
+          spring + "/>\n      <inertial pos=\"0 " + number(body.lever) + " 0\" mass=\"" + number(body.mass) +
+          "\" diaginertia=\"" + number(I) + " " + number(0.05 * I) + " " + number(I) +
+          "\"/>\n      <geom name=\"link\" type=\"capsule\" fromto=\"0 0 0 0 " + metres(mechanism.joint.R) +
+          " 0\" size=\"" + thin + "\" rgba=\"0.35 0.5 0.65 1\"/>\n" + link + "    </body>\n  </worldbody>\n";
   return text;
 }
 

@@ -102,6 +102,25 @@ std::string xml_comment(const std::vector<std::string>& lines) {
 
 std::string xml_attribute(const std::string& text) { return escape_html(plain(text)); }
 
+namespace {
+
+/// A spring's torque is k (θ − rest), or the same at every angle.
+void add_spring(SimulatedBody& body, const Spring& spring) {
+  if (spring == Spring{}) return;
+  if (spring.stiffness == 0) {
+    body.load += spring.preload * 1e-3;
+    body.words.push_back("Spring of [spring]: " + rounded(spring.preload * 1e-3) +
+                         " N m against +theta at every angle.");
+    return;
+  }
+  body.stiffness = spring.stiffness * 1e-3;
+  body.spring_rest = spring.free - spring.preload / spring.stiffness;
+  body.words.push_back("Spring of [spring]: " + rounded(body.stiffness) + " N m/rad, at rest at theta = " +
+                       rounded(degrees(body.spring_rest)) + " deg. URDF has no springs: a plugin's work there.");
+}
+
+}  // namespace
+
 SimulatedBody body_of(const ModelProduct& product) {
   const Mechanism& mechanism = product.mechanism;
   const Load& load = mechanism.load;
@@ -126,6 +145,7 @@ SimulatedBody body_of(const ModelProduct& product) {
                          " N m against +theta at every angle.");
     body.words.push_back("Assumed: they have the inertia of a weight at C that pulls as much.");
   }
+  add_spring(body, mechanism.spring);
   double most = 0, steepest = 0, heaviest = 0;
   const AngleMap& map = product.curves.stands.middle;
   constexpr int looks = 20;

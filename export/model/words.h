@@ -35,7 +35,9 @@ struct SimulatedBody {
   bool weighs = false;       ///< whether the file says what the link weighs
   double armature = 0;       ///< of pulley and motor about G, kg m²
   double pulley_radius = 0;  ///< mean moment arm, m
-  double load = 0;           ///< constant torque against +θ: tip force and torque, N m
+  double load = 0;           ///< constant torque against +θ: tip force, torque, a spring without stiffness, N m
+  double stiffness = 0;      ///< of [spring], N m/rad
+  double spring_rest = 0;    ///< θ at which that spring would not turn the joint, rad
   double effort = 0;         ///< what the motor can turn with, N m
   double speed = 0;          ///< rad/s
   double kp = 0, kv = 0;     ///< of a position servo, N m/rad and N m s/rad

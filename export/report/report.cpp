@@ -21,6 +21,7 @@
 #include "export/tool.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
+#include "fusee/transmission/load.h"
 
 namespace fusee {
 namespace {
@@ -127,6 +128,8 @@ std::string_view law_words(Law law) {
       return "θ = α / ratio";
     case Law::table:
       return "θ(α) from a table";
+    case Law::torque:
+      return "wanted torque of the motor";
   }
   return "";
 }
@@ -136,6 +139,14 @@ void add_law(KeyNumbers& numbers, const Product& product) {
   numbers.add("Law", std::string(law_words(drive.law)),
               drive.method == Method::paper ? "the paper’s polar drawing" : "");
   if (drive.law == Law::linear) numbers.add("Ratio α / θ", readable_rounded(drive.ratio));
+  if (drive.law == Law::torque) {
+    const Range torque = stroke_range(product.synthesis, [&](const auto& p) {
+      return law_load_torque(product.joint.mechanism, p.theta).value * p.g;
+    });
+    numbers.add("Motor torque",
+                drive.torque_rows.empty() ? with_unit(drive.motor_torque, "N·mm") : range_words(torque, 1, "N·mm"),
+                "holds [load] and [spring], without friction");
+  }
   if (drive.law == Law::compensate) {
     numbers.add("r1", with_unit(drive.r1, "mm", 5), "pitch");
   } else {
@@ -202,6 +213,12 @@ std::string key_numbers(const Product& product) {
   numbers.add("Pretension", with_unit(mechanism.tendon.pretension, "N"), "tendon 1 at home");
   if (mechanism.load.tip_force != 0)
     numbers.add("Tip force", with_unit(mechanism.load.tip_force, "N"), "across OC, against +θ");
+  const Spring& spring = mechanism.spring;
+  if (spring != Spring{}) {
+    numbers.add(
+        "Spring on the joint", readable_rounded(spring.stiffness, 4) + "\u00a0N·mm/rad",
+        readable_rounded(spring.preload, 4) + "\u00a0N·mm at θ = " + readable_rounded(degrees(spring.free), 4) + "°");
+  }
   add_part(numbers, product.pulley);
   return numbers.html();
 }

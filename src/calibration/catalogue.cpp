@@ -18,7 +18,9 @@ bool all(const Measurement& measurement, bool Run::*has) {
 }
 
 bool has_load(const Mechanism& declared, const Measurement& measurement) {
-  if (declared.load.tip_force != 0 || declared.load.torque != 0 || declared.load.mass > 0) return true;
+  if (declared.load.tip_force != 0 || declared.load.torque != 0 || declared.load.mass > 0 ||
+      declared.spring != Spring{})
+    return true;
   return std::any_of(measurement.runs.begin(), measurement.runs.end(), [](const Run& run) {
     return run.has_load && std::any_of(run.samples.begin(), run.samples.end(),
                                        [](const Sample& sample) { return std::abs(sample.load) > 0; });

@@ -6,6 +6,7 @@
 #include "fusee/base/units.h"
 #include "fusee/joint/simulate.h"
 #include "fusee/mechanism/effect.h"
+#include "fusee/transmission/load.h"
 
 namespace fusee {
 namespace {
@@ -153,6 +154,7 @@ Rehearsal rehearse(const DeclaredMechanism& expected, const Measurement& measure
   std::vector<Drive> drives;
   for (const double load : loads_of(measurement, expected)) {
     Mechanism loaded = expected;
+    keep_law(loaded);
     loaded.load.tip_force = load;
     rehearsal.strokes.push_back({load, settled_stroke(loaded, alphas)});
     drives.emplace_back(expected, alphas, load);

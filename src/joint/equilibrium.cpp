@@ -433,8 +433,8 @@ std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at
 Residual JointMotion::State::residual(const std::array<Trial, 2>& trials, const JointStep& step,
                                       double at_theta) const {
   const auto& [left, right] = trials;
-  return {right.pull - left.pull - step.tip_force * model.lever - step.torque - model.weight_torque(at_theta),
-          right.slope + left.slope - model.weight_slope(at_theta)};
+  return {right.pull - left.pull - step.tip_force * model.lever - step.torque - model.own_torque(at_theta),
+          right.slope + left.slope - model.own_slope(at_theta)};
 }
 
 /// With what slides on the pulleys as `at` has it.
@@ -516,10 +516,10 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   const double found = rest.theta;
   EquilibriumPoint point;
   point.alpha = step.alpha;
-  point.load_torque = step.tip_force * model.lever + step.torque + model.weight_torque(found);
+  point.load_torque = step.tip_force * model.lever + step.torque + model.own_torque(found);
   friction += model.bearing_friction * std::abs(found - theta);
   point.theta = theta = found;
-  point.stiffness = point.stiffness_stuck = model.weight_slope(found);
+  point.stiffness = point.stiffness_stuck = model.own_slope(found);
   for (std::size_t i = 0; i < 2; ++i) {
     const Spent spent = settle(tendons[i], at[i], now[i], near_strain(model));
     wound_energy += spent.wound;
@@ -551,7 +551,7 @@ EquilibriumPoint JointMotion::State::refuse(const JointStep& step) const {
   point.status = EquilibriumStatus::no_equilibrium;
   point.alpha = step.alpha;
   point.theta = theta;
-  point.load_torque = step.tip_force * model.lever + step.torque + model.weight_torque(theta);
+  point.load_torque = step.tip_force * model.lever + step.torque + model.own_torque(theta);
   point.friction = friction;
   point.groove_friction = groove_friction;
   return point;

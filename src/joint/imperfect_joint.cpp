@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "fusee/transmission/load.h"
 #include "joint/outline_error.h"
 
 namespace fusee {
@@ -46,6 +47,7 @@ void mount_drum(Joint& joint, const JointError& at) {
 
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   Mechanism mechanism = declared;
+  keep_law(mechanism);
   mechanism.joint.R += at.joint.length;
   mount_drum(mechanism.joint, at.joint);
   mechanism.guides.EB += at.pins.left.outward;

@@ -132,6 +132,7 @@ void set_statics(JointModel& model, const MountedMechanism& in) {
   model.pretension = mounted.tendon.pretension;
   model.weight = weight_moment(mounted.load);
   model.tilt = mounted.load.tilt;
+  model.spring = mounted.spring;
 }
 
 }  // namespace fusee

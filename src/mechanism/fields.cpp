@@ -26,7 +26,7 @@ struct NumberAccess {
   static void set(DeclaredMechanism& mechanism, int, double value) { mechanism.*Part.*Member = from_file(value); }
 };
 
-constexpr std::array<std::string_view, 3> names(Law) { return {"compensate", "linear", "table"}; }
+constexpr std::array<std::string_view, 4> names(Law) { return {"compensate", "linear", "table", "torque"}; }
 constexpr std::array<std::string_view, 2> names(GuideKind) { return {"pin", "idler"}; }
 constexpr std::array<std::string_view, 2> names(Method) { return {"exact", "paper"}; }
 constexpr std::array<std::string_view, 2> names(WindingChoice) { return {"auto", "one_turn"}; }
@@ -308,6 +308,25 @@ void add_sheath(std::vector<Field>& table) {
       asked);
 }
 
+void add_spring(std::vector<Field>& table) {
+  constexpr auto spring = &Mechanism::spring;
+  constexpr auto has_spring = [](const DeclaredMechanism& m) { return m.spring != Spring{}; };
+  table.push_back(number<spring, &Spring::stiffness>(
+      {"spring.stiffness_Nmm_per_rad", "", "0",
+       "stiffness of a spring about the joint's axis, between base and link; 0: its torque is preload_Nmm at every "
+       "angle"},
+      "Nmm_per_rad", 0, 10000000));
+  table.back().is_set = has_spring;
+  table.push_back(number<spring, &Spring::preload>(
+      {"spring.preload_Nmm", "", "0", "its torque at free_deg, positive against +theta"}, "Nmm", -10000000, 10000000));
+  table.back().is_set = has_spring;
+  table.push_back(number<spring, &Spring::free, degrees, radians>(
+      {"spring.free_deg", "", "0",
+       "the joint angle at which its torque is preload_Nmm: without one, where it is slack"},
+      "deg", -360, 360));
+  table.back().is_set = has_spring;
+}
+
 void add_mechanism(std::vector<Field>& table) {
   constexpr auto joint = &Mechanism::joint;
   constexpr auto guides = &Mechanism::guides;
@@ -374,12 +393,26 @@ void add_mechanism(std::vector<Field>& table) {
       "mm", 0.1, 10000));
   table.push_back(choice<pulley, &PulleyDrive::law>({"pulley.law", "", "\"compensate\"",
                                                      "compensate: P1 round, P2 keeps both tendons taut; linear: theta "
-                                                     "= alpha/ratio; table: theta(alpha) from a CSV"}));
+                                                     "= alpha/ratio; table: theta(alpha) from a CSV; torque: the motor "
+                                                     "holds [load] and [spring] with the torque that is wanted"}));
   table.push_back(number<pulley, &PulleyDrive::ratio>({"pulley.ratio", "", "", "alpha per theta", "pulley.law=linear"},
                                                       "", 0.01, 1000));
   table.push_back(text<pulley, &PulleyDrive::table>(
       {"pulley.table", "", "", "CSV file with columns alpha_deg, theta_deg; its place is relative to this file",
        "pulley.law=table"}));
+  table.push_back(number<pulley, &PulleyDrive::motor_torque>(
+      {"pulley.motor_torque_Nmm", "", "0",
+       "the motor torque, towards +alpha, that holds [load] and [spring] at every angle, without friction; 0: "
+       "pulley.torque_table says",
+       "pulley.law=torque"},
+      "Nmm", -10000000, 10000000));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.pulley.motor_torque != 0; };
+  table.push_back(text<pulley, &PulleyDrive::torque_table>(
+      {"pulley.torque_table", "", "\"\"",
+       "CSV file with columns theta_deg, motor_torque_Nmm, in place of motor_torque_Nmm; its place is relative to this "
+       "file",
+       "pulley.law=torque"}));
+  table.back().is_set = [](const DeclaredMechanism& m) { return !m.pulley.torque_table.empty(); };
   table.push_back(choice<pulley, &PulleyDrive::method>({"pulley.method", "", "\"exact\"",
                                                         "exact: the envelope of the tendon lines over the real pins; "
                                                         "paper: point pins, r2 drawn in polar coordinates"}));
@@ -412,6 +445,7 @@ void add_mechanism(std::vector<Field>& table) {
        "share of its strength that a tendon keeps at a knot: 0.5 is assumed, what braided HMPE keeps"},
       "", 0.05, 1));
   add_load(table);
+  add_spring(table);
 }
 
 void add_body(std::vector<Field>& table) {
@@ -803,6 +837,7 @@ std::string_view table_meaning(std::string_view table) {
   if (table == "pulley") return "where the pulley sits and what it must do";
   if (table == "tendon") return "both tendons";
   if (table == "load") return "what the joint carries";
+  if (table == "spring") return "a spring about the joint's axis";
   if (table == "body") return "the body of the pulley";
   if (table == "horn") return "a servo's horn of your own, or its toothed shaft (body.bore = \"horn\")";
   if (table == "material") return "what it is printed of";

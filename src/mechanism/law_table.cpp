@@ -1,5 +1,6 @@
 #include "mechanism/law_table.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -11,8 +12,6 @@ namespace {
 
 constexpr double k_home_error_deg = 0.01;
 constexpr std::size_t k_fewest_rows = 4;
-/// More than anyone writes; keeps time and memory bounded.
-constexpr std::size_t k_most_rows = 100000;
 constexpr std::size_t k_most_problems = 20;
 
 std::string_view trimmed(std::string_view text) {
@@ -26,152 +25,207 @@ bool parse_number(std::string_view text, double& value) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-/// One row in degrees, with its line.
-struct CsvRow {
-  int line = 0;
-  double alpha = 0;
-  double theta = 0;
+/// What the two columns of a table are, and how far each goes.
+struct PairColumns {
+  const char* first;
+  const char* second;
+  const char* hint;
+  std::size_t most_rows;
 };
 
-class LawTableReader {
- public:
-  LawTableReader(const std::string& file, std::vector<Diagnostic>& problems) : file_(file), problems_(problems) {}
+constexpr PairColumns k_law_columns = {
+    "alpha_deg", "theta_deg", "first a line alpha_deg,theta_deg, then one pair of angles a line, both increasing",
+    /// More than anyone writes; keeps time and memory bounded.
+    100000};
+constexpr PairColumns k_torque_columns = {
+    "theta_deg", "motor_torque_Nmm",
+    "first a line theta_deg,motor_torque_Nmm, then an angle and the torque wanted there a line, the angles increasing",
+    /// The law is the integral over all of them, made anew for every look at a changed joint.
+    2000};
 
-  void read(std::string_view csv) {
+/// One row in the file's units, with its line.
+struct PairRow {
+  int line = 0;
+  double first = 0;
+  double second = 0;
+};
+
+/// Lines and numbers of a table of two columns.
+class PairTableReader {
+ public:
+  PairTableReader(const PairColumns& columns, const std::string& file, std::vector<Diagnostic>& problems)
+      : columns_(columns), file_(file), problems_(problems) {}
+
+  /// `check` looks at each row beside the one before, which may be null.
+  template <typename Check>
+  void read(std::string_view csv, Check check) {
     if (csv.substr(0, 3) == "\xEF\xBB\xBF") csv.remove_prefix(3);
     for (int line = 1; !csv.empty() && problems_.size() < k_most_problems; ++line) {
       const std::size_t end = std::min(csv.find('\n'), csv.size());
       std::string_view text = csv.substr(0, end);
       csv.remove_prefix(std::min(end + 1, csv.size()));
       text = trimmed(text.substr(0, text.find('#')));
-      if (!text.empty()) read_line(line, text);
+      if (!text.empty()) read_line(line, text, check);
     }
-  }
-
-  void check(const Joint& joint) {
     if (!problems_.empty()) return;
-    if (!header_read_) return fail(0, "the table is empty", k_format_hint);
-    if (rows_.size() < k_fewest_rows) {
-      return fail(0,
-                  "the table has " + std::to_string(rows_.size()) + " rows; a law needs at least " +
-                      std::to_string(k_fewest_rows),
-                  k_format_hint);
+    if (!header_read_) {
+      fail(0, "the table is empty", columns_.hint);
+    } else if (rows_.size() < k_fewest_rows) {
+      fail(0,
+           "the table has " + std::to_string(rows_.size()) + " rows; a law needs at least " +
+               std::to_string(k_fewest_rows),
+           columns_.hint);
     }
-    check_cover(joint);
-    check_home();
   }
 
-  std::vector<LawRow> rows() const {
-    std::vector<LawRow> rows;
-    rows.reserve(rows_.size());
-    for (const CsvRow& row : rows_) rows.push_back({radians(row.alpha), radians(row.theta)});
-    return rows;
-  }
-
- private:
-  static constexpr const char* k_format_hint =
-      "first a line alpha_deg,theta_deg, then one pair of angles a line, both increasing";
+  const std::vector<PairRow>& rows() const { return rows_; }
+  bool is_whole() const { return problems_.empty(); }
 
   void fail(int line, std::string message, std::string hint) {
     problems_.push_back({Severity::error, {file_, line, line > 0 ? 1 : 0}, std::move(message), std::move(hint)});
   }
 
-  void read_line(int line, std::string_view text) {
+  void check_increasing(const char* column, double before, double here, int line, const char* hint) {
+    if (here > before) return;
+    fail(line,
+         std::string(column) + " does not increase: " + shortest(here) + " deg after " + shortest(before) + " deg",
+         hint);
+  }
+
+  /// That θ, which `theta` takes from a row, covers the joint's range.
+  void check_cover(const Joint& joint, double PairRow::*theta) {
+    // Half a millionth of a degree: what a table printed with six decimals may lack.
+    constexpr double k_rounding_deg = 5e-7;
+    const double least = degrees(joint.theta_min), most = degrees(joint.theta_max);
+    const PairRow &first = rows_.front(), &last = rows_.back();
+    if (first.*theta > least + k_rounding_deg) {
+      fail(first.line,
+           "theta begins at " + rounded(first.*theta) + " deg, above joint.range_deg's " + rounded(least) + " deg",
+           "add rows below, or raise the range's lower end");
+    }
+    if (last.*theta < most - k_rounding_deg) {
+      fail(last.line,
+           "theta ends at " + rounded(last.*theta) + " deg, below joint.range_deg's " + rounded(most) + " deg",
+           "add rows above, or lower the range's upper end");
+    }
+  }
+
+ private:
+  template <typename Check>
+  void read_line(int line, std::string_view text, Check check) {
     const std::size_t comma = text.find(',');
     const std::string_view first = trimmed(text.substr(0, comma));
     const std::string_view second =
         comma == std::string_view::npos ? std::string_view() : trimmed(text.substr(comma + 1));
     if (!header_read_) {
       header_read_ = true;
-      if (first == "alpha_deg" && second == "theta_deg") return;
-      return fail(line, "the columns are " + in_quotes(text) + ", not alpha_deg,theta_deg", k_format_hint);
+      if (first == columns_.first && second == columns_.second) return;
+      return fail(line, "the columns are " + in_quotes(text) + ", not " + columns_.first + "," + columns_.second,
+                  columns_.hint);
     }
-    CsvRow row{line, 0, 0};
-    if (!parse_number(first, row.alpha) || !parse_number(second, row.theta)) {
-      return fail(line, in_quotes(text) + " is not two finite numbers", k_format_hint);
+    PairRow row{line, 0, 0};
+    if (!parse_number(first, row.first) || !parse_number(second, row.second)) {
+      return fail(line, in_quotes(text) + " is not two finite numbers", columns_.hint);
     }
-    add(row);
+    if (rows_.size() == columns_.most_rows) {
+      return fail(line, "the table has more than " + std::to_string(columns_.most_rows) + " rows", "leave rows out");
+    }
+    if (check(*this, rows_.empty() ? nullptr : &rows_.back(), row)) rows_.push_back(row);
   }
 
-  void add(const CsvRow& row) {
-    constexpr double k_largest_deg = 3600;
-    if (std::abs(row.alpha) > k_largest_deg || std::abs(row.theta) > 360) {
-      return fail(row.line,
-                  "an angle is too large: alpha " + rounded(row.alpha) + " deg, theta " + rounded(row.theta) + " deg",
-                  "angles are in degrees; alpha within +-3600, theta within +-360");
-    }
-    if (rows_.size() == k_most_rows)
-      return fail(row.line, "the table has more than " + std::to_string(k_most_rows) + " rows", "leave rows out");
-    if (!rows_.empty()) check_increasing("alpha_deg", rows_.back().alpha, row.alpha, row.line);
-    if (!rows_.empty()) check_increasing("theta_deg", rows_.back().theta, row.theta, row.line);
-    rows_.push_back(row);
-  }
-
-  void check_increasing(const char* column, double before, double here, int line) {
-    if (here > before) return;
-    fail(line,
-         std::string(column) + " does not increase: " + shortest(here) + " deg after " + shortest(before) + " deg",
-         "theta must grow with alpha, row by row");
-  }
-
-  void check_cover(const Joint& joint) {
-    // Half a millionth of a degree: what a table printed with six decimals may lack.
-    constexpr double k_rounding_deg = 5e-7;
-    const double least = degrees(joint.theta_min), most = degrees(joint.theta_max);
-    if (rows_.front().theta > least + k_rounding_deg) {
-      fail(rows_.front().line,
-           "theta begins at " + rounded(rows_.front().theta) + " deg, above joint.range_deg's " + rounded(least) +
-               " deg",
-           "add rows below, or raise the range's lower end");
-    }
-    if (rows_.back().theta < most - k_rounding_deg) {
-      fail(rows_.back().line,
-           "theta ends at " + rounded(rows_.back().theta) + " deg, below joint.range_deg's " + rounded(most) + " deg",
-           "add rows above, or lower the range's upper end");
-    }
-  }
-
-  void check_home() {
-    for (std::size_t i = 1; i < rows_.size(); ++i) {
-      if (rows_[i - 1].alpha > 0 || rows_[i].alpha < 0) continue;
-      const double theta = theta_at_zero(i);
-      if (std::abs(theta) <= k_home_error_deg) return;
-      return fail(rows_[i].line, "the law does not pass through home: theta is " + rounded(theta) + " deg at alpha = 0",
-                  "shift the angles so that alpha = 0 gives theta = 0");
-    }
-    fail(rows_.front().line, "alpha = 0 (home) is not within the table", "add rows on both sides of alpha = 0");
-  }
-
-  /// θ(0) by the cubic through the four rows around the gap below row `i` (Lagrange).
-  double theta_at_zero(std::size_t i) const {
-    const std::size_t first = std::min(i < 2 ? 0 : i - 2, rows_.size() - 4);
-    double theta = 0;
-    for (std::size_t j = first; j < first + 4; ++j) {
-      double weight = 1;
-      for (std::size_t k = first; k < first + 4; ++k) {
-        if (k != j) weight *= rows_[k].alpha / (rows_[k].alpha - rows_[j].alpha);
-      }
-      theta += weight * rows_[j].theta;
-    }
-    return theta;
-  }
-
+  const PairColumns& columns_;
   const std::string& file_;
   std::vector<Diagnostic>& problems_;
-  std::vector<CsvRow> rows_;
+  std::vector<PairRow> rows_;
   bool header_read_ = false;
 };
+
+/// Whether a row of θ(α) may stand there; what is no reason to leave it out is said all the same.
+bool is_law_row(PairTableReader& reader, const PairRow* before, const PairRow& row) {
+  constexpr double k_largest_deg = 3600;
+  if (std::abs(row.first) > k_largest_deg || std::abs(row.second) > 360) {
+    reader.fail(row.line,
+                "an angle is too large: alpha " + rounded(row.first) + " deg, theta " + rounded(row.second) + " deg",
+                "angles are in degrees; alpha within +-3600, theta within +-360");
+    return false;
+  }
+  constexpr const char* hint = "theta must grow with alpha, row by row";
+  if (before != nullptr) {
+    reader.check_increasing("alpha_deg", before->first, row.first, row.line, hint);
+    reader.check_increasing("theta_deg", before->second, row.second, row.line, hint);
+  }
+  return true;
+}
+
+bool is_torque_row(PairTableReader& reader, const PairRow* before, const PairRow& row) {
+  constexpr double k_largest_torque = 1e7;
+  if (std::abs(row.first) > 360 || std::abs(row.second) > k_largest_torque) {
+    reader.fail(row.line,
+                "a number is too large: theta " + rounded(row.first) + " deg, torque " + rounded(row.second) + " Nmm",
+                "theta is in degrees, within +-360; the torque in N mm, within +-10000000");
+    return false;
+  }
+  if (before != nullptr)
+    reader.check_increasing("theta_deg", before->first, row.first, row.line, "one row an angle, from low to high");
+  return true;
+}
+
+/// θ(0) by the cubic through the four rows around the gap below row `i` (Lagrange).
+double theta_at_zero(const std::vector<PairRow>& rows, std::size_t i) {
+  const std::size_t first = std::min(i < 2 ? 0 : i - 2, rows.size() - 4);
+  double theta = 0;
+  for (std::size_t j = first; j < first + 4; ++j) {
+    double weight = 1;
+    for (std::size_t k = first; k < first + 4; ++k) {
+      if (k != j) weight *= rows[k].first / (rows[k].first - rows[j].first);
+    }
+    theta += weight * rows[j].second;
+  }
+  return theta;
+}
+
+void check_home(PairTableReader& reader) {
+  const std::vector<PairRow>& rows = reader.rows();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i - 1].first > 0 || rows[i].first < 0) continue;
+    const double theta = theta_at_zero(rows, i);
+    if (std::abs(theta) <= k_home_error_deg) return;
+    return reader.fail(rows[i].line,
+                       "the law does not pass through home: theta is " + rounded(theta) + " deg at alpha = 0",
+                       "shift the angles so that alpha = 0 gives theta = 0");
+  }
+  reader.fail(rows.front().line, "alpha = 0 (home) is not within the table", "add rows on both sides of alpha = 0");
+}
 
 }  // namespace
 
 std::vector<LawRow> parse_law_table(std::string_view csv, const std::string& file, const Joint& joint,
                                     std::vector<Diagnostic>& problems) {
   std::vector<Diagnostic> found;
-  LawTableReader reader(file, found);
-  reader.read(csv);
-  reader.check(joint);
+  PairTableReader reader(k_law_columns, file, found);
+  reader.read(csv, is_law_row);
+  if (reader.is_whole()) {
+    reader.check_cover(joint, &PairRow::second);
+    check_home(reader);
+  }
   problems.insert(problems.end(), found.begin(), found.end());
-  return reader.rows();
+  std::vector<LawRow> rows;
+  rows.reserve(reader.rows().size());
+  for (const PairRow& row : reader.rows()) rows.push_back({radians(row.first), radians(row.second)});
+  return rows;
+}
+
+std::vector<TorqueRow> parse_torque_table(std::string_view csv, const std::string& file, const Joint& joint,
+                                          std::vector<Diagnostic>& problems) {
+  std::vector<Diagnostic> found;
+  PairTableReader reader(k_torque_columns, file, found);
+  reader.read(csv, is_torque_row);
+  if (reader.is_whole()) reader.check_cover(joint, &PairRow::first);
+  problems.insert(problems.end(), found.begin(), found.end());
+  std::vector<TorqueRow> rows;
+  rows.reserve(reader.rows().size());
+  for (const PairRow& row : reader.rows()) rows.push_back({radians(row.first), row.second});
+  return rows;
 }
 
 }  // namespace fusee

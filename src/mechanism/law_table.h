@@ -1,5 +1,5 @@
 /// \file
-/// Internal: the CSV of law = "table".
+/// Internal: the CSV files of law = "table" and law = "torque".
 #pragma once
 
 #include <string_view>
@@ -15,5 +15,10 @@ namespace fusee {
 /// joint's range covered, home kept (θ(0) = 0 within 0.01°).
 std::vector<LawRow> parse_law_table(std::string_view csv, const std::string& file, const Joint& joint,
                                     std::vector<Diagnostic>& problems);
+
+/// Rows of `theta_deg, motor_torque_Nmm`, read as strictly: at least 4 and at most 2000, the angles increasing, the
+/// joint's range covered.
+std::vector<TorqueRow> parse_torque_table(std::string_view csv, const std::string& file, const Joint& joint,
+                                          std::vector<Diagnostic>& problems);
 
 }  // namespace fusee

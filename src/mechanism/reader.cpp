@@ -18,12 +18,12 @@
 #include "mechanism/nesting.h"
 #include "mechanism/optimize_table.h"
 
-// From bytes to a DeclaredMechanism in four steps, each of which goes on after an error so that all errors of a file come at
-// once:
+// From bytes to a DeclaredMechanism in four steps, each of which goes on after an error so that all errors of a file
+// come at once:
 //   1. toml++ reads the text (a syntax error is the only one that ends the reading at once);
 //   2. the tree is flattened to "table.key" → node with its place, and --set values replace or supply entries;
 //   3. each entry is held against its row of the field table, and what is required and absent is named;
-//   4. keys are held against each other, and the CSV of law = "table" is loaded.
+//   4. keys are held against each other, and the CSV of law = "table" or "torque" is loaded.
 
 namespace fusee {
 namespace {
@@ -95,6 +95,7 @@ class MechanismReader {
   void check_transmission();
   void check_unused();
   void check_method();
+  void check_torque_law();
   void check_idlers();
   void check_sheath();
   void check_bore();
@@ -638,16 +639,45 @@ void MechanismReader::check_prior() {
 }
 
 void MechanismReader::load_table() {
-  const PulleyDrive& pulley = mechanism_.pulley;
-  if (pulley.law != Law::table || !good_["pulley.table"] || !good_["joint.range_deg"]) return;
-  const std::filesystem::path path = folder_ / std::filesystem::path(pulley.table);
+  PulleyDrive& pulley = mechanism_.pulley;
+  if (pulley.law != Law::table && pulley.law != Law::torque) return;
+  const bool torque = pulley.law == Law::torque;
+  const std::string key = torque ? "pulley.torque_table" : "pulley.table";
+  const std::string& table = torque ? pulley.torque_table : pulley.table;
+  if (!has(key) || !good_[key] || !good_["joint.range_deg"] || (torque && table.empty())) return;
+  const std::filesystem::path path = folder_ / std::filesystem::path(table);
   try {
     const std::string csv = read_file(path, k_largest_table);
-    mechanism_.pulley.rows = parse_law_table(csv, path.string(), mechanism_.joint, table_errors_);
+    if (torque)
+      pulley.torque_rows = parse_torque_table(csv, path.string(), mechanism_.joint, table_errors_);
+    else
+      pulley.rows = parse_law_table(csv, path.string(), mechanism_.joint, table_errors_);
   } catch (const InputError& error) {
     const Diagnostic& cause = error.diagnostics().front();
-    fail(entries_["pulley.table"].place, "pulley.table: " + cause.place.file + ": " + cause.message,
-         "a CSV file with columns alpha_deg,theta_deg; its place is relative to the mechanism file");
+    fail(entries_[key].place, key + ": " + cause.place.file + ": " + cause.message,
+         std::string("a CSV file with columns ") + (torque ? "theta_deg,motor_torque_Nmm" : "alpha_deg,theta_deg") +
+             "; its place is relative to the mechanism file");
+  }
+}
+
+/// A law of torque says which torque, once.
+void MechanismReader::check_torque_law() {
+  const PulleyDrive& pulley = mechanism_.pulley;
+  if (pulley.law != Law::torque || !good_["pulley.law"]) return;
+  const auto is_read = [this](const char* key) { return !has(key) || good_[key]; };
+  if (!is_read("pulley.motor_torque_Nmm") || !is_read("pulley.torque_table")) return;
+  if (pulley.motor_torque == 0 && pulley.torque_table.empty()) {
+    fail(entries_["pulley.law"].place, "pulley.law = \"torque\" does not say which torque is wanted",
+         "give pulley.motor_torque_Nmm, the same at every angle, or pulley.torque_table, a CSV file with columns "
+         "theta_deg,motor_torque_Nmm");
+  }
+  if (pulley.motor_torque != 0 && !pulley.torque_table.empty()) {
+    fail(entries_["pulley.torque_table"].place,
+         "pulley.torque_table and pulley.motor_torque_Nmm both say which torque is wanted", "leave one of them out");
+  }
+  if (pulley.method == Method::paper) {
+    fail(entries_["pulley.method"].place, "pulley.law = \"torque\" does not go with pulley.method = \"paper\"",
+         "the paper has no such law: take method = \"exact\"");
   }
 }
 
@@ -687,6 +717,7 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   check_transmission();
   check_unused();
   check_method();
+  check_torque_law();
   check_idlers();
   check_sheath();
   check_bore();

@@ -375,6 +375,8 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
     return std::string(info(objective).name) + " has no interval form: its optimum cannot be certified";
   if (problem.base.pulley.law == Law::table)
     return "law = \"table\" has no interval form: its optimum cannot be certified";
+  if (problem.base.pulley.law == Law::torque)
+    return "law = \"torque\" has no interval form: its optimum cannot be certified";
   const bool turns_places = std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& moving) {
     return moving.key.starts_with("joint.drum") || moving.key.starts_with("joint.attachment");
   });

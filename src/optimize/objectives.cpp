@@ -6,6 +6,7 @@
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
 #include "fusee/transmission/tension.h"
+#include "fusee/transmission/torque.h"
 #include "optimize/objective_at.h"
 #include "profile/take_off.h"
 
@@ -84,14 +85,19 @@ Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   return evaluation;
 }
 
-/// The same equations through Transmission and paper_forces(): law = "table", and the words for why there is no value.
+/// The same equations through Transmission and paper_forces(): law = "table" or "torque", and the words for why there
+/// is no value.
 Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism) {
   const Transmission transmission(mechanism);
   if (const auto theta = transmission.dead_centre()) {
-    return impossible("a tendon loses its moment arm at θ = " + rounded(degrees(*theta), 4) + "°");
+    const std::string where = " at θ = " + rounded(degrees(*theta), 4) + "°";
+    if (mechanism.pulley.law == Law::torque && !(tightest_torque(mechanism).slope() > 0))
+      return impossible("the wanted torque of the motor does not hold the load" + where);
+    return impossible("a tendon loses its moment arm" + where);
   }
   Mechanism loaded = mechanism;
   loaded.load = {};
+  loaded.spring = {};
   loaded.load.tip_force = 1.0;
   std::string reason;
   const double range = mechanism.joint.theta_max - mechanism.joint.theta_min;
@@ -163,7 +169,7 @@ FileNumbers<double> file_numbers(const Mechanism& m) {
 
 Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
   if (objective == Objective::min_bend) return smallest_bend(mechanism);
-  if (mechanism.pulley.law == Law::table || !mechanism.is_papers())
+  if (mechanism.pulley.law == Law::table || mechanism.pulley.law == Law::torque || !mechanism.is_papers())
     return evaluate_by_transmission(objective, mechanism);
   const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
   Evaluation evaluation = largest_over_range(mechanism, [&](double place) {

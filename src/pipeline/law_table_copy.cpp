@@ -5,14 +5,21 @@ namespace {
 
 constexpr std::size_t k_largest_law = 8 << 20;
 
+/// What stands in the file as the table that the law is read from.
+template <typename AnyMechanism>
+auto& declared_table(AnyMechanism& mechanism) {
+  return mechanism.pulley.law == Law::torque ? mechanism.pulley.torque_table : mechanism.pulley.table;
+}
+
 std::filesystem::path table_path(const MechanismFile& file) {
-  return std::filesystem::path(file.path).parent_path() / std::filesystem::path(file.mechanism.pulley.table);
+  return std::filesystem::path(file.path).parent_path() / std::filesystem::path(declared_table(file.mechanism));
 }
 
 /// Whether `text`, lying in `folder`, is a mechanism whose table lies beside it.
 bool has_beside(const std::string& text, const std::filesystem::path& folder, const std::string& table) {
   try {
-    return parse_mechanism(text, "corrected.toml", folder).pulley.table == table;
+    const DeclaredMechanism mechanism = parse_mechanism(text, "corrected.toml", folder);
+    return declared_table(mechanism) == table;
   } catch (const InputError&) {
     return false;
   }
@@ -21,8 +28,11 @@ bool has_beside(const std::string& text, const std::filesystem::path& folder, co
 }  // namespace
 
 std::optional<std::string> law_table_name(const Mechanism& mechanism) {
-  if (mechanism.transmission || mechanism.pulley.law != Law::table) return std::nullopt;
-  return std::filesystem::path(mechanism.pulley.table).filename().string();
+  if (mechanism.transmission || (mechanism.pulley.law != Law::table && mechanism.pulley.law != Law::torque))
+    return std::nullopt;
+  const std::string& table = declared_table(mechanism);
+  if (table.empty()) return std::nullopt;
+  return std::filesystem::path(table).filename().string();
 }
 
 OutputFile law_table_copy(const MechanismFile& file) {
@@ -32,7 +42,7 @@ OutputFile law_table_copy(const MechanismFile& file) {
 // The same words may stand in a comment or in another value: the one place is that with which the reader finds the
 // table in its own folder. A value written with escapes stands nowhere as it reads: then every key is written anew.
 std::string with_table_beside(const std::string& text, const MechanismFile& file) {
-  const std::string& declared = file.mechanism.pulley.table;
+  const std::string& declared = declared_table(file.mechanism);
   const std::string beside = law_table_name(file.mechanism).value();
   if (beside == declared) return text;
   for (std::size_t at = text.find(declared); at != std::string::npos; at = text.find(declared, at + 1)) {
@@ -41,7 +51,7 @@ std::string with_table_beside(const std::string& text, const MechanismFile& file
     if (has_beside(changed, table_path(file).parent_path(), beside)) return changed;
   }
   DeclaredMechanism mechanism = file.mechanism;
-  mechanism.pulley.table = beside;
+  declared_table(mechanism) = beside;
   return write_mechanism(mechanism);
 }
 

@@ -1,5 +1,5 @@
 /// \file
-/// The CSV of law = "table", which goes where a changed mechanism file goes.
+/// The CSV of law = "table" or law = "torque", which goes where a changed mechanism file goes.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,14 @@
 
 namespace fusee {
 
-/// The table's name without its folder; none where the law is no table.
+/// The table's name without its folder; none where the law is read from no table.
 std::optional<std::string> law_table_name(const Mechanism& mechanism);
 
 /// Its bytes under that name.
 OutputFile law_table_copy(const MechanismFile& file);
 
-/// `text`, which says what `file.mechanism` is, with the table beside it. The value of pulley.table alone changes.
+/// `text`, which says what `file.mechanism` is, with the table beside it. The value of pulley.table, or of
+/// pulley.torque_table, alone changes.
 std::string with_table_beside(const std::string& text, const MechanismFile& file);
 
 }  // namespace fusee

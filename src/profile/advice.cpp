@@ -75,6 +75,10 @@ std::vector<Dial> range_dials(const Mechanism& mechanism) {
     least = std::max(least, degrees(mechanism.pulley.rows.front().theta));
     most = std::min(most, degrees(mechanism.pulley.rows.back().theta));
   }
+  if (mechanism.pulley.law == Law::torque && !mechanism.pulley.torque_rows.empty()) {
+    least = std::max(least, degrees(mechanism.pulley.torque_rows.front().theta));
+    most = std::min(most, degrees(mechanism.pulley.torque_rows.back().theta));
+  }
   Dial both{"joint.range_deg", "the range", "deg", high, 0.5, std::min(most, -least), high, {}};
   both.turn = [field](Mechanism& changed, double value) {
     set_number(changed, *field, 0, -value);
@@ -94,6 +98,7 @@ std::vector<Dial> dials(const Mechanism& mechanism, const std::vector<std::strin
   std::vector<Dial> all;
   const auto own = mechanism.pulley.law == Law::compensate ? number_dial(mechanism, "pulley.r1_mm")
                    : mechanism.pulley.law == Law::linear   ? number_dial(mechanism, "pulley.ratio")
+                   : mechanism.pulley.motor_torque != 0    ? number_dial(mechanism, "pulley.motor_torque_Nmm")
                                                            : std::nullopt;
   if (own) {
     all.push_back(*own);

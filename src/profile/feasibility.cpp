@@ -1,10 +1,12 @@
 #include "profile/feasibility.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "base/golden_section.h"
 #include "fusee/base/text.h"
+#include "fusee/transmission/torque.h"
 #include "profile/pitch_curve.h"
 #include "profile/place_conditions.h"
 
@@ -301,6 +303,26 @@ Condition law_grows(const Mechanism& mechanism, const Transmission& transmission
   return condition;
 }
 
+/// The motor turns forward wherever the joint does: load and wanted torque push against each other at every angle.
+Condition torque_holds(const Mechanism& mechanism) {
+  const TorqueMatch worst = tightest_torque(mechanism);
+  Condition condition;
+  condition.name = "torque_holds";
+  condition.unit = "deg/deg";
+  condition.value = worst.slope();
+  condition.ok = condition.value > 0 && std::isfinite(condition.value);
+  if (condition.ok) return condition;
+  const std::string where = " at θ = " + rounded(degrees(worst.theta), 4) + "°";
+  const std::string load = "[load] and [spring] turn the joint with " + rounded(worst.load, 4) + " N·mm against +θ";
+  if (worst.motor == 0) {
+    condition.message = "the wanted torque of the motor is 0" + where + ", where " + load + ": nothing holds it";
+  } else {
+    condition.message = load + where + ", and the motor is wanted to hold " + rounded(worst.motor, 4) +
+                        " N·mm: both must have the same sign and not be 0 over the whole range";
+  }
+  return condition;
+}
+
 /// As round as there is room for, with sharper bends where there is not.
 std::optional<ClosingArc> close(const Mechanism& mechanism, const std::vector<TakeOff>& samples) {
   const CurvePoint& end = samples.back().curve;
@@ -341,6 +363,10 @@ std::string at_alpha_text(double alpha) { return "α = " + rounded(degrees(alpha
 Attempt attempt(const Mechanism& mechanism, const Transmission& transmission, Turns turns) {
   Attempt attempt{place_conditions(mechanism), {}};
   if (!attempt.feasible()) return attempt;
+  if (mechanism.pulley.law == Law::torque) {
+    attempt.conditions.push_back(torque_holds(mechanism));
+    if (!attempt.conditions.back().ok) return attempt;
+  }
   attempt.conditions.push_back(dead_centre(transmission));
   if (!attempt.conditions.back().ok) return attempt;
   if (mechanism.pulley.law == Law::table) {
@@ -382,6 +408,8 @@ std::optional<Condition> first_of(const std::vector<Condition>& conditions) {
 
 std::optional<Condition> first_failure(const Mechanism& mechanism, const Transmission& transmission) {
   std::vector<Condition> conditions = place_conditions(mechanism);
+  if (auto failed = first_of(conditions)) return failed;
+  if (mechanism.pulley.law == Law::torque) conditions.push_back(torque_holds(mechanism));
   if (auto failed = first_of(conditions)) return failed;
   conditions.push_back(dead_centre(transmission));
   if (mechanism.pulley.law == Law::table && conditions.back().ok)

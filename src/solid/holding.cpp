@@ -9,6 +9,7 @@
 #include "fusee/analysis/stroke.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "fusee/transmission/load.h"
 #include "solid/plan.h"
 #include "solid/wrap.h"
 
@@ -65,7 +66,9 @@ StrokeLoads stroke_loads(const Mechanism& mechanism, const std::vector<Transmiss
     for (std::size_t i = 0; i < stroke.size(); ++i) loads[index_of(side)].push_back({alphas[i], 0.0, turns[i]});
   }
   Mechanism unloaded = mechanism;
+  keep_law(unloaded);
   unloaded.load = {};
+  unloaded.spring = {};
   const std::vector<StrokePoint> free = settled_stroke(unloaded, alphas);
   for (const std::vector<StrokePoint>* points : {&loaded, &free}) {
     for (std::size_t i = 0; i < alphas.size(); ++i) {

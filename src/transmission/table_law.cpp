@@ -70,6 +70,12 @@ Transmission::TableLaw::TableLaw(const std::vector<LawRow>& rows) : last_(rows.e
   }
 }
 
+std::vector<double> Transmission::TableLaw::breaks() const {
+  std::vector<double> all;
+  for (const Piece& piece : pieces_) all.push_back(piece.begin);
+  return all;
+}
+
 LawValue Transmission::TableLaw::at(double alpha) const {
   const double inside = std::clamp(alpha, first_alpha(), last_alpha());
   const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), inside,

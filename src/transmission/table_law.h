@@ -26,6 +26,8 @@ struct Transmission::TableLaw {
   LawValue at(double alpha) const;
   double first_alpha() const { return pieces_.front().begin; }
   double last_alpha() const { return last_; }
+  /// Where one polynomial ends and the next begins.
+  std::vector<double> breaks() const;
 
  private:
   /// The polynomial of one knot span, by powers of α − begin.

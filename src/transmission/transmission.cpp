@@ -6,6 +6,7 @@
 #include "fusee/base/diagnostics.h"
 #include "transmission/equations.h"
 #include "transmission/table_law.h"
+#include "transmission/torque_law.h"
 
 namespace fusee {
 namespace {
@@ -116,6 +117,10 @@ Transmission::Transmission(const Mechanism& mechanism, double rho)
       theta_min_(mechanism.joint.theta_min),
       theta_max_(mechanism.joint.theta_max) {
   if (law_ == Law::table) table_ = std::make_shared<const TableLaw>(mechanism.pulley.rows);
+  if (law_ == Law::torque) {
+    torque_ = std::make_shared<const TorqueLaw>(mechanism);
+    dead_centre_ = torque_->fails_at();
+  }
   home_length_ = upper_span(left_, 0.0).length;
 
   const auto has_arms = [this](double theta) {
@@ -163,6 +168,8 @@ double Transmission::planar_alpha(double theta) const {
       // Tendon 1 is wound on a round pulley: what its upper span takes, P1 pays out.
       return (upper_span(left_, -theta).length - home_length_) / r1_;
     case Law::linear: return theta * ratio_;
+    case Law::torque:
+      return torque_->alpha(theta);
     case Law::table: break;
   }
   const double reach = table_->last_alpha() - table_->first_alpha();
@@ -176,7 +183,9 @@ double Transmission::planar_alpha(double theta) const {
 
 double Transmission::planar_theta(double alpha) const {
   switch (law_) {
-    case Law::compensate: break;
+    case Law::compensate:
+    case Law::torque:
+      break;
     case Law::linear: return alpha / ratio_;
     case Law::table: return table_->at(alpha).theta;
   }
@@ -184,6 +193,7 @@ double Transmission::planar_theta(double alpha) const {
   const double stroke = alpha_max_ - alpha_min_;
   const double start = theta_min_ + span * (alpha - alpha_min_) / stroke;
   return grown_to(alpha, theta_min_ - k_margin * span, theta_max_ + k_margin * span, start, [this](double t) {
+    if (torque_) return std::array{torque_->alpha(t), 1.0 / torque_->at(t).d1};
     const UpperSpan upper = upper_span(left_, -t);
     return std::array{(upper.length - home_length_) / r1_, upper.m / r1_};
   });
@@ -208,8 +218,9 @@ TransmissionPoint Transmission::at(double alpha, double theta) const {
       if (paths_ != nullptr) lengthen(point, paths_->q1.at(alpha), r1_);
       break;
     case Law::linear: point.g = 1.0 / ratio_; break;
-    case Law::table: {
-      const LawValue value = table_->at(alpha);
+    case Law::table:
+    case Law::torque: {
+      const LawValue value = torque_ ? torque_->at(theta) : table_->at(alpha);
       point.g = value.d1;
       point.dg = value.d2;
       point.d2g = value.d3;

@@ -193,6 +193,21 @@ TEST(LawTable, OtherWaysToWriteItAreFound) {
   }
 }
 
+TEST(LawTable, OfTorqueGoesBesideToo) {
+  const std::filesystem::path folder = scratch("torque");
+  const MechanismFile law = tabled(folder);
+  leave(folder / "laws/torque.csv", "theta_deg,motor_torque_Nmm\n-30,300\n-10,310\n10,320\n30,330\n");
+  std::string text = read_file(law.path, 1 << 20);
+  text.replace(text.find("law = \"table\""), 13, "law = \"torque\"");
+  text.replace(text.find("table = \"laws/law.csv\""), 22, "torque_table = \"laws/torque.csv\"");
+  leave(folder / "arm.toml", text);
+  const MechanismFile file = read_mechanism(folder / "arm.toml");
+  EXPECT_EQ(law_table_copy(file).name, "torque.csv");
+  const Mechanism read = parse_mechanism(with_table_beside(text, file), "corrected.toml", folder / "laws");
+  EXPECT_EQ(read.pulley.torque_table, "torque.csv");
+  EXPECT_EQ(read.pulley.torque_rows, file.mechanism.pulley.torque_rows);
+}
+
 TEST(LawTable, BesideItsFileItStaysAsItIs) {
   const std::filesystem::path folder = scratch("beside");
   MechanismFile file = tabled(folder);

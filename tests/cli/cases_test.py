@@ -105,9 +105,13 @@ CASES = [
     ("build arm.toml --set joint.range_deg=[1,2,3]", 3, "^$", "range_deg"),
     ("build arm.toml --set pulley.law=linear", 3, "^$", "ratio"),
     ("build arm.toml --set pulley.law=table --set pulley.table=none.csv", 3, "^$", "none.csv"),
+    ("build arm.toml --set pulley.law=torque", 3, "^$", "arm.toml:.*does not say which torque is wanted.*motor_torque_Nmm"),
+    ("build arm.toml --set pulley.law=torque --set pulley.torque_table=none.csv", 3, "^$", "none.csv"),
     ("rewind missing.toml triangle.obj", 3, "^$", "missing.toml"),
     # Designs that cannot be made: exit 4, where, why, and which number to change.
     ("build arm.toml --set pulley.r1_mm=60", 4, "^$", "error: .*it would be possible with "),
+    ("build arm.toml --set pulley.law=torque --set pulley.motor_torque_Nmm=-300 --set load.torque_Nmm=900", 4, "^$",
+     r"error: .*900 N·mm against \+θ at θ = .*wanted to hold -300 N·mm.*it would be possible with pulley\.motor_torque_Nmm"),
     ("build arm.toml --set joint.range_deg=[-80,80]", 4, "^$", "error: "),
     ("build arm.toml --set body.bore_diameter_mm=60", 4, "^$", "error: .*bore"),
     # Forces.

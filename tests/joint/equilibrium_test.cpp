@@ -397,6 +397,33 @@ TEST(Equilibrium, LawsScaleWithForces) {
   }
 }
 
+// By another route than the law's own: tensions of both tendons on their pulleys, stiff and without friction, under a
+// weight, a force and a spring. The springs of the tendons are left with a millionth of the torque.
+TEST(Equilibrium, TheMotorHoldsWhatALawOfTorqueWants) {
+  Mechanism arm = with(testing::ankle(), 5.0, 0.0, 1e9);
+  arm.pulley.mu = 0;
+  arm.pulley.law = Law::torque;
+  arm.pulley.motor_torque = 900.0;
+  arm.load = {4.0, 100.0, 1.2, 150.0, radians(80.0)};
+  arm.spring = {400.0, 300.0, radians(-40.0)};
+  Mechanism varied = arm;
+  varied.pulley.motor_torque = 0;
+  for (int degree = -30; degree <= 25; degree += 5)
+    varied.pulley.torque_rows.push_back({radians(degree), 1000.0 + 10.0 * degree});
+  for (const Mechanism& mechanism : {arm, varied}) {
+    JointMotion motion(joint_model(mechanism));
+    const Transmission law(mechanism);
+    for (int i = 0; i <= 20; ++i) {
+      const double alpha = law.alpha_min() + (law.alpha_max() - law.alpha_min()) * i / 20;
+      const EquilibriumPoint point = motion.to({alpha, 4.0, 100.0});
+      ASSERT_EQ(point.status, EquilibriumStatus::held);
+      const double wanted = mechanism.pulley.torque_rows.empty() ? 900.0 : 1000.0 + 10.0 * degrees(point.theta);
+      EXPECT_NEAR(point.motor_torque, wanted, 2e-6 * wanted) << i;
+      EXPECT_NEAR(point.load_torque, load_torque(mechanism, point.theta), 1e-8) << i;
+    }
+  }
+}
+
 TEST(Equilibrium, OfTheMirroredJointIsMirrored) {
   Mechanism mechanism = with(unsymmetric(), 5.0, 0.12, 2000.0);
   mechanism.pulley.law = Law::linear;

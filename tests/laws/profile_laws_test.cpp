@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fusee/profile/rewind.h"
 #include "fusee/profile/synthesis.h"
+#include "fusee/transmission/load.h"
 #include "laws/random_mechanism.h"
 
 namespace fusee {
@@ -74,6 +76,37 @@ TEST(ProfileLaws, ThroughSheathsRewindsToItsLawAsFar) {
         return true;
       },
       testing::random_sheathed_mechanism);
+}
+
+/// What the load has taken up from home, N·mm.
+double work_of_load(const Mechanism& mechanism, double theta) {
+  const Load& load = mechanism.load;
+  const Spring& spring = mechanism.spring;
+  const double weight = load.mass * 9.80665 * load.lever, past = theta - spring.free;
+  return load.tip_force * mechanism.joint.R * theta + weight * (std::cos(load.tilt - theta) - std::cos(load.tilt)) +
+         spring.preload * theta + 0.5 * spring.stiffness * (past * past - spring.free * spring.free);
+}
+
+// On the rewound tables: with one torque the motor's work from home is the load's, as near as 0.02 deg of the joint.
+TEST(ProfileLaws, WantedTorquesRewindToTheirLaw) {
+  expect_law(
+      300,
+      [](const Mechanism& mechanism) {
+        const SynthesisResult result = synthesise(mechanism, {.advice = false});
+        for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
+        if (!result.made()) return false;
+        const double half = 0.5 * mechanism.tendon.diameter;
+        const RewindResult wound = rewind(mechanism, parallel(result.p1, -half), parallel(result.p2, -half));
+        RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
+        for (const RewindPoint& point : wound.points) {
+          if (mechanism.pulley.motor_torque == 0) break;
+          const double work = mechanism.pulley.motor_torque * point.alpha;
+          const double torque = load_torque(mechanism, point.theta);
+          RC_ASSERT(std::abs(work - work_of_load(mechanism, point.theta)) < radians(0.02) * torque);
+        }
+        return true;
+      },
+      testing::random_torque_mechanism);
 }
 
 TEST(ProfileLaws, WhatIsRefusedSaysWhy) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -12,6 +13,7 @@
 
 #include "fusee/mechanism/fields.h"
 #include "fusee/mechanism/file.h"
+#include "fusee/transmission/load.h"
 
 namespace fusee::testing {
 
@@ -86,6 +88,39 @@ inline Mechanism random_sheathed_mechanism() {
   const double size = mechanism.pulley.law == Law::linear ? arm / mechanism.pulley.ratio : mechanism.pulley.r1;
   mechanism.sheath = {*between(50.0, 2000.0),    radians(*between(0.0, 540.0)), *between(0.0, 0.3), 0,
                       size * *between(0.2, 2.5), size * *between(1.2, 7.0)};
+  return mechanism;
+}
+
+/// A law of torque on a joint of the wide class: a weight, a force and a spring, and one torque of the motor or one
+/// that varies. Now and then the motor pushes the wrong way, or the load turns its sign within the range.
+inline Mechanism random_torque_mechanism() {
+  using detail::between;
+  Mechanism mechanism = random_wide_mechanism();
+  mechanism.pulley.law = Law::torque;
+  const double R = mechanism.joint.R;
+  mechanism.load.mass = *between(0.1, 3.0);
+  mechanism.load.lever = R * *between(0.5, 2.0);
+  mechanism.load.tilt = radians(*between(60.0, 180.0));
+  const double size = mechanism.load.mass * 9.80665 * mechanism.load.lever;
+  if (*rc::gen::element(true, false)) mechanism.load.tip_force = size / R * *between(-0.1, 1.0);
+  if (*rc::gen::element(true, false))
+    mechanism.spring = {size * *between(0.0, 0.5), size * *between(0.0, 0.5), radians(*between(-90.0, 0.0))};
+  // Mostly it ends before the link stands upright.
+  if (*rc::gen::element(true, true, true, false))
+    mechanism.joint.theta_max = std::min(mechanism.joint.theta_max, mechanism.load.tilt - radians(20.0));
+  const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
+  double mean = 0;
+  for (int i = 0; i <= 20; ++i) mean += law_load_torque(mechanism, low + (high - low) * i / 20).value / 21;
+  const double sign = *between(0.0, 1.0) < 0.05 ? -1.0 : 1.0, torque = sign * mean * (high - low) / *between(1.2, 4.0);
+  if (*rc::gen::element(true, false)) {
+    mechanism.pulley.motor_torque = torque;
+    return mechanism;
+  }
+  const double bend = *between(-0.3, 0.3);
+  for (int i = 0; i <= 12; ++i) {
+    const double theta = low + (high - low) * i / 12;
+    mechanism.pulley.torque_rows.push_back({theta, torque * (1.0 + bend * std::sin(theta))});
+  }
   return mechanism;
 }
 

@@ -71,6 +71,43 @@ TEST(LawTable, HomeBetweenRowsOfACurvedLaw) {
   EXPECT_THAT(errors_of(csv), IsEmpty());
 }
 
+std::string torque_errors_of(const std::string& csv) {
+  std::vector<Diagnostic> problems;
+  parse_torque_table(csv, "torque.csv", k_joint, problems);
+  std::string text;
+  for (const Diagnostic& problem : problems)
+    text += std::to_string(problem.place.line) + " " + problem.message + " | " + problem.hint + "\n";
+  return text;
+}
+
+TEST(TorqueTable, ReadsAnglesAndTorques) {
+  std::vector<Diagnostic> problems;
+  const std::vector<TorqueRow> rows = parse_torque_table(
+      "theta_deg, motor_torque_Nmm\r\n-30,900 # low\n-10,950\n0,-5\n30,1e3", "torque.csv", k_joint, problems);
+  EXPECT_THAT(problems, IsEmpty());
+  ASSERT_THAT(rows, SizeIs(4));
+  EXPECT_EQ(rows[0].theta, radians(-30));
+  EXPECT_EQ(rows[2].torque, -5);
+  EXPECT_EQ(rows[3].torque, 1000);
+}
+
+TEST(TorqueTable, NamesTheLineOfEachError) {
+  const std::string header = "theta_deg,motor_torque_Nmm\n";
+  EXPECT_THAT(torque_errors_of(""), HasSubstr("0 the table is empty"));
+  EXPECT_THAT(torque_errors_of("theta_deg,torque_Nmm\n1,2\n"),
+              HasSubstr("1 the columns are \"theta_deg,torque_Nmm\", not theta_deg,motor_torque_Nmm"));
+  EXPECT_THAT(torque_errors_of(header + "-30,1\n0,2\n30,3\n"), HasSubstr("0 the table has 3 rows"));
+  EXPECT_THAT(torque_errors_of(header + "-30,1\n0,inf\n10,1\n30,3\n"), HasSubstr("3 \"0,inf\" is not two finite"));
+  EXPECT_THAT(torque_errors_of(header + "-30,1\n0,2\n0,2\n30,3\n"),
+              HasSubstr("4 theta_deg does not increase: 0 deg after 0 deg"));
+  EXPECT_THAT(torque_errors_of(header + "-29,1\n0,2\n10,2\n30,3\n"), HasSubstr("2 theta begins at -29 deg"));
+  EXPECT_THAT(torque_errors_of(header + "-30,1\n0,2\n10,2\n29,3\n"), HasSubstr("5 theta ends at 29 deg"));
+  EXPECT_THAT(torque_errors_of(header + "-30,1e8\n"), HasSubstr("2 a number is too large"));
+  std::string many = header;
+  for (int i = 0; i <= 2000; ++i) many += std::to_string(-30 + 0.03 * i) + ",1\n";
+  EXPECT_THAT(torque_errors_of(many), HasSubstr("2002 the table has more than 2000 rows"));
+}
+
 TEST(LawTable, ManyErrorsEnd) {
   std::string csv = "alpha_deg,theta_deg\n";
   for (int i = 0; i < 1000; ++i) csv += "x,y\n";

@@ -200,6 +200,42 @@ TEST(Reader, LawsNeedTheirOwnKey) {
               HasSubstr("12:7 pulley.law = \"quadratic\" is not known"));
 }
 
+TEST(Reader, ALawOfTorqueSaysWhichTorqueOnce) {
+  const std::string law = "law = \"torque\"\n";
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", law)),
+              HasSubstr("12:7 pulley.law = \"torque\" does not say which torque is wanted"));
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", law + "torque_table = \"none.csv\"\n")),
+              HasSubstr("13:16 pulley.torque_table: ./none.csv: cannot be read"));
+  EXPECT_THAT(only_error(with("r1_mm = 16\n", law + "motor_torque_Nmm = 900\nmethod = \"paper\"\n")),
+              HasSubstr("14:10 pulley.law = \"torque\" does not go with pulley.method"));
+  const DeclaredMechanism m = parse_mechanism(
+      with("r1_mm = 16\n", law + "motor_torque_Nmm = -900\n[spring]\nstiffness_Nmm_per_rad = 400\nfree_deg = 90\n"),
+      "f.toml", ".");
+  EXPECT_EQ(m.pulley.law, Law::torque);
+  EXPECT_EQ(m.pulley.motor_torque, -900);
+  EXPECT_EQ(m.spring, (Spring{400, 0, radians(90)}));
+  EXPECT_EQ(parse_mechanism(write_mechanism(m), "g.toml", "."), m);
+}
+
+TEST(Reader, ATableOfTorqueLiesBesideTheFile) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fusee_reader_torque";
+  std::filesystem::create_directories(folder);
+  const std::string text = with("r1_mm = 16\n", "law = \"torque\"\ntorque_table = \"torque.csv\"\n");
+  std::ofstream(folder / "joint.toml") << text;
+  std::ofstream(folder / "torque.csv") << "theta_deg,motor_torque_Nmm\n-30,800\n-10,900\n10,950\n30,1000\n";
+  const DeclaredMechanism m = read_mechanism(folder / "joint.toml").mechanism;
+  ASSERT_THAT(m.pulley.torque_rows, SizeIs(4));
+  EXPECT_EQ(m.pulley.torque_rows[1].torque, 900);
+  EXPECT_EQ(parse_mechanism(write_mechanism(m), "g.toml", folder), m);
+  try {
+    read_mechanism(folder / "joint.toml", {{"pulley.motor_torque_Nmm", "900"}});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("both say which torque is wanted"));
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Reader, WarnsOfKeysWithoutUse) {
   std::vector<Diagnostic> warnings;
   parse_mechanism(with("r1_mm = 16\n", "r1_mm = 16\nlaw = \"linear\"\nratio = 2\n"), "f.toml", ".", {}, &warnings);

@@ -72,7 +72,7 @@ DeclaredMechanism random_mechanism() {
     mechanism.pulley = defaults.pulley;
     if (mechanism.transmission->ratio == 0) mechanism.transmission->ratio = 1;
   }
-  if (mechanism.pulley.law == Law::table) mechanism.pulley.law = Law::linear;
+  if (mechanism.pulley.law == Law::table || mechanism.pulley.law == Law::torque) mechanism.pulley.law = Law::linear;
   Guides& guides = mechanism.guides;
   if (guides.kind == GuideKind::pin) {
     guides.bearing_radius = default_mechanism().guides.bearing_radius;

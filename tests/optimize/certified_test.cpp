@@ -271,6 +271,12 @@ TEST(Certified, SaysWhatItCannotProve) {
 }
 
 /// Was 17 % after a million boxes.
+TEST(Certified, SaysThatALawOfTorqueHasNoIntervalForm) {
+  Problem problem;
+  problem.base.pulley.law = Law::torque;
+  EXPECT_NE(cannot_certify(problem, Objective::max_tension).find("law = \"torque\""), std::string::npos);
+}
+
 TEST(Certified, SixLengthsAreProvenInFewBoxes) {
   const Problem problem = six_numbers();
   CertifiedOptions options;

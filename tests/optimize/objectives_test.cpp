@@ -119,6 +119,22 @@ TEST(Objectives, SayWhyThereIsNoValue) {
   EXPECT_EQ(evaluate(Objective::max_tension, large).cost(Objective::max_tension), 1e300);
 }
 
+// The pulley of a law of torque keeps its law where it is asked for a newton of tip force: [6] and virtual work.
+TEST(Objectives, ALawOfTorqueIsThatOfItsOwnLoad) {
+  Mechanism arm = testing::ankle();
+  arm.guides.mu = 0;
+  arm.pulley.law = Law::torque;
+  arm.pulley.motor_torque = 900.0;
+  arm.load.torque = 500.0;
+  arm.spring = {400.0, 700.0, radians(-40.0)};
+  const Evaluation evaluation = evaluate(Objective::motor_torque, arm);
+  ASSERT_TRUE(evaluation.possible) << evaluation.reason;
+  // Largest where the load is least, at the lower end: M/τ of a newton at the length R.
+  EXPECT_NEAR(evaluation.value, 900.0 / (1200.0 + 400.0 * radians(10.0)) * arm.joint.R, 1e-9);
+  arm.pulley.motor_torque = -900.0;
+  EXPECT_NE(evaluate(Objective::motor_torque, arm).reason.find("does not hold the load"), std::string::npos);
+}
+
 TEST(Problem, TiesAndConstraintsAreFollowed) {
   const Problem problem = paper_problem();
   EXPECT_EQ(mechanism_at(problem, {200, 80, 10}).guides.EB, 80.0);

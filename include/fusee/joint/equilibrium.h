@@ -22,7 +22,7 @@ struct TendonChange {
   std::array<double, 2> released{};   ///< material that the anchors of tendon 1 and 2 have let go since home, mm
 };
 
-/// One place of a motion. Beside tip force and torque the model's weight acts.
+/// One place of a motion. Beside tip force and torque the model's weight and spring act.
 struct JointStep {
   double alpha = 0;      ///< rad
   double tip_force = 0;  ///< F_c across OC, positive against +θ, N
@@ -78,7 +78,7 @@ struct EquilibriumPoint {
 /// A joint on its way. Copies are snapshots: each goes on from the same history.
 class JointMotion {
  public:
-  /// At home, unloaded (not even its weight): tendon 1 at the pretension, tendon 2 balancing it, equal tension in both
+  /// At home, unloaded (neither weight nor spring): tendon 1 at the pretension, tendon 2 balancing it, equal tension in both
   /// spans of each.
   explicit JointMotion(JointModel model);
   JointMotion(const JointMotion& other);

@@ -81,21 +81,22 @@ struct JointModel {
   double alpha_most = 0;
   double weight = 0;         ///< mass · g · lever, N·mm
   double tilt = 0;           ///< θ at which the link points straight up, rad
+  Spring spring;
   double last_step = 1e-13;  ///< of the search for the equilibrium: how exactly θ is found, rad
   double theta_least = 0;    ///< between here and theta_most both tendons have a moment arm about O, rad
   double theta_most = 0;
   std::shared_ptr<const UpperSpans> upper;  ///< of these pins between these angles
 
-  /// What the weight turns the joint with, against +θ, N·mm; and its derivative.
-  double weight_torque(double theta) const { return weight * std::sin(tilt - theta); }
-  double weight_slope(double theta) const { return -weight * std::cos(tilt - theta); }
+  /// What weight and spring turn the joint with, against +θ, N·mm; and its derivative.
+  double own_torque(double theta) const { return weight * std::sin(tilt - theta) + spring.torque(theta); }
+  double own_slope(double theta) const { return spring.stiffness - weight * std::cos(tilt - theta); }
 };
 
 /// The joint as declared. Its law must exist over the range (Transmission::dead_centre() is null).
 JointModel joint_model(const Mechanism& mechanism);
 /// The pulleys `made`, turned in the mechanism `mounted`, whose own [pulley] law is not looked at.
 JointModel joint_model(const MadePulleys& made, const MountedMechanism& mounted);
-/// EA, friction, pretension and weight of `mounted` in a model of the same geometry.
+/// EA, friction, pretension, weight and spring of `mounted` in a model of the same geometry.
 void set_statics(JointModel& model, const MountedMechanism& mounted);
 
 }  // namespace fusee

@@ -80,7 +80,7 @@ struct Sheath {
   bool is_there() const { return length > 0; }
 };
 
-enum class Law { compensate, linear, table };
+enum class Law { compensate, linear, table, torque };
 enum class Method { exact, paper };
 /// automatic: a tendon is wound several times, in a helical groove, where one turn does not suffice.
 enum class WindingChoice { automatic, one_turn };
@@ -93,6 +93,14 @@ struct LawRow {
   bool operator==(const LawRow&) const = default;
 };
 
+/// One row of a wanted motor torque over the joint's angle.
+struct TorqueRow {
+  double theta = 0;   ///< rad
+  double torque = 0;  ///< of the motor, towards +α, N·mm
+
+  bool operator==(const TorqueRow&) const = default;
+};
+
 /// Where the pulley sits and what it must do. (The body that comes out is solid/pulley.h's Pulley.)
 struct PulleyDrive {
   double EF = 0;  ///< from the pins' line down to the pulley's axis G; with a sheath only where it is drawn
@@ -101,6 +109,9 @@ struct PulleyDrive {
   double ratio = 0;          ///< α per θ (law = linear)
   std::string table;         ///< the CSV of law = table, as written in the file
   std::vector<LawRow> rows;  ///< its contents, by increasing α
+  double motor_torque = 0;   ///< what holds the load at every θ, towards +α, N·mm (law = torque); 0: the table says
+  std::string torque_table;  ///< the CSV of law = torque, as written in the file; "": motor_torque everywhere
+  std::vector<TorqueRow> torque_rows;  ///< its contents, by increasing θ
   Method method = Method::exact;
   double mu = 0;             ///< friction between tendon and groove, effective
   WindingChoice winding = WindingChoice::automatic;
@@ -135,6 +146,26 @@ struct Load {
   double tilt = 0;       ///< the joint angle at which OC points straight up, rad
 
   bool operator==(const Load&) const = default;
+};
+
+/// On the joint's axis, between base and link: against +θ with preload + stiffness (θ − free).
+struct Spring {
+  double stiffness = 0;  ///< N·mm/rad
+  double preload = 0;    ///< at the angle `free`, N·mm
+  double free = 0;       ///< rad
+
+  bool operator==(const Spring&) const = default;
+
+  double torque(double theta) const { return preload + stiffness * (theta - free); }
+};
+
+/// All that turns a joint by itself: what law = torque holds.
+struct JointLoad {
+  double lever = 0;  ///< OC, at whose end the tip force acts, mm
+  Load load;
+  Spring spring;
+
+  bool operator==(const JointLoad&) const = default;
 };
 
 enum class Groove { u, v, flat };
@@ -260,6 +291,10 @@ struct Mechanism {
   PulleyDrive pulley;
   Tendon tendon;
   Load load;
+  Spring spring;
+  /// What law = torque was declared against, where the joint carries something else by now (keep_law(), load.h). No key
+  /// has it.
+  std::optional<JointLoad> law_load = std::nullopt;
   Body body;
   Horn horn;  ///< of [horn], one's own; horn_of() (catalogue.h) says which one is mounted
   Material material;

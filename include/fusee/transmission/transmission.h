@@ -26,6 +26,8 @@ struct TendonPoint {
   double length = 0;        ///< free_upper + ρp·wrap + in_sheath + lower_reach: to the foot of the perpendicular, mm
 };
 
+struct TorqueMatch;  // torque.h
+
 struct TransmissionPoint {
   double alpha = 0;  ///< rad
   double theta = 0;  ///< rad
@@ -39,7 +41,8 @@ struct TransmissionPoint {
 /// The declared law over its stroke. Cheap to copy; immutable.
 ///
 /// compensate: dθ/dα = r1/m1 [4]; α(θ) = (L1(θ) − L1(0))/r1 in closed form.  linear: θ = α/ratio.
-/// table: a quintic spline through the rows.  In every law p_i = m_i dθ/dα: virtual work.
+/// table: a quintic spline through the rows.
+/// torque: dθ/dα = M/τ, the wanted torque of the motor per that of the load; α(θ) is its integral.  In every law p_i = m_i dθ/dα: virtual work.
 class Transmission {
  public:
   /// `rho`: the pin radius to the centre line that the equations see.
@@ -50,7 +53,8 @@ class Transmission {
   /// turns the joint as if α were α + q1/r1. `paths` null: planar tendons.
   Transmission(const Mechanism& mechanism, std::shared_ptr<const SlopedPaths> paths);
 
-  /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, or a formula has no value; null when
+  /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, a wanted torque does not hold its load,
+  /// or a formula has no value; null when
   /// the law exists over the whole range. The other members, but alpha() and place(), may be called only when it is
   /// null.
   std::optional<double> dead_centre() const { return dead_centre_; }
@@ -67,6 +71,8 @@ class Transmission {
 
  private:
   struct TableLaw;
+  struct TorqueLaw;
+  friend TorqueMatch tightest_torque(const Mechanism& mechanism);
   TransmissionPoint at(double alpha, double theta) const;
   double planar_theta(double alpha) const;
   double planar_alpha(double theta) const;
@@ -79,6 +85,7 @@ class Transmission {
   PinPlace right_;
   std::shared_ptr<const TableLaw> table_;
   std::shared_ptr<const SlopedPaths> paths_;
+  std::shared_ptr<const TorqueLaw> torque_;
   double home_length_ = 0;
   std::optional<double> dead_centre_;
   double theta_min_, theta_max_;

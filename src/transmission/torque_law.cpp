@@ -1,0 +1,133 @@
+#include "transmission/torque_law.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fusee/transmission/load.h"
+
+namespace fusee {
+namespace {
+
+/// Gauss's places and weights on [−1, 1], the positive ones: exact to degree 15.
+constexpr std::array<std::array<double, 2>, 4> k_eight{{{0.1834346424956498, 0.3626837833783620},
+                                                        {0.5255324099163290, 0.3137066458778873},
+                                                        {0.7966664774136267, 0.2223810344533745},
+                                                        {0.9602898564975363, 0.1012285362903763}}};
+/// No stretch is longer: a weight's sine over it is a polynomial of degree 15 to the last digit.
+constexpr int k_stretches = 64;
+/// How far beyond the range, in its own size, the law goes on as declared where it can.
+constexpr double k_beyond = 0.1;
+/// There dα/dθ keeps this share of what it has at the range's end.
+constexpr double k_least_share = 0.3;
+
+/// The table as a spline over θ, or none where one torque is wanted everywhere.
+template <typename Spline>
+std::shared_ptr<const Spline> spline_of(const std::vector<TorqueRow>& rows) {
+  if (rows.empty()) return nullptr;
+  std::vector<LawRow> places;
+  for (const TorqueRow& row : rows) places.push_back({row.theta, row.torque});
+  return std::make_shared<const Spline>(places);
+}
+
+}  // namespace
+
+TorqueMatch Transmission::TorqueLaw::match(double theta) const {
+  const double motor = wanted_ ? wanted_->at(theta).theta : mechanism_.pulley.motor_torque;
+  return {theta, law_load_torque(mechanism_, theta).value, motor};
+}
+
+double Transmission::TorqueLaw::slope(double theta) const { return match(theta).slope(); }
+
+void Transmission::TorqueLaw::look(double theta) {
+  const TorqueMatch here = match(theta);
+  // A place without a value is the tightest of all.
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  const auto value = [](const TorqueMatch& at) { return std::isfinite(at.slope()) ? at.slope() : none; };
+  if (value(here) < value(tightest_)) tightest_ = here;
+  if (!(value(here) > 0) && (!fails_at_ || std::abs(theta) < std::abs(*fails_at_))) fails_at_ = theta;
+}
+
+Transmission::TorqueLaw::TorqueLaw(const Mechanism& mechanism)
+    : mechanism_(mechanism), wanted_(spline_of<TableLaw>(mechanism.pulley.torque_rows)) {
+  const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
+  tightest_ = match(low);
+  std::vector<double> breaks = {0.0};
+  for (int i = 0; i <= k_stretches; ++i) breaks.push_back((low * (k_stretches - i) + high * i) / k_stretches);
+  if (wanted_) {
+    for (const double theta : wanted_->breaks()) breaks.push_back(std::clamp(theta, low, high));
+  }
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  places_ = breaks;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    look(places_[i]);
+    if (i > 0) {
+      const double middle = 0.5 * (places_[i - 1] + places_[i]), half = 0.5 * (places_[i] - places_[i - 1]);
+      for (const auto& [at, weight] : k_eight) {
+        look(middle - half * at);
+        look(middle + half * at);
+      }
+    }
+  }
+  if (!fails_at_) set_ends();
+}
+
+/// Beyond the range a load may turn its sign, and a table's last polynomial may go anywhere.
+void Transmission::TorqueLaw::set_ends() {
+  const double low = places_.front(), high = places_.back();
+  const auto end = [this](double from, double beyond) {
+    const double enough = k_least_share * slope(from);
+    for (int halvings = 0; halvings < 4; ++halvings, beyond *= 0.5) {
+      bool goes_on = true;
+      for (int i = 1; i <= 16; ++i) {
+        const double here = slope(from + beyond * i / 16);
+        goes_on = goes_on && here > enough && std::isfinite(here);
+      }
+      if (goes_on) return from + beyond;
+    }
+    return from;
+  };
+  least_ = end(low, -k_beyond * (high - low));
+  most_ = end(high, k_beyond * (high - low));
+  if (least_ < low) places_.insert(places_.begin(), least_);
+  if (most_ > high) places_.push_back(most_);
+
+  const std::size_t home = static_cast<std::size_t>(std::find(places_.begin(), places_.end(), 0.0) - places_.begin());
+  alphas_.assign(places_.size(), 0.0);
+  for (std::size_t i = home + 1; i < places_.size(); ++i)
+    alphas_[i] = alphas_[i - 1] + integral(places_[i - 1], places_[i]);
+  for (std::size_t i = home; i-- > 0;) alphas_[i] = alphas_[i + 1] - integral(places_[i], places_[i + 1]);
+}
+
+double Transmission::TorqueLaw::integral(double from, double to) const {
+  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+  double sum = 0;
+  for (const auto& [at, weight] : k_eight) sum += weight * (slope(middle - half * at) + slope(middle + half * at));
+  return half * sum;
+}
+
+double Transmission::TorqueLaw::alpha(double theta) const {
+  const double inside = std::clamp(theta, least_, most_);
+  const auto after = std::upper_bound(places_.begin() + 1, places_.end() - 1, inside);
+  const std::size_t i = static_cast<std::size_t>(after - places_.begin()) - 1;
+  const double alpha = alphas_[i] + integral(places_[i], inside);
+  return theta == inside ? alpha : alpha + (theta - inside) * slope(inside);
+}
+
+LawValue Transmission::TorqueLaw::at(double theta) const {
+  const double inside = std::clamp(theta, least_, most_);
+  const LawValue motor = wanted_ ? wanted_->at(inside) : LawValue{mechanism_.pulley.motor_torque};
+  const TorqueOverTheta load = law_load_torque(mechanism_, inside);
+  const double u = motor.theta / load.value;
+  if (theta != inside) return {theta, u, 0, 0};
+  // u τ = M, differentiated twice.
+  const double du = (motor.d1 - u * load.d1) / load.value;
+  const double d2u = (motor.d2 - 2.0 * du * load.d1 - u * load.d2) / load.value;
+  return {theta, u, u * du, u * (du * du + u * d2u)};
+}
+
+TorqueMatch tightest_torque(const Mechanism& mechanism) { return Transmission::TorqueLaw(mechanism).tightest(); }
+
+}  // namespace fusee
