@@ -78,8 +78,8 @@ struct EquilibriumPoint {
 /// A joint on its way. Copies are snapshots: each goes on from the same history.
 class JointMotion {
  public:
-  /// At home, unloaded (neither weight nor spring): tendon 1 at the pretension, tendon 2 balancing it, equal tension in both
-  /// spans of each.
+  /// At home, unloaded (neither weight nor spring): tendon 1 at the pretension, tendon 2 balancing it, equal tension in
+  /// both spans of each.
   explicit JointMotion(JointModel model);
   JointMotion(const JointMotion& other);
   JointMotion& operator=(const JointMotion& other);

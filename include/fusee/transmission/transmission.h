@@ -42,7 +42,8 @@ struct TransmissionPoint {
 ///
 /// compensate: dθ/dα = r1/m1 [4]; α(θ) = (L1(θ) − L1(0))/r1 in closed form.  linear: θ = α/ratio.
 /// table: a quintic spline through the rows.
-/// torque: dθ/dα = M/τ, the wanted torque of the motor per that of the load; α(θ) is its integral.  In every law p_i = m_i dθ/dα: virtual work.
+/// torque: dθ/dα = M/τ, the wanted torque of the motor per that of the load; α(θ) is its integral.  In every law p_i =
+/// m_i dθ/dα: virtual work.
 class Transmission {
  public:
   /// `rho`: the pin radius to the centre line that the equations see.
