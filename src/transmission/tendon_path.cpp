@@ -116,7 +116,7 @@ PinPlace pin_place(const Mechanism& mechanism, Side side, double rho) {
     // Straight below O it is reached over the drum's outer side, from the right.
     place.twist = x == 0 && own->along < 0 ? k_pi : std::atan2(x, own->along);
   }
-  place.R = std::max(place.R, place.drum);
+  if (joint.drum_centre == Attachment{}) place.R = std::max(place.R, place.drum);
   if (const Attachment& centre = joint.drum_centre; place.drum > 0 && centre != Attachment{}) {
     const double x = mirror_sign(side) * centre.across;
     place.drum_off = std::hypot(x, centre.along);

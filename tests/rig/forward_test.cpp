@@ -142,6 +142,10 @@ void put_drum_off(Hidden& h) { h.drum_runout = 0.12, h.drum_runout_phase = 0.8; 
 void say_drum_off(Imperfections& at) {
   at.joint.drum.across = 0.12 * std::cos(0.8), at.joint.drum.along = 0.12 * std::sin(0.8);
 }
+void put_drum_further_off(Hidden& h) { h.drum_runout = 0.4, h.drum_runout_phase = 4.5; }
+void say_drum_further_off(Imperfections& at) {
+  at.joint.drum.across = 0.4 * std::cos(4.5), at.joint.drum.along = 0.4 * std::sin(4.5);
+}
 void move_ends(Hidden& h) { h.end_moved = {Vec2(1.0, -0.7), Vec2(-0.6, 0.9)}; }
 void say_ends_moved(Imperfections& at) {
   at.joint.end1 = {1.0, -0.7};
@@ -153,6 +157,7 @@ void say_idlers_rub(Imperfections& at) { at.pins.bearing_friction = 0.8; }
 const std::vector<WideFault> k_wide_faults{
     {"finger_mcp", 0.7, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
     {"finger_mcp", 0.7, {"drum_runout", put_drum_off, say_drum_off, 0.02}},
+    {"finger_mcp", 0.7, {"drum_further_off", put_drum_further_off, say_drum_further_off, 0.02}},
     {"finger_pip", 0.8, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
     {"finger_pip", 0.8, {"drum_runout", put_drum_off, say_drum_off, 0.02}},
     {"finger_pip", 0.8, {"attachments", move_ends, say_ends_moved, 0.02}},
