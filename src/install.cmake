@@ -7,7 +7,7 @@ set(program COMPONENT program)
 install(TARGETS fusee_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${program})
 if(TARGET fusee_step)
   # Loaded from there, and not linked: without it all is as before but `build --step`.
-  install(TARGETS fusee_step LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/fusee
+  install(TARGETS fusee_step LIBRARY DESTINATION ${FUSEE_MODULES}
     PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ ${program})
 endif()
 install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/fusee ${program})

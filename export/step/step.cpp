@@ -42,7 +42,7 @@ fs::path own_file() {
   return fs::read_symlink("/proc/self/exe", ignored);
 }
 
-/// bin/fusee and lib/…/fusee/ are beside each other; in a build tree the programs of tests lie deeper.
+/// bin/fusee and lib/…/fusee/modules/ are beside each other; in a build tree the programs of tests lie deeper.
 std::optional<fs::path> module_file() {
   constexpr int k_levels = 4;
   const fs::path program = own_file();

@@ -566,11 +566,10 @@ double area_of(const Polygon& points) {
   return area;
 }
 
-/// The loop of the section that surrounds most.
-Polygon floor_at(const TopoDS_Shape& shape, double z) {
+/// The loop of the section that surrounds most. Its curves are `smooth`, or chords.
+Polygon floor_at(const TopoDS_Shape& shape, double z, bool smooth) {
   BRepAlgoAPI_Section section(shape, gp_Pln(about_axis(z)), false);
-  // Else its curves are chords.
-  section.Approximation(true);
+  section.Approximation(smooth);
   section.Build();
   Handle(TopTools_HSequenceOfShape) edges = new TopTools_HSequenceOfShape, wires = new TopTools_HSequenceOfShape;
   for (TopExp_Explorer found(section.Shape(), TopAbs_EDGE); found.More(); found.Next()) edges->Append(found.Current());
@@ -586,6 +585,12 @@ Polygon floor_at(const TopoDS_Shape& shape, double z) {
     largest = std::move(points);
   }
   return largest;
+}
+
+/// Where no smooth curve is found, as between the halves of elbow_idlers, chords are near enough for its size.
+Polygon floor_at(const TopoDS_Shape& shape, double z) {
+  Polygon floor = floor_at(shape, z, true);
+  return floor.empty() ? floor_at(shape, z, false) : floor;
 }
 
 StepReading read(const std::string& path, double z1, double z2) {

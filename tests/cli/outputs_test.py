@@ -28,6 +28,19 @@ class Build(harness.Scratch):
         self.build("again")
         self.assertEqual(set(self.build("again", "--set print.parts=one")), OUTPUTS)
 
+    def test_step_is_written_where_it_is_asked_for_and_can_be(self):
+        done = self.fusee("build arm.toml -o out/cad --step")
+        if b"built without STEP" in done.stderr:
+            self.assertEqual(done.returncode, 3)
+            self.assertFalse((self.folder / "out").exists())
+            return
+        self.assertEqual(done.returncode, 0)
+        names = {path.name for path in (self.folder / "out/cad").iterdir()}
+        self.assertEqual(names, OUTPUTS | PARTS | {"pulley.step"})
+        # The next run without it leaves none that is older than the rest.
+        self.expect("build arm.toml -o out/cad", 0, "pulley.scad")
+        self.assertFalse((self.folder / "out/cad/pulley.step").exists())
+
     def test_same_input_same_bytes(self):
         first = self.build("one")
         os.environ["TZ"] = "Pacific/Chatham"
