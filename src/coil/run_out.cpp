@@ -85,14 +85,20 @@ TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int vari
   return strip(sections);
 }
 
+// A thick flange makes it deeper.
+double pocket_depth(const GrooveEnd& end, const RunOutSizes& sizes) {
+  return std::abs(end.face - end.row.height) - sizes.cone - sizes.inward;
+}
+
 TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
   const Vec2 place = pocket_place(end, sizes);
   const auto ring_at = [&](double in, double radius) {
     return ring_of({place.x(), place.y(), end.face - end.outward * in}, Vec3::UnitX(), Vec3::UnitY(), radius,
                    k_pocket_facets + variant, 0.23);
   };
-  return strip({ring_at(-k_overshoot, sizes.pocket_radius), ring_at(sizes.pocket_depth, sizes.pocket_radius),
-                ring_at(sizes.pocket_depth + sizes.cone, sizes.channel_radius)});
+  const double depth = pocket_depth(end, sizes);
+  return strip({ring_at(-k_overshoot, sizes.pocket_radius), ring_at(depth, sizes.pocket_radius),
+                ring_at(depth + sizes.cone, sizes.channel_radius)});
 }
 
 // The mouth stays a little inside of the groove's section: the channel then cuts the groove's end wall alone, and no
@@ -138,7 +144,7 @@ HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes) {
   anchor.exit = start_of(end);
   anchor.pocket = {place.x(), place.y(), end.face};
   anchor.pocket_radius = sizes.pocket_radius;
-  anchor.pocket_depth = sizes.pocket_depth;
+  anchor.pocket_depth = pocket_depth(end, sizes);
   anchor.bend_radius = sizes.bend_radius;
   return anchor;
 }

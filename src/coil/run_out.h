@@ -14,13 +14,13 @@ struct RunOutSizes {
   double mouth_radius = 0;   ///< of the channel where it leaves the groove
   double mouth_outward = 0;  ///< of its middle, from the tendon's centre line
   double pocket_radius = 0;
-  double pocket_depth = 0;  ///< of the straight part
+  double pocket_depth = 0;  ///< of the straight part, at least
   double cone = 0;          ///< height of the cone over it
   double inward = 0;        ///< from the groove's end to the pocket, and as much towards the face
   double bend_radius = 0;   ///< inward · √2
   double roof_slope = 0;    ///< of the channel's gable above the horizontal, rad
 
-  /// From the face to the tendon's centre line where the groove ends.
+  /// The least from the face to the tendon's centre line where the groove ends.
   double height() const { return pocket_depth + cone + inward; }
 };
 

@@ -77,5 +77,30 @@ TEST(HelicalPulley, Ovals) {
   expect_good(pulley, "oval");
 }
 
+// Facets grow with the turns, and with nothing else.
+TEST(HelicalPulley, TenTurnsAreTenTimesOne) {
+  const Mechanism mechanism = plain();
+  const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);
+  const auto facets = [&](double turns) {
+    const HelicalPulley pulley =
+        make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, turns, slope),
+                            spiral_of(testing::round_curve(16.0), 1.1, turns, slope), 0.01);
+    EXPECT_TRUE(pulley.made) << pulley.brief();
+    EXPECT_EQ(failures(check_helical_pulley(pulley.mesh, pulley, helical_section(mechanism))), "");
+    return static_cast<double>(pulley.mesh.triangles.size());
+  };
+  const double two = facets(2), six = facets(6), ten = facets(10);
+  EXPECT_NEAR(ten - six, six - two, 0.01 * ten);
+}
+
+TEST(HelicalPulley, RefusesTurnsThatMeet) {
+  const Mechanism mechanism = plain();
+  const double lead = least_lead(helical_section(mechanism), 0.0) - 0.1, slope = lead / (k_two_pi * 16.0);
+  const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, 4, slope),
+                                                   spiral_of(testing::round_curve(16.0), 1.1, 4, slope));
+  EXPECT_FALSE(pulley.made);
+  EXPECT_THAT(pulley.brief(), ::testing::HasSubstr("body.lead_mm"));
+}
+
 }  // namespace
 }  // namespace fusee
