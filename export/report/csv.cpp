@@ -116,19 +116,19 @@ std::string transmission_csv(const Product& product) {
     const AsBuilt as_built = as_built_at(product.as_built.points, point.alpha);
     const double along = sloped_cosine(product, i, forces);
     std::vector<double> row = {degrees(point.alpha),
-                                        degrees(point.theta),
-                                        point.t1.p,
-                                        point.t2.p,
-                                        point.t1.m,
-                                        point.t2.m,
-                                        degrees(forces.gamma2),
-                                        forces.T2 / along,
-                                        degrees(forces.phi),
-                                        forces.Tb / along,
-                                        forces.elongation,
-                                        degrees(forces.theta_error),
-                                        degrees(as_built.theta),
-                                        as_built.slack};
+                               degrees(point.theta),
+                               point.t1.p,
+                               point.t2.p,
+                               point.t1.m,
+                               point.t2.m,
+                               degrees(forces.gamma2),
+                               forces.T2 / along,
+                               degrees(forces.phi),
+                               forces.Tb / along,
+                               forces.elongation,
+                               degrees(forces.theta_error),
+                               degrees(as_built.theta),
+                               as_built.slack};
     if (product.helix) add_slopes(row, *product.helix, i);
     put_row(table, row);
   }

@@ -117,7 +117,8 @@ Json helical_groove_json(const Product& product, Side which) {
   const SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
   const double scale = product.pulley.layout.scale;
   const auto height = [&](double z) { return number(scale * place.height(z)); };
-  const double first = side.spiral.rows.at(side.spiral.first_used).z, last = side.spiral.rows.at(side.spiral.last_used).z;
+  const double first = side.spiral.rows.at(side.spiral.first_used).z,
+               last = side.spiral.rows.at(side.spiral.last_used).z;
   return {{"pulley", pulley_name(which)},
           {"z_mm", height(0.5 * (first + last))},
           {"z_first_mm", height(first)},

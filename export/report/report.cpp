@@ -244,8 +244,8 @@ std::string part_view(const Product& product) {
   std::string html =
       "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
       vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-      std::to_string(code->triangles) + "\" data-groove1=\"" + tint(layout.z_p1, layout.p1) +
-      "\" data-groove2=\"" + tint(layout.z_p2, layout.p2) + "\"></canvas>";
+      std::to_string(code->triangles) + "\" data-groove1=\"" + tint(layout.z_p1, layout.p1) + "\" data-groove2=\"" +
+      tint(layout.z_p2, layout.p2) + "\"></canvas>";
   html +=
       "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button "
       "data-view=\"top\">Top</button>"
@@ -412,9 +412,10 @@ std::vector<std::string> steps(const Product& product) {
   if (product.helix) {
     items.push_back(std::string(k_winding_words));
     items.push_back(helix_heights(product));
-  } else items.push_back(
-      "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
-      "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
+  } else
+    items.push_back(
+        "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
+        "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
   items.push_back("Tighten both until tendon 1 carries " + with_unit(product.joint.mechanism.tendon.pretension, "N") +
                   " at home, then turn the pulley over the whole stroke: neither may go slack.");
   return items;
@@ -503,38 +504,37 @@ std::string profiles(const Product& product) {
 std::string report_html(const Product& product) {
   const Verdict verdict = verdict_of(product);
   const std::string name = product.joint.mechanism.name.empty() ? "unnamed" : safe_text(product.joint.mechanism.name);
-  return filled_page(embedded::page_html, {
-                                              {"tool", std::string(k_tool)},
-                                              {"name", name},
-                                              {"figure_css", std::string(embedded::figure_css)},
-                                              {"page_css", std::string(embedded::page_css)},
-                                              {"readout_js", std::string(embedded::readout_js)},
-                                              {"viewer_js", std::string(embedded::viewer_js)},
-                                              {"moving_joint_js", std::string(joint_script(product.joint.mechanism))},
-                                              {"source", source_words(product.file)},
-                                              {"verdict_class", verdict.style},
-                                              {"verdict_sign", verdict.sign},
-                                              {"verdict", safe_text(verdict.words)},
-                                              {"warnings", warnings(product)},
-                                              {"key_numbers", key_numbers(product)},
-                                              {"part", part_view(product)},
-                                              {"moving", moving_section(product)},
-                                              {"mechanism_words", std::string(product.helix ? k_helix_words
-                                                                                            : k_mechanism_words)},
-                                              {"mechanism", mechanism_panels(product)},
-                                              {"transmission_plots", all_in_divs(transmission_plots(product))},
-                                              {"as_built_words", safe_text(as_built_words(product))},
-                                              {"as_built_plots", all_in_divs(as_built_plots(product))},
-                                              {"forces", forces_section(product)},
-                                              {"profile_words", std::string(product.helix ? k_spiral_words
-                                                                                          : k_profile_words)},
-                                              {"profiles", profiles(product)},
-                                              {"checks", checks_tables(product.checks)},
-                                              {"conditions", conditions(product)},
-                                              {"making", making(product)},
-                                              {"footer", "Made by " + std::string(k_tool) +
-                                                             ". Lengths in mm, angles in degrees, forces in N."},
-                                          });
+  return filled_page(
+      embedded::page_html,
+      {
+          {"tool", std::string(k_tool)},
+          {"name", name},
+          {"figure_css", std::string(embedded::figure_css)},
+          {"page_css", std::string(embedded::page_css)},
+          {"readout_js", std::string(embedded::readout_js)},
+          {"viewer_js", std::string(embedded::viewer_js)},
+          {"moving_joint_js", std::string(joint_script(product.joint.mechanism))},
+          {"source", source_words(product.file)},
+          {"verdict_class", verdict.style},
+          {"verdict_sign", verdict.sign},
+          {"verdict", safe_text(verdict.words)},
+          {"warnings", warnings(product)},
+          {"key_numbers", key_numbers(product)},
+          {"part", part_view(product)},
+          {"moving", moving_section(product)},
+          {"mechanism_words", std::string(product.helix ? k_helix_words : k_mechanism_words)},
+          {"mechanism", mechanism_panels(product)},
+          {"transmission_plots", all_in_divs(transmission_plots(product))},
+          {"as_built_words", safe_text(as_built_words(product))},
+          {"as_built_plots", all_in_divs(as_built_plots(product))},
+          {"forces", forces_section(product)},
+          {"profile_words", std::string(product.helix ? k_spiral_words : k_profile_words)},
+          {"profiles", profiles(product)},
+          {"checks", checks_tables(product.checks)},
+          {"conditions", conditions(product)},
+          {"making", making(product)},
+          {"footer", "Made by " + std::string(k_tool) + ". Lengths in mm, angles in degrees, forces in N."},
+      });
 }
 
 }  // namespace fusee

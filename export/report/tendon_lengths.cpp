@@ -62,7 +62,8 @@ TendonLength length_on_helix(const Product& product, const HelicalAnchor& anchor
   result.side = anchor.side;
   result.joint_knot = attachment(product.joint.mechanism, anchor.side, 0.0);
   result.pulley_knot = product.pulley.layout.scale * anchor.pocket;
-  result.between_knots = home->free + std::hypot(climb, climb / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
+  result.between_knots =
+      home->free + std::hypot(climb, climb / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(product.joint.mechanism.tendon));
   const SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);
   result.spare_lap = std::abs(end.turn - used.turn);
@@ -78,7 +79,8 @@ std::vector<TendonLength> tendon_lengths(const Product& product) {
   std::vector<TendonLength> lengths;
   if (product.synthesis.stroke.empty()) return lengths;
   if (product.helix) {
-    for (const HelicalAnchor& anchor : product.helix->pulley.anchors) lengths.push_back(length_on_helix(product, anchor));
+    for (const HelicalAnchor& anchor : product.helix->pulley.anchors)
+      lengths.push_back(length_on_helix(product, anchor));
     return lengths;
   }
   for (const Anchor& anchor : product.pulley.anchors) {

@@ -7,6 +7,7 @@
 #include "fusee/coil/helical_pulley.h"
 #include "fusee/coil/helical_rewind.h"
 #include "fusee/helix/synthesis.h"
+#include "fusee/solid/print.h"
 
 namespace fusee {
 namespace {
@@ -39,6 +40,30 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct
                     "° is more than the 1.5° of smooth drums, and within the 2° of grooved ones");
   }
   return notes;
+}
+
+/// A body whose tie-offs do not fit, or not without support, is refused, and no file that came out wrong.
+std::vector<Condition> faults_of(const Mechanism& mechanism, const HelicalPulley& pulley, const TriangleMesh& mesh) {
+  std::vector<Check> checks = check_helical_pulley(mesh, pulley, helical_section(mechanism));
+  if (!mechanism.print.supports) {
+    PrintLimits limits;
+    limits.overhang = mechanism.print.overhang;
+    for (Check& check : check_print(mesh, limits)) checks.push_back(std::move(check));
+  }
+  std::vector<Condition> faults;
+  for (const Check& check : checks) {
+    if (check.ok) continue;
+    Condition fault;
+    fault.name = "body_" + check.name;
+    fault.ok = false;
+    fault.value = check.value;
+    fault.limit = check.limit;
+    fault.unit = check.unit;
+    fault.message = "no body of several turns comes out right here: " + check.name + " is " + rounded(check.value, 4) +
+                    ", and may be " + rounded(check.limit, 4) + (check.where.empty() ? "" : " (" + check.where + ")");
+    faults.push_back(std::move(fault));
+  }
+  return faults;
 }
 
 void take_over(Product& product, const HelixProduct& helix) {
@@ -78,14 +103,20 @@ bool design_several_turns(Product& product, double tolerance,
   take_over(product, helix);
   if (!helix.synthesis.made()) return false;
   if (before_step) before_step("making the body");
-  helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
-                                     tolerance);
+  helix.pulley =
+      make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral, tolerance);
   Pulley& pulley = product.pulley;
   pulley = {};
   pulley.status = helix.pulley.made ? PulleyStatus::made : PulleyStatus::impossible;
   pulley.layout = helix.pulley.layout;
   pulley.mesh = std::move(helix.pulley.mesh);
   pulley.conditions = helix.pulley.conditions;
+  if (pulley.made()) {
+    for (Condition& fault : faults_of(mechanism, helix.pulley, pulley.mesh)) {
+      pulley.conditions.push_back(std::move(fault));
+      pulley.status = PulleyStatus::impossible;
+    }
+  }
   pulley.expected_volume = helix.pulley.expected_volume;
   pulley.expected_euler = helix.pulley.expected_euler;
   pulley.mesh_checks = helix.pulley.mesh_checks;

@@ -47,8 +47,7 @@ Variation variation_of(const Mechanism& m, const HelixSynthesis& made, Side side
   Variation variation;
   for (std::size_t i = 0; i < made.stroke.size(); i += 3) {
     const TransmissionPoint& point = made.stroke[i];
-    const StringLength string =
-        string_length(m, side, helix.spiral, helix.attachment_z, point.alpha, point.theta);
+    const StringLength string = string_length(m, side, helix.spiral, helix.attachment_z, point.alpha, point.theta);
     least = std::min(least, string.total);
     most = std::max(most, string.total);
     variation.fleet = std::max(variation.fleet, std::abs(std::abs(string.fleet) - std::abs(helix.stroke[i].fleet)));
@@ -116,7 +115,8 @@ TEST(HelixSynthesis, SpiralsClimbEvenlyAndTurnsKeepTheirDistance) {
   ASSERT_TRUE(made.made()) << failures(made);
   for (const Side side : {Side::left, Side::right}) {
     const Spiral& spiral = side_of(made, side).spiral;
-    EXPECT_NEAR(side_of(made, side).turns, (spiral.rows[spiral.last_used].turn - spiral.rows[spiral.first_used].turn) / k_two_pi, 1e-9);
+    EXPECT_NEAR(side_of(made, side).turns,
+                (spiral.rows[spiral.last_used].turn - spiral.rows[spiral.first_used].turn) / k_two_pi, 1e-9);
     EXPECT_NEAR(spiral.rows.back().turn - spiral.rows[spiral.last_used].turn, k_two_pi, 1e-9);
     std::size_t below = 0;
     double chords = 0;
