@@ -146,10 +146,6 @@ TEST(HelixSynthesis, SaysWhyNot) {
   Mechanism narrow = wrist();
   narrow.body.lead = 1.5;
   EXPECT_THAT(refused(narrow), HasSubstr("body.lead_mm) is too small"));
-  Mechanism steep = wrist();
-  steep.guides.collar = true;
-  steep.body.lead = 20;
-  EXPECT_THAT(refused(steep), HasSubstr("lies on the groove's lip"));
 }
 
 TEST(HelixSynthesis, ARoundP1TurnsTheJointByWhatItsSlopedTendonLeaves) {
