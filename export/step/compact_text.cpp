@@ -73,7 +73,8 @@ std::string with_short_numbers(std::string_view statement) {
     if (statement[i] == '\'') in_text = !in_text;
     const bool begins = !in_text && i > 0 && (statement[i - 1] == '(' || statement[i - 1] == ',') &&
                         (std::isdigit(static_cast<unsigned char>(statement[i])) || statement[i] == '-');
-    const std::size_t end = begins ? std::min(statement.find_first_not_of("0123456789.E+-", i), statement.size()) : i + 1;
+    const std::size_t end =
+        begins ? std::min(statement.find_first_not_of("0123456789.E+-", i), statement.size()) : i + 1;
     const std::string_view token = statement.substr(i, end - i);
     text += begins && token.find('.') != std::string_view::npos ? short_number(token) : std::string(token);
     i = end;
@@ -148,7 +149,8 @@ std::string compact_step(std::string_view text) {
   for (std::string& statement : statements_of(text)) {
     if (statement.front() == '#') {
       const std::size_t equals = statement.find('=');
-      instances.push_back({std::stoul(statement.substr(1, equals - 1)), with_short_numbers(std::string_view(statement).substr(equals + 1))});
+      instances.push_back({std::stoul(statement.substr(1, equals - 1)),
+                           with_short_numbers(std::string_view(statement).substr(equals + 1))});
     } else if (instances.empty()) {
       result += statement + ";\n";
     } else {

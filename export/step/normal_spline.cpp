@@ -107,8 +107,7 @@ class SectorFit {
           Eigen::RowVector4d rest = wanted(psi);
           const std::size_t first = span - k_step_degree;
           for (std::size_t a = 0; a < k_order; ++a) {
-            if (is_fixed(first + a, count, fixed))
-              rest -= basis[a] * poles.row(static_cast<Eigen::Index>(first + a));
+            if (is_fixed(first + a, count, fixed)) rest -= basis[a] * poles.row(static_cast<Eigen::Index>(first + a));
           }
           for (std::size_t a = 0; a < k_order; ++a) {
             if (is_fixed(first + a, count, fixed)) continue;
@@ -155,9 +154,7 @@ class SectorFit {
   }
 
  private:
-  static bool is_fixed(std::size_t i, std::size_t count, std::size_t fixed) {
-    return i < fixed || i + fixed >= count;
-  }
+  static bool is_fixed(std::size_t i, std::size_t count, std::size_t fixed) { return i < fixed || i + fixed >= count; }
 
   Eigen::RowVector4d wanted(double psi) const {
     const Vec2 point = curve_.at(psi), normal = unit(psi);
@@ -170,8 +167,8 @@ class SectorFit {
     poles.row(row) = wanted(psi);
     if (fixed < 2) return;
     const bool first = end == 0;
-    const double step = first ? knots[k_order] - knots[k_order - 1]
-                              : knots[knots.size() - k_order - 1] - knots[knots.size() - k_order];
+    const double step =
+        first ? knots[k_order] - knots[k_order - 1] : knots[knots.size() - k_order - 1] - knots[knots.size() - k_order];
     const Vec2 tangent = turned_left(unit(psi));
     const double radius = curve_.radius_near(psi), share = step / k_step_degree;
     Eigen::RowVector4d slope;

@@ -10,12 +10,12 @@
 
 namespace fusee {
 
-/// A curve by its support function h(ψ): its point with the normal n is h n + h' t. Between samples a polynomial that has
-/// h, h' and, where they are known, the second derivatives of both ends.
+/// A curve by its support function h(ψ): its point with the normal n is h n + h' t. Between samples a polynomial that
+/// has h, h' and, where they are known, the second derivatives of both ends.
 class SupportCurve {
  public:
-  /// Points of a curve with outward normals in the directions `psi`, increasing within a turn. `radii`: of curvature, or
-  /// none.
+  /// Points of a curve with outward normals in the directions `psi`, increasing within a turn. `radii`: of curvature,
+  /// or none.
   SupportCurve(std::vector<double> psi, const std::vector<Vec2>& points, const std::vector<double>& radii);
 
   Vec2 at(double psi) const;
@@ -31,7 +31,8 @@ class SupportCurve {
   bool with_radii_ = false;
 };
 
-/// The curve over one sector and its normals, on the same knots: a parallel curve's poles are position + distance · normal.
+/// The curve over one sector and its normals, on the same knots: a parallel curve's poles are position + distance ·
+/// normal.
 struct NormalSpline {
   std::vector<double> knots;
   std::vector<Vec2> position;

@@ -26,7 +26,8 @@ constexpr double k_floor_limit = 1e-4;
 
 /// Code is loaded from beside its own program alone, and not where somebody else could have put it.
 bool is_trusted(const fs::path& module, const fs::path& program) {
-  struct stat of_module {}, of_program {};
+  struct stat of_module {
+  }, of_program{};
   if (::stat(module.c_str(), &of_module) != 0 || ::stat(program.c_str(), &of_program) != 0) return false;
   return of_module.st_uid == 0 || of_module.st_uid == of_program.st_uid;
 }
@@ -113,8 +114,7 @@ StepLook look_at_step(const fs::path& path, const Product& product, double toler
   const BodyLayout& layout = product.pulley.layout;
   const StepReading found = maker().read(path.string(), layout.scale * layout.z_p1, layout.scale * layout.z_p2);
   const double d = product.joint.mechanism.tendon.diameter, scale = layout.scale;
-  const double expected =
-      product.pulley.expected_volume + std::pow(scale, 3) * round_holes_leave(product.pulley);
+  const double expected = product.pulley.expected_volume + std::pow(scale, 3) * round_holes_leave(product.pulley);
   StepLook look;
   look.checks.push_back(exactly("solids", found.solids, 1, "1"));
   look.checks.push_back(exactly("unpaired_edges", found.unpaired_edges, 0, "1"));

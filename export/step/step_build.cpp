@@ -31,8 +31,8 @@ constexpr double k_largest_radius = 400;
 
 /// A family of parallel curves.
 struct Base {
-  std::vector<Vec2> points;           ///< at the outlines' normals
-  std::vector<double> radii = {};     ///< of curvature, where they are known
+  std::vector<Vec2> points;        ///< at the outlines' normals
+  std::vector<double> radii = {};  ///< of curvature, where they are known
   std::vector<std::size_t> kinks = {};
   double tolerance = k_groove_tolerance;
   std::vector<NormalSpline> fits = {};  ///< one for each sector
@@ -113,8 +113,8 @@ class StepBuilder {
       refuse_as_too_large(fmt::format("it reaches {} mm from its axis, and at most {} mm do", rounded(reach_, 4),
                                       rounded(k_largest_radius)));
     choose_sectors();
-    const RingStack stack =
-        body_stack(product_.synthesis.p1, product_.synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange, layout_);
+    const RingStack stack = body_stack(product_.synthesis.p1, product_.synthesis.p2, mechanism_.tendon.diameter,
+                                       mechanism_.body.flange, layout_);
     for (std::size_t k = 0; k < stack.rings.size(); ++k) {
       const std::size_t rings = add_groove_at(stack, k);
       if (rings > 0)

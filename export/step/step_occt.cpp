@@ -1,12 +1,12 @@
 /// \file
-/// The module `fusee-step`: plain values → a solid of OpenCASCADE → AP214, and such a file read again. The one file that
-/// knows OpenCASCADE; it knows no pulley.
+/// The module `fusee-step`: plain values → a solid of OpenCASCADE → AP214, and such a file read again. The one file
+/// that knows OpenCASCADE; it knows no pulley.
 #include <APIHeaderSection_MakeHeader.hxx>
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepAlgoAPI_Section.hxx>
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -121,8 +121,7 @@ Knots knots_of(const std::vector<double>& flat) {
 
 Handle(Geom_BSplineCurve) curve_of(const StepSpline& spline, double z) {
   TColgp_Array1OfPnt poles(1, static_cast<int>(spline.poles.size()));
-  for (std::size_t i = 0; i < spline.poles.size(); ++i)
-    poles(static_cast<int>(i) + 1) = point_at(spline.poles[i], z);
+  for (std::size_t i = 0; i < spline.poles.size(); ++i) poles(static_cast<int>(i) + 1) = point_at(spline.poles[i], z);
   const Knots knots = knots_of(spline.knots);
   return new Geom_BSplineCurve(poles, knots.values, knots.times, k_step_degree);
 }
@@ -286,7 +285,8 @@ class BodyMaker {
 class ToolMaker {
  public:
   TopoDS_Shape operator()(const StepPrism& prism) const {
-    const gp_Ax3 frame(point_at(Vec3(prism.origin + prism.low * prism.z)), vector_along(prism.z), vector_along(prism.x));
+    const gp_Ax3 frame(point_at(Vec3(prism.origin + prism.low * prism.z)), vector_along(prism.z),
+                       vector_along(prism.x));
     BRepBuilderAPI_MakeFace face(gp_Pln(frame), wire_of(prism.outer, frame));
     for (const StepContour& loop : prism.inner) face.Add(wire_of(loop, frame));
     if (!face.IsDone()) throw std::runtime_error("a hole's outline is no face");
@@ -341,14 +341,16 @@ class ToolMaker {
  private:
   static TopoDS_Wire wire_of(const StepContour& contour, const gp_Ax3& frame) {
     const auto place = [&frame](const Vec2& point) {
-      return gp_Pnt(frame.Location().XYZ() + point.x() * frame.XDirection().XYZ() + point.y() * frame.YDirection().XYZ());
+      return gp_Pnt(frame.Location().XYZ() + point.x() * frame.XDirection().XYZ() +
+                    point.y() * frame.YDirection().XYZ());
     };
     BRepBuilderAPI_MakeWire wire;
     Vec2 from = contour.start;
     for (const StepContour::Piece& piece : contour.pieces) {
       if ((piece.to - from).norm() > 1e-6) {
         if (piece.via)
-          wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(place(from), place(*piece.via), place(piece.to)).Value()));
+          wire.Add(
+              BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(place(from), place(*piece.via), place(piece.to)).Value()));
         else
           wire.Add(BRepBuilderAPI_MakeEdge(place(from), place(piece.to)));
         from = piece.to;

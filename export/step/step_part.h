@@ -27,7 +27,7 @@ struct StepSpline {
 
 struct StepRow {
   double z = 0;
-  double radius = 0;                ///< > 0: a circle about the axis
+  double radius = 0;                    ///< > 0: a circle about the axis
   std::vector<StepSpline> pieces = {};  ///< of a row that is none, one for each sector
 };
 
@@ -117,8 +117,8 @@ struct StepReading {
   int edges = 0;
   int unpaired_edges = 0;  ///< that are not on two faces
   int faces = 0;
-  int open_faces = 0;      ///< whose mesh does not close with its edges
-  bool is_valid = false;   ///< to the kernel's own check
+  int open_faces = 0;     ///< whose mesh does not close with its edges
+  bool is_valid = false;  ///< to the kernel's own check
   double volume = 0;
   double area = 0;
   Polygon floor1, floor2;  ///< sections at the grooves' planes, within some 1e-5 mm; empty: there is none

@@ -74,8 +74,7 @@ void add_bore(std::vector<StepTool>& tools, const BodyLayout& layout) {
   for (std::size_t k = 0; k < bore.screw_holes.size(); ++k) {
     const RoundHole hole = circle_within(bore.screw_holes[k]);
     const bool in_recess = bore.horn_recess > 0 && k == 0;
-    tools.push_back(
-        cylinder(hole.centre, 0.5 * hole.diameter, in_recess ? bore.horn_recess - 0.5 : -k_overshoot, top));
+    tools.push_back(cylinder(hole.centre, 0.5 * hole.diameter, in_recess ? bore.horn_recess - 0.5 : -k_overshoot, top));
   }
 }
 
@@ -191,10 +190,12 @@ void add_channel(std::vector<StepTool>& tools, const Anchor& anchor, const BodyL
   if (slope > 0) {
     const double near = 0.5 * inner;
     const auto corner = [&](double radius, double height) { return Vec2(radius, z.at(height)); };
-    bent.common.push_back(StepTurned{bend.centre,
-                                     {corner(near, -half - 1), corner(far, -half - 1),
-                                      corner(far, half + slope * (far - inner)), corner(near, half + slope * (near - inner))},
-                                     0, k_two_pi});
+    bent.common.push_back(
+        StepTurned{bend.centre,
+                   {corner(near, -half - 1), corner(far, -half - 1), corner(far, half + slope * (far - inner)),
+                    corner(near, half + slope * (near - inner))},
+                   0,
+                   k_two_pi});
   }
   tools.push_back(std::move(bent));
   if (plan.straight.pieces.empty()) return;

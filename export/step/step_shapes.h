@@ -1,6 +1,6 @@
 /// \file
-/// What is cut out of a pulley, as exact shapes: the holes of solid/tools.h and solid/tie_off_tools.h, round where those
-/// have facets. mm, not yet scaled.
+/// What is cut out of a pulley, as exact shapes: the holes of solid/tools.h and solid/tie_off_tools.h, round where
+/// those have facets. mm, not yet scaled.
 #pragma once
 
 #include <vector>

@@ -81,7 +81,8 @@ class PartGauge {
   }
 
   // Height over which the outline stands out further than the nearer floor's groove is deep.
-  double thickness_between(const std::vector<OutlinePiece>& outline, const FloorPlace& low, const FloorPlace& high) const {
+  double thickness_between(const std::vector<OutlinePiece>& outline, const FloorPlace& low,
+                           const FloorPlace& high) const {
     const double level = std::min(low.r, high.r) + k_share_of_depth * section_.depth;
     double thickness = 0;
     for (const OutlinePiece& piece : outline) {

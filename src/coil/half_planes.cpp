@@ -134,7 +134,8 @@ std::vector<std::vector<OutlinePiece>> half_plane_cuts(const TriangleMesh& mesh,
       low = std::min(low, angle);
       high = std::max(high, angle);
     }
-    const auto from = static_cast<long>(std::floor((low - first) / step)), to = static_cast<long>(std::ceil((high - first) / step));
+    const auto from = static_cast<long>(std::floor((low - first) / step)),
+               to = static_cast<long>(std::ceil((high - first) / step));
     const auto whole = static_cast<long>(count);
     for (long k = from; k <= to && k < from + whole; ++k) {
       const auto plane = static_cast<std::size_t>(((k % whole) + whole) % whole);

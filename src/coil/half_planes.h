@@ -23,7 +23,7 @@ std::vector<OutlinePiece> outermost(std::vector<OutlinePiece> pieces);
 
 /// The lowest ground between two rises of an outline.
 struct FloorPlace {
-  double z = 0, r = 0;       ///< the middle of the ground
+  double z = 0, r = 0;                   ///< the middle of the ground
   double low_lip = 0, high_lip = 0;      ///< distances from the axis of the crests on both sides
   double low_lip_z = 0, high_lip_z = 0;  ///< where the ground leaves them
 };

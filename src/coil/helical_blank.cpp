@@ -53,7 +53,11 @@ std::vector<Vec2> ring_about(const Winding& winding, std::size_t columns, bool l
 class BlankBuilder {
  public:
   BlankBuilder(const Fan& fan, const HelicalSection& section, const BodyLayout& layout, const RingHeights& heights)
-      : fan_(fan), layout_(layout), heights_(heights), columns_(fan.columns()), lip_(section.depth - 0.5 * layout.tendon_diameter) {
+      : fan_(fan),
+        layout_(layout),
+        heights_(heights),
+        columns_(fan.columns()),
+        lip_(section.depth - 0.5 * layout.tendon_diameter) {
     const auto& below = section.walls.below;
     const auto& above = section.walls.above;
     for (std::size_t k = below.size(); k-- > 1;) section_.push_back({below[k].offset, -below[k].dz});
@@ -149,7 +153,8 @@ class BlankBuilder {
     };
     std::size_t l = 0, r = 0;
     while (l + 1 < left.size() || r + 1 < right.size()) {
-      const bool climb_left = l + 1 < left.size() && (r + 1 == right.size() || share(left, l + 1) < share(right, r + 1));
+      const bool climb_left =
+          l + 1 < left.size() && (r + 1 == right.size() || share(left, l + 1) < share(right, r + 1));
       if (climb_left) {
         triangle(left[l], right[r], left[l + 1]);
         ++l;
@@ -181,8 +186,9 @@ class BlankBuilder {
     }
   }
 
-  void add_groove(const Ladder& groove, const std::vector<std::size_t>& on_left, const std::vector<std::size_t>& on_right,
-                  std::vector<Index>& left, std::vector<Index>& right, const auto& meet) {
+  void add_groove(const Ladder& groove, const std::vector<std::size_t>& on_left,
+                  const std::vector<std::size_t>& on_right, std::vector<Index>& left, std::vector<Index>& right,
+                  const auto& meet) {
     std::size_t l = 0, r = 0;
     const std::size_t last = groove.winding->rows.size() - 1;
     while (l < on_left.size() || r < on_right.size()) {
@@ -322,7 +328,8 @@ class BlankBuilder {
 }  // namespace
 
 double middle_step(const Fan& fan, double lip) {
-  const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, lip), upper = ring_about(fan.p2, fan.columns(), true, lip);
+  const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, lip),
+                          upper = ring_about(fan.p2, fan.columns(), true, lip);
   double step = 0;
   for (std::size_t i = 0; i < fan.columns(); ++i) step = std::max(step, (upper[i] - lower[i]).dot(unit(fan.angles[i])));
   return step;

@@ -10,8 +10,8 @@ namespace fusee {
 
 /// Heights of the rings between which the grooves lie, and by how much the lowest is chamfered.
 struct RingHeights {
-  double lower = 0;   ///< of the middle flange
-  double upper = 0;   ///< of the middle flange: a cone in between where P2 stands out over P1
+  double lower = 0;  ///< of the middle flange
+  double upper = 0;  ///< of the middle flange: a cone in between where P2 stands out over P1
   double top = 0;
   double hub_top = 0;
 };

@@ -55,7 +55,12 @@ std::string mm(double value) { return rounded(value, 3) + " mm"; }
 class Planner {
  public:
   Planner(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance)
-      : mechanism_(mechanism), p1_(p1), p2_(p2), tolerance_(tolerance), d_(mechanism.tendon.diameter), section_(helical_section(mechanism)) {}
+      : mechanism_(mechanism),
+        p1_(p1),
+        p2_(p2),
+        tolerance_(tolerance),
+        d_(mechanism.tendon.diameter),
+        section_(helical_section(mechanism)) {}
 
   HelicalPulley make() {
     if (!spirals_are_whole()) return std::move(pulley_);
@@ -82,9 +87,10 @@ class Planner {
       constexpr double k_least_turn = k_two_pi + radians(10);
       Condition condition = condition_of(
           fmt::format("whole_turn_{}", pulley_name(side)), turn >= k_least_turn, degrees(turn), degrees(k_least_turn),
-          grows ? fmt::format("{}'s groove is {:.0f}° long, a helical one takes {:.0f}° (body.spare_turns)", pulley_name(side),
-                              degrees(turn), degrees(k_least_turn))
-                : fmt::format("{}'s pitch curve runs straight somewhere: a helical groove cannot follow it yet", pulley_name(side)));
+          grows ? fmt::format("{}'s groove is {:.0f}° long, a helical one takes {:.0f}° (body.spare_turns)",
+                              pulley_name(side), degrees(turn), degrees(k_least_turn))
+                : fmt::format("{}'s pitch curve runs straight somewhere: a helical groove cannot follow it yet",
+                              pulley_name(side)));
       condition.unit = "deg";
       pulley_.conditions.push_back(condition);
     }
@@ -95,7 +101,8 @@ class Planner {
 
   double floor_radius(const Spiral& spiral) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const SpiralRow& row : spiral.rows) least = std::min(least, (Vec2(row.x, row.y) - 0.5 * d_ * unit(row.turn)).norm());
+    for (const SpiralRow& row : spiral.rows)
+      least = std::min(least, (Vec2(row.x, row.y) - 0.5 * d_ * unit(row.turn)).norm());
     return least - tolerance_;
   }
   double least_floor() const { return std::min(floor_radius(p1_), floor_radius(p2_)); }
@@ -113,9 +120,9 @@ class Planner {
     layout.min_wall = mechanism_.body.min_wall > 0
                           ? mechanism_.body.min_wall
                           : std::clamp(k_wall_of_radius * least_floor(), k_thinnest_wall, k_most_wall);
-    layout.elephant_foot =
-        std::clamp(std::min(section_.depth - k_left_of_lip, (layout.flange_thickness - k_left_of_lip) / rise_of(layout, 1.0)),
-                   0.0, mechanism_.material.elephant_foot);
+    layout.elephant_foot = std::clamp(
+        std::min(section_.depth - k_left_of_lip, (layout.flange_thickness - k_left_of_lip) / rise_of(layout, 1.0)), 0.0,
+        mechanism_.material.elephant_foot);
     sizes_ = run_out_sizes(mechanism_, layout);
     layout.channel_width = 2.0 * sizes_.channel_radius;
     layout.pocket_radius = sizes_.pocket_radius;
@@ -174,7 +181,8 @@ class Planner {
       layout.bore = bore_layout(mechanism_, is_given ? std::max(mechanism_.body.bore_diameter, 0.0) : diameter);
       if (is_given || reach() <= room_for_bore()) {
         if (!is_given && diameter < k_bore_diameters.front())
-          layout.notes.push_back(fmt::format("no room for a bore of {} mm: made {} mm", k_bore_diameters.front(), diameter));
+          layout.notes.push_back(
+              fmt::format("no room for a bore of {} mm: made {} mm", k_bore_diameters.front(), diameter));
         return;
       }
     }
@@ -193,8 +201,8 @@ class Planner {
     free_end(Side::left, p1_.rows[p1_.first_used].s - p1_.rows.front().s, p1_.rows[p1_.first_used].rho);
     free_end(Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
     add("bore_wall", least_floor() - reach(), layout.min_wall,
-        fmt::format("the bore leaves {} to a groove's floor, it takes {} (body.min_wall_mm)", mm(least_floor() - reach()),
-                    mm(layout.min_wall)));
+        fmt::format("the bore leaves {} to a groove's floor, it takes {} (body.min_wall_mm)",
+                    mm(least_floor() - reach()), mm(layout.min_wall)));
     for (const GrooveEnd& end : ends_) {
       const double hub = end.side == Side::right ? layout.hub_radius : 0.0;
       const double wall = pocket_inside(end) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0);
@@ -204,11 +212,13 @@ class Planner {
                       pulley_name(end.side), mm(2.0 * sizes_.pocket_radius), mm(wall), mm(layout.min_wall)));
     }
     if (layout.bore.horn_recess > 0)
-      pulley_.conditions.push_back(condition_of("horn_recess", false, layout.bore.horn_recess, 0.0,
-                                                "a pulley of several turns takes a flat horn or a shaft: one that sinks "
-                                                "in (horn.boss_height_mm, horn.spline_length_mm) is not made yet"));
+      pulley_.conditions.push_back(
+          condition_of("horn_recess", false, layout.bore.horn_recess, 0.0,
+                       "a pulley of several turns takes a flat horn or a shaft: one that sinks "
+                       "in (horn.boss_height_mm, horn.spline_length_mm) is not made yet"));
     if (mechanism_.print.parts == Parts::two)
-      pulley_.conditions.push_back(condition_of("parts", false, 2, 1, "a pulley of several turns is printed in one part (print.parts)"));
+      pulley_.conditions.push_back(
+          condition_of("parts", false, 2, 1, "a pulley of several turns is printed in one part (print.parts)"));
   }
 
   void neighbours(const Winding& winding, Side side) {
@@ -229,17 +239,19 @@ class Planner {
     // What rounding may take of a lead that is just large enough.
     constexpr double k_grain = 1e-6;
     add(fmt::format("neighbouring_turns_{}", pulley_name(side)), lead, needed - k_grain,
-        fmt::format("{}'s turns lie {} apart at {:.0f}°, a groove, its rib and the step between them take {} (body.lead_mm)",
-                    pulley_name(side), mm(lead), degrees(std::remainder(place->turn, k_two_pi)), mm(needed)));
+        fmt::format(
+            "{}'s turns lie {} apart at {:.0f}°, a groove, its rib and the step between them take {} (body.lead_mm)",
+            pulley_name(side), mm(lead), degrees(std::remainder(place->turn, k_two_pi)), mm(needed)));
   }
 
   // The straight tendon must rise over the lip before the groove ends.
   void free_end(Side side, double there, double rho) {
     const double rise = section_.depth, needed = std::sqrt(rise * (2.0 * rho + rise));
     add(fmt::format("free_end_{}", pulley_name(side)), there, needed,
-        fmt::format("{}'s groove ends {} beyond the arc that the tendon leaves from, it takes {} for the tendon to clear the "
-                    "end (body.spare_turns)",
-                    pulley_name(side), mm(there), mm(needed)));
+        fmt::format(
+            "{}'s groove ends {} beyond the arc that the tendon leaves from, it takes {} for the tendon to clear the "
+            "end (body.spare_turns)",
+            pulley_name(side), mm(there), mm(needed)));
   }
 
   TriangleMesh scaled(TriangleMesh mesh) const {
@@ -260,10 +272,11 @@ class Planner {
       if (screw) tools.push_back(set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
       if (cut_with(blank, volume, tools)) return;
     }
-    pulley_.conditions.push_back(condition_of("features", false, 0, 1,
-                                              fmt::format("run-outs and screw run into one another: none of {} ways to cut "
-                                                          "them leaves a solid",
-                                                          k_cut_variants)));
+    pulley_.conditions.push_back(
+        condition_of("features", false, 0, 1,
+                     fmt::format("run-outs and screw run into one another: none of {} ways to cut "
+                                 "them leaves a solid",
+                                 k_cut_variants)));
   }
 
   bool cut_with(const TriangleMesh& blank, double volume, const std::vector<TriangleMesh>& tools) {
@@ -304,7 +317,9 @@ HelicalSection helical_section(const Mechanism& mechanism) {
   section.rib = k_rib;
   section.roof_slope = mechanism.print.supports ? 0.0 : mechanism.print.overhang + k_slope_margin;
   const double lean = 0.5 * mechanism.body.groove_angle;
-  const auto half = [&](double angle) { return groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth); };
+  const auto half = [&](double angle) {
+    return groove_half(mechanism.body, angle, mechanism.tendon.diameter, section.depth);
+  };
   section.walls = {half(lean), half(std::max(lean, section.roof_slope))};
   return section;
 }
@@ -315,7 +330,9 @@ double least_lead(const HelicalSection& section, double growth) {
 }
 
 std::string HelicalPulley::brief() const {
-  if (made) return fmt::format("a body of several turns, {} facets, {:.1f} cm³", mesh.triangles.size(), expected_volume / 1000.0);
+  if (made)
+    return fmt::format("a body of several turns, {} facets, {:.1f} cm³", mesh.triangles.size(),
+                       expected_volume / 1000.0);
   std::string text = "no such body of several turns can be made";
   for (const Condition& condition : conditions) {
     if (!condition.ok) text += "; " + condition.message;

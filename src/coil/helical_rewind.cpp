@@ -10,9 +10,9 @@
 #include "fusee/base/units.h"
 #include "profile/string_above.h"
 
-// The second route. A string is laid on what half-planes found of a groove's floor: in plan round the corners of an open
-// polygon, half its thickness off them; along the axis at the height of the floor's band. Its free path is straight when
-// it is unrolled.
+// The second route. A string is laid on what half-planes found of a groove's floor: in plan round the corners of an
+// open polygon, half its thickness off them; along the axis at the height of the floor's band. Its free path is
+// straight when it is unrolled.
 
 namespace fusee {
 namespace {
@@ -69,9 +69,9 @@ class HelicalString {
 
  private:
   struct Place {
-    double wound = 0;   // along the centre line in space
+    double wound = 0;  // along the centre line in space
     double height = 0;
-    double slope = 0;   // of the centre line, per planar length
+    double slope = 0;  // of the centre line, per planar length
   };
 
   std::string pulley() const { return std::string(pulley_name(hand_ > 0 ? Side::right : Side::left)); }
@@ -128,7 +128,8 @@ class HelicalString {
   void find_corner(const Vec2& pin) {
     for (std::size_t steps = 0; steps < floor_.size(); ++steps) {
       if (corner_ == 0 || corner_ + 1 >= floor_.size())
-        throw InputError("", "the groove of " + pulley() + " ends within the range, at α = " + rounded(degrees(alpha_), 4) + "°");
+        throw InputError(
+            "", "the groove of " + pulley() + " ends within the range, at α = " + rounded(degrees(alpha_), 4) + "°");
       const double normal = turned_near(tangent_normal(pin), edge_normals_[corner_]);
       if (normal < edge_normals_[corner_ - 1])
         --corner_;
@@ -162,7 +163,9 @@ double taut_angle(const HelicalString& string, double alpha, double guess) {
   while (!(growing(guess - reach) < 0 && growing(guess + reach) > 0)) {
     reach *= 2;
     if (reach > 0.7)
-      throw InputError("", "no joint angle near the declared one makes " + string.name() + " taut at α = " + rounded(degrees(alpha), 4) + "°",
+      throw InputError("",
+                       "no joint angle near the declared one makes " + string.name() +
+                           " taut at α = " + rounded(degrees(alpha), 4) + "°",
                        "is this the pulley of this mechanism, in mm, its axis at the origin?");
   }
   double low = guess - reach, high = guess + reach;
@@ -267,8 +270,10 @@ HelicalRewind rewind_helical(const TriangleMesh& mesh, const Mechanism& mechanis
                              const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid, double scale) {
   const std::vector<FloorLine> floors = helical_floors(mesh, scale);
   if (floors.size() != 2)
-    throw InputError("", "the mesh has " + std::to_string(floors.size()) + " grooves of more than half a turn, a helical pulley has 2",
-                     "is it whole, in mm, its axis along z at the origin?");
+    throw InputError(
+        "",
+        "the mesh has " + std::to_string(floors.size()) + " grooves of more than half a turn, a helical pulley has 2",
+        "is it whole, in mm, its axis along z at the origin?");
   return rewind_floors(floors[0], floors[1], mechanism, stroke, laid);
 }
 

@@ -22,7 +22,8 @@ constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
 
 // Ring of a tube about `centre`, its plane spanned by two unit vectors.
-std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up, double radius, int facets, double start) {
+std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up, double radius, int facets,
+                          double start) {
   std::vector<Vec3> ring;
   for (int k = 0; k < facets; ++k) {
     const double angle = k_two_pi * (k + start) / facets;
@@ -80,8 +81,8 @@ TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int vari
                                std::cos(turn) * along + std::sin(turn) * towards, sizes.channel_radius));
   }
   // On into the cone.
-  sections.push_back(
-      ring_at(arc_point(end, sizes.bend_radius, 0.5 * k_pi) + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius));
+  sections.push_back(ring_at(arc_point(end, sizes.bend_radius, 0.5 * k_pi) + 0.8 * sizes.channel_radius * towards,
+                             towards, sizes.channel_radius));
   return strip(sections);
 }
 
@@ -122,7 +123,8 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) 
   sizes.channel_radius =
       0.5 * (mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel));
   set_mouth(sizes, mechanism.body, d);
-  sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket : std::max(1.75 * d, 2.0 * sizes.channel_radius);
+  sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
+                                                       : std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
   sizes.roof_slope = gable_slope(layout);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);

@@ -37,7 +37,8 @@ void add_columns(std::vector<double>& angles, double from, double to, const auto
   constexpr int k_probes = 64;
   std::vector<double> count{0.0};
   for (int k = 0; k < k_probes; ++k) {
-    const double step = std::min(step_at(from + (to - from) * k / k_probes), step_at(from + (to - from) * (k + 1) / k_probes));
+    const double step =
+        std::min(step_at(from + (to - from) * k / k_probes), step_at(from + (to - from) * (k + 1) / k_probes));
     count.push_back(count.back() + (to - from) / k_probes / step);
   }
   const int steps = std::max(1, static_cast<int>(std::ceil(count.back())));
@@ -155,8 +156,9 @@ Fan make_fan(const SpiralCurve& p1, const SpiralCurve& p2, double outward, doubl
   fan.p1 = winding_on(fan.angles, p1, floor_inward);
   fan.p2 = winding_on(fan.angles, p2, floor_inward);
   for (const Winding* winding : {&fan.p1, &fan.p2})
-    demand(winding->rows.size() > fan.columns(), "a spiral of less than a turn: " + std::to_string(winding->rows.size()) +
-                                                     " rows on a fan of " + std::to_string(fan.columns()));
+    demand(winding->rows.size() > fan.columns(),
+           "a spiral of less than a turn: " + std::to_string(winding->rows.size()) + " rows on a fan of " +
+               std::to_string(fan.columns()));
   fill_back(fan.p1, fan.columns(), filled);
   fill_front(fan.p2, fan.columns(), filled);
   return fan;

@@ -44,8 +44,7 @@ Condition number_of_turns(const Transmission& planar, Side side) {
 Condition fleet(const HelixSide& side, Side which, double lip, double largest_radius) {
   const double limit = std::atan(std::sqrt(lip / (2.0 * largest_radius)));
   const std::string number = which == Side::left ? "1" : "2";
-  Condition condition =
-      at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
+  Condition condition = at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
   if (!condition.ok) {
     condition.message = "tendon " + number + " leaves its groove at " + rounded(degrees(side.fleet), 3) +
                         "° to it at " + at_alpha_text(side.fleet_at) + " and lies on the groove's lip from " +
@@ -63,9 +62,9 @@ Condition room_for_turns(const Mechanism& mechanism, const Climb& climb, Side si
   condition.unit = "mm";
   condition.ok = condition.value >= condition.limit * (1.0 - 1e-9);
   if (!condition.ok) {
-    condition.message = "a lead of " + rounded(mechanism.body.lead, 4) + " mm (body.lead_mm) is too small: groove, rib " +
-                        "and the step between neighbouring turns of " + pulley + " need " +
-                        rounded(climb.needed_lead, 4) + " mm";
+    condition.message =
+        "a lead of " + rounded(mechanism.body.lead, 4) + " mm (body.lead_mm) is too small: groove, rib " +
+        "and the step between neighbouring turns of " + pulley + " need " + rounded(climb.needed_lead, 4) + " mm";
   }
   return condition;
 }
@@ -81,8 +80,11 @@ Condition spare_turns(const Mechanism& mechanism, const Spiral& spiral, Side sid
   for (const SpiralRow& row : spiral.rows) condition.value = std::min(condition.value, row.rho - half);
   condition.ok = condition.value > condition.limit;
   if (!condition.ok) {
-    condition.message = "the spare turns of " + pulley + " cannot go on from the range's ends as convex curves: the "
-                        "floor's radius falls to " + rounded(condition.value, 3) + " mm (more spare turns, or a radius "
+    condition.message = "the spare turns of " + pulley +
+                        " cannot go on from the range's ends as convex curves: the "
+                        "floor's radius falls to " +
+                        rounded(condition.value, 3) +
+                        " mm (more spare turns, or a radius "
                         "that changes more slowly there)";
   }
   return condition;
@@ -92,8 +94,8 @@ Condition closure(const Windings& windings) {
   constexpr double k_limit = 0.002;
   Condition condition = at_most("sloped_paths_close", 0, windings.closure, k_limit, "mm");
   if (!condition.ok) {
-    condition.message = "the curves' lengths along their sloped paths do not settle: " +
-                        rounded(windings.closure, 3) + " mm are left (a law with sharp bends, or a path too steep)";
+    condition.message = "the curves' lengths along their sloped paths do not settle: " + rounded(windings.closure, 3) +
+                        " mm are left (a law with sharp bends, or a path too steep)";
   }
   return condition;
 }

@@ -7,9 +7,9 @@
 namespace fusee {
 
 struct SpiralDrawing {
-  double tolerance = 0.01;            ///< sagitta, mm
-  double reach = 0;                   ///< of the outermost parallel curve that the tolerance holds for, mm
-  double largest_turn = radians(1.5); ///< from row to row
+  double tolerance = 0.01;             ///< sagitta, mm
+  double reach = 0;                    ///< of the outermost parallel curve that the tolerance holds for, mm
+  double largest_turn = radians(1.5);  ///< from row to row
 };
 
 Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const SpiralDrawing& drawing);

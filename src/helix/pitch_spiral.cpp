@@ -57,7 +57,8 @@ double PitchSpiral::sigma(const TakeOff& take_off) const {
 }
 
 SpiralPoint PitchSpiral::at(double psi) const {
-  if (psi < working_begin()) return beyond(working_begin() - psi, {samples_.front().curve, sigma(samples_.front())}, -1);
+  if (psi < working_begin())
+    return beyond(working_begin() - psi, {samples_.front().curve, sigma(samples_.front())}, -1);
   if (psi > working_end()) return beyond(psi - working_end(), {samples_.back().curve, sigma(samples_.back())}, 1);
   const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, psi,
                                       [](double value, const TakeOff& sample) { return value < sample.curve.psi; });

@@ -1,5 +1,5 @@
-// The length of a tendon in space. The pins are smooth cylinders along the axis: unrolled, the free path is straight, of
-// planar length L and rise Δ; what is wound has the planar length σ and the slope tan λ:
+// The length of a tendon in space. The pins are smooth cylinders along the axis: unrolled, the free path is straight,
+// of planar length L and rise Δ; what is wound has the planar length σ and the slope tan λ:
 //
 //   Λ + σ/cos λ = const        Λ = L − L' + √(L'² + Δ²)        Δ = Δ0 ± σ tan λ
 //
@@ -98,8 +98,7 @@ SideRound look(const Mechanism& mechanism, const Transmission& transmission, Sid
   // Between the nodes too: what a series of this length cannot follow is seen here.
   const double drawn_home = before != nullptr ? before->at(0.0).d0 : 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double drawn =
-        before != nullptr ? before->at(curve.samples()[i].stroke.alpha).d0 - drawn_home : 0.0;
+    const double drawn = before != nullptr ? before->at(curve.samples()[i].stroke.alpha).d0 - drawn_home : 0.0;
     round.settled = std::max(round.settled, std::abs(q_of(round.climb, side, places[i]) - home - drawn));
   }
   return round;

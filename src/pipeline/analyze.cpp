@@ -11,7 +11,8 @@ std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
   SynthesisOptions options;
   options.advice = false;
   if (!need_several_turns(synthesise(as_it_is(file.mechanism).mechanism, options))) return std::nullopt;
-  return Diagnostic{Severity::note, file.place_of("pulley.winding"),
+  return Diagnostic{Severity::note,
+                    file.place_of("pulley.winding"),
                     "the tendons are wound several times: forces are those of level tendons that are tied 5 mm beyond "
                     "the range; the slope of their paths, the spare turns and what guides.collar does to theta are not "
                     "in them",

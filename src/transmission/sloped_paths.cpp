@@ -22,7 +22,8 @@ double chebyshev_sum(const std::vector<double>& coefficients, double t) {
 std::vector<double> derivative_of(const std::vector<double>& c, double scale) {
   const std::size_t n = c.size();
   std::vector<double> d(n < 2 ? 1 : n - 1, 0.0);
-  for (std::size_t k = n; k-- > 1;) d[k - 1] = (k + 1 < d.size() ? d[k + 1] : 0.0) + 2.0 * static_cast<double>(k) * c[k];
+  for (std::size_t k = n; k-- > 1;)
+    d[k - 1] = (k + 1 < d.size() ? d[k + 1] : 0.0) + 2.0 * static_cast<double>(k) * c[k];
   d[0] *= 0.5;
   for (double& value : d) value *= scale;
   return d;

@@ -41,8 +41,8 @@ struct Transmission::TorqueLaw {
 
   Mechanism mechanism_;  ///< what the law is of: joint, pulley, load, spring
   std::shared_ptr<const TableLaw> wanted_;
-  std::vector<double> places_;  ///< θ between which is integrated, home among them
-  std::vector<double> alphas_;  ///< there
+  std::vector<double> places_;   ///< θ between which is integrated, home among them
+  std::vector<double> alphas_;   ///< there
   double least_ = 0, most_ = 0;  ///< θ between which the law goes on as declared
   TorqueMatch tightest_;
   std::optional<double> fails_at_;

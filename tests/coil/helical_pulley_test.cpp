@@ -57,23 +57,24 @@ void expect_good(const HelicalPulley& pulley, const std::string& name) {
 TEST(HelicalPulley, RoundHelix) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);
-  const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, 5, slope), spiral_of(testing::round_curve(18.0), 1.1, 4.4, slope));
+  const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, 5, slope),
+                                                   spiral_of(testing::round_curve(18.0), 1.1, 4.4, slope));
   expect_good(pulley, "round");
 }
 
 TEST(HelicalPulley, TheClocksOwn) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 2.4) + 0.2, slope = lead / (k_two_pi * 12.0);
-  const HelicalPulley pulley =
-      make_helical_pulley(mechanism, spiral_of(growing(12, 2.4, 0.3), 0.3, 5, slope), spiral_of(growing(24, -2.4, 1.1), 1.1, 5, slope));
+  const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(growing(12, 2.4, 0.3), 0.3, 5, slope),
+                                                   spiral_of(growing(24, -2.4, 1.1), 1.1, 5, slope));
   expect_good(pulley, "clock");
 }
 
 TEST(HelicalPulley, Ovals) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 1.0) + 0.5, slope = lead / (k_two_pi * 14.0);
-  const HelicalPulley pulley =
-      make_helical_pulley(mechanism, spiral_of(oval(14, 0.7, 2, 0.3), 0.3, 3.2, slope), spiral_of(oval(18, -0.5, 2.5, 1.1), 1.1, 3.7, slope));
+  const HelicalPulley pulley = make_helical_pulley(mechanism, spiral_of(oval(14, 0.7, 2, 0.3), 0.3, 3.2, slope),
+                                                   spiral_of(oval(18, -0.5, 2.5, 1.1), 1.1, 3.7, slope));
   expect_good(pulley, "oval");
 }
 

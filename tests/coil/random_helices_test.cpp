@@ -34,7 +34,8 @@ class Draw {
     m.material = testing::plain_mechanism().material;
     m.print = testing::plain_mechanism().print;
     m.tendon.diameter = within(0.4, 1.6);
-    m.body.groove = std::array{Groove::u, Groove::u, Groove::v, Groove::flat}[static_cast<std::size_t>(within(0, 3.999))];
+    m.body.groove =
+        std::array{Groove::u, Groove::u, Groove::v, Groove::flat}[static_cast<std::size_t>(within(0, 3.999))];
     m.body.groove_angle = radians(within(30, 90));
     m.body.flange_thickness = within(0.8, 2.0);
     const HelicalSection section = helical_section(m);
@@ -48,10 +49,13 @@ class Draw {
 
   Spiral spiral(const HelicalSection& section, std::string& words) {
     const double turns = within(1.2, 8.0), radius = within(9, 28), begin = within(-10, 10);
-    const double per_turn = within(-0.5, 0.5) * (radius - 5.0) / turns, wave = within(0, 0.14) * std::min(radius, radius + per_turn * turns);
+    const double per_turn = within(-0.5, 0.5) * (radius - 5.0) / turns,
+                 wave = within(0, 0.14) * std::min(radius, radius + per_turn * turns);
     const testing::SupportCurve curve = testing::oval(radius, per_turn, wave, begin);
-    const double slope = (testing::slope_for(curve, begin, turns, section) * within(1.0, 1.3) + 1e-6) * (within(0, 1) < 0.2 ? -1 : 1);
-    words += " r " + std::to_string(radius) + " turns " + std::to_string(turns) + " per turn " + std::to_string(per_turn) + " wave " + std::to_string(wave);
+    const double slope =
+        (testing::slope_for(curve, begin, turns, section) * within(1.0, 1.3) + 1e-6) * (within(0, 1) < 0.2 ? -1 : 1);
+    words += " r " + std::to_string(radius) + " turns " + std::to_string(turns) + " per turn " +
+             std::to_string(per_turn) + " wave " + std::to_string(wave);
     Spiral spiral = testing::spiral_of(curve, begin, turns, slope);
     // Enough of a free end for any of them.
     spiral.first_used = spiral.last_used = spiral.rows.size() / 2;

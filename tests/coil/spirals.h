@@ -46,7 +46,8 @@ inline SupportCurve round_curve(double radius) {
 /// p = a + b ψ: an involute of a circle of radius b.
 inline SupportCurve growing(double radius, double per_turn, double begin) {
   const double rate = per_turn / k_two_pi;
-  return {[=](double t) { return radius + rate * (t - begin); }, [=](double) { return rate; }, [](double) { return 0.0; }};
+  return {[=](double t) { return radius + rate * (t - begin); }, [=](double) { return rate; },
+          [](double) { return 0.0; }};
 }
 /// An oval that grows.
 inline SupportCurve oval(double radius, double per_turn, double wave, double begin) {

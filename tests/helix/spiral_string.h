@@ -10,9 +10,9 @@
 namespace fusee {
 
 struct StringLength {
-  double total = 0;       ///< of all that is not wound and what is, but for a constant, mm
-  double slope = 0;       ///< of the free path, rad
-  double fleet = 0;       ///< between the last wound chord and the free path, rad
+  double total = 0;  ///< of all that is not wound and what is, but for a constant, mm
+  double slope = 0;  ///< of the free path, rad
+  double fleet = 0;  ///< between the last wound chord and the free path, rad
 };
 
 /// A joint without drum, both tendons at C. `attachment_z` in the spiral's frame.

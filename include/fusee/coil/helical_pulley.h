@@ -50,20 +50,20 @@ struct HelicalAnchor {
   Vec3 exit = Vec3::Zero();    ///< on the tendon's centre line, where the groove ends
   Vec3 pocket = Vec3::Zero();  ///< middle of the knot pocket in the face
   double pocket_radius = 0;
-  double pocket_depth = 0;     ///< of its straight part; a cone leads on to the channel
-  double bend_radius = 0;      ///< of the arc between the two, to the tendon's centre line
+  double pocket_depth = 0;  ///< of its straight part; a cone leads on to the channel
+  double bend_radius = 0;   ///< of the arc between the two, to the tendon's centre line
 };
 
 struct HelicalPulley {
   bool made = false;
-  BodyLayout layout;        ///< of hub, bore, screw, walls; z_p1 and z_p2: heights of the anchors' ends of the grooves
-  SpiralPlace p1, p2;       ///< finished part's mm, times layout.scale in the mesh
-  TriangleMesh mesh;        ///< coordinates are floats already
+  BodyLayout layout;   ///< of hub, bore, screw, walls; z_p1 and z_p2: heights of the anchors' ends of the grooves
+  SpiralPlace p1, p2;  ///< finished part's mm, times layout.scale in the mesh
+  TriangleMesh mesh;   ///< coordinates are floats already
   std::vector<HelicalAnchor> anchors;
   std::vector<Condition> conditions;  ///< all, those that hold too
   double expected_volume = 0;         ///< of the grid, less what was cut out of it, mm³
   int expected_euler = 0;
-  std::vector<Check> mesh_checks;     ///< check_mesh() of `mesh`
+  std::vector<Check> mesh_checks;  ///< check_mesh() of `mesh`
 
   std::string brief() const;
 };

@@ -21,7 +21,7 @@ namespace fusee {
 /// What a pulley of several turns has beside: its curves are no outlines, and its grooves lie in no plane.
 struct HelixProduct {
   HelixSynthesis synthesis;
-  HelicalPulley pulley;      ///< its mesh and conditions are Product::pulley's
+  HelicalPulley pulley;  ///< its mesh and conditions are Product::pulley's
   HelicalRewind as_built;
 
   /// Heights above the part's lower face: of the tendons' ends on the joint, or of their guides' collars.
@@ -41,7 +41,8 @@ struct Product {
   Holding holding;  ///< of its tendons
   RewindResult as_built;
   std::vector<Check> checks;
-  std::optional<HelixProduct> helix = {};  ///< wound several times; `synthesis` then has no outlines, `pulley` no anchors
+  std::optional<HelixProduct> helix =
+      {};  ///< wound several times; `synthesis` then has no outlines, `pulley` no anchors
 };
 
 }  // namespace fusee

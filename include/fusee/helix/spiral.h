@@ -19,8 +19,8 @@ struct SpiralRow {
 /// The outward normal at a row is (cos turn, sin turn). One turn on, z is larger by groove, rib and the step between
 /// both radii at least.
 struct Spiral {
-  std::vector<SpiralRow> rows;   ///< in growing `turn`, spare turns at both ends included
-  double slope = 0;              ///< tan λ = dz/ds
+  std::vector<SpiralRow> rows;                ///< in growing `turn`, spare turns at both ends included
+  double slope = 0;                           ///< tan λ = dz/ds
   std::size_t first_used = 0, last_used = 0;  ///< rows of the working arc, without the spare turns
 };
 

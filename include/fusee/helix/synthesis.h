@@ -27,12 +27,12 @@ struct HelixSide {
   /// At which the tendon ends on the joint (with collars: stands on its guide), in the spiral's frame: where the fleet
   /// angle is smallest over the range. mm
   double attachment_z = 0;
-  double turns = 0;               ///< of the working arc
-  double circumference = 0;       ///< of the shortest turn, mm
-  double lead = 0;                ///< over the shortest turn, mm
-  double fleet = 0;               ///< largest |fleet angle|, rad
-  double fleet_at = 0;            ///< α of it, rad
-  std::vector<HelixPoint> stroke; ///< beside SynthesisResult::stroke
+  double turns = 0;                ///< of the working arc
+  double circumference = 0;        ///< of the shortest turn, mm
+  double lead = 0;                 ///< over the shortest turn, mm
+  double fleet = 0;                ///< largest |fleet angle|, rad
+  double fleet_at = 0;             ///< α of it, rad
+  std::vector<HelixPoint> stroke;  ///< beside SynthesisResult::stroke
 };
 
 struct HelixSynthesis {

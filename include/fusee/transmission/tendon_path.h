@@ -46,7 +46,7 @@ struct PinPlace {
   bool at_C = true;  ///< the end is C, and moves with it
   /// Of the sheath between pin and pulley: there the tendon leaves the pin straight down.
   std::optional<LowerGuide> mouth = std::nullopt;
-  double in_sheath = 0;  ///< length of tendon between pin and mouth
+  double in_sheath = 0;   ///< length of tendon between pin and mouth
   double drum_off = 0;    ///< from O to the drum's centre, which turns with the link
   double drum_twist = 0;  ///< that centre's angle at home, clockwise from OC, rad
 

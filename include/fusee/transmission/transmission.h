@@ -50,8 +50,8 @@ class Transmission {
   Transmission(const Mechanism& mechanism, double rho);
   /// With the pins as the mechanism's method sees them (seen_pitch_radius).
   explicit Transmission(const Mechanism& mechanism);
-  /// With tendons wound several times, whose paths slope: p_i = m_i dθ/dα + dq_i/dα in the tendon's image, and a round P1
-  /// turns the joint as if α were α + q1/r1. `paths` null: planar tendons.
+  /// With tendons wound several times, whose paths slope: p_i = m_i dθ/dα + dq_i/dα in the tendon's image, and a round
+  /// P1 turns the joint as if α were α + q1/r1. `paths` null: planar tendons.
   Transmission(const Mechanism& mechanism, std::shared_ptr<const SlopedPaths> paths);
 
   /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, a wanted torque does not hold its load,

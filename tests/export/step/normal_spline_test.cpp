@@ -90,8 +90,8 @@ TEST(NormalSpline, PiecesMeetWithTheirTangents) {
   EXPECT_LT(std::abs(cross(before.normalized(), after.normalized())), 1e-9);
 }
 
-/// Of radius 10 up to ψ = π and of 20 from there on: the tangent is continuous, the radius is not. No curve closes so: the
-/// sector leaves out where this one does not.
+/// Of radius 10 up to ψ = π and of 20 from there on: the tangent is continuous, the radius is not. No curve closes so:
+/// the sector leaves out where this one does not.
 TEST(NormalSpline, AKinkThatIsSaidTakesNoPolesBesideIt) {
   std::vector<double> psi = directions(), radii;
   *std::min_element(psi.begin(), psi.end(),
