@@ -6,17 +6,9 @@
 namespace fusee {
 namespace {
 
-/// What forces say, and what they leave out, where one turn does not suffice.
-std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
-  SynthesisOptions options;
-  options.advice = false;
-  if (!need_several_turns(synthesise(as_it_is(file.mechanism).mechanism, options))) return std::nullopt;
-  return Diagnostic{Severity::note,
-                    file.place_of("pulley.winding"),
-                    "the tendons are wound several times: forces are those of level tendons that are tied 5 mm beyond "
-                    "the range; the slope of their paths, the spare turns and what guides.collar does to theta are not "
-                    "in them",
-                    {}};
+/// Of what stands against a pulley, what several turns do away with.
+void wind_several_times(AnalysisResult& result) {
+  std::erase_if(result.obstacles, [](const Condition& condition) { return condition.name.rfind("one_turn_", 0) == 0; });
 }
 
 }  // namespace
@@ -33,7 +25,10 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
     result.warnings.push_back(*overloaded);
   const std::vector<Diagnostic> bends = tight_bends(file);
   result.warnings.insert(result.warnings.end(), bends.begin(), bends.end());
-  if (const auto turns = note_on_turns(file)) result.warnings.push_back(*turns);
+  if (const auto turns = note_on_turns(file)) {
+    wind_several_times(result);
+    result.warnings.push_back(*turns);
+  }
   return result;
 }
 

@@ -2,9 +2,9 @@
 
 #include <set>
 
-#include "fusee/analysis/plausibility.h"
 #include "fusee/joint/as_it_is.h"
 #include "pipeline/law_table_copy.h"
+#include "pipeline/several_turns.h"
 
 namespace fusee {
 namespace {
@@ -134,7 +134,7 @@ void publish(const Bench& bench, OutputFolder& folder) {
 CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::filesystem::path>& runs,
                           const CalibrateOptions& options) {
   CalibrateResult result;
-  result.product.file = with_doubts(file);
+  result.product.file = with_doubts_and_turns(file);
   warn_of_sheaths(result.product.file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);

@@ -12,6 +12,7 @@
 #include "fusee/solid/print.h"
 #include "pipeline/agreement.h"
 #include "pipeline/design.h"
+#include "pipeline/several_turns.h"
 
 namespace fusee {
 namespace {
@@ -184,6 +185,11 @@ void demand_plain_joint(const MechanismFile& file) {
 
 KitResult kit(const MechanismFile& file, const KitOptions& options) {
   demand_plain_joint(file);
+  if (note_on_turns(file)) {
+    throw InputError(Diagnostic{Severity::error, file.place_of("pulley.winding"),
+                                "the test model is of one turn, and this pulley takes several",
+                                "fusee build makes it; for a kit: a larger pulley.r1_mm, or a smaller joint.range_deg"});
+  }
   KitResult result;
   KitProduct& product = result.product;
   product.pulley.file = with_doubts(file);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusee/analysis/plausibility.h"
 #include "fusee/base/text.h"
 #include "fusee/joint/as_it_is.h"
 #include "pipeline/design.h"
+#include "pipeline/several_turns.h"
 #include "pipeline/without_law.h"
 
 namespace fusee {
@@ -190,7 +190,7 @@ void write_files(ModelResult& result) {
 ModelResult model(const MechanismFile& file, const ModelOptions& options) {
   ModelResult result;
   ModelProduct& product = result.product;
-  product.file = with_doubts(file);
+  product.file = with_doubts_and_turns(file);
   if (options.declared) product.file.mechanism.identified = {};
   product.with_polynomial = options.with_polynomial;
   product.most_error = options.most_error;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/analysis/plausibility.h"
 #include "fusee/base/text.h"
 #include "fusee/coil/helical_pulley.h"
 #include "fusee/coil/helical_rewind.h"
@@ -90,6 +91,27 @@ std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism) 
   if (mechanism.sheath.is_there()) return "a tendon out of a sheath is not wound several times yet";
   if (!(mechanism.identified == Imperfections{})) return "of a joint with [identified] none is made yet";
   return std::nullopt;
+}
+
+std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
+  const DeclaredMechanism& mechanism = file.mechanism;
+  if (mechanism.transmission || kept_to_one_turn(mechanism)) return std::nullopt;
+  SynthesisOptions options;
+  options.advice = false;
+  if (!need_several_turns(synthesise(mechanism, options))) return std::nullopt;
+  return Diagnostic{Severity::note,
+                    file.place_of("pulley.winding"),
+                    "the tendons are wound several times: angles and forces are those of level tendons that are tied "
+                    "5 mm beyond the range; the slope of their paths, the spare turns and what guides.collar does to "
+                    "theta are not in them",
+                    {}};
+}
+
+MechanismFile with_doubts_and_turns(MechanismFile file) {
+  const auto turns = note_on_turns(file);
+  file = with_doubts(std::move(file));
+  if (turns) file.warnings.push_back(*turns);
+  return file;
 }
 
 bool design_several_turns(Product& product, double tolerance,

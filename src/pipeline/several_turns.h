@@ -17,6 +17,11 @@ bool need_several_turns(const SynthesisResult& synthesis);
 /// Why this file's pulley is not wound several times; null where it is.
 std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism);
 
+/// What a joint of level tendons leaves out of one whose tendons are wound several times; null where they are not.
+std::optional<Diagnostic> note_on_turns(const MechanismFile& file);
+/// with_doubts(), and that note.
+MechanismFile with_doubts_and_turns(MechanismFile file);
+
 /// Spirals and body of product.joint in place of what one turn could not be; as design() otherwise.
 bool design_several_turns(Product& product, double tolerance,
                           const std::function<void(std::string_view step)>& before_step);

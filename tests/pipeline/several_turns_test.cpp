@@ -56,7 +56,7 @@ TEST_P(SeveralTurns, AreMadeAndGiveTheDeclaredLaw) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns", "elbow_capstan"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& which) { return which.param; });
 
 TEST(SeveralTurnsFiles, SayWhereTheCurvesClimb) {
   const BuildResult built = made(read_profile("wrist_turns"));
