@@ -141,12 +141,6 @@ double ClosingArc::least_support() const {
   return least;
 }
 
-double ClosingArc::reach() const {
-  double reach = 0;
-  for (const Vec2& position : positions_) reach = std::max(reach, position.norm());
-  return reach;
-}
-
 double ClosingArc::length() const {
   double length = 0;
   for (std::size_t i = 0; i + 1 < radii_.size(); ++i) length += 0.5 * (radii_[i] + radii_[i + 1]) * step_;

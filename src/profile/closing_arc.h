@@ -20,8 +20,6 @@ class ClosingArc {
   double length() const;
   /// The smallest distance of a tangent from the axis; below zero the axis lies outside.
   double least_support() const;
-  /// How far from the axis it goes. Ends that are all but opposite meet kilometres out.
-  double reach() const;
 
  private:
   double begin_ = 0;

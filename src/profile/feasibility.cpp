@@ -14,9 +14,6 @@ namespace fusee {
 namespace {
 
 constexpr int k_samples = 192;
-/// Further out no groove is made, mm, and the floats of a mesh would soon hold neighbouring points as one (campaign of
-/// seed 400001, design 210: 16 km).
-constexpr double k_furthest = 1e5;
 /// Arc that the closing arc must leave for the tendon's lap and its tie-off at the wound end, in tendon diameters.
 constexpr double k_anchor_lap = 5.0;
 
@@ -238,13 +235,7 @@ Condition closes(const Mechanism& mechanism, Side side, const SideAttempt& attem
   condition.value = attempt.closing ? attempt.closing->least_support() - half : 0.0;
   condition.unit = "mm";
   condition.ok = attempt.closing && condition.value > 0;
-  if (attempt.closing && attempt.closing->reach() > k_furthest) {
-    condition.value = k_furthest - attempt.closing->reach();
-    condition.ok = false;
-    condition.message = "the arc that closes P" + number(side) + " would reach " +
-                        rounded(1e-3 * attempt.closing->reach(), 3) +
-                        " m from the axis: the ends of its active arc lie all but opposite each other";
-  } else if (attempt.closing && !condition.ok) {
+  if (attempt.closing && !condition.ok) {
     condition.message = "the arc that closes P" + number(side) + " would pass the axis at " + rounded(-condition.value, 3) +
                         " mm on the wrong side";
   } else if (!condition.ok) {
