@@ -71,10 +71,18 @@ py::object number(const Field& field, const DeclaredMechanism& mechanism, int en
   return py::float_(value);
 }
 
+/// A table that is there as a whole or not at all, and is not there.
+bool lacks_table(const Field& field, const DeclaredMechanism& mechanism) {
+  return field.is_set != nullptr && !field.is_set(mechanism) &&
+         std::any_of(fields().begin(), fields().end(),
+                     [&field](const Field& other) { return other.table == field.table && other.needed_in_table; });
+}
+
 /// A key's value by its row of the field table.
 py::object value_of(const CarriedMechanism& carried, const Field& field) {
   // The table's lists are members to write to; a copy is read.
   DeclaredMechanism mechanism = carried.file.mechanism;
+  if (lacks_table(field, mechanism)) return py::none();
   switch (field.kind) {
     case FieldKind::number:
       return number(field, mechanism, 0);
