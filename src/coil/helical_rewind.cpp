@@ -51,8 +51,7 @@ class HelicalString {
     const Vec2 pin = above_.guide_seen_from_pulley(alpha);
     find_corner(pin);
     normal_ = turned_near(tangent_normal(pin), edge_normals_[corner_]);
-    const double reach = (pin - plan(corner_)).norm();
-    span_ = std::sqrt((reach - (half_ - above_.lower_rho())) * (reach + (half_ - above_.lower_rho())));
+    span_ = above_.lower_span(pin, plan(corner_));
     if (!(span_ > 0)) throw InputError("", "the groove floor of " + pulley() + " swallows its guide pin");
     take_off_ = centre_line_at(along_[corner_] + half_ * normal_);
   }
@@ -119,10 +118,7 @@ class HelicalString {
     }
   }
 
-  double tangent_normal(const Vec2& pin) const {
-    const Vec2 away = pin - plan(corner_);
-    return direction(away) - hand_ * std::acos(std::clamp((half_ - above_.lower_rho()) / away.norm(), -1.0, 1.0));
-  }
+  double tangent_normal(const Vec2& pin) const { return above_.lower_normal(pin, plan(corner_)); }
 
   // Walks to the corner whose tangent leaves its neighbours inside.
   void find_corner(const Vec2& pin) {

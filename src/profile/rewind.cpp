@@ -46,8 +46,7 @@ class String {
     const double normal = tangent_normal(pin, corner_);
     normal_ = started_ ? turned_near(normal, normal_) : normal;
     started_ = true;
-    const double reach = (pin - corners_[corner_]).norm();
-    span_ = std::sqrt((reach - (half_ - above_.lower_rho())) * (reach + (half_ - above_.lower_rho())));
+    span_ = above_.lower_span(pin, corners_[corner_]);
     if (!(span_ > 0)) {
       throw InputError("", "the groove floor of " + pulley_name() + " swallows its " +
                                (above_.is_sheathed() ? "sheath's mouth" : "guide pin"));
@@ -66,11 +65,8 @@ class String {
   /// But for a constant.
   double length(double theta) const { return hand_ * wound() + span_ + above_.length(theta, normal_ - alpha_); }
 
-  /// Outward normal of the line that touches the disc about a corner and the pin's disc (or goes through the mouth),
-  /// both on their outer side.
   double tangent_normal(const Vec2& pin, std::size_t corner) const {
-    const Vec2 away = pin - corners_[corner];
-    return direction(away) - hand_ * std::acos(std::clamp((half_ - above_.lower_rho()) / away.norm(), -1.0, 1.0));
+    return above_.lower_normal(pin, corners_[corner]);
   }
 
   /// Walks to the corner whose tangent leaves all others inside.

@@ -58,6 +58,16 @@ Vec2 StringAbove::guide_seen_from_pulley(double alpha) const {
           std::sin(alpha) * from_axis_.x() + std::cos(alpha) * from_axis_.y()};
 }
 
+double StringAbove::lower_normal(const Vec2& guide, const Vec2& corner) const {
+  const Vec2 away = guide - corner;
+  return direction(away) - hand_ * std::acos(std::clamp((half_ - lower_rho()) / away.norm(), -1.0, 1.0));
+}
+
+double StringAbove::lower_span(const Vec2& guide, const Vec2& corner) const {
+  const double reach = (guide - corner).norm();
+  return std::sqrt((reach - (half_ - lower_rho())) * (reach + (half_ - lower_rho())));
+}
+
 /// What joins two discs with the string on the outer side of both, or a disc and a point.
 StringAbove::Piece StringAbove::from_pin_to(const Vec2& centre, double radius) const {
   const Vec2 away = centre - pin_;

@@ -26,6 +26,11 @@ class StringAbove {
   double length(double theta, double lower_normal) const;
   /// What the string comes to the pulley from, its pin or the mouth of its sheath, in the pulley's frame from its axis.
   Vec2 guide_seen_from_pulley(double alpha) const;
+  /// Between it and the disc of the string's own thickness about a corner of the groove floor: outward normal of the
+  /// line that touches both on their outer side. Both places in one frame.
+  double lower_normal(const Vec2& guide, const Vec2& corner) const;
+  /// Length of that line; 0 or NaN where the corner reaches into the guide.
+  double lower_span(const Vec2& guide, const Vec2& corner) const;
   /// Its radius to the string's centre line; 0 of a mouth.
   double lower_rho() const { return sheathed_ ? 0.0 : rho_; }
   bool is_sheathed() const { return sheathed_; }

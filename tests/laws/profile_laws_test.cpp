@@ -39,43 +39,28 @@ TEST(ProfileLaws, WhatIsAcceptedIsConvexAndRewindsToItsLaw) {
   });
 }
 
+/// Whether it is made; if so, it is convex and rewinds to its law.
+bool rewinds_to_its_law(const Mechanism& mechanism) {
+  const SynthesisResult result = synthesise(mechanism, {.advice = false});
+  for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
+  if (!result.made()) return false;
+  const double half = 0.5 * mechanism.tendon.diameter;
+  const Polygon floor1 = parallel(result.p1, -half), floor2 = parallel(result.p2, -half);
+  RC_ASSERT(is_convex(floor1));
+  RC_ASSERT(is_convex(floor2));
+  // Where an arm falls to a fifth, what was lost on the way there is five times as much.
+  const RewindResult wound = rewind(mechanism, floor1, floor2);
+  RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
+  RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);
+  return true;
+}
+
 TEST(ProfileLaws, DrumsAndAttachmentsRewindToTheirLawAsFar) {
-  expect_law(
-      300,
-      [](const Mechanism& mechanism) {
-        const SynthesisResult result = synthesise(mechanism, {.advice = false});
-        for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
-        if (!result.made()) return false;
-        const double half = 0.5 * mechanism.tendon.diameter;
-        const Polygon floor1 = parallel(result.p1, -half), floor2 = parallel(result.p2, -half);
-        RC_ASSERT(is_convex(floor1));
-        RC_ASSERT(is_convex(floor2));
-        // Where an arm falls to a fifth, what was lost on the way there is five times as much.
-        const RewindResult wound = rewind(mechanism, floor1, floor2);
-        RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
-        RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);
-        return true;
-      },
-      testing::random_wide_mechanism);
+  expect_law(300, rewinds_to_its_law, testing::random_wide_mechanism);
 }
 
 TEST(ProfileLaws, ThroughSheathsRewindsToItsLawAsFar) {
-  expect_law(
-      300,
-      [](const Mechanism& mechanism) {
-        const SynthesisResult result = synthesise(mechanism, {.advice = false});
-        for (const Condition& condition : result.conditions) RC_ASSERT(condition.ok == condition.message.empty());
-        if (!result.made()) return false;
-        const double half = 0.5 * mechanism.tendon.diameter;
-        const Polygon floor1 = parallel(result.p1, -half), floor2 = parallel(result.p2, -half);
-        RC_ASSERT(is_convex(floor1));
-        RC_ASSERT(is_convex(floor2));
-        const RewindResult wound = rewind(mechanism, floor1, floor2);
-        RC_ASSERT(degrees(wound.max_theta_error) < 0.02);
-        RC_ASSERT(wound.max_slack < 0.005 * mechanism.joint.R);
-        return true;
-      },
-      testing::random_sheathed_mechanism);
+  expect_law(300, rewinds_to_its_law, testing::random_sheathed_mechanism);
 }
 
 /// What the load has taken up from home, N·mm.
