@@ -40,8 +40,8 @@ struct NumberSlot {
   bool angle = false;
 };
 
-/// In the order of FileNumbers.
-constexpr std::array<NumberSlot, 13> k_slots{{{"joint.length_mm"},
+/// In the order of FileNumbers, then of WideFileNumbers.
+constexpr std::array<NumberSlot, 20> k_slots{{{"joint.length_mm"},
                                               {"guides.EB_mm"},
                                               {"guides.ED_mm"},
                                               {"guides.OE_mm"},
@@ -53,7 +53,14 @@ constexpr std::array<NumberSlot, 13> k_slots{{{"joint.length_mm"},
                                               {"tendon.diameter_mm"},
                                               {"tendon.modulus_MPa"},
                                               {"joint.range_deg[0]", true},
-                                              {"joint.range_deg[1]", true}}};
+                                              {"joint.range_deg[1]", true},
+                                              {"joint.drum_radius_mm"},
+                                              {"joint.attachment1_mm[0]"},
+                                              {"joint.attachment1_mm[1]"},
+                                              {"joint.attachment2_mm[0]"},
+                                              {"joint.attachment2_mm[1]"},
+                                              {"guides.bearing_radius_mm"},
+                                              {"guides.bearing_friction"}}};
 
 double radians_of(double value) { return radians(value); }
 Jet radians_of(const Jet& value) { return value * Jet(pi_interval() / 180.0); }
@@ -111,8 +118,14 @@ struct Bounder::Asked {
   PinAngles least = {};  ///< in the box
 };
 
-Bounder::Bounder(const Problem& problem, Objective objective)
-    : problem_(problem), objective_(objective), base_(file_numbers(problem.base)) {
+Bounder::Bounder(const Problem& problem, Objective objective) : problem_(problem), objective_(objective) {
+  // What moves a joint's drum or attachment gives it one.
+  Design lowest;
+  for (const Variable& variable : problem.variables) lowest.push_back(variable.lower);
+  const Mechanism base = mechanism_at(problem, lowest);
+  base_ = file_numbers(problem.base);
+  wide_kind_ = wide_kind(base);
+  wide_base_ = wide_file_numbers(base);
   for (const MovingKey& moving : problem.moving) {
     const auto slot =
         std::find_if(k_slots.begin(), k_slots.end(), [&](const NumberSlot& s) { return s.key == moving.key; });
@@ -127,8 +140,27 @@ Bounder::Bounder(const Problem& problem, Objective objective)
 template <typename S>
 DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
   const FileNumbers<double>& b = base_;
-  std::array<S, 13> n{b.R,  b.EB,     b.ED,       b.OE,      b.EF,        b.r1,       b.ratio,
-                      b.mu, b.radius, b.diameter, b.modulus, b.theta_min, b.theta_max};
+  const WideFileNumbers<double>& w = wide_base_;
+  std::array<S, 20> n{b.R,
+                      b.EB,
+                      b.ED,
+                      b.OE,
+                      b.EF,
+                      b.r1,
+                      b.ratio,
+                      b.mu,
+                      b.radius,
+                      b.diameter,
+                      b.modulus,
+                      b.theta_min,
+                      b.theta_max,
+                      w.drum_radius,
+                      w.across1,
+                      w.along1,
+                      w.across2,
+                      w.along2,
+                      w.bearing_radius,
+                      w.bearing_friction};
   for (const Number& number : numbers_) {
     const MovingKey& moving = *number.moving;
     S value(moving.constant);
@@ -141,8 +173,13 @@ DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
     }
     n[number.slot] = k_slots[number.slot].angle ? S(radians_of(value)) : value;
   }
-  return design_numbers<S>({n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12]},
-                           problem_.base.pulley.law, problem_.base.has_point_pins());
+  DesignNumbers<S> d =
+      design_numbers<S>({n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12]},
+                        problem_.base.pulley.law, problem_.base.has_point_pins());
+  if (!wide_kind_.is_papers())
+    d.wide =
+        wide_numbers<S>(wide_kind_, {n[13], n[14], n[15], n[16], n[17], n[18], n[19]}, d.R, S(2.0 * d.half), d.rho);
+  return d;
 }
 
 /// To be called while a RoundingUp lives. A corner has no derivatives.
@@ -187,6 +224,7 @@ Jet Bounder::value_of(const Asked& asked, const DesignNumbers<Jet>& numbers, Dom
   constexpr double k_between_places = 2e-3;  // rad: what a wrap may dip below 0 between places that are looked at
   const RoundingUp rounding;
   DesignNumbers<Jet> d = numbers_over(box);
+  if (d.wide) return d.least;
   const Interval theta = (d.theta_min + Jet(place) * (d.theta_max - d.theta_min)).value;
   Domain of_1, upper;
   if (!d.linear) {
@@ -322,9 +360,16 @@ void Bounder::ask_worst_places(Objective objective, bool of_cap, const DesignNum
     asked.push_back({of_cap ? Asked::Kind::cap : Asked::Kind::objective, found[i].second});
 }
 
+/// How the curves of a pulley bend where a tendon leaves its drum has no interval form: a bound without those
+/// conditions is a bound all the same.
+std::size_t Bounder::asked_conditions() const {
+  const std::size_t count = needed_count(problem_.feasible, problem_.base.pulley.method);
+  return wide_kind_.is_papers() ? count : std::min(count, k_needed_of_drawing);
+}
+
 /// Where each condition is tightest in the middle of the box.
 void Bounder::ask_tightest_places(const DesignNumbers<double>& middle, std::vector<Asked>& asked) const {
-  const std::size_t count = needed_count(problem_.feasible, problem_.base.pulley.method);
+  const std::size_t count = asked_conditions();
   const auto value = [&](std::size_t which, int place, int places) {
     NeededValues<double> values;
     if (!needed_at(middle, static_cast<double>(place) / places, which + 1, values)) return -k_infinite;
@@ -365,7 +410,7 @@ std::vector<Bounder::Asked> Bounder::asked_around(const std::vector<double>& des
 /// Bound 3. −infinity where it does not apply.
 [[gnu::noinline]] double Bounder::quotient_bound(const Box& box, double place, const Lines& constraints) const {
   const bool torque = objective_ == Objective::motor_torque;
-  if (!problem_.base.has_point_pins() ||
+  if (!problem_.base.has_point_pins() || !wide_kind_.is_papers() ||
       !(torque ? problem_.base.pulley.law == Law::compensate : objective_ == Objective::max_tension))
     return -k_infinite;
   const RoundingUp rounding;

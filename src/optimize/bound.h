@@ -55,6 +55,7 @@ class Bounder {
   double excess_of(const Asked& asked, const std::vector<double>& design) const;
   void ask_worst_places(Objective objective, bool of_cap, const DesignNumbers<double>& middle,
                         std::vector<Asked>& asked) const;
+  std::size_t asked_conditions() const;
   void ask_tightest_places(const DesignNumbers<double>& middle, std::vector<Asked>& asked) const;
   void add_lines(const Box& box, Asked asked, Lines& lines, BoxBound& result, double limit) const;
   void add_lines_of(const Box& box, const Asked& asked, Lines& lines, BoxBound& result, double limit) const;
@@ -65,6 +66,8 @@ class Bounder {
   const Problem& problem_;
   Objective objective_;
   FileNumbers<double> base_;
+  WideKind wide_kind_;
+  WideFileNumbers<double> wide_base_;
   std::vector<Number> numbers_;  ///< that move
 };
 

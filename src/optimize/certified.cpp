@@ -370,6 +370,17 @@ class Search {
 
 }  // namespace
 
+namespace {
+
+double least_of(const MovingKey& moving, const std::vector<Variable>& variables) {
+  double least = moving.constant;
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    least += std::min(moving.a[i] * variables[i].lower, moving.a[i] * variables[i].upper);
+  return least;
+}
+
+}  // namespace
+
 std::string cannot_certify(const Problem& problem, Objective objective) {
   if (!info(objective).certifiable)
     return std::string(info(objective).name) + " has no interval form: its optimum cannot be certified";
@@ -377,14 +388,13 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
     return "law = \"table\" has no interval form: its optimum cannot be certified";
   if (problem.base.pulley.law == Law::torque)
     return "law = \"torque\" has no interval form: its optimum cannot be certified";
-  const bool turns_places = std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& moving) {
-    return moving.key.starts_with("joint.drum") || moving.key.starts_with("joint.attachment");
+  const bool begins_without_drum = std::any_of(problem.moving.begin(), problem.moving.end(), [&](const MovingKey& key) {
+    return key.key == "joint.drum_radius_mm" && !(least_of(key, problem.variables) > 0);
   });
-  if (turns_places || !problem.base.joint.is_plain())
-    return "a drum or an attachment of its own has no interval form: its optimum cannot be certified";
+  if (begins_without_drum)
+    return "joint.drum_radius_mm from 0 on has no interval form: a drum of hardly any radius is not the joint without "
+           "one";
   if (problem.base.sheath.is_there()) return "a [sheath] has no interval form: its optimum cannot be certified";
-  if (problem.base.guides.kind == GuideKind::idler)
-    return "guides.kind = \"idler\" has no interval form: its optimum cannot be certified";
   if (problem.as_it_is)
     return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
   return "";

@@ -6,6 +6,7 @@
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/optimize/objectives.h"
 #include "optimize/sharp.h"
+#include "optimize/wide_path.h"
 #include "transmission/equations.h"
 
 namespace fusee {
@@ -30,6 +31,7 @@ struct DesignNumbers {
   bool linear = false;  ///< law = linear: θ = α/ratio; else compensate
   S half;               ///< of the tendon's diameter, mm
   PinAngles least;      ///< what boxes know of the place that is looked at
+  std::optional<WideNumbers<S>> wide = std::nullopt;  ///< where the joint is not the paper's
 };
 
 /// The same as they stand in the file, but for angles, which are rad.
@@ -59,8 +61,8 @@ DesignNumbers<S> design_numbers(const FileNumbers<S>& file, Law law, bool point_
 /// One tendon above its pin.
 template <typename S>
 struct UpperNumbers {
-  S gamma;  ///< between OC and the tendon, rad
-  S sine;   ///< of gamma: the moment arm is R sin γ
+  S gamma;  ///< between OC and the tendon, rad: in its image, its normal's direction and θ
+  S sine;   ///< of gamma: the moment arm is R sin γ. In other joints than the paper's the arm per R
   S free;   ///< C to the pin, mm
 };
 
@@ -92,6 +94,15 @@ inline LowerLine<Jet> lower_line_of(const DesignNumbers<Jet>& d, const Jet& p, b
   return {line.normal, line.reach};
 }
 
+/// Of a tendon that has a moment arm, of a joint that is not the paper's.
+template <typename S>
+UpperNumbers<S> wide_upper_numbers(const DesignNumbers<S>& d, const TendonEnd<S>& end, const S& e, const S& theta,
+                                   Domain& domain) {
+  domain.whole = domain.whole && d.wide->domain.whole;
+  const WidePath<S> path = wide_path(end, d.wide->drum, e, d.OE, d.rho, theta, domain);
+  return {path.normal + theta, positive_part(S(path.arm / d.R), domain), path.free};
+}
+
 /// Of a tendon that has a moment arm.
 template <typename S>
 UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const TurnedBy<S>& theta, double least,
@@ -101,13 +112,25 @@ UpperNumbers<S> upper_numbers(const DesignNumbers<S>& d, const S& e, const Turne
   return {gamma, positive_part(sin(gamma), domain), line.free};
 }
 
+template <typename S>
+void set_upper_numbers(const DesignNumbers<S>& d, StrokeNumbers<S>& n, Domain& domain) {
+  if constexpr (k_may_be_wide<S>) {
+    if (d.wide) {
+      n.upper2 = wide_upper_numbers(d, d.wide->end2, d.ED, n.theta.angle, domain);
+      n.upper1 = wide_upper_numbers(d, d.wide->end1, d.EB, S(-n.theta.angle), domain);
+      return;
+    }
+  }
+  n.upper2 = upper_numbers(d, d.ED, n.theta, d.least.of_2, domain);
+  n.upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), d.least.of_1, domain);
+}
+
 /// Both tendons above their pins and the radii that follow from their arms: no pulley is looked at yet.
 template <typename S>
 StrokeNumbers<S> upper_stroke(const DesignNumbers<S>& d, const S& place, Domain& domain) {
   StrokeNumbers<S> n;
   n.theta = turned_by(d.theta_min + place * (d.theta_max - d.theta_min));
-  n.upper2 = upper_numbers(d, d.ED, n.theta, d.least.of_2, domain);
-  n.upper1 = upper_numbers(d, d.EB, n.theta.mirrored(), d.least.of_1, domain);
+  set_upper_numbers(d, n, domain);
   // Arms in units of R, which cancels: an interval is the sharper the less often a number stands in a formula.
   const S slope = d.linear ? d.R / d.ratio : slope_over_round_pulley(d.r1, n.upper1.sine);
   n.r1 = d.linear ? pulley_radius(n.upper1.sine, slope) : d.r1;
@@ -148,7 +171,8 @@ S objective_of(Objective objective, const DesignNumbers<S>& d, const StrokeNumbe
   if (objective == Objective::footprint) return footprint_at(d, n);
   // A newton across OC turns by R, and the arm is R sin γ: R cancels here too.
   const S above = tension_above_pin(S(1.0), n.upper2.sine);
-  const S below = tension_below_pin(above, d.mu, n.phi);
+  const S below = d.wide && d.wide->turning ? tension_below_idler(above, *d.wide->turning, n.phi)
+                                            : tension_below_pin(above, d.mu, n.phi);
   if (objective == Objective::max_tension) return below;
   if (objective == Objective::motor_torque) return below * n.r2;
   const S elongation = elongation_of_tendon(above, below, n.upper2.free, S(d.rho * n.phi), n.reach, d.stiffness);

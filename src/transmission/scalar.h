@@ -16,7 +16,7 @@ struct Domain {
   bool whole = true;     ///< false: a part was cut off; derivatives are worth nothing
 };
 
-using std::acos, std::cos, std::exp, std::hypot, std::sin, std::sqrt;
+using std::acos, std::atan, std::cos, std::exp, std::hypot, std::sin, std::sqrt;
 inline double squared(double x) { return x * x; }
 inline double larger(double a, double b) { return std::max(a, b); }
 inline double positive_part(double x, Domain& domain) {

@@ -81,6 +81,62 @@ TEST(Certified, ASecondObjectiveBreaksTies) {
   EXPECT_NEAR(second.best[0], 100.0, 0.5);
 }
 
+/// A finger's joint whose tendons run over a drum from ends of their own, of which tendon 1 leaves it within the range.
+const std::string k_finger = R"(schema = 1
+name = "finger"
+[joint]
+length_mm = 90
+range_deg = [-20, 80]
+drum_radius_mm = 8
+attachment1_mm = [-5.8, 8.5]
+attachment2_mm = [-5.8, 5.8]
+[guides]
+EB_mm = 12
+ED_mm = 12
+OE_mm = 12
+radius_mm = 1.5
+friction = 0.1
+[pulley]
+EF_mm = 45
+r1_mm = 9
+[tendon]
+diameter_mm = 0.56
+[optimize]
+objective = "max_tension"
+variables = ["joint.drum_radius_mm", "joint.attachment1_mm[0]", "joint.attachment1_mm[1]", "guides.OE_mm"]
+lower = [6, -8, 7, 10]
+upper = [9, -4, 11, 16]
+)";
+
+std::vector<Problem> wide_problems() {
+  const std::vector<Setting> idlers = {{"guides.kind", "\"idler\""}, {"guides.radius_mm", "4"}};
+  // An ankle's: forefoot and heel.
+  const std::vector<Setting> apart = {
+      {"pulley.method", "exact"},
+      {"joint.length_mm", "100"},
+      {"joint.range_deg", "[-25, 25]"},
+      {"guides.kind", "\"idler\""},
+      {"guides.radius_mm", "8"},
+      {"guides.EB_mm", "75"},
+      {"guides.OE_mm", "180"},
+      {"joint.attachment1_mm", "[-105, 55]"},
+      {"joint.attachment2_mm", "[78, 40]"},
+      {"pulley.EF_mm", "150"},
+      {"optimize.tied", "[]"},
+      {"optimize.constraints", "[]"},
+      {"optimize.variables",
+       R"(["joint.attachment2_mm[0]", "joint.attachment2_mm[1]", "guides.ED_mm", "guides.bearing_radius_mm"])"},
+      {"optimize.lower", "[65, 30, 60, 1]"},
+      {"optimize.upper", "[90, 60, 80, 4]"}};
+  const std::vector<Setting> linear = {{"pulley.law", "linear"},
+                                       {"pulley.ratio", "1.2"},
+                                       {"optimize.variables", R"(["joint.drum_radius_mm", "guides.OE_mm"])"},
+                                       {"optimize.lower", "[6, 10]"},
+                                       {"optimize.upper", "[9, 16]"}};
+  return {paper_problem({}, k_finger), paper_problem(idlers, k_finger), paper_problem(linear, k_finger),
+          paper_problem(apart)};
+}
+
 /// The paper's problem with these settings, of the six lengths.
 Problem six_numbers(const std::vector<Setting>& settings = {}) {
   std::vector<Setting> all = {
@@ -195,6 +251,14 @@ TEST(Bound, IsBelowEveryDesignOfTheBoxAndCutsNoneOff) {
   EXPECT_GT(compared, 4000);
 }
 
+TEST(Bound, OfWideJointsIsBelowEveryDesignAndCutsNoneOff) {
+  Random random(17);
+  for (const Problem& problem : wide_problems()) {
+    for (const Objective objective : {Objective::max_tension, Objective::motor_torque, Objective::max_error})
+      EXPECT_GT(expect_no_design_is_lost(problem, objective, 100, random), 200);
+  }
+}
+
 /// Halving the box brings the bound nearer by a factor of four: it is of second order, or the search could not end.
 /// Around ED 45.17 the tension at μ = 0.3 has its least value inside the box.
 TEST(Bound, IsOfSecondOrder) {
@@ -232,6 +296,45 @@ TEST(Bound, TheValueOfADesignIsRoundedUp) {
       const double up = bounder.rounded_up_value(design);
       EXPECT_GE(up, evaluation.value);
       EXPECT_NEAR(up, evaluation.value, 1e-8 * evaluation.value) << info.name;
+    }
+  }
+}
+
+TEST(Bound, TheValueOfAWideDesignIsRoundedUp) {
+  Random random(3);
+  for (const Problem& problem : wide_problems()) {
+    int compared = 0;
+    for (const Objective objective : {Objective::max_tension, Objective::motor_torque, Objective::max_error}) {
+      const Bounder bounder(problem, objective);
+      for (int i = 0; i < 40; ++i) {
+        const Design design = random_design(problem, random);
+        const Evaluation evaluation = evaluate(objective, mechanism_at(problem, design));
+        if (!evaluation.possible) continue;
+        ++compared;
+        const double up = bounder.rounded_up_value(design);
+        EXPECT_GE(up, evaluation.value * (1 - 1e-12));
+        EXPECT_NEAR(up, evaluation.value, 1e-8 * evaluation.value) << info(objective).name;
+      }
+    }
+    EXPECT_GT(compared, 10);
+  }
+}
+
+TEST(Certified, OptimaOfWideJointsAreProven) {
+  CertifiedOptions options;
+  options.gap = 1e-3;
+  options.most_tie_boxes = 1;
+  options.most_boxes = 60000;
+  for (const Problem& problem : wide_problems()) {
+    for (const Objective objective : {Objective::max_tension, Objective::motor_torque}) {
+      const CertifiedResult result = certified_optimum(problem, objective, options);
+      EXPECT_TRUE(result.proven) << result.relative_gap << " after " << result.boxes;
+      Random random(11);
+      for (int i = 0; i < 2000; ++i) {
+        const Evaluation evaluation = evaluate_design(problem, objective, random_design(problem, random));
+        if (!evaluation.possible) continue;
+        EXPECT_GE(evaluation.value, result.lower_bound * (1 - 1e-12));
+      }
     }
   }
 }

@@ -1,0 +1,121 @@
+#include "optimize/wide_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fusee {
+
+WideKind wide_kind(const Mechanism& mechanism) {
+  return {mechanism.joint.drum_radius > 0, mechanism.joint.attachment1.has_value(),
+          mechanism.joint.attachment2.has_value(), mechanism.guides.kind == GuideKind::idler};
+}
+
+WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism) {
+  const Attachment C{0, mechanism.joint.R};
+  const Attachment end1 = mechanism.joint.attachment1.value_or(C), end2 = mechanism.joint.attachment2.value_or(C);
+  return {mechanism.joint.drum_radius,
+          end1.across,
+          end1.along,
+          end2.across,
+          end2.along,
+          mechanism.guides.bearing_radius,
+          mechanism.guides.bearing_friction};
+}
+
+double twist_of(double across, double along, Domain&) {
+  // Straight below O it is reached from the right, as pin_place() says.
+  return across == 0 && along < 0 ? k_pi : std::atan2(across, along);
+}
+
+Jet twist_of(const Jet& across, const Jet& along, Domain& domain) {
+  const Interval quarter = 0.5 * pi_interval();
+  if (along.value.lower() > 0) return atan(across / along);
+  if (across.value.lower() > 0) return Jet(quarter) - atan(along / across);
+  if (across.value.upper() < 0) return Jet(-quarter) - atan(along / across);
+  domain.whole = false;
+  return boost::numeric::hull(-pi_interval(), pi_interval());
+}
+
+namespace {
+
+double quarter_turn(double) { return 0.5 * k_pi; }
+Jet quarter_turn(const Jet&) { return Jet(0.5 * pi_interval()); }
+
+UpperLine<double> line_from_end(double away, double e, double oe, double rho, const TurnedBy<double>& turned,
+                                Domain& domain) {
+  return upper_line(from_pin_in_link(away, e, oe, turned), rho, domain);
+}
+UpperLine<Jet> line_from_end(const Jet& away, const Jet& e, const Jet& oe, const Jet& rho, const TurnedBy<Jet>& turned,
+                             Domain& domain) {
+  const SharpLine line = sharp_upper_line(away, e, oe, rho, turned, domain);
+  return {line.normal, line.reach};
+}
+
+template <typename S>
+WidePath<S> free_path(const TendonEnd<S>& end, const S& e, const S& oe, const S& rho, const S& theta, Domain& domain) {
+  const TurnedBy<S> turned = turned_by(S(theta + end.twist));
+  const UpperLine<S> line = line_from_end(end.away, e, oe, rho, turned, domain);
+  return {line.normal - turned.angle, end.away * sin(line.normal), line.free};
+}
+
+/// The line that touches drum and pin, (P − O)·n = ρ0 − ρ.
+template <typename S>
+struct DrumLine {
+  S normal, length;
+};
+template <typename S>
+DrumLine<S> drum_line(const S& drum, const S& e, const S& oe, const S& rho, Domain& domain) {
+  const S distance = hypot(e, oe), beyond = drum - rho;
+  return {atan(S(-oe / e)) + acos(unit_part(S(beyond / distance), domain)), cathetus(distance, beyond, domain)};
+}
+
+enum class Lies { free, on_drum, either };
+Lies where_it_lies(double wound) { return wound >= 0 ? Lies::on_drum : Lies::free; }
+Lies where_it_lies(const Jet& wound) {
+  if (wound.value.lower() >= 0) return Lies::on_drum;
+  return wound.value.upper() < 0 ? Lies::free : Lies::either;
+}
+
+/// A number is one or the other.
+double joined(double a, double) { return a; }
+Jet joined(const Jet& a, const Jet& b) {
+  Jet both(boost::numeric::hull(a.value, b.value));
+  both.count = std::max(a.count, b.count);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(both.count); ++i)
+    both.slope[i] = boost::numeric::hull(a.slope[i], b.slope[i]);
+  return both;
+}
+
+template <typename S>
+WidePath<S> path_of(const TendonEnd<S>& end, const std::optional<S>& drum, const S& e, const S& oe, const S& rho,
+                    const S& theta, Domain& domain) {
+  if (!drum) return free_path(end, e, oe, rho, theta, domain);
+  const DrumLine<S> line = drum_line(*drum, e, oe, rho, domain);
+  const S opening = end.is_on_drum ? S(0.0) : S(acos(unit_part(S(*drum / end.away), domain)));
+  const S wound = quarter_turn(theta) - (theta + end.twist) - opening - line.normal;
+  const Lies lies = where_it_lies(wound);
+  if (lies == Lies::free) return free_path(end, e, oe, rho, theta, domain);
+  const S to_drum = end.is_on_drum ? S(0.0) : S(cathetus(end.away, *drum, domain));
+  const WidePath<S> on_drum{line.normal, *drum, to_drum + *drum * wound + line.length};
+  if (lies == Lies::on_drum) return on_drum;
+  Domain of_free;
+  const WidePath<S> free = free_path(end, e, oe, rho, theta, of_free);
+  domain.whole = domain.whole && of_free.whole;
+  if (!of_free.possible) return on_drum;
+  return {joined(on_drum.normal, free.normal), joined(on_drum.arm, free.arm),
+          joined(on_drum.free, free.free)};
+}
+
+}  // namespace
+
+WidePath<double> wide_path(const TendonEnd<double>& end, const std::optional<double>& drum, double e, double oe,
+                           double rho, double theta, Domain& domain) {
+  return path_of(end, drum, e, oe, rho, theta, domain);
+}
+
+WidePath<Jet> wide_path(const TendonEnd<Jet>& end, const std::optional<Jet>& drum, const Jet& e, const Jet& oe,
+                        const Jet& rho, const Jet& theta, Domain& domain) {
+  return path_of(end, drum, e, oe, rho, theta, domain);
+}
+
+}  // namespace fusee

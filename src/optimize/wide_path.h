@@ -1,0 +1,110 @@
+/// \file
+/// Internal: the upper path of a tendon of a joint that is not the paper's: from an attachment of its own, over a drum
+/// on the joint where it lies on one. For numbers and for intervals with derivatives; the same as upper_span() of
+/// transmission/tendon_path.h, which has the derivation.
+///
+/// In the frame of a tendon's end (the link's, turned by the end's twist τ) an attachment is a lever point: equations
+/// and sharp bounds of C hold for it, with its distance from O for R and θ + τ for θ. On the drum the line to the pin
+/// stands still, and the arm is ρ0. Over a box that holds lift-off both pieces are joined: arm, direction and length
+/// are continuous there, and their slopes those of one piece or of the other, so that the mean value theorem holds.
+#pragma once
+
+#include <optional>
+#include <type_traits>
+
+#include "fusee/mechanism/mechanism.h"
+#include "optimize/sharp.h"
+
+namespace fusee {
+
+/// Other scalars than these know the paper's joint alone.
+template <typename S>
+constexpr bool k_may_be_wide = std::is_same_v<S, double> || std::is_same_v<S, Jet>;
+
+/// Which numbers a mechanism has that the paper's has not.
+struct WideKind {
+  bool drum = false, own1 = false, own2 = false, idlers = false;
+
+  bool is_papers() const { return !drum && !own1 && !own2 && !idlers; }
+};
+
+WideKind wide_kind(const Mechanism& mechanism);
+
+/// Those numbers as they stand in the file. mm.
+template <typename S>
+struct WideFileNumbers {
+  S drum_radius, across1, along1, across2, along2, bearing_radius, bearing_friction;
+};
+
+WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism);
+
+/// A tendon's end in its right-hand image.
+template <typename S>
+struct TendonEnd {
+  S away;   ///< from O, mm
+  S twist;  ///< at home, clockwise from OC, rad
+  bool is_on_drum = false;  ///< on its pitch circle, in the whole box
+};
+
+template <typename S>
+struct WideNumbers {
+  TendonEnd<S> end1, end2;
+  std::optional<S> drum;     ///< ρ0, to the centre line of a tendon that lies on it
+  std::optional<S> turning;  ///< of idlers: friction of the bearing times its radius per the idler's, to the centre line
+  Domain domain;             ///< of the ends
+};
+
+/// Clockwise from straight up, within ±180°.
+double twist_of(double across, double along, Domain& domain);
+Jet twist_of(const Jet& across, const Jet& along, Domain& domain);
+
+inline bool is_at_most(double a, double b) { return a <= b; }
+inline bool is_at_most(const Jet& a, const Jet& b) { return a.value.upper() <= b.value.lower(); }
+
+/// An end within the drum's pitch circle lies on it.
+template <typename S>
+TendonEnd<S> tendon_end(const S& away, const S& twist, const std::optional<S>& drum) {
+  if (!drum) return {away, twist};
+  if (is_at_most(away, *drum)) return {*drum, twist, true};
+  return {larger(away, *drum), twist};
+}
+
+template <typename S>
+WideNumbers<S> wide_numbers(const WideKind& kind, const WideFileNumbers<S>& file, const S& R, const S& diameter,
+                            const S& rho) {
+  WideNumbers<S> wide;
+  if (kind.drum) wide.drum = S(file.drum_radius + 0.5 * diameter);
+  const auto own = [&](const S& across, const S& along) {
+    return tendon_end(S(hypot(across, along)), twist_of(across, along, wide.domain), wide.drum);
+  };
+  const TendonEnd<S> C = tendon_end(R, S(0.0), wide.drum);
+  // Tendon 1 is seen in the mirror.
+  wide.end1 = kind.own1 ? own(-file.across1, file.along1) : C;
+  wide.end2 = kind.own2 ? own(file.across2, file.along2) : C;
+  if (kind.idlers) wide.turning = S(file.bearing_friction * file.bearing_radius / rho);
+  return wide;
+}
+
+/// A tendon above its pin, in its right-hand image.
+template <typename S>
+struct WidePath {
+  S normal;  ///< direction of the line's outward normal at the pin, rad
+  S arm;     ///< about O, mm
+  S free;    ///< from the end to the pin's tangent point, over the drum, mm
+};
+
+/// Over the pin at (e, −oe), `rho` from its centre, at joint angle `theta` of the image.
+WidePath<double> wide_path(const TendonEnd<double>& end, const std::optional<double>& drum, double e, double oe,
+                           double rho, double theta, Domain& domain);
+/// To be called while a RoundingUp lives.
+WidePath<Jet> wide_path(const TendonEnd<Jet>& end, const std::optional<Jet>& drum, const Jet& e, const Jet& oe,
+                        const Jet& rho, const Jet& theta, Domain& domain);
+
+/// [7] of a bearing: (T2 − T1) ρ = μb rb (T1 + T2) sin(φ/2), as transmission/guide_friction.cpp has it.
+template <typename S>
+S tension_below_idler(const S& above, const S& turning, const S& wrap) {
+  const S epsilon = turning * sin(S(0.5 * larger(wrap, S(0.0))));
+  return above * ((1.0 + epsilon) / (1.0 - epsilon));
+}
+
+}  // namespace fusee
