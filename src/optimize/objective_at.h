@@ -164,6 +164,14 @@ S footprint_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n) {
   return (left + right) * (top + bottom);
 }
 
+template <typename S>
+S below_guide(const DesignNumbers<S>& d, const S& above, const S& wrap) {
+  if constexpr (k_may_be_wide<S>) {
+    if (d.wide && d.wide->turning) return tension_below_idler(above, *d.wide->turning, wrap);
+  }
+  return tension_below_pin(above, d.mu, wrap);
+}
+
 /// What of the objective this place of the stroke alone would give: the objective is the largest over the range. Per
 /// newton of tip force.
 template <typename S>
@@ -171,8 +179,7 @@ S objective_of(Objective objective, const DesignNumbers<S>& d, const StrokeNumbe
   if (objective == Objective::footprint) return footprint_at(d, n);
   // A newton across OC turns by R, and the arm is R sin γ: R cancels here too.
   const S above = tension_above_pin(S(1.0), n.upper2.sine);
-  const S below = d.wide && d.wide->turning ? tension_below_idler(above, *d.wide->turning, n.phi)
-                                            : tension_below_pin(above, d.mu, n.phi);
+  const S below = below_guide(d, above, n.phi);
   if (objective == Objective::max_tension) return below;
   if (objective == Objective::motor_torque) return below * n.r2;
   const S elongation = elongation_of_tendon(above, below, n.upper2.free, S(d.rho * n.phi), n.reach, d.stiffness);

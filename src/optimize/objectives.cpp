@@ -85,8 +85,22 @@ Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   return evaluation;
 }
 
-/// The same equations through Transmission and paper_forces(): law = "table" or "torque", and the words for why there
-/// is no value.
+/// Laws and joints whose equations objective_at.h has.
+bool has_closed_form(const Mechanism& mechanism) {
+  return mechanism.pulley.law != Law::table && mechanism.pulley.law != Law::torque && !mechanism.sheath.is_there() &&
+         mechanism.joint.drum_centre == Attachment{} && mechanism.guides.D_below_B == 0;
+}
+
+DesignNumbers<double> numbers_of(const Mechanism& mechanism) {
+  DesignNumbers<double> numbers =
+      design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
+  if (const WideKind kind = wide_kind(mechanism); !kind.is_papers())
+    numbers.wide = wide_numbers(kind, wide_file_numbers(mechanism), numbers.R, mechanism.tendon.diameter, numbers.rho);
+  return numbers;
+}
+
+/// The same equations through Transmission and paper_forces(): what has no closed form, and the words for why there is
+/// no value.
 Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechanism) {
   const Transmission transmission(mechanism);
   if (const auto theta = transmission.dead_centre()) {
@@ -118,8 +132,7 @@ Evaluation evaluate_by_transmission(Objective objective, const Mechanism& mechan
     if (objective == Objective::motor_torque) return forces.Tb * point.t2.p;
     if (objective == Objective::max_error) return degrees(forces.elongation / point.t2.m);
     Domain domain;
-    const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
-    return objective_at(objective, numbers, place, domain);
+    return objective_at(objective, numbers_of(mechanism), place, domain);
   };
   Evaluation evaluation = largest_over_range(mechanism, value);
   if (!evaluation.possible)
@@ -169,9 +182,8 @@ FileNumbers<double> file_numbers(const Mechanism& m) {
 
 Evaluation evaluate(Objective objective, const Mechanism& mechanism) {
   if (objective == Objective::min_bend) return smallest_bend(mechanism);
-  if (mechanism.pulley.law == Law::table || mechanism.pulley.law == Law::torque || !mechanism.is_papers())
-    return evaluate_by_transmission(objective, mechanism);
-  const auto numbers = design_numbers(file_numbers(mechanism), mechanism.pulley.law, mechanism.has_point_pins());
+  if (!has_closed_form(mechanism)) return evaluate_by_transmission(objective, mechanism);
+  const DesignNumbers<double> numbers = numbers_of(mechanism);
   Evaluation evaluation = largest_over_range(mechanism, [&](double place) {
     Domain domain;
     const double value = objective_at(objective, numbers, place, domain);

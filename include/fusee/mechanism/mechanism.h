@@ -313,7 +313,7 @@ struct Mechanism {
   bool has_point_pins() const { return seen_pitch_radius() == 0; }
   /// Of the drum, to the centre line of a tendon that lies on it; 0 without a drum. mm
   double drum_pitch_radius() const { return joint.drum_radius != 0 ? joint.drum_radius + 0.5 * tendon.diameter : 0.0; }
-  /// The joint that optimize's closed formulas are of: one lever point, and pins above their pulley.
+  /// The joint that the paper's formulas are of: one lever point, and pins above their pulley.
   bool is_papers() const { return joint.is_plain() && guides.kind == GuideKind::pin && !sheath.is_there(); }
   /// From a groove's floor to its lip, "automatic" resolved: a slack tendon stays in, and a printer can make the lip. mm
   double groove_depth() const { return body.groove_depth > 0 ? body.groove_depth : std::max(2.0 * tendon.diameter, 0.8); }
