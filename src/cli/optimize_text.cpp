@@ -146,10 +146,13 @@ void add_ties(const Problem& problem, const TieSet& ties, bool broken, Reply& re
   reply.fields["ties"] = ties_json(ties);
   if (!ties.wide || broken) return;
   reply.text += line("ties", "within 0.1 %: " + box_text(problem, ties));
-  const char* other = problem.objectives.front() == Objective::footprint ? "max_tension" : "footprint";
+  const Objective first = problem.objectives.front();
+  const Objective other = first != Objective::footprint && has_footprint(problem) ? Objective::footprint
+                          : first != Objective::max_tension                       ? Objective::max_tension
+                                                                                  : Objective::max_error;
   reply.diagnostics.push_back(
       note(Severity::note, "many designs tie within 0.1 %: " + box_text(problem, ties),
-           std::string("--then ") + other + " takes the one of them that is best by a second measure"));
+           "--then " + std::string(info(other).name) + " takes the one of them that is best by a second measure"));
 }
 
 std::string then_line(Objective objective, const CertifiedResult& second) {

@@ -200,6 +200,20 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
   return evaluation;
 }
 
+namespace {
+
+/// By the file or by what moves.
+bool is_widened(const Problem& problem) {
+  return !problem.base.joint.is_plain() ||
+         std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& moving) {
+           return moving.key.starts_with("joint.drum") || moving.key.starts_with("joint.attachment");
+         });
+}
+
+}  // namespace
+
+bool has_footprint(const Problem& problem) { return !is_widened(problem) && !problem.base.sheath.is_there(); }
+
 Problem make_problem(const MechanismFile& file, JointGate as_it_is) {
   const Optimization& table = file.mechanism.optimize;
   if (file.mechanism.transmission)
@@ -221,12 +235,9 @@ Problem make_problem(const MechanismFile& file, JointGate as_it_is) {
   add_moving_keys(problem, table);
   add_constraints(problem, table);
   problem.feasible = table.feasible;
-  const bool widens = std::any_of(problem.moving.begin(), problem.moving.end(), [](const MovingKey& moving) {
-    return moving.key.starts_with("joint.drum") || moving.key.starts_with("joint.attachment");
-  });
   const bool asks_footprint =
       std::count(problem.objectives.begin(), problem.objectives.end(), Objective::footprint) > 0;
-  if (asks_footprint && (widens || !problem.base.joint.is_plain()))
+  if (asks_footprint && is_widened(problem))
     throw InputError(file.path, "footprint knows no drum and no attachments but C yet", "choose another objective");
   if (asks_footprint && problem.base.sheath.is_there())
     throw InputError(file.path, "footprint knows no pulley that stands elsewhere, through sheaths",

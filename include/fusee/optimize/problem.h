@@ -68,6 +68,9 @@ struct Problem {
 /// `as_it_is`. InputError: nothing to optimise, a variable that no objective depends on.
 Problem make_problem(const MechanismFile& file, JointGate as_it_is = {});
 
+/// Whether the footprint of its designs is known: of the paper's joint, at its pulley.
+bool has_footprint(const Problem& problem);
+
 /// The mechanism of a design as declared, ties followed; without its [optimize].
 DeclaredMechanism mechanism_at(const Problem& problem, const Design& design);
 /// The joint that a declared one is judged as.
