@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coil/run_out.h"
 #include "coil/winding.h"
 #include "export/report/scad_words.h"
 #include "fusee/base/units.h"
@@ -21,14 +20,34 @@ namespace {
 // OpenSCAD's exact arithmetic takes about a millisecond a point: fewer rows than the mesh has.
 constexpr double k_climbing_sagitta = 0.02;
 
+/// Of the tendon that is wound last at the lower face (P1), or first at the upper one (P2).
+const HelicalAnchor& anchor_of(const Product& product, Side side) {
+  const std::vector<HelicalAnchor>& all = product.helix->pulley.anchors;
+  return *std::find_if(all.begin(), all.end(), [side](const HelicalAnchor& anchor) { return anchor.side == side; });
+}
+
 Fan coarse_fan(const Product& product) {
   const HelixProduct& helix = *product.helix;
   const BodyLayout& layout = product.pulley.layout;
-  const RunOutSizes sizes = run_out_sizes(product.joint.mechanism, layout);
   const double half = 0.5 * layout.tendon_diameter;
+  // Solid about the channel and its pocket.
+  double filled = 0;
+  for (const HelicalAnchor& anchor : helix.pulley.anchors)
+    filled = std::max(filled, anchor.bend_radius + 2.0 * anchor.pocket_radius + layout.min_wall);
   return make_fan(SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
                   SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2), layout.groove_depth - half, half,
-                  k_climbing_sagitta, filled_length(sizes, layout));
+                  k_climbing_sagitta, filled);
+}
+
+std::string run_out_array(const Product& product) {
+  std::string text =
+      "// Where each groove's end goes: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
+  for (const Side side : {Side::left, Side::right}) {
+    const HelicalAnchor& anchor = anchor_of(product, side);
+    text += fmt::format("{}[{}, {}, {}]", side == Side::left ? "" : ", ", decimal(anchor.bend_radius),
+                        point_text(anchor.pocket.head<2>()), decimal(anchor.pocket_depth));
+  }
+  return text + "];\n\n";
 }
 
 std::string rows_array(const char* name, const Winding& winding, double half) {
@@ -81,7 +100,6 @@ std::string climbing_parameters(const Product& product) {
 std::string climbing_numbers(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   const BodyLayout& layout = product.pulley.layout;
-  const RunOutSizes sizes = run_out_sizes(mechanism, layout);
   const double compensation = mechanism.material.hole_compensation;
   return "/* [Hidden] */\n" + hidden("tendon", mechanism.tendon.diameter, "its diameter") +
          fmt::format("groove_shape = \"{}\";\n", name_of(mechanism.body.groove)) +
@@ -90,9 +108,6 @@ std::string climbing_numbers(const Product& product) {
          hidden("min_wall", layout.min_wall, "no wall is thinner") +
          hidden("z_middle", layout.z_middle, "lower edge of the middle flange") +
          hidden("z_mate", layout.z_mate, "its upper edge") + hidden("z_top", layout.z_top, "of the upper flange") +
-         hidden("mouth_radius", sizes.mouth_radius, "of a channel where it leaves the groove") +
-         hidden("mouth_outward", sizes.mouth_outward, "of its middle, from the tendon's") +
-         hidden("bend_radius", sizes.bend_radius, "of a tendon on its way to the knot") +
          bore_numbers(layout.bore, compensation) + screw_numbers(layout, compensation) +
          fmt::format("print_scale = {:.9f};  // a print shrinks by as much\n\n", layout.scale);
 }
@@ -101,7 +116,7 @@ std::string climbing_numbers(const Product& product) {
 
 std::string helix_scad(const Product& product) {
   return climbing_parameters(product) + climbing_numbers(product) +
-         spiral_arrays(coarse_fan(product), 0.5 * product.joint.mechanism.tendon.diameter) +
+         spiral_arrays(coarse_fan(product), 0.5 * product.joint.mechanism.tendon.diameter) + run_out_array(product) +
          program_for("several turns");
 }
 

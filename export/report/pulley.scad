@@ -402,10 +402,9 @@ module body() {
 function circle_like(r) = [for (k = [0 : 95]) r * [cos(3.75 * k), sin(3.75 * k)]];
 
 // ---- run-outs: tangentially out of a groove's end, along an arc inwards and towards the face, into a knot pocket ----
-// [row where the groove ends, +1 or -1: on along growing or falling directions, -1: to the lower face, its height]
+// [row where the groove ends, +1 or -1: on along growing or falling directions, -1: to the lower face, its height, run-out]
 channel = channel_width / 2;
 pocket = max(knot_pocket / 2, 1.05 * channel);
-inward = bend_radius / sqrt(2);
 
 // A circle under a gable, x level, in the plane across `ahead`.
 function tube(centre, ahead, r) = let (
@@ -421,18 +420,17 @@ module run_out(t) {
   along = t[1] * [-normal[1], normal[0], 0];
   towards = (t[2] * [0, 0, 1] - normal) / sqrt(2);
   start = lifted(out_of(row, tendon / 2), row[3]);
-  mouth = start + mouth_outward * normal;
-  strip(concat(
-    [for (x = [-0.12, 0.06]) tube(mouth + x * along, along, min(mouth_radius, channel))],
-    [for (k = [1 : 9]) let (a = 10 * k)
-      tube(start + bend_radius * (sin(a) * along + (1 - cos(a)) * towards), cos(a) * along + sin(a) * towards, channel)],
-    [tube(start + bend_radius * (along + towards) + 0.8 * channel * towards, towards, channel)]));
-  place = start + bend_radius * (along + towards);
+  bend = t[4][0];
   cone = rise(pocket - channel);
-  depth = abs(t[3] - row[3]) - cone - inward;
+  top = lifted(t[4][1], t[3] - t[2] * (t[4][2] + cone));
+  strip(concat(
+    [for (x = [-0.12, 0.06]) tube(start + x * along, along, min(tendon / 2, channel))],
+    [for (k = [1 : 9]) let (a = 10 * k)
+      tube(start + bend * (sin(a) * along + (1 - cos(a)) * towards), cos(a) * along + sin(a) * towards, channel)],
+    [tube(top + 0.8 * channel * towards, towards, channel)]));
   around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.23) / facets), sin(360 * (k + 0.23) / facets)]];
-  strip([for (s = [[-1, pocket], [depth, pocket], [depth + cone, channel]])
-    [for (p = around) [place[0], place[1], t[3] - t[2] * s[0]] + s[1] * lifted(p, 0)]]);
+  strip([for (s = [[-1, pocket], [t[4][2], pocket], [t[4][2] + cone, channel]])
+    [for (p = around) lifted(t[4][1], t[3] - t[2] * s[0]) + s[1] * lifted(p, 0)]]);
 }
 
 // ---- the part ----
@@ -444,7 +442,7 @@ scale(print_scale) difference() {
   }
   union() {
     bore_hole();
-    for (t = [[P1[last1 - filled1], 1, -1, 0], [P2[filled2], -1, 1, z_top]]) run_out(t);
+    for (t = [[P1[last1 - filled1], 1, -1, 0, run_outs[0]], [P2[filled2], -1, 1, z_top, run_outs[1]]]) run_out(t);
     if (set_screw && has_hub) screw_hole();
   }
 }

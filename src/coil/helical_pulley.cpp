@@ -140,7 +140,7 @@ class Planner {
   void place_along_axis() {
     BodyLayout& layout = pulley_.layout;
     const double flange = layout.flange_thickness;
-    const double filled = filled_length(sizes_, layout);
+    const double filled = sizes_.bend_radius + 2.0 * sizes_.pocket_radius + layout.min_wall;
     const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
     layout.z_p1 = std::max(flange + section_.walls.below_width() + fall1, sizes_.height());
     pulley_.p1 = placed(p1_, layout.z_p1);

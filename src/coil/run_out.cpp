@@ -135,10 +135,6 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) 
   return sizes;
 }
 
-double filled_length(const RunOutSizes& sizes, const BodyLayout& layout) {
-  return sizes.bend_radius + 2.0 * sizes.pocket_radius + layout.min_wall;
-}
-
 Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes) {
   return arc_point(end, sizes.bend_radius, 0.5 * k_pi).head<2>();
 }

@@ -25,8 +25,6 @@ struct RunOutSizes {
 };
 
 RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout);
-/// How far a groove's end is followed by rows that are filled up to the lip: a channel has solid about it there. mm
-double filled_length(const RunOutSizes& sizes, const BodyLayout& layout);
 
 /// The groove's end, seen along the tendon towards its knot.
 struct GrooveEnd {
