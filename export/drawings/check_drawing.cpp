@@ -144,7 +144,9 @@ std::vector<Edge> take_duplicates(std::vector<Edge>& edges) {
 
 Check check_duplicates(const Drawing& drawing) {
   Paths all;
-  for (const DrawingPath& path : drawing.paths) all.push_back(&path);
+  // Turns that lie over one another have one plan.
+  for (const DrawingPath& path : drawing.paths)
+    if (!path.in_space) all.push_back(&path);
   std::size_t count = 0;
   std::string where;
   for (auto& [layer, edges] : edges_by_layer(all)) {

@@ -139,6 +139,7 @@ class DxfDrawer {
   void add(const DxfEntity& entity, const std::string& layer, const SampledCurve& curve,
            const DrawingPlacement& placement) {
     DrawingPath path{layer, std::string(entity.type), entity.line, curve.closed, {}};
+    path.in_space = entity.type == "POLYLINE" && (DxfValues(file_, entity.tags).integer(70, 0) & 8) != 0;
     points_ += curve.points.size();
     if (points_ > k_most_points) {
       fail_in_dxf(file_, entity.line, "the drawing has more than " + std::to_string(k_most_points) + " points");

@@ -48,6 +48,8 @@ class Ac1015Writer {
     for (const DxfPath& path : document_.paths) {
       if (path.circle)
         write_circle(path.layer, *path.circle);
+      else if (!path.heights.empty())
+        write_climbing(path);
       else
         write_polyline(path);
     }
@@ -209,6 +211,26 @@ class Ac1015Writer {
       tags_.point(10, vertex.place);
       if (vertex.bulge != 0) tags_.real(42, vertex.bulge);
     }
+  }
+
+  /// In space: each vertex an entity of its own.
+  void write_climbing(const DxfPath& path) {
+    const int polyline = next_;
+    begin_entity("POLYLINE", "AcDb3dPolyline", k_model_record, path.layer);
+    tags_.integer(66, 1);
+    tags_.point3(10, 0, 0, 0);
+    tags_.integer(70, 8);
+    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+      begin_entity("VERTEX", "AcDbVertex", polyline, path.layer);
+      tags_.text(100, "AcDb3dPolylineVertex");
+      tags_.point3(10, path.vertices[i].place.x(), path.vertices[i].place.y(), path.heights[i]);
+      tags_.integer(70, 32);
+    }
+    tags_.text(0, "SEQEND");
+    tags_.handle(5, next_++);
+    tags_.handle(330, polyline);
+    tags_.text(100, "AcDbEntity");
+    tags_.text(8, path.layer);
   }
 
   void write_circle(const std::string& layer, const RoundHole& circle) {

@@ -69,6 +69,15 @@ void DxfDocument::open(std::string layer, const Polygon& points) {
   paths.push_back({std::move(layer), vertices_of({points, {}, 0}), false, {}});
 }
 
+void DxfDocument::in_space(std::string layer, const std::vector<Vec3>& points) {
+  DxfPath path{std::move(layer), {}, false, {}};
+  for (const Vec3& point : points) {
+    path.vertices.push_back({point.head<2>(), 0});
+    path.heights.push_back(point.z());
+  }
+  paths.push_back(std::move(path));
+}
+
 void DxfDocument::text(const std::string& layer, std::string_view line, const Vec2& origin, double height) {
   for (const Polygon& stroke : stroke_text(line, origin, height)) open(layer, stroke);
 }

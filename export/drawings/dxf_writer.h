@@ -1,7 +1,7 @@
 /// \file
 /// A drawing of polylines and circles as DXF text: AC1015 (AutoCAD 2000) with every table, owner and dictionary that a
 /// strict reader looks for, or R12 (AC1009), which laser shops ask for. Millimetres, nine decimals. No splines or
-/// texts; an arc is a polyline's bulge.
+/// texts; an arc is a polyline's bulge; a curve that climbs is a polyline in space.
 #pragma once
 
 #include <string>
@@ -24,6 +24,7 @@ struct DxfPath {
   std::vector<BulgeVertex> vertices;  ///< none of a circle
   bool closed = true;
   std::optional<RoundHole> circle;
+  std::vector<double> heights = {};  ///< of the vertices, where it is a polyline in space
 };
 
 struct DxfDocument {
@@ -34,6 +35,8 @@ struct DxfDocument {
   void closed(std::string layer, const Polygon& points) { closed(std::move(layer), Contour{points, {}, 0}); }
   void closed(std::string layer, const Contour& contour, const Vec2& shift = Vec2::Zero());
   void open(std::string layer, const Polygon& points);
+  /// A polyline in space: seen from above as it is in plan.
+  void in_space(std::string layer, const std::vector<Vec3>& points);
   /// A line of single-stroke text; `origin` is its lower left corner.
   void text(const std::string& layer, std::string_view text, const Vec2& origin, double height);
 };

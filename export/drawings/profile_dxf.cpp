@@ -1,6 +1,6 @@
 /// \file
 /// profile.dxf: the curves that the pulley is about, at true size about the axis, with marks that say how it sits at
-/// home.
+/// home. Of several turns these curves climb: polylines in space.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "fusee/export/drawings.h"
+#include "solid/bore.h"
 
 namespace fusee {
 namespace {
@@ -74,11 +75,10 @@ Vec2 contact(const Outline& outline, double psi) {
 }
 
 /// Where a tendon leaves its pulley at home, and its line from there towards the pin.
-void add_take_off(DxfDocument& drawing, const Outline& outline, const TendonPoint& tendon, const char* name) {
-  const Vec2 place = contact(outline, tendon.lower_normal);
-  Vec2 up = turned_left(unit(tendon.lower_normal));
+void add_take_off(DxfDocument& drawing, const Vec2& place, double normal, const char* name) {
+  Vec2 up = turned_left(unit(normal));
   if (up.y() < 0) up = -up;
-  const Vec2 out = unit(tendon.lower_normal);
+  const Vec2 out = unit(normal);
   drawing.open("MARK_TAKE_OFF", {place - 1.5 * out, place + 1.5 * out});
   drawing.open("MARK_TAKE_OFF", {place, place + 12 * up});
   drawing.text("MARK_TAKE_OFF", name, place + 12 * up + Vec2(out.x() < 0 ? -3.5 : 1.0, 0), k_text_height);
@@ -112,9 +112,108 @@ void add_legend(DxfDocument& drawing, const std::vector<std::string>& lines) {
   }
 }
 
+// Of several turns ----------------------------------------------------------------------------------------------------
+
+std::vector<DxfLayer> spiral_layers() {
+  std::vector<DxfLayer> all = {{"P1_SPIRAL", 1}, {"P2_SPIRAL", 5},        {"P1_SPARE", 9},
+                               {"P2_SPARE", 9},  {"P1_SPIRAL_FLOOR", 30}, {"P2_SPIRAL_FLOOR", 4}};
+  for (const DxfLayer& layer : layers())
+    if (layer.name[0] != 'P') all.push_back(layer);
+  return all;
+}
+
+/// The shaft itself: a printer's holes come out smaller than they are made.
+BoreLayout bore_of_shaft(Mechanism mechanism, const BoreLayout& made) {
+  const double compensation = mechanism.material.hole_compensation;
+  mechanism.material.hole_compensation = 0;
+  const double reach =
+      made.arc_points > 0 ? made.outline.front().norm() : distance_to_edges(made.outline, Vec2::Zero());
+  return bore_layout(mechanism, (made.circle ? made.circle->diameter : 2 * reach) - compensation);
+}
+
+std::vector<Vec3> climbing(const Spiral& spiral, const SpiralPlace& place, std::size_t first, std::size_t last,
+                           double outward) {
+  std::vector<Vec3> points;
+  for (std::size_t i = first; i <= last; ++i) {
+    const SpiralRow& row = spiral.rows[i];
+    const Vec2 plan = Vec2(row.x, row.y) + outward * unit(row.turn);
+    points.emplace_back(plan.x(), plan.y(), place.height(row.z));
+  }
+  return points;
+}
+
+void add_spiral(DxfDocument& drawing, const std::string& pulley, const HelixSide& side, const SpiralPlace& place,
+                double half) {
+  const Spiral& spiral = side.spiral;
+  const std::size_t last = spiral.rows.size() - 1;
+  const auto curve = [&](const char* layer, std::size_t from, std::size_t to, double outward) {
+    if (from < to) drawing.in_space(pulley + layer, climbing(spiral, place, from, to, outward));
+  };
+  curve("_SPIRAL", spiral.first_used, spiral.last_used, 0);
+  curve("_SPARE", 0, spiral.first_used, 0);
+  curve("_SPARE", spiral.last_used, last, 0);
+  curve("_SPIRAL_FLOOR", 0, last, -half);
+}
+
+/// The row that lies where the tendon leaves at home.
+const SpiralRow& home_row(const HelixSide& side, std::size_t home) {
+  const double z = side.stroke[home].z;
+  return *std::min_element(
+      side.spiral.rows.begin(), side.spiral.rows.end(),
+      [z](const SpiralRow& a, const SpiralRow& b) { return std::abs(a.z - z) < std::abs(b.z - z); });
+}
+
+double reach_of(const Spiral& spiral) {
+  double reach = 0;
+  for (const SpiralRow& row : spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
+  return reach;
+}
+
+void add_home_take_offs(DxfDocument& drawing, const Product& product) {
+  const TransmissionPoint* home = product.synthesis.home();
+  if (home == nullptr) return;
+  const auto index = static_cast<std::size_t>(home - product.synthesis.stroke.data());
+  for (const std::size_t i : {0, 1}) {
+    const SpiralRow& row = home_row(product.helix->synthesis.sides.at(i), index);
+    add_take_off(drawing, {row.x, row.y}, row.turn, i == 0 ? "1" : "2");
+  }
+}
+
+/// Both spirals where they lie in space, above the part's lower face: seen from above, their plan.
+std::string spirals_dxf(const Product& product, DxfVersion version) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const HelixProduct& helix = *product.helix;
+  const double half = 0.5 * mechanism.tendon.diameter;
+  const auto& sides = helix.synthesis.sides;
+  const BoreLayout bore = bore_of_shaft(mechanism, product.pulley.layout.bore);
+  const std::vector<std::string> legend = {mechanism.name + ": axis at 0, 0 - home is +y, towards the joint - mm, 1:1",
+                                           "z: height above the part's lower face; P1 " + rounded(sides[0].turns, 3) +
+                                               " turns, lead " + rounded(sides[0].lead, 3) + "; P2 " +
+                                               rounded(sides[1].turns, 3) + " turns, lead " +
+                                               rounded(sides[1].lead, 3) + ", and spare turns",
+                                           "floor = pitch curve - " + rounded(half) + " mm (half of the tendon)",
+                                           "true size: not scaled for a print's shrinkage", "the square is 10 mm wide"};
+  DxfDocument drawing;
+  drawing.remarks = legend;
+  drawing.layers = spiral_layers();
+  add_spiral(drawing, "P1", sides[0], helix.pulley.p1, half);
+  add_spiral(drawing, "P2", sides[1], helix.pulley.p2, half);
+  drawing.closed("BORE", bore_contour(bore));
+  for (const Polygon& hole : bore.screw_holes) drawing.closed("BORE", circle_contour(circle_within(hole)));
+  add_axis_and_home(
+      drawing, bore.radius,
+      std::max(reach_of(sides[0].spiral), reach_of(sides[1].spiral)) + product.pulley.layout.groove_depth);
+  add_home_take_offs(drawing, product);
+  for (const HelicalAnchor& anchor : helix.pulley.anchors)
+    drawing.closed("MARK_ANCHOR", circle_contour({anchor.pocket.head<2>(), 2 * anchor.pocket_radius}));
+  add_legend(drawing, legend);
+  return dxf_text(drawing, version);
+}
+
 }  // namespace
 
 std::string profile_dxf(const Product& product, DxfVersion version) {
+  if (product.helix) return spirals_dxf(product, version);
   const Mechanism& mechanism = product.joint.mechanism;
   const SynthesisResult& synthesis = product.synthesis;
   const BodyLayout layout = layout_to_cut(product);
@@ -130,8 +229,8 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
       drawing, layout.bore.radius,
       std::max(circumradius(parallel(synthesis.p1, 0)), circumradius(parallel(synthesis.p2, 0))) + layout.groove_depth);
   if (const TransmissionPoint* home = synthesis.home()) {
-    add_take_off(drawing, synthesis.p1, home->t1, "1");
-    add_take_off(drawing, synthesis.p2, home->t2, "2");
+    add_take_off(drawing, contact(synthesis.p1, home->t1.lower_normal), home->t1.lower_normal, "1");
+    add_take_off(drawing, contact(synthesis.p2, home->t2.lower_normal), home->t2.lower_normal, "2");
   }
   add_active_ends(drawing, synthesis.p1, d, layout.groove_depth);
   add_active_ends(drawing, synthesis.p2, d, layout.groove_depth);

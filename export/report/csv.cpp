@@ -25,18 +25,19 @@ void put_row(std::string& table, std::span<const double> values) {
   table += '\n';
 }
 
-void put_outline(std::string& table, const Outline& outline) {
+/// A closed curve's normal turns once from its first point to its last, and its height is its groove's.
+void put_outline(std::string& table, const Outline& outline, double z) {
   const std::string pulley = std::string(pulley_name(outline.side)) + ",";
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const OutlinePoint& point = outline.points[i];
     const double angle = std::atan2(point.position.y(), point.position.x());
-    table += pulley + csv_cell(degrees(angle)) + ',' + csv_cell(point.position.x()) + ',' + csv_cell(point.position.y()) + ',' +
-             csv_cell(point.curvature_radius) + (outline.is_active(i) ? ",1," : ",0,") + csv_cell(degrees(point.psi)) + '\n';
+    table += pulley + csv_cell(degrees(angle)) + ',' + csv_cell(point.position.x()) + ',' +
+             csv_cell(point.position.y()) + ',' + csv_cell(point.curvature_radius) +
+             (outline.is_active(i) ? ",1," : ",0,") + csv_cell(degrees(point.psi)) + ',' +
+             csv_cell(degrees(point.psi)) + ',' + csv_cell(z) + '\n';
   }
 }
 
-/// turn_deg is the direction of the normal, unrolled over all turns; z_mm the height of the tendon's centre line above
-/// the part's lower face.
 void put_spiral(std::string& table, Side side, const Spiral& spiral, const SpiralPlace& place) {
   const std::string pulley = std::string(pulley_name(side)) + ",";
   for (std::size_t i = 0; i < spiral.rows.size(); ++i) {
@@ -84,19 +85,19 @@ AsBuilt as_built_at(const std::vector<RewindPoint>& points, double alpha) {
 }  // namespace
 
 /// angle_deg is the direction of the point from the axis, normal_deg that of the tendon's outward normal there; both
-/// counter-clockwise from x at home. active: 1 where a tendon leaves the pulley within the range.
+/// counter-clockwise from x at home. active: 1 where a tendon leaves the pulley within the range. turn_deg is the
+/// normal's direction unrolled: it grows from row to row of a pulley, over all its turns. z_mm is the height of the
+/// tendon's centre line above the part's lower face, in the finished part.
 std::string profile_csv(const Product& product) {
-  std::string table = "pulley,angle_deg,x_mm,y_mm,radius_of_curvature_mm,active,normal_deg\n";
+  std::string table = "pulley,angle_deg,x_mm,y_mm,radius_of_curvature_mm,active,normal_deg,turn_deg,z_mm\n";
   if (product.helix) {
-    table.back() = ',';
-    table += "turn_deg,z_mm\n";
     const HelixProduct& helix = *product.helix;
     put_spiral(table, Side::left, helix.synthesis.sides[0].spiral, helix.pulley.p1);
     put_spiral(table, Side::right, helix.synthesis.sides[1].spiral, helix.pulley.p2);
     return table;
   }
-  put_outline(table, product.synthesis.p1);
-  put_outline(table, product.synthesis.p2);
+  put_outline(table, product.synthesis.p1, product.pulley.layout.z_p1);
+  put_outline(table, product.synthesis.p2, product.pulley.layout.z_p2);
   return table;
 }
 

@@ -49,7 +49,7 @@ std::vector<Plot> helix_plots(const Product& product) {
 }
 
 Figure spiral_figure(const Product& product, Side side) {
-  constexpr double k_size = 420, k_margin = 12;
+  constexpr double k_size = 420, k_margin = 12, k_heading = 28;
   const HelixSide& helix = product.helix->synthesis.sides.at(side == Side::left ? 0 : 1);
   const std::vector<SpiralRow>& rows = helix.spiral.rows;
   double reach = 0;
@@ -58,18 +58,19 @@ Figure spiral_figure(const Product& product, Side side) {
   const auto drawn = [&](std::size_t first, std::size_t last) {
     std::vector<Vec2> points;
     for (const Vec2& point : stretch(rows, first, last))
-      points.emplace_back(0.5 * k_size + scale * point.x(), 0.5 * k_size - scale * point.y());
+      points.emplace_back(0.5 * k_size + scale * point.x(), k_heading + 0.5 * k_size - scale * point.y());
     return thinned(points, 0.1);
   };
   const std::string pulley(pulley_name(side));
   Figure figure;
-  figure.width = figure.height = k_size;
+  figure.width = k_size;
+  figure.height = k_heading + k_size;
   figure.title = pulley + " in plan, " + readable(helix.turns, 2) + " turns over the range";
   const std::string ink = side == Side::left ? "p1" : "p2 whole";
   figure.body = svg_path("thin " + ink, drawn(0, helix.spiral.first_used)) +
                 svg_path("thin " + ink, drawn(helix.spiral.last_used, rows.size() - 1)) +
                 svg_path("curve " + ink, drawn(helix.spiral.first_used, helix.spiral.last_used)) +
-                svg_words("heading", {k_margin, 2 * k_margin}, figure.title);
+                svg_words("heading", {k_margin, 0.6 * k_heading}, figure.title);
   return figure;
 }
 

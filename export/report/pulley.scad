@@ -5,7 +5,9 @@ function rise(width) = width * tan(slope > 0 ? slope : 45);
 function roof(width) = slope > 0 ? rise(width) : 0;
 // of two roofs that meet over a slit
 gable_slope = slope > 0 ? min(slope + 10, 80) : 45;
+//= one turn
 apart = parts == 2;
+//= both
 
 // ---- the groove's cross-section: [outward from the floor, along the axis from the groove's middle], one half ----
 seat = max(0.5, seat_ratio) * tendon;
@@ -26,6 +28,7 @@ function wall(lean) = let (
 function width(wall) = wall[len(wall) - 1][1];
 lower_wall = wall(groove_angle / 2);
 roof_wall = wall(max(groove_angle / 2, slope));
+//= one turn
 // P1 is printed turned over where it is printed for itself
 p1_below = apart ? roof_wall : lower_wall;
 p1_above = apart ? lower_wall : roof_wall;
@@ -48,11 +51,13 @@ z_mate = apart ? z_middle + flange_thickness
                : max(z_middle + roof_flange, z_p1 + over_channel, slope > 0 ? z_p1 + over_pocket : 0);
 z_p2 = z_mate + (apart ? flange_thickness : 0) + width(p2_below);
 z_top = z_p2 + max(width(p2_above) + upper_cone + roof_flange, over_channel);
+//= both
 has_hub = hub_diameter > 0 && hub_height > 0;
 bore_edge = (bore + hole_compensation) / 2;
 nut_room = set_screw && nut_trap ? nut_from_bore + nut_thickness / 2 : 0;
 hub_radius = max(hub_diameter / 2, bore_edge + nut_room + hub_wall);
 z_hub = z_top + (has_hub ? hub_height : 0);
+//= one turn
 
 // ---- outlines: curves parallel to a floor, circles, and the middle flange around both grooves ----
 n = len(P1);
@@ -101,6 +106,7 @@ p2_rings = concat(
   is_round ? [[z_p2 + width(p2_above) + upper_cone, upper]] : [],
   [[z_top, upper]]);
 
+//= both
 // The body between outlines of equally many corners, one over the other; the first and the last are seen whole from their
 // first corner. OpenSCAD wants to see its faces turn
 // clockwise: which way that is here, the sign of the volume tells.
@@ -119,10 +125,12 @@ module strip(sections) {
 
 function at(outline, z) = [for (p = outline) [p[0], p[1], z]];
 
+//= one turn
 module skin(rings) {
   strip([for (ring = rings) at(ring[1], ring[0])]);
 }
 
+//= both
 // On its own, for a wide bore makes it stand over the flange.
 module hub() {
   translate([0, 0, z_top]) linear_extrude(z_hub - z_top) polygon(circle_like(hub_radius));
@@ -170,6 +178,7 @@ module bore_hole() {
   for (hole = horn_holes) translate([hole[0], hole[1], -1]) linear_extrude(z_hub + 2) round_hole(hole[2] + hole_compensation);
 }
 
+//= one turn
 // Blind holes: a cone closes each.
 module dowel_holes() {
   d = dowel_pin + hole_compensation;
@@ -255,6 +264,7 @@ module clamp_pilot(t) {
   from_face(t[0]) translate([t[1][0], t[1][1], -1]) linear_extrude(t[3] + 1) round_hole(t[2] + hole_compensation);
 }
 
+//= both
 // Round below, a roof above: it prints lying down without support. In the middle of the hub, or where its roof has a wall
 // over it, or where the nut has room below.
 module screw_hole() {
@@ -269,6 +279,7 @@ module screw_hole() {
       cube([nut_thickness, nut_width, z_hub - z + nut_width / sqrt(3) + 1]);
 }
 
+//= one turn
 // ---- the part ----
 // Both pulleys as one (0), P1 (1) or P2 (2), where they stand in the whole. One difference: what is cut out is put
 // together first, for that is small and quick.
@@ -306,4 +317,132 @@ scale(print_scale) {
     translate([far_side(p1_rings) - near_side(p2_rings) + 5 / print_scale, 0, 0]) lying(2);
   }
   else part(0);
+}
+//= several turns
+// ---- the turns: rows of the groove's section, one behind the other, over and under one another every `columns` rows ----
+// A row is [x, y, direction in which the floor looks, height]; both grooves fall as that direction grows. Where a groove
+// ends its rows go on, filled to the lip: the tendon dives there.
+section = concat(
+  [for (k = [len(lower_wall) - 1 : -1 : 0]) [lower_wall[k][0], -lower_wall[k][1]]],
+  [for (p = roof_wall) p]);
+m = len(section);
+last1 = len(P1) - 1;
+last2 = len(P2) - 1;
+function looks(row) = [cos(row[2]), sin(row[2])];
+function out_of(row, out) = [row[0], row[1]] + out * looks(row);
+function lifted(p, z) = [p[0], p[1], z];
+function row_points(P) = [for (row = P) for (s = section) lifted(out_of(row, s[0]), row[3] + s[1])];
+
+// A closed ring about the outermost turn of an open spiral: on the second half of its way it goes over to where the turn
+// began. Point i is in column i.
+function blend(share) = let (t = max(0, min(1, 2 * share - 1))) t * t * (3 - 2 * t);
+function ring(P, first_column, from_back, out) = let (
+    last = len(P) - 1,
+    begin = P[from_back ? last : 0],
+    next = P[from_back ? last - columns : columns],
+    gap = [begin[0] - next[0], begin[1] - next[1]])
+  [for (c = [0 : columns - 1]) let (
+      k = (from_back ? last - c + first_column + 2 * columns : c - first_column + 2 * columns) % columns,
+      row = P[from_back ? last - k : k])
+    out_of(row, out) + blend(abs(row[2] - begin[2]) / abs(next[2] - begin[2])) * gap];
+
+foot = max(0, min(elephant_foot, groove_depth - 0.2, (flange_thickness - 0.2) / rise(1)));
+rings = concat(
+  foot > 0 ? [at(ring(P1, first_column1, true, groove_depth - foot), 0)] : [],
+  [at(ring(P1, first_column1, true, groove_depth), rise(foot)),
+   at(ring(P1, first_column1, false, groove_depth), z_middle),
+   at(ring(P2, first_column2, true, groove_depth), z_mate),
+   at(ring(P2, first_column2, false, groove_depth), z_top)]);
+count = len(rings);
+first2 = len(P1) * m;
+first_ring = first2 + len(P2) * m;
+
+function quad(a, b, c, d) = [[a, b, c], [a, c, d]];
+function after(c) = (c + 1) % columns;
+function between(low, high) = [for (c = [0 : columns - 1]) each quad(low + c, low + after(c), high + after(c), high + c)];
+// A groove of rows 0 … last, whose points begin at `first`, between two rings.
+function winding(first, last, first_column, filled_front, filled_back, below, above) = let (n = columns)
+  concat(
+    // along the groove: from row to row
+    [for (j = [0 : last - 1]) let (a = first + j * m, b = a + m)
+      each j < filled_front || j + filled_back >= last ? quad(a, b, b + m - 1, a + m - 1)
+        : [for (k = [0 : m - 2]) each quad(a + k, b + k, b + k + 1, a + k + 1)]],
+    // its two end walls
+    [for (k = [1 : m - 2]) let (a = first + filled_front * m) [a, a + k, a + k + 1]],
+    [for (k = [1 : m - 2]) let (a = first + (last - filled_back) * m) [a, a + k + 1, a + k]],
+    // ribs: from a turn's upper lip to the lower lip of the turn over it
+    [for (j = [0 : last - n - 1]) let (low = first + (j + n) * m + m - 1, high = first + j * m)
+      each quad(low, low + m, high + m, high)],
+    // from the ring below to the lowest turn, and from the highest to the ring above; where the spiral ends, past its end
+    [for (j = [last - n + 1 : last - 1]) let (c = (first_column + j) % n, a = first + j * m)
+      each quad(below + c, below + after(c), a + m, a)],
+    let (j = last - n, c = (first_column + j) % n, r0 = below + after(c), r1 = first + (j + 1) * m,
+         l0 = below + c, l1 = first + last * m, l2 = l1 + m - 1, l3 = first + j * m)
+      [[l0, r0, l1], [l1, r0, r1], [l1, r1, l2], [l2, r1, l3]],
+    [for (j = [0 : n - 2]) let (c = (first_column + j) % n, a = first + j * m + m - 1)
+      each quad(a, a + m, above + after(c), above + c)],
+    let (j = n - 1, c = (first_column + j) % n, l0 = first + j * m + m - 1, l1 = above + c,
+         r0 = first + n * m + m - 1, r1 = first, r2 = first + m - 1, r3 = above + after(c))
+      [[l0, r0, r1], [l0, r1, r2], [l0, r2, l1], [l1, r2, r3]]);
+
+module body() {
+  points = concat(row_points(P1), row_points(P2), [for (r = rings) each r]);
+  rim = first_ring + (count - 4) * columns;
+  faces = concat(
+    [[for (c = [columns - 1 : -1 : 0]) first_ring + c]],
+    foot > 0 ? between(first_ring, rim) : [],
+    winding(0, last1, first_column1, 0, filled1, rim, rim + columns),
+    between(rim + columns, rim + 2 * columns),
+    winding(first2, last2, first_column2, filled2, 0, rim + 2 * columns, rim + 3 * columns),
+    [[for (c = [0 : columns - 1]) rim + 3 * columns + c]]);
+  // OpenSCAD wants to see its faces turn clockwise
+  polyhedron(points, [for (f = faces) [for (k = [len(f) - 1 : -1 : 0]) f[k]]], convexity = 20);
+}
+
+function circle_like(r) = [for (k = [0 : 95]) r * [cos(3.75 * k), sin(3.75 * k)]];
+
+// ---- run-outs: tangentially out of a groove's end, along an arc inwards and towards the face, into a knot pocket ----
+// [row where the groove ends, +1 or -1: on along growing or falling directions, -1: to the lower face, its height, run-out]
+channel = channel_width / 2;
+pocket = max(knot_pocket / 2, 1.05 * channel);
+
+// A circle under a gable, x level, in the plane across `ahead`.
+function tube(centre, ahead, r) = let (
+    level = [ahead[1], -ahead[0], 0] / norm([ahead[0], ahead[1]]),
+    up = cross(level, ahead),
+    sides = [for (k = [0 : facets]) let (a = 90 + gable_slope + (360 - 2 * gable_slope) * k / facets) [cos(a), sin(a)]],
+    outline = concat(sides, [[0, 1 / cos(gable_slope)]]))
+  [for (p = outline) centre + r * (p[0] * level + p[1] * up)];
+
+module run_out(t) {
+  row = t[0];
+  normal = lifted(looks(row), 0);
+  along = t[1] * [-normal[1], normal[0], 0];
+  towards = (t[2] * [0, 0, 1] - normal) / sqrt(2);
+  start = lifted(out_of(row, tendon / 2), row[3]);
+  bend = t[4][0];
+  cone = rise(pocket - channel);
+  top = lifted(t[4][1], t[3] - t[2] * (t[4][2] + cone));
+  strip(concat(
+    [for (x = [-0.12, 0.06]) tube(start + x * along, along, min(tendon / 2, channel))],
+    [for (k = [1 : 9]) let (a = 10 * k)
+      tube(start + bend * (sin(a) * along + (1 - cos(a)) * towards), cos(a) * along + sin(a) * towards, channel)],
+    [tube(top + 0.8 * channel * towards, towards, channel)]));
+  around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.23) / facets), sin(360 * (k + 0.23) / facets)]];
+  strip([for (s = [[-1, pocket], [t[4][2], pocket], [t[4][2] + cone, channel]])
+    [for (p = around) lifted(t[4][1], t[3] - t[2] * s[0]) + s[1] * lifted(p, 0)]]);
+}
+
+// ---- the part ----
+// One difference: what is cut out is put together first, for that is small and quick.
+scale(print_scale) difference() {
+  union() {
+    body();
+    if (has_hub) hub();
+  }
+  union() {
+    bore_hole();
+    for (t = [[P1[last1 - filled1], 1, -1, 0, run_outs[0]], [P2[filled2], -1, 1, z_top, run_outs[1]]]) run_out(t);
+    if (set_screw && has_hub) screw_hole();
+  }
 }

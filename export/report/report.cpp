@@ -13,6 +13,7 @@
 #include "export/report/helix_report.h"
 #include "export/report/html.h"
 #include "export/report/mesh_code.h"
+#include "export/report/moving_helix.h"
 #include "export/report/moving_joint.h"
 #include "export/report/report_parts.h"
 #include "export/report/report_plots.h"
@@ -299,7 +300,9 @@ std::string mechanism_panels(const Product& product) {
 }
 
 std::string moving_section(const Product& product) {
-  if (product.helix) return "";
+  if (product.helix)
+    return "<section id=\"moving\"><h2>The tendons climb</h2>" + std::string(k_climbing_words) + moving_helix(product) +
+           "</section>";
   const std::string joint = moving_joint(product.joint.mechanism, product.synthesis, product.holding.loaded);
   if (joint.empty()) return "";
   return "<section id=\"moving\"><h2>The joint moves</h2>" + std::string(k_moving_words) + joint + "</section>";
@@ -454,9 +457,8 @@ std::string files_table(const Product& product) {
                                     [](const Check& check) { return check.name.rfind("step_", 0) == 0; });
   if (has_step) html += "<tr><td><code>pulley.step</code></td><td>the part for CAD</td></tr>";
   for (const File& file : k_files) {
-    // Of several turns they are not made.
-    if (product.helix && (file.name == "pulley.scad" || file.name == "profile.dxf" || file.name == "plates.dxf"))
-      continue;
+    // Plates have no grooves that climb.
+    if (product.helix && file.name == "plates.dxf") continue;
     html += "<tr><td><code>" + std::string(file.name) + "</code></td><td>" + std::string(file.words) + "</td></tr>";
   }
   return html + "</tbody></table></div>";
@@ -513,7 +515,8 @@ std::string report_html(const Product& product) {
           {"page_css", std::string(embedded::page_css)},
           {"readout_js", std::string(embedded::readout_js)},
           {"viewer_js", std::string(embedded::viewer_js)},
-          {"moving_joint_js", std::string(joint_script(product.joint.mechanism))},
+          {"moving_joint_js",
+           std::string(product.helix ? embedded::moving_helix_js : joint_script(product.joint.mechanism))},
           {"source", source_words(product.file)},
           {"verdict_class", verdict.style},
           {"verdict_sign", verdict.sign},
@@ -523,6 +526,7 @@ std::string report_html(const Product& product) {
           {"part", part_view(product)},
           {"moving", moving_section(product)},
           {"mechanism_words", std::string(product.helix ? k_helix_words : k_mechanism_words)},
+          {"mechanism_class", product.helix ? "plots" : "panels"},
           {"mechanism", mechanism_panels(product)},
           {"transmission_plots", all_in_divs(transmission_plots(product))},
           {"as_built_words", safe_text(as_built_words(product))},

@@ -72,6 +72,15 @@
     return { matrix, eye, side, above };
   };
 
+  // A part that is tall for its width is seen whole.
+  const { matrix: at_first } = camera(canvas.clientWidth / Math.max(1, canvas.clientHeight));
+  let reach = 0;
+  for (let i = 0; i < place.length; i += 3) {
+    const [x, y, w] = [0, 1, 3].map(k => at_first[k] * place[i] + at_first[4 + k] * place[i + 1] + at_first[8 + k] * place[i + 2] + at_first[12 + k]);
+    reach = Math.max(reach, Math.abs(x / w), Math.abs(y / w));
+  }
+  home.zoom = view.zoom = Math.min(1, .98 / reach);
+
   // Without WebGL: faces that look this way, the furthest first.
   const still = () => {
     const pen = canvas.getContext("2d"), [w, h] = fit(), { matrix, eye, side, above } = camera(w / h), order = [];

@@ -283,7 +283,7 @@ std::shared_ptr<const GrooveArc> groove_of(const JointModel& model, Side side) {
     const GroovePlace place = place_of(side, home, 0.0);
     along = {place, {place.turn + 1.0, place.arc + std::abs(home.p)}};
   }
-  return std::make_shared<const GrooveArc>(std::move(along), k_knot_beyond);
+  return std::make_shared<const GrooveArc>(std::move(along), model.knots_beyond[right ? 1 : 0]);
 }
 
 TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path, double tension) {

@@ -62,6 +62,23 @@ CurveElement element(const PinPlace& place, Side side, const TransmissionPoint& 
   return curve;
 }
 
+/// Where the range alone takes more than one turn of either pulley, both tendons lie in helical grooves.
+std::array<double, 2> knots_beyond(const JointModel& model, const Mechanism& mechanism) {
+  const auto least = model.lower(model.alpha_least), most = model.lower(model.alpha_most);
+  std::array<double, 2> spare{};
+  bool several = false;
+  for (const std::size_t i : {0, 1}) {
+    const double sign = i == 1 ? 1.0 : -1.0;
+    const double turned = most[i].normal - least[i].normal + sign * (model.alpha_most - model.alpha_least);
+    several = several || std::abs(turned) > k_two_pi;
+    // Spare turns go on as a circle.
+    spare[i] = k_two_pi * mechanism.body.spare_turns * std::abs((i == 1 ? least : most)[i].p);
+    if (!std::isfinite(spare[i])) return {k_knot_beyond, k_knot_beyond};
+  }
+  const bool may = mechanism.pulley.winding != WindingChoice::one_turn;
+  return several && may ? spare : std::array{k_knot_beyond, k_knot_beyond};
+}
+
 }  // namespace
 
 MadePulleys MadePulleys::offset_by(double by) const {
@@ -116,6 +133,7 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   model.expected = [made](double alpha) { return made.declared().theta(alpha); };
   model.alpha_least = made.declared().alpha_min();
   model.alpha_most = made.declared().alpha_max();
+  model.knots_beyond = knots_beyond(model, mounted);
   set_statics(model, in);
   model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
   model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);

@@ -104,20 +104,24 @@ bool has_step(const Workshop& shop) {
   return std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& file) { return file.name == k_step; });
 }
 
-/// Of several turns: what is no mesh would show grooves in a plane.
-DracoFile write_meshes(Workshop& shop) {
+/// Of several turns: there are no plates to cut grooves out of that climb.
+DracoFile write_climbing(Workshop& shop) {
   const Product& product = shop.result.product;
   const TriangleMesh& mesh = product.pulley.mesh;
   const std::string& name = product.file.mechanism.name;
-  shop.step("writing meshes");
+  shop.step("writing meshes and drawings");
   auto draco = beside([&] { return draco_file(mesh, shop.options.tolerance); });
+  auto profile = beside([&] { return profile_dxf(product, shop.options.dxf); });
   auto threemf = beside([&] { return threemf_bytes(mesh, name); });
   auto obj = beside([&] { return obj_text(mesh, name); });
+  auto scad = beside([&] { return scad_text(product); });
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
   DracoFile file = shop.take(draco);
   shop.stage("pulley.drc", file.bytes);
+  shop.stage("pulley.scad", shop.take(scad));
+  shop.stage("profile.dxf", shop.take(profile));
   return file;
 }
 
@@ -224,7 +228,7 @@ void check_parts(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_plates), "plates_dxf_");
 }
 
-void check_meshes(Workshop& shop, const DracoFile& draco) {
+void check_climbing(Workshop& shop, const DracoFile& draco) {
   Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   shop.step("checking what was written");
@@ -232,6 +236,7 @@ void check_meshes(Workshop& shop, const DracoFile& draco) {
   auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
   auto of_3mf = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.3mf")); });
   auto of_obj = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
+  auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
   auto of_pulley = beside([&] { return check_several_turns(product, mesh); });
   auto of_printing = beside([&] { return print_checks(mechanism.print, mesh); });
   auto as_built = beside([&] { return rewind_several_turns(product, mesh); });
@@ -245,12 +250,13 @@ void check_meshes(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_obj), "obj_");
   shop.add(shop.take(of_3mf), "3mf_");
   shop.add(shop.take(of_draco), "drc_");
+  shop.add(shop.take(of_profile), "profile_dxf_");
 }
 
 /// Looks at what is staged. A file of ours that cannot be used is nobody's bad input.
 void check_written(Workshop& shop, const DracoFile& draco) {
   try {
-    shop.result.product.helix ? check_meshes(shop, draco) : check_parts(shop, draco);
+    shop.result.product.helix ? check_climbing(shop, draco) : check_parts(shop, draco);
   } catch (const InputError& error) {
     throw Bug(std::string("what was written cannot be used: ") + error.what());
   }
@@ -416,7 +422,7 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
 }
 
 void write_and_check(Workshop& shop) {
-  const DracoFile draco = shop.result.product.helix ? write_meshes(shop) : write_parts(shop);
+  const DracoFile draco = shop.result.product.helix ? write_climbing(shop) : write_parts(shop);
   check_written(shop, draco);
   write_texts(shop);
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;

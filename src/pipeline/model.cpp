@@ -129,7 +129,9 @@ bool find_curves(ModelResult& result, const ModelOptions& options) {
     return false;
   }
   product.mechanism = as_it_is(declared).mechanism;
-  if (const auto obstacle = obstacle_to(product.mechanism))
+  // Of several turns it is that one turn does not suffice.
+  const auto obstacle = note_on_turns(product.file) ? std::nullopt : obstacle_to(product.mechanism);
+  if (obstacle)
     product.file.warnings.push_back({Severity::warning,
                                      {product.file.path},
                                      "no pulley can be made that gives this law: " + obstacle->message,

@@ -33,8 +33,7 @@ std::vector<std::string> notes_of(const Mechanism& mechanism, const HelixProduct
           rounded(mechanism.body.spare_turns) + " spare at each end, which leave " + rounded(100.0 * left, 2) +
           " % of a tension to the knot; lead " + rounded(helix.synthesis.sides[0].lead, 3) + " and " +
           rounded(helix.synthesis.sides[1].lead, 3) + " mm",
-      "of several turns there is no pulley.scad, no profile.dxf and no plates.dxf: their grooves lie in no plane, and "
-      "plates have none that climb"};
+      "of several turns there is no plates.dxf: plates have no grooves that climb"};
   for (const HelixSide& side : helix.synthesis.sides) {
     if (side.fleet <= k_noted_fleet || side.fleet > k_warned_fleet) continue;
     notes.push_back("a fleet angle of " + rounded(degrees(side.fleet), 3) +
@@ -65,6 +64,33 @@ std::vector<Condition> faults_of(const Mechanism& mechanism, const HelicalPulley
     faults.push_back(std::move(fault));
   }
   return faults;
+}
+
+/// What slopes do to forces that are computed of level tendons. In a tension T along a path of slope φ there is T cos φ
+/// to turn the joint with; and at one α, the rise being what it is, a path of planar length L gets longer by cos φ dL,
+/// and is L/cos φ long: so a tendon of EA cos³φ in the plane gives way as it does.
+std::string words_on_slopes(const Mechanism& mechanism) {
+  constexpr double k_look_tolerance = 0.05;
+  constexpr double k_noted_theta = radians(0.001);
+  SynthesisOptions options;
+  options.tolerance = k_look_tolerance;
+  options.stroke_steps = 72;
+  const HelixSynthesis helix = synthesise_helix(mechanism, groove_of(mechanism), options);
+  const std::string start = "the tendons are wound several times: angles and forces are those of level tendons";
+  if (helix.sides[0].stroke.empty()) return start;
+  double steepest = 0, off = 0;
+  const Transmission level(mechanism);
+  for (std::size_t i = 0; i < helix.stroke.size(); ++i) {
+    for (const HelixSide& side : helix.sides) steepest = std::max(steepest, std::abs(side.stroke[i].slope));
+    off = std::max(off, std::abs(level.theta(helix.stroke[i].alpha) - helix.stroke[i].theta));
+  }
+  const auto more = [steepest](int power) { return rounded(100.0 * (std::pow(std::cos(steepest), -power) - 1.0), 2); };
+  std::string words = start + ", while their paths slope by up to " + rounded(degrees(steepest), 3) +
+                      "°: that makes tensions up to " + more(1) + " % larger, and what they give way by up to " +
+                      more(3) + " %";
+  if (off > k_noted_theta)
+    words += "; what guides.collar does to theta, up to " + rounded(degrees(off), 2) + "°, is not in them";
+  return words;
 }
 
 void take_over(Product& product, const HelixProduct& helix) {
@@ -99,12 +125,7 @@ std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
   SynthesisOptions options;
   options.advice = false;
   if (!need_several_turns(synthesise(mechanism, options))) return std::nullopt;
-  return Diagnostic{Severity::note,
-                    file.place_of("pulley.winding"),
-                    "the tendons are wound several times: angles and forces are those of level tendons that are tied "
-                    "5 mm beyond the range; the slope of their paths, the spare turns and what guides.collar does to "
-                    "theta are not in them",
-                    {}};
+  return Diagnostic{Severity::note, file.place_of("pulley.winding"), words_on_slopes(mechanism), {}};
 }
 
 MechanismFile with_doubts_and_turns(MechanismFile file) {

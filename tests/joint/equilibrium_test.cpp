@@ -281,6 +281,61 @@ TEST(Equilibrium, WithoutFrictionATendonIsOneSpringUpToItsKnot) {
   }
 }
 
+// ---- several turns --------------------------------------------------------------------------------------------------
+
+/// Both tendons on the joint's drum, and wound more than twice.
+Mechanism wound_twice() {
+  Mechanism mechanism = with(testing::finger(), 20.0, 0.1, 3000.0);
+  mechanism.pulley.r1 = 0.12 * mechanism.drum_pitch_radius();
+  return mechanism;
+}
+
+TEST(SeveralTurns, WithoutFrictionATendonIsOneSpringUpToItsKnotAfterTheSpareTurns) {
+  // Round and on a drum: free upper length, wrap of the pin and the lower span stand still, both arcs are r times an
+  // angle. From the end on the joint to the knot: straight, round the pin, to the pulley, and all that lies on it.
+  Mechanism mechanism = wound_twice();
+  mechanism.guides.mu = mechanism.pulley.mu = 0;
+  mechanism.body.spare_turns = 1.5;
+  const double r = mechanism.pulley.r1, drum = mechanism.drum_pitch_radius();
+  const JointModel model = joint_model(mechanism);
+  const Transmission law(mechanism);
+  ASSERT_GT(law.alpha_max() - law.alpha_min(), 2.0 * k_two_pi);
+  const double home[] = {20.0, 20.0};
+  for (const EquilibriumPoint& at : follow(model, cycles(mechanism, {2.0, 60, 2}))) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double sign = i == 0 ? -1 : 1;
+      const LowerPath low = model.lower(0.0)[i];
+      const UpperSpan up = upper_span(model.pins[i], 0.0);
+      const double still = up.length + low.reach - model.pins[i].rho * model.pins[i].off_pin(low.normal);
+      const double range = sign * (i == 0 ? law.alpha_max() : law.alpha_min());
+      const double laid = r * (1.5 * k_two_pi - range);
+      const double material = (still + laid) / (1 + home[i] / model.EA);
+      const double path = still + laid - sign * drum * at.theta + sign * r * at.alpha;
+      EXPECT_NEAR((i == 0 ? at.t1 : at.t2).lower, model.EA * (path / material - 1), 1e-6);
+    }
+  }
+}
+
+TEST(SeveralTurns, LoseNoEnergy) {
+  double scale = 0;
+  const double missing = work_missing(wound_twice(), {2.0, 8000, 2}, &scale);
+  EXPECT_GT(scale, 10.0);
+  EXPECT_LT(std::abs(missing), 1e-5 * scale);
+}
+
+TEST(SeveralTurns, OfSpareOnesTheFirstHoldsAlmostAll) {
+  // A wrap of 2π leaves e^(−2πμ) of a change of tension to what lies behind it: 4 % at 0.5.
+  Mechanism mechanism = wound_twice();
+  mechanism.pulley.mu = 0.5;
+  const auto lost = [&](double spare) {
+    mechanism.body.spare_turns = spare;
+    return largest_miss(mechanism, {2.0, 400, 1});
+  };
+  const double quarter = lost(0.25), one = lost(1.0), three = lost(3.0);
+  EXPECT_LT(std::abs(three - one), 0.01 * one);
+  EXPECT_LE(std::abs(three - one), std::abs(three - quarter));
+}
+
 TEST(Equilibrium, FrictionInTheGrooveTakesWorkAndGivesNone) {
   for (const double friction : {0.05, 0.2, 1.0}) {
     Mechanism mechanism = with(forearm(), 30.0, 0.15, 2000.0);

@@ -30,6 +30,7 @@ struct DrawingPath {
   int line = 0;        ///< in the file
   bool closed = false;
   Polygon points;
+  bool in_space = false;  ///< `points` is its plan
 };
 
 struct Drawing {

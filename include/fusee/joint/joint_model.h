@@ -55,7 +55,8 @@ class MadePulleys {
 
 /// Where a tendon is tied: this much of arc beyond the end of the range that it unwinds to, mm. An assumption: what
 /// `fusee build` makes has 40° to 95° of wrap there, and a joint's file says nothing of it. 15 mm more change the mean
-/// deflection by 0.6 % at most (R 100, r1 16, 12 N, μ 0.05 to 0.5).
+/// deflection by 0.6 % at most (R 100, r1 16, 12 N, μ 0.05 to 0.5). A tendon that is wound several times is tied
+/// body.spare_turns beyond it.
 constexpr double k_knot_beyond = 5.0;
 
 struct UpperSpans;  // both upper spans over the joint's angles, looked up
@@ -77,8 +78,9 @@ struct JointModel {
   /// Between tendon and groove: what lies on a pulley slides as far as this lets it, up to the knot. Infinite: it keeps
   /// the strain that it was wound at; 0: it is a part of the spring.
   double groove_friction = 0;
-  double alpha_least = 0;  ///< the range that the pulley was made for, rad: the knots lie beyond its ends
+  double alpha_least = 0;  ///< the range that the pulley was made for, rad: the knots lie beyond its ends …
   double alpha_most = 0;
+  std::array<double, 2> knots_beyond = {k_knot_beyond, k_knot_beyond};  ///< … by so much, mm
   double weight = 0;         ///< mass · g · lever, N·mm
   double tilt = 0;           ///< θ at which the link points straight up, rad
   Spring spring;

@@ -44,13 +44,19 @@ Product round_product() {
 }
 
 TEST(ProfileCsv, HoldsBothPitchCurves) {
-  const auto rows = cells(profile_csv(round_product()));
+  Product product = round_product();
+  product.pulley.layout.z_p1 = 2.5;
+  product.pulley.layout.z_p2 = 7.25;
+  const auto rows = cells(profile_csv(product));
   ASSERT_EQ(rows.size(), 1U + 2 * 8);
-  EXPECT_THAT(rows[0],
-              ElementsAre("pulley", "angle_deg", "x_mm", "y_mm", "radius_of_curvature_mm", "active", "normal_deg"));
-  EXPECT_THAT(rows[3], ElementsAre("P1", "90.000000", "0.000000", "20.000000", "20.000000", "1", "90.000000"));
-  EXPECT_THAT(rows[1], ElementsAre("P1", "0.000000", "20.000000", "0.000000", "20.000000", "0", "0.000000"));
-  EXPECT_THAT(rows[9], ElementsAre("P2", "0.000000", "15.000000", "0.000000", "15.000000", "1", "0.000000"));
+  EXPECT_THAT(rows[0], ElementsAre("pulley", "angle_deg", "x_mm", "y_mm", "radius_of_curvature_mm", "active",
+                                   "normal_deg", "turn_deg", "z_mm"));
+  EXPECT_THAT(rows[3], ElementsAre("P1", "90.000000", "0.000000", "20.000000", "20.000000", "1", "90.000000",
+                                   "90.000000", "2.500000"));
+  EXPECT_THAT(rows[1], ElementsAre("P1", "0.000000", "20.000000", "0.000000", "20.000000", "0", "0.000000", "0.000000",
+                                   "2.500000"));
+  EXPECT_THAT(rows[9], ElementsAre("P2", "0.000000", "15.000000", "0.000000", "15.000000", "1", "0.000000", "0.000000",
+                                   "7.250000"));
 }
 
 TEST(TransmissionCsv, StartsWithTheAgreedColumns) {

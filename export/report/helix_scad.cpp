@@ -1,0 +1,123 @@
+// The rows of both grooves on one fan of directions, as src/coil lays them for the mesh, coarser; the program joins
+// them.
+#include "export/report/helix_scad.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coil/winding.h"
+#include "export/report/scad_words.h"
+#include "fusee/base/units.h"
+
+namespace fusee {
+
+using namespace scad;
+
+namespace {
+
+// OpenSCAD's exact arithmetic takes about a millisecond a point: fewer rows than the mesh has.
+constexpr double k_climbing_sagitta = 0.02;
+
+/// Of the tendon that is wound last at the lower face (P1), or first at the upper one (P2).
+const HelicalAnchor& anchor_of(const Product& product, Side side) {
+  const std::vector<HelicalAnchor>& all = product.helix->pulley.anchors;
+  return *std::find_if(all.begin(), all.end(), [side](const HelicalAnchor& anchor) { return anchor.side == side; });
+}
+
+Fan coarse_fan(const Product& product) {
+  const HelixProduct& helix = *product.helix;
+  const BodyLayout& layout = product.pulley.layout;
+  const double half = 0.5 * layout.tendon_diameter;
+  // Solid about the channel and its pocket.
+  double filled = 0;
+  for (const HelicalAnchor& anchor : helix.pulley.anchors)
+    filled = std::max(filled, anchor.bend_radius + 2.0 * anchor.pocket_radius + layout.min_wall);
+  return make_fan(SpiralCurve(helix.synthesis.sides[0].spiral, helix.pulley.p1),
+                  SpiralCurve(helix.synthesis.sides[1].spiral, helix.pulley.p2), layout.groove_depth - half, half,
+                  k_climbing_sagitta, filled);
+}
+
+std::string run_out_array(const Product& product) {
+  std::string text =
+      "// Where each groove's end goes: bend radius, middle of the knot pocket, its depth.\nrun_outs = [";
+  for (const Side side : {Side::left, Side::right}) {
+    const HelicalAnchor& anchor = anchor_of(product, side);
+    text += fmt::format("{}[{}, {}, {}]", side == Side::left ? "" : ", ", decimal(anchor.bend_radius),
+                        point_text(anchor.pocket.head<2>()), decimal(anchor.pocket_depth));
+  }
+  return text + "];\n\n";
+}
+
+std::string rows_array(const char* name, const Winding& winding, double half) {
+  std::string text = fmt::format("{} = [", name);
+  for (std::size_t j = 0; j < winding.rows.size(); ++j) {
+    const WindingRow& row = winding.rows[j];
+    const Vec2 floor = row.position - half * row.normal;
+    text += (j == 0       ? "\n  "
+             : j % 3 == 0 ? ",\n  "
+                          : ", ") +
+            fmt::format("[{}, {}, {}, {}]", decimal(floor.x()), decimal(floor.y()), decimal(degrees(row.turn)),
+                        decimal(row.height));
+  }
+  return text + "];\n";
+}
+
+std::string spiral_arrays(const Fan& fan, double half) {
+  return "// The groove floors from end to end: x, y, the direction in which the floor looks, degrees, and the height "
+         "of "
+         "the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +
+         fmt::format("columns = {};\n", fan.columns()) +
+         fmt::format("first_column1 = {};  // of P1's first row\nfirst_column2 = {};  // of P2's\n",
+                     fan.p1.first_column, fan.p2.first_column) +
+         fmt::format("filled1 = {};  // rows past P1's last end, with no groove\nfilled2 = {};  // before P2's first\n",
+                     fan.p1.filled_back, fan.p2.filled_front) +
+         rows_array("P1", fan.p1, half) + rows_array("P2", fan.p2, half) + "\n";
+}
+
+/// What a groove is like has to leave the ribs between its turns: it can only be made smaller.
+std::string climbing_parameters(const Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const BodyLayout& layout = product.pulley.layout;
+  return fmt::format(
+             R"(// {} - a compound pulley for two tendons that are wound several times, in mm.
+// Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is z, the joint
+// lies towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law
+// and stay as they are.
+
+/* [Bore] */
+)",
+             on_one_line(mechanism.name)) +
+         bore_and_hub(product) + "\n/* [Groove] */\n" +
+         slider_text({"groove_depth", "lip above the groove's floor: no deeper, for the ribs between the turns",
+                      layout.groove_depth, 0.5, 0.1, layout.groove_depth}) +
+         slider_text({"groove_angle", "between the walls, degrees: no wider", degrees(mechanism.body.groove_angle), 0,
+                      1, degrees(mechanism.body.groove_angle)}) +
+         tie_offs_and_printing(product);
+}
+
+std::string climbing_numbers(const Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const BodyLayout& layout = product.pulley.layout;
+  const double compensation = mechanism.material.hole_compensation;
+  return "/* [Hidden] */\n" + hidden("tendon", mechanism.tendon.diameter, "its diameter") +
+         fmt::format("groove_shape = \"{}\";\n", name_of(mechanism.body.groove)) +
+         hidden("seat_ratio", mechanism.body.seat_ratio, "seat radius of a u groove per tendon diameter") +
+         hidden("flange_thickness", layout.flange_thickness, "of the lower and the upper one") +
+         hidden("min_wall", layout.min_wall, "no wall is thinner") +
+         hidden("z_middle", layout.z_middle, "lower edge of the middle flange") +
+         hidden("z_mate", layout.z_mate, "its upper edge") + hidden("z_top", layout.z_top, "of the upper flange") +
+         bore_numbers(layout.bore, compensation) + screw_numbers(layout, compensation) +
+         fmt::format("print_scale = {:.9f};  // a print shrinks by as much\n\n", layout.scale);
+}
+
+}  // namespace
+
+std::string helix_scad(const Product& product) {
+  return climbing_parameters(product) + climbing_numbers(product) +
+         spiral_arrays(coarse_fan(product), 0.5 * product.joint.mechanism.tendon.diameter) + run_out_array(product) +
+         program_for("several turns");
+}
+
+}  // namespace fusee

@@ -1,0 +1,41 @@
+/// \file
+/// Parts of pulley.scad that pulleys of one turn and of several have in common.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "fusee/base/plane.h"
+#include "fusee/export/product.h"
+
+namespace fusee::scad {
+
+std::string decimal(double value);
+/// A comment must stay one, whatever the mechanism is called.
+std::string on_one_line(const std::string& text);
+std::string point_text(const Vec2& p);
+std::string points_text(const Polygon& points);
+const char* name_of(Groove groove);
+
+/// A number of the Customizer with its slider, in mm or degrees.
+struct Slider {
+  const char* name;
+  const char* words;  ///< what the Customizer says above it
+  double value, low, step, high;
+};
+std::string slider_text(const Slider& slider);
+
+/// A number that the program reads and no slider moves.
+std::string hidden(const char* name, double value, const char* words);
+
+/// Sections of the Customizer.
+std::string bore_and_hub(const Product& product);
+std::string tie_offs_and_printing(const Product& product);
+
+std::string bore_numbers(const BoreLayout& bore, double compensation);
+std::string screw_numbers(const BodyLayout& layout, double compensation);
+
+/// What of the file pulley.scad, which is beside this one, pulleys of these turns take: "one turn" or "several turns".
+std::string program_for(std::string_view turns);
+
+}  // namespace fusee::scad
