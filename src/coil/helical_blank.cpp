@@ -1,6 +1,7 @@
 #include "coil/helical_blank.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,6 +22,7 @@ namespace fusee {
 namespace {
 
 using Index = std::uint32_t;
+using Facet = std::array<Index, 3>;
 
 // How a hub's circle is drawn: its sagitta.
 constexpr double k_hub_sagitta = 0.01;
@@ -100,6 +102,7 @@ class BlankBuilder {
   Ladder ring(const std::vector<Vec2>& plan, double z) {
     const Ladder here{nullptr, static_cast<Index>(mesh_.vertices.size()), {}};
     for (const Vec2& point : plan) add(point, z);
+    rings_.push_back(here.first);
     return here;
   }
 
@@ -166,36 +169,43 @@ class BlankBuilder {
   using Edge = std::pair<Index, Index>;
   using BandsByEdge = std::map<Edge, std::size_t>;
 
-  // From left to right, below and above.
-  struct Seam {
-    std::vector<Index> low, high;
-  };
+  // What a triangle costs: its last side, and much more where it does not look outwards.
+  double cost_of(const Facet& facet) const {
+    constexpr double k_fold = 1e6, k_edge_on = 0.02;
+    const Vec3 &p = mesh_.vertices[facet[0]], &q = mesh_.vertices[facet[1]], &r = mesh_.vertices[facet[2]];
+    const Vec3 normal = (q - p).cross(r - p), outward(p.x(), p.y(), 0.0);
+    const bool is_fold = !(normal.dot(outward) > k_edge_on * normal.norm() * outward.norm());
+    return (r - p).norm() + (is_fold ? k_fold : 0.0);
+  }
 
-  // Of all triangulations between two lines of corners the one with the shortest ways across.
-  void sew(const Seam& seam) {
-    const std::size_t lows = seam.low.size(), highs = seam.high.size();
-    const auto across = [&](std::size_t l, std::size_t h) {
-      return (mesh_.vertices[seam.low[l]] - mesh_.vertices[seam.high[h]]).norm();
-    };
-    std::vector<double> cost(lows * highs, std::numeric_limits<double>::infinity());
-    cost[0] = 0;
-    for (std::size_t l = 0; l < lows; ++l) {
-      for (std::size_t h = 0; h < highs; ++h) {
-        double& here = cost[l * highs + h];
-        if (l > 0) here = std::min(here, cost[(l - 1) * highs + h] + across(l, h));
-        if (h > 0) here = std::min(here, cost[l * highs + h - 1] + across(l, h));
+  // Of all triangulations of a loop, counter-clockwise from outside, the one with the shortest sides, none of it
+  // folded.
+  void sew(const std::vector<Index>& loop) {
+    const std::size_t n = loop.size();
+    std::vector<double> cost(n * n, 0.0);
+    std::vector<std::size_t> middle(n * n, 0);
+    for (std::size_t width = 2; width < n; ++width) {
+      for (std::size_t i = 0; i + width < n; ++i) {
+        const std::size_t j = i + width;
+        double best = std::numeric_limits<double>::infinity();
+        for (std::size_t k = i + 1; k < j; ++k) {
+          const double here = cost[i * n + k] + cost[k * n + j] + cost_of({loop[i], loop[k], loop[j]});
+          if (here >= best) continue;
+          best = here;
+          middle[i * n + j] = k;
+        }
+        cost[i * n + j] = best;
       }
     }
-    std::size_t l = lows - 1, h = highs - 1;
-    while (l > 0 || h > 0) {
-      const bool from_low = h == 0 || (l > 0 && cost[(l - 1) * highs + h] <= cost[l * highs + h - 1]);
-      if (from_low) {
-        triangle(seam.low[l - 1], seam.low[l], seam.high[h]);
-        --l;
-      } else {
-        triangle(seam.low[l], seam.high[h], seam.high[h - 1]);
-        --h;
-      }
+    std::vector<Edge> open{{0, static_cast<Index>(n - 1)}};
+    while (!open.empty()) {
+      const auto [i, j] = open.back();
+      open.pop_back();
+      if (j < i + 2) continue;
+      const auto k = static_cast<Index>(middle[i * n + j]);
+      triangle(loop[i], loop[k], loop[j]);
+      open.push_back({i, k});
+      open.push_back({k, j});
     }
   }
 
@@ -213,21 +223,21 @@ class BlankBuilder {
     for (std::size_t k = 0; k < bands_.size(); ++k) {
       if (bands_[k].is_plain()) continue;
       sewn[k] = true;
-      sew(seam_about(bands_[k], with_left, with_right, sewn));
+      sew(loop_about(bands_[k], with_left, with_right, sewn));
     }
     for (std::size_t k = 0; k < bands_.size(); ++k) {
       if (sewn[k]) continue;
       const Band& band = bands_[k];
-      sew({{band.left.front(), band.right.front()}, {band.left.back(), band.right.back()}});
+      sew({band.left.front(), band.right.front(), band.right.back(), band.left.back()});
     }
   }
 
-  Seam seam_about(const Band& band, const BandsByEdge& with_left, const BandsByEdge& with_right,
-                  std::vector<bool>& sewn) const {
+  std::vector<Index> loop_about(const Band& band, const BandsByEdge& with_left, const BandsByEdge& with_right,
+                                std::vector<bool>& sewn) const {
     const bool on_right = band.right.size() > 2;
     const std::vector<Index>&ended = on_right ? band.right : band.left, &whole = on_right ? band.left : band.right;
     const BandsByEdge& bands = on_right ? with_right : with_left;
-    std::vector<Index> lows = whole_seam(ended, true), highs = whole_seam(ended, false);
+    std::vector<Index> lows = beside_end(ended, true), highs = beside_end(ended, false);
     for (Edge edge{whole.front(), whole.back()};;) {
       lows.push_back(edge.first);
       highs.push_back(edge.second);
@@ -238,14 +248,16 @@ class BlankBuilder {
       const std::vector<Index>& next = on_right ? bands_[found->second].left : bands_[found->second].right;
       edge = {next.front(), next.back()};
     }
-    if (!on_right) return {std::move(lows), std::move(highs)};
-    return {{lows.rbegin(), lows.rend()}, {highs.rbegin(), highs.rend()}};
+    // From the end's column on they run to the right where the end is on the left, and to the left where it is not.
+    if (on_right) std::swap(lows, highs);
+    lows.insert(lows.end(), highs.rbegin(), highs.rend());
+    return lows;
   }
 
-  // What a column with a groove's end has below and above, from the band that goes on beside the end.
-  std::vector<Index> whole_seam(const std::vector<Index>& ended, bool low) const {
-    // The end lies under or over the ring that follows it: the band that goes on is on its other side.
-    const bool under_ring = height_between(ended, 2) < height_between(ended, 0);
+  // What a column with a groove's end has below and above, from the band that goes on beside the end: the one that
+  // does not end in the ring.
+  std::vector<Index> beside_end(const std::vector<Index>& ended, bool low) const {
+    const bool under_ring = lies_under_ring(ended);
     if (low) return under_ring ? std::vector<Index>{ended[0]} : std::vector<Index>{ended[2], ended[1], ended[0]};
     return under_ring ? std::vector<Index>{ended[1], ended[2], ended[3]} : std::vector<Index>{ended[3]};
   }
@@ -253,7 +265,7 @@ class BlankBuilder {
   // Whether the groove's end leaves this edge on the side that it comes from, by half a column.
   bool is_beside(const Edge& edge, const std::vector<Index>& ended, const std::vector<Index>& whole) const {
     const auto at = [&](Index v) { return mesh_.vertices[v]; };
-    const bool under_ring = height_between(ended, 2) < height_between(ended, 0);
+    const bool under_ring = lies_under_ring(ended);
     const Vec3 step = under_ring ? Vec3(at(ended[3]) - at(whole.back())) : Vec3(at(ended[0]) - at(whole.front()));
     return std::all_of(ended.begin() + 1, ended.begin() + 3, [&](Index v) {
       const Vec3 low = at(edge.first), way = at(edge.second) - low;
@@ -262,8 +274,11 @@ class BlankBuilder {
     });
   }
 
-  double height_between(const std::vector<Index>& chain, std::size_t k) const {
-    return mesh_.vertices[chain[k + 1]].z() - mesh_.vertices[chain[k]].z();
+  // A groove's end lies under or over the ring that follows it.
+  bool lies_under_ring(const std::vector<Index>& ended) const {
+    return std::any_of(rings_.begin(), rings_.end(), [&](Index first) {
+      return ended.back() >= first && ended.back() < first + static_cast<Index>(columns_);
+    });
   }
 
   // Everything in a strip from below.
@@ -424,6 +439,7 @@ class BlankBuilder {
   std::vector<GroovePoint> section_;  // upwards, offsets from the floor
   TriangleMesh mesh_;
   std::vector<Band> bands_;
+  std::vector<Index> rings_;
   Index lowest_ = 0, highest_ = 0;
 };
 

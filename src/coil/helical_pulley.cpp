@@ -23,7 +23,6 @@
 #include "solid/self_intersection.h"
 #include "solid/set_screw.h"
 #include "solid/tools.h"
-
 namespace fusee {
 namespace {
 
@@ -36,8 +35,10 @@ constexpr double k_most_wall = 1.2, k_wall_of_radius = 0.12, k_thinnest_wall = 0
 constexpr int k_cut_variants = 8;
 // What the chamfer at the bed leaves of the lip.
 constexpr double k_left_of_lip = 0.2;
-// Between a channel and the outside: wanted, and at its mouth at least.
-constexpr double k_channel_cover = 0.25, k_least_cover = 0.1;
+// Between a channel and the outside.
+constexpr double k_channel_cover = 0.25;
+// A channel from a shallower groove stays open too long for its roof to be carried.
+constexpr double k_least_depth_of_tendon = 2.0 / 3.0;
 // What rounding may take of a size that is just large enough.
 constexpr double k_grain = 1e-6;
 // The middle flange's two rings are never one, whatever stands on them.
@@ -199,9 +200,18 @@ class Planner {
       winding.bulge_low = std::clamp(carried_low[i], 0.0, wanted);
       winding.bulge_high = std::min(2.0 * wanted - winding.bulge_low, winding.bulge_low + carried(section_.width()));
       const double bulge = 0.5 * (winding.bulge_low + winding.bulge_high);
-      mouth_covers_[i] = cover + bulge;
-      run_outs_[i].channel_radii = channel_radii(rim, ends_[i], run_outs_[i], k_channel_cover - bulge);
+      const double neighbour = axial_lead(i) - (i == 0 ? section_.walls.below_width() : section_.walls.above_width());
+      run_outs_[i].channel_radii =
+          channel_radii(rim, ends_[i], run_outs_[i], {k_channel_cover - bulge, section_.depth, neighbour});
     }
+  }
+
+  // Where a groove ends, from the turn that lies beside its end.
+  double axial_lead(std::size_t i) const {
+    const std::vector<WindingRow>& rows = i == 0 ? fan_.p1.rows : fan_.p2.rows;
+    const std::size_t end = i == 0 ? rows.size() - 1 - fan_.p1.filled_back : fan_.p2.filled_front;
+    const std::size_t beside = i == 0 ? end - fan_.columns() : end + fan_.columns();
+    return std::abs(rows[end].height - rows[beside].height);
   }
 
   // Height between the lips of the filled rows and of the turn below them, that their own step does not take.
@@ -258,6 +268,10 @@ class Planner {
         fmt::format("the bore leaves {} to a groove's floor, it takes {} (body.min_wall_mm)",
                     mm(least_floor() - reach()), mm(layout.min_wall)));
     for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
+    add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
+        fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, it takes two thirds of "
+                    "the tendon's diameter: {}",
+                    mm(section_.depth), mm(k_least_depth_of_tendon * d_)));
     if (layout.bore.horn_recess > 0)
       pulley_.conditions.push_back(
           condition_of("horn_recess", false, layout.bore.horn_recess, 0.0,
@@ -279,10 +293,6 @@ class Planner {
     };
     one("knot_pocket", pocket_inside(i) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0),
         "the bore or the hub");
-    add(fmt::format("channel_{}", pulley_name(side)), mouth_covers_[i], k_least_cover,
-        fmt::format("the channel from {}'s groove to its knot leaves {} to the outside, it takes {}: a groove of {} "
-                    "(body.groove_depth_mm) is too shallow for it",
-                    pulley_name(side), mm(mouth_covers_[i]), mm(k_least_cover), mm(section_.depth)));
     one("knot_pocket_rim", rim_wall(rim_of(fan_, side, section_.depth - 0.5 * d_), ends_[i], run_outs_[i]), "the rim");
   }
 
@@ -331,7 +341,11 @@ class Planner {
                                       (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
     for (int variant = 0; variant < k_cut_variants; ++variant) {
       std::vector<TriangleMesh> tools;
-      for (std::size_t i = 0; i < ends_.size(); ++i) tools.push_back(run_out_tool(ends_[i], run_outs_[i], variant));
+      for (std::size_t i = 0; i < ends_.size(); ++i) {
+        auto tool = run_out_tool(ends_[i], run_outs_[i], variant);
+        if (tool) tools.push_back(std::move(*tool));
+      }
+      if (tools.size() < ends_.size()) continue;
       if (screw) tools.push_back(set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
       if (cut_with(blank, volume, tools)) return;
     }
@@ -367,7 +381,6 @@ class Planner {
   HelicalSection section_;
   HelicalPulley pulley_;
   std::array<RunOutSizes, 2> run_outs_;
-  std::array<double, 2> mouth_covers_{};
   Fan fan_;
   RingHeights heights_;
   std::array<GrooveEnd, 2> ends_;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/boolean.h"
 #include "solid/tools.h"
@@ -23,6 +22,8 @@ constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
 // Arcs bend no sharper than this, of the tendon; in these steps one is looked for that fits.
 constexpr double k_sharpest_bend = 2.0;
+// And of the channel's radius: its gable stays outside of the middle that it turns about.
+constexpr double k_bend_of_channel = 1.5;
 constexpr int k_bends = 5;
 constexpr double k_step_inward = 0.05;
 
@@ -146,7 +147,7 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) 
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
   // The pocket leaves a wall to the rim.
   const double to_rim = sizes.pocket_radius + layout.min_wall - (layout.groove_depth - 0.5 * d);
-  sizes.sharpest_bend = k_sharpest_bend * d;
+  sizes.sharpest_bend = std::max(k_sharpest_bend * d, k_bend_of_channel * sizes.channel_radius);
   sizes.inward = std::max(to_rim, sizes.sharpest_bend / std::sqrt(2.0));
   sizes.bend_radius = std::sqrt(2.0) * sizes.inward;
   return sizes;
@@ -162,12 +163,18 @@ double mouth_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& 
   return distance_to_edges(rim, end.row.position) - sizes.mouth_outward - sizes.mouth_radius;
 }
 
-std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes, double cover) {
+std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
+                                  const ChannelRoom& room) {
+  // Its gable points up: away from the face only in the lower part.
+  const double upwards = end.outward < 0 ? 1.0 / std::cos(sizes.roof_slope) : 1.0;
   std::vector<double> radii;
   for (int k = 1; k <= k_arc_steps; ++k) {
-    const Vec2 place = arc_place(end, sizes, k).head<2>();
-    const double room = std::max(distance_to_edges(rim, place) - cover, radii.empty() ? 0.0 : radii.back());
-    radii.push_back(std::clamp(room, sizes.mouth_radius, sizes.channel_radius));
+    const Vec3 place = arc_place(end, sizes, k);
+    const double to_rim = distance_to_edges(rim, place.head<2>());
+    const double to_neighbour = room.neighbour + std::abs(place.z() - end.row.height) - room.cover;
+    double radius = std::min(to_rim - room.cover, sizes.channel_radius);
+    if (to_rim - radius < room.reach + room.cover) radius = std::min(radius, to_neighbour / upwards);
+    radii.push_back(std::clamp(radius, radii.empty() ? sizes.mouth_radius : radii.back(), sizes.channel_radius));
   }
   return radii;
 }
@@ -204,10 +211,10 @@ HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes) {
   return anchor;
 }
 
-TriangleMesh run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+std::optional<TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
   const auto both =
       unite(rounded_to_float(channel_of(end, sizes, variant)), rounded_to_float(pocket_of(end, sizes, variant)));
-  demand(both.has_value(), "run-out and knot pocket do not join");
+  if (!both) return std::nullopt;
   return both->mesh;
 }
 

@@ -3,6 +3,9 @@
 /// where the pulley is small a straight way on, into a pocket in that face. mm, in the finished part's frame.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "coil/winding.h"
 #include "fusee/base/plane.h"
 #include "fusee/coil/helical_pulley.h"
@@ -46,12 +49,19 @@ RunOutSizes fitted_into(const Polygon& rim, const GrooveEnd& end, RunOutSizes si
 double rim_wall(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes);
 /// How far the mouth stands in the solid, less than 0 where it stands out.
 double mouth_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes);
-/// The channel's radii along the arc: no wider than what leaves `cover` to the rim, no narrower than the mouth.
-std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes, double cover);
+/// What a channel has beside it where it begins, mm.
+struct ChannelRoom {
+  double cover = 0;      ///< to leave to the rim and to the neighbouring turn's groove
+  double reach = 0;      ///< of that groove, inwards from the rim
+  double neighbour = 0;  ///< along the axis, from the groove's end to that groove
+};
+/// The channel's radii along the arc: no wider than the room it has, no narrower than the mouth.
+std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
+                                  const ChannelRoom& room);
 /// Middle of the pocket in plan.
 Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes);
 HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes);
-/// What is cut out, a closed mesh; another `variant` has other facets.
-TriangleMesh run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
+/// What is cut out, a closed mesh, or none where channel and pocket do not join; another `variant` has other facets.
+std::optional<TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
 
 }  // namespace fusee
