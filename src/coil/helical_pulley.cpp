@@ -33,6 +33,8 @@ constexpr std::array<double, 6> k_bore_diameters{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
 constexpr double k_most_wall = 1.2, k_wall_of_radius = 0.12, k_thinnest_wall = 0.4;
 // A cut whose rounding to float left a fault is tried again with other facets on the tools.
 constexpr int k_cut_variants = 8;
+// Of an automatic knot pocket, where there is no room for all of it: knots are 2.5 to 3 tendons thick.
+constexpr std::array k_pocket_shares{1.0, 0.9, 0.8, 0.72};
 // What the chamfer at the bed leaves of the lip.
 constexpr double k_left_of_lip = 0.2;
 // Between a channel and the outside.
@@ -68,13 +70,23 @@ class Planner {
         section_(helical_section(mechanism)) {}
 
   HelicalPulley make() {
-    if (!spirals_are_whole()) return std::move(pulley_);
-    lay_out();
-    place_along_axis();
-    conditions();
-    if (!failed_of(pulley_.conditions).empty()) return std::move(pulley_);
-    cut();
+    if (plan().empty()) cut();
     return std::move(pulley_);
+  }
+
+  /// What does not hold.
+  std::vector<Condition> plan() {
+    if (!spirals_are_whole()) return failed_of(pulley_.conditions);
+    lay_out();
+    const BodyLayout layout = pulley_.layout;
+    for (const double share : k_pocket_shares) {
+      pulley_.layout = layout;
+      size_run_outs(share);
+      place_along_axis();
+      if (mechanism_.body.knot_pocket > 0 || pockets_fit()) break;
+    }
+    conditions();
+    return failed_of(pulley_.conditions);
   }
 
  private:
@@ -128,11 +140,17 @@ class Planner {
     layout.elephant_foot = std::clamp(
         std::min(section_.depth - k_left_of_lip, (layout.flange_thickness - k_left_of_lip) / rise_of(layout, 1.0)), 0.0,
         mechanism_.material.elephant_foot);
-    const RunOutSizes sizes = run_out_sizes(mechanism_, layout);
+    layout.notes.push_back("no marks, no slots for the tails: a pulley of several turns is made without");
+  }
+
+  void size_run_outs(double share) {
+    BodyLayout& layout = pulley_.layout;
+    const RunOutSizes sizes = run_out_sizes(mechanism_, layout, share);
     run_outs_ = {sizes, sizes};
     layout.channel_width = 2.0 * sizes.channel_radius;
     layout.pocket_radius = sizes.pocket_radius;
-    layout.notes.push_back("no marks, no slots for the tails: a pulley of several turns is made without");
+    if (share < 1.0 && mechanism_.body.knot_pocket <= 0)
+      layout.notes.push_back(fmt::format("little room: knot pockets of {}", mm(2.0 * sizes.pocket_radius)));
   }
 
   // Both fall as the turn grows: the ends that stay wound, P1's last and P2's first, are the outer ones.
@@ -282,18 +300,29 @@ class Planner {
           condition_of("parts", false, 2, 1, "a pulley of several turns is printed in one part (print.parts)"));
   }
 
+  double wall_inside(std::size_t i) const {
+    const BodyLayout& layout = pulley_.layout;
+    const double hub = ends_[i].side == Side::right ? layout.hub_radius : 0.0;
+    return pocket_inside(i) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0);
+  }
+  double wall_outside(std::size_t i) const {
+    return rim_wall(rim_of(fan_, ends_[i].side, section_.depth - 0.5 * d_), ends_[i], run_outs_[i]);
+  }
+  bool pockets_fit() const {
+    const double least = std::min({wall_inside(0), wall_inside(1), wall_outside(0), wall_outside(1)});
+    return least >= pulley_.layout.min_wall - k_grain;
+  }
+
   void knot_pocket(std::size_t i) {
     const BodyLayout& layout = pulley_.layout;
-    const Side side = ends_[i].side;
-    const double hub = side == Side::right ? layout.hub_radius : 0.0;
+    const auto pulley = pulley_name(ends_[i].side);
     const auto one = [&](const std::string& name, double wall, const std::string& to) {
-      add(fmt::format("{}_{}", name, pulley_name(side)), wall, layout.min_wall - k_grain,
+      add(fmt::format("{}_{}", name, pulley), wall, layout.min_wall - k_grain,
           fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}, it takes {} (body.min_wall_mm)",
-                      pulley_name(side), mm(2.0 * layout.pocket_radius), mm(wall), to, mm(layout.min_wall)));
+                      pulley, mm(2.0 * layout.pocket_radius), mm(wall), to, mm(layout.min_wall)));
     };
-    one("knot_pocket", pocket_inside(i) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0),
-        "the bore or the hub");
-    one("knot_pocket_rim", rim_wall(rim_of(fan_, side, section_.depth - 0.5 * d_), ends_[i], run_outs_[i]), "the rim");
+    one("knot_pocket", wall_inside(i), "the bore or the hub");
+    one("knot_pocket_rim", wall_outside(i), "the rim");
   }
 
   void neighbours(const Winding& winding, Side side) {
@@ -415,6 +444,11 @@ std::string HelicalPulley::brief() const {
     if (!condition.ok) text += "; " + condition.message;
   }
   return text;
+}
+
+std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
+                                         double tolerance) {
+  return Planner(mechanism, p1, p2, tolerance).plan();
 }
 
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance) {

@@ -134,14 +134,14 @@ void set_mouth(RunOutSizes& sizes, const Body& body, double d) {
 
 }  // namespace
 
-RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) {
+RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, double share) {
   const double d = mechanism.tendon.diameter;
   RunOutSizes sizes;
   sizes.channel_radius =
       0.5 * (mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel));
   set_mouth(sizes, mechanism.body, d);
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
-                                                       : std::max(1.75 * d, 2.0 * sizes.channel_radius);
+                                                       : share * std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
   sizes.roof_slope = gable_slope(layout);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);

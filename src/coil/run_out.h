@@ -30,8 +30,8 @@ struct RunOutSizes {
   double height() const { return pocket_depth + cone + inward; }
 };
 
-/// Of a pulley of large radius: on smaller ones the rim bends towards the pocket.
-RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout);
+/// Of a pulley of large radius: on smaller ones the rim bends towards the pocket. `share` of the automatic pocket.
+RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, double share);
 
 /// The groove's end, seen along the tendon towards its knot.
 struct GrooveEnd {
