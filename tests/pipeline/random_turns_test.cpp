@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +16,8 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/pipeline.h"
+#include "fusee/profile/synthesis.h"
+#include "pipeline/several_turns.h"
 
 namespace {
 
@@ -127,7 +130,16 @@ Outcome outcome_of(const TurningJoint& joint, BuildOptions options) {
     if (built.status == BuildStatus::infeasible) return {End::refused, 0};
     return {End::made, built.product.as_built.max_theta_error};
   } catch (const NoTries&) {
-    // What failed is not to be had then: the body alone says it, made once more.
+    // Why is not to be had then: made once more, without advice.
+    Product product;
+    product.file = read_mechanism(path, joint.settings);
+    product.joint = as_it_is(product.file.mechanism);
+    SynthesisOptions synthesis;
+    synthesis.advice = false;
+    if (need_several_turns(synthesise(product.file.mechanism, synthesis))) {
+      design_several_turns(product, options.tolerance, {});
+      expect_true_reasons(product.pulley.conditions);
+    }
     return {End::refused, 0};
   } catch (const InputError&) {
     return {End::bad_input, 0};
