@@ -1,9 +1,12 @@
 #include "coil/helical_blank.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
@@ -19,14 +22,19 @@ namespace fusee {
 namespace {
 
 using Index = std::uint32_t;
+using Facet = std::array<Index, 3>;
 
 // How a hub's circle is drawn: its sagitta.
 constexpr double k_hub_sagitta = 0.01;
 
-// Where in its turn a ring begins to leave the outermost turn for where it has to end, of 2π.
+// Where in its turn a ring begins to leave the outermost turn for where it has to end, of 2π; and where on the rows
+// that are filled the bulge over a channel begins to go back.
 constexpr double k_blend_from = 0.5;
 
-// 0 up to k_blend_from of a turn, 1 after all of it.
+// Beside a groove's end at most this part of a turn's columns is joined anew.
+constexpr std::size_t k_share_of_turn = 4;
+
+// 0 up to k_blend_from of the way, 1 after all of it.
 double blend(double share) {
   const double t = std::clamp((share - k_blend_from) / (1.0 - k_blend_from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
@@ -67,6 +75,7 @@ class BlankBuilder {
   TriangleMesh build() {
     std::vector<Ladder> ladder = features();
     for (std::size_t i = 0; i < columns_; ++i) add_strip(ladder, i);
+    sew_bands();
     add_end_walls(ladder);
     add_faces();
     return std::move(mesh_);
@@ -93,6 +102,7 @@ class BlankBuilder {
   Ladder ring(const std::vector<Vec2>& plan, double z) {
     const Ladder here{nullptr, static_cast<Index>(mesh_.vertices.size()), {}};
     for (const Vec2& point : plan) add(point, z);
+    rings_.push_back(here.first);
     return here;
   }
 
@@ -106,10 +116,15 @@ class BlankBuilder {
         const bool is_lip = k == 0 || k + 1 == section_.size();
         if (winding.is_filled(j) && !is_lip) continue;
         const GroovePoint& point = section_[k];
-        add(row.position + (point.offset - 0.5 * layout_.tendon_diameter) * row.normal, row.height + point.dz);
+        const double bulge = winding.is_filled(j) ? bulge_of(winding, j, k == 0) : 0.0;
+        add(row.position + (point.offset + bulge - 0.5 * layout_.tendon_diameter) * row.normal, row.height + point.dz);
       }
     }
     return here;
+  }
+
+  static double bulge_of(const Winding& winding, std::size_t row, bool low) {
+    return (low ? winding.bulge_low : winding.bulge_high) * (1.0 - blend(winding.share_of_fill(row)));
   }
 
   std::vector<Ladder> features() {
@@ -143,36 +158,137 @@ class BlankBuilder {
 
   void triangle(Index a, Index b, Index c) { mesh_.triangles.push_back({a, b, c}); }
 
-  // From the column on the left (of smaller angle) to that on the right, both upwards, between what they stand on and
-  // what they end in; seen from outside the right one is on the right hand.
-  void band(const std::vector<Index>& left, const std::vector<Index>& right) {
-    const auto height = [this](Index v) { return mesh_.vertices[v].z(); };
-    const auto share = [&](const std::vector<Index>& chain, std::size_t k) {
-      const double low = height(chain.front()), high = height(chain.back());
-      return high > low ? (height(chain[k]) - low) / (high - low) : 1.0;
-    };
-    std::size_t l = 0, r = 0;
-    while (l + 1 < left.size() || r + 1 < right.size()) {
-      const bool climb_left =
-          l + 1 < left.size() && (r + 1 == right.size() || share(left, l + 1) < share(right, r + 1));
-      if (climb_left) {
-        triangle(left[l], right[r], left[l + 1]);
-        ++l;
-      } else {
-        triangle(left[l], right[r], right[r + 1]);
-        ++r;
+  // A band joins what a strip's two columns have one over the other: the column on the left (of smaller angle) and the
+  // one on the right, both upwards, between what they stand on and what they end in; seen from outside the right one is
+  // on the right hand. Where a groove begins or ends in the right column or the left, that one has two corners more.
+  struct Band {
+    std::vector<Index> left, right;
+    bool is_plain() const { return left.size() == 2 && right.size() == 2; }
+  };
+
+  using Edge = std::pair<Index, Index>;
+  using BandsByEdge = std::map<Edge, std::size_t>;
+
+  // What a triangle costs: its last side, and much more where it does not look outwards.
+  double cost_of(const Facet& facet) const {
+    constexpr double k_fold = 1e6, k_edge_on = 0.02;
+    const Vec3 &p = mesh_.vertices[facet[0]], &q = mesh_.vertices[facet[1]], &r = mesh_.vertices[facet[2]];
+    const Vec3 normal = (q - p).cross(r - p), outward(p.x(), p.y(), 0.0);
+    const bool is_fold = !(normal.dot(outward) > k_edge_on * normal.norm() * outward.norm());
+    return (r - p).norm() + (is_fold ? k_fold : 0.0);
+  }
+
+  // Of all triangulations of a loop, counter-clockwise from outside, the one with the shortest sides, none of it
+  // folded.
+  void sew(const std::vector<Index>& loop) {
+    const std::size_t n = loop.size();
+    std::vector<double> cost(n * n, 0.0);
+    std::vector<std::size_t> middle(n * n, 0);
+    for (std::size_t width = 2; width < n; ++width) {
+      for (std::size_t i = 0; i + width < n; ++i) {
+        const std::size_t j = i + width;
+        double best = std::numeric_limits<double>::infinity();
+        for (std::size_t k = i + 1; k < j; ++k) {
+          const double here = cost[i * n + k] + cost[k * n + j] + cost_of({loop[i], loop[k], loop[j]});
+          if (here >= best) continue;
+          best = here;
+          middle[i * n + j] = k;
+        }
+        cost[i * n + j] = best;
       }
+    }
+    std::vector<Edge> open{{0, static_cast<Index>(n - 1)}};
+    while (!open.empty()) {
+      const auto [i, j] = open.back();
+      open.pop_back();
+      if (j < i + 2) continue;
+      const auto k = static_cast<Index>(middle[i * n + j]);
+      triangle(loop[i], loop[k], loop[j]);
+      open.push_back({i, k});
+      open.push_back({k, j});
     }
   }
 
-  // Everything in a strip from below: bands join what the strip's two columns have one over the other.
+  // Places of one normal on two turns need not lie over one another. Strips between them are flat all the same; but
+  // where a groove's end stands between the turn before and a ring, it may stand across strips beside it: so many of
+  // them are joined anew, the nearest corners to one another.
+  void sew_bands() {
+    BandsByEdge with_left, with_right;
+    std::vector<bool> sewn(bands_.size(), false);
+    for (std::size_t k = 0; k < bands_.size(); ++k) {
+      if (!bands_[k].is_plain()) continue;
+      with_left[{bands_[k].left.front(), bands_[k].left.back()}] = k;
+      with_right[{bands_[k].right.front(), bands_[k].right.back()}] = k;
+    }
+    for (std::size_t k = 0; k < bands_.size(); ++k) {
+      if (bands_[k].is_plain()) continue;
+      sewn[k] = true;
+      sew(loop_about(bands_[k], with_left, with_right, sewn));
+    }
+    for (std::size_t k = 0; k < bands_.size(); ++k) {
+      if (sewn[k]) continue;
+      const Band& band = bands_[k];
+      sew({band.left.front(), band.right.front(), band.right.back(), band.left.back()});
+    }
+  }
+
+  std::vector<Index> loop_about(const Band& band, const BandsByEdge& with_left, const BandsByEdge& with_right,
+                                std::vector<bool>& sewn) const {
+    const bool on_right = band.right.size() > 2;
+    const std::vector<Index>&ended = on_right ? band.right : band.left, &whole = on_right ? band.left : band.right;
+    const BandsByEdge& bands = on_right ? with_right : with_left;
+    std::vector<Index> lows = beside_end(ended, true), highs = beside_end(ended, false);
+    for (Edge edge{whole.front(), whole.back()};;) {
+      lows.push_back(edge.first);
+      highs.push_back(edge.second);
+      const auto found = bands.find(edge);
+      if (found == bands.end() || sewn[found->second] || lows.size() > columns_ / k_share_of_turn) break;
+      if (is_beside(edge, ended, whole)) break;
+      sewn[found->second] = true;
+      const std::vector<Index>& next = on_right ? bands_[found->second].left : bands_[found->second].right;
+      edge = {next.front(), next.back()};
+    }
+    // From the end's column on they run to the right where the end is on the left, and to the left where it is not.
+    if (on_right) std::swap(lows, highs);
+    lows.insert(lows.end(), highs.rbegin(), highs.rend());
+    return lows;
+  }
+
+  // What a column with a groove's end has below and above, from the band that goes on beside the end: the one that
+  // does not end in the ring.
+  std::vector<Index> beside_end(const std::vector<Index>& ended, bool low) const {
+    const bool under_ring = lies_under_ring(ended);
+    if (low) return under_ring ? std::vector<Index>{ended[0]} : std::vector<Index>{ended[2], ended[1], ended[0]};
+    return under_ring ? std::vector<Index>{ended[1], ended[2], ended[3]} : std::vector<Index>{ended[3]};
+  }
+
+  // Whether the groove's end leaves this edge on the side that it comes from, by half a column.
+  bool is_beside(const Edge& edge, const std::vector<Index>& ended, const std::vector<Index>& whole) const {
+    const auto at = [&](Index v) { return mesh_.vertices[v]; };
+    const bool under_ring = lies_under_ring(ended);
+    const Vec3 step = under_ring ? Vec3(at(ended[3]) - at(whole.back())) : Vec3(at(ended[0]) - at(whole.front()));
+    return std::all_of(ended.begin() + 1, ended.begin() + 3, [&](Index v) {
+      const Vec3 low = at(edge.first), way = at(edge.second) - low;
+      const Vec3 beside = low + (at(v).z() - low.z()) / way.z() * way;
+      return (at(v) - beside).dot(step) > 0.5 * step.squaredNorm();
+    });
+  }
+
+  // A groove's end lies under or over the ring that follows it.
+  bool lies_under_ring(const std::vector<Index>& ended) const {
+    return std::any_of(rings_.begin(), rings_.end(), [&](Index first) {
+      return ended.back() >= first && ended.back() < first + static_cast<Index>(columns_);
+    });
+  }
+
+  // Everything in a strip from below.
   void add_strip(const std::vector<Ladder>& ladder, std::size_t i) {
     const std::size_t next = (i + 1) % columns_;
     std::vector<Index> left, right;  // since the last feature of both columns
     const auto meet = [&](Rung on_left, Rung on_right) {
       left.push_back(on_left.low);
       right.push_back(on_right.low);
-      if (left.size() > 1) band(left, right);
+      if (left.size() > 1) bands_.push_back({left, right});
       left = {on_left.high};
       right = {on_right.high};
     };
@@ -322,10 +438,17 @@ class BlankBuilder {
   double lip_;
   std::vector<GroovePoint> section_;  // upwards, offsets from the floor
   TriangleMesh mesh_;
+  std::vector<Band> bands_;
+  std::vector<Index> rings_;
   Index lowest_ = 0, highest_ = 0;
 };
 
 }  // namespace
+
+Polygon rim_of(const Fan& fan, Side side, double lip) {
+  return side == Side::left ? ring_about(fan.p1, fan.columns(), true, lip)
+                            : ring_about(fan.p2, fan.columns(), false, lip);
+}
 
 double middle_step(const Fan& fan, double lip) {
   const std::vector<Vec2> lower = ring_about(fan.p1, fan.columns(), false, lip),

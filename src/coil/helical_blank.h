@@ -3,8 +3,10 @@
 #pragma once
 
 #include "coil/winding.h"
+#include "fusee/base/plane.h"
 #include "fusee/solid/layout.h"
 #include "fusee/solid/mesh.h"
+#include "fusee/transmission/tendon_path.h"
 
 namespace fusee {
 
@@ -15,6 +17,9 @@ struct RingHeights {
   double top = 0;
   double hub_top = 0;
 };
+
+/// The lower face's outline, P1's, or the upper one's.
+Polygon rim_of(const Fan& fan, Side side, double lip);
 
 /// How far the middle flange's upper ring stands out over its lower one, mm; the cone between them carries it.
 double middle_step(const Fan& fan, double lip);

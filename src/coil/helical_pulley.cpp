@@ -23,7 +23,6 @@
 #include "solid/self_intersection.h"
 #include "solid/set_screw.h"
 #include "solid/tools.h"
-
 namespace fusee {
 namespace {
 
@@ -34,8 +33,16 @@ constexpr std::array<double, 6> k_bore_diameters{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
 constexpr double k_most_wall = 1.2, k_wall_of_radius = 0.12, k_thinnest_wall = 0.4;
 // A cut whose rounding to float left a fault is tried again with other facets on the tools.
 constexpr int k_cut_variants = 8;
+// Of an automatic knot pocket, where there is no room for all of it: knots are 2.5 to 3 tendons thick.
+constexpr std::array k_pocket_shares{1.0, 0.9, 0.8, 0.72};
 // What the chamfer at the bed leaves of the lip.
 constexpr double k_left_of_lip = 0.2;
+// Between a channel and the outside.
+constexpr double k_channel_cover = 0.25;
+// A channel from a shallower groove stays open too long for its roof to be carried.
+constexpr double k_least_depth_of_tendon = 2.0 / 3.0;
+// What rounding may take of a size that is just large enough.
+constexpr double k_grain = 1e-6;
 // The middle flange's two rings are never one, whatever stands on them.
 constexpr double k_least_cone = 0.2;
 
@@ -63,13 +70,23 @@ class Planner {
         section_(helical_section(mechanism)) {}
 
   HelicalPulley make() {
-    if (!spirals_are_whole()) return std::move(pulley_);
-    lay_out();
-    place_along_axis();
-    conditions();
-    if (!failed_of(pulley_.conditions).empty()) return std::move(pulley_);
-    cut();
+    if (plan().empty()) cut();
     return std::move(pulley_);
+  }
+
+  /// What does not hold.
+  std::vector<Condition> plan() {
+    if (!spirals_are_whole()) return failed_of(pulley_.conditions);
+    lay_out();
+    const BodyLayout layout = pulley_.layout;
+    for (const double share : k_pocket_shares) {
+      pulley_.layout = layout;
+      size_run_outs(share);
+      place_along_axis();
+      if (mechanism_.body.knot_pocket > 0 || pockets_fit()) break;
+    }
+    conditions();
+    return failed_of(pulley_.conditions);
   }
 
  private:
@@ -123,10 +140,17 @@ class Planner {
     layout.elephant_foot = std::clamp(
         std::min(section_.depth - k_left_of_lip, (layout.flange_thickness - k_left_of_lip) / rise_of(layout, 1.0)), 0.0,
         mechanism_.material.elephant_foot);
-    sizes_ = run_out_sizes(mechanism_, layout);
-    layout.channel_width = 2.0 * sizes_.channel_radius;
-    layout.pocket_radius = sizes_.pocket_radius;
     layout.notes.push_back("no marks, no slots for the tails: a pulley of several turns is made without");
+  }
+
+  void size_run_outs(double share) {
+    BodyLayout& layout = pulley_.layout;
+    const RunOutSizes sizes = run_out_sizes(mechanism_, layout, share);
+    run_outs_ = {sizes, sizes};
+    layout.channel_width = 2.0 * sizes.channel_radius;
+    layout.pocket_radius = sizes.pocket_radius;
+    if (share < 1.0 && mechanism_.body.knot_pocket <= 0)
+      layout.notes.push_back(fmt::format("little room: knot pockets of {}", mm(2.0 * sizes.pocket_radius)));
   }
 
   // Both fall as the turn grows: the ends that stay wound, P1's last and P2's first, are the outer ones.
@@ -139,39 +163,97 @@ class Planner {
 
   void place_along_axis() {
     BodyLayout& layout = pulley_.layout;
-    const double flange = layout.flange_thickness;
-    const double filled = sizes_.bend_radius + 2.0 * sizes_.pocket_radius + layout.min_wall;
+    const double flange = layout.flange_thickness, lip = section_.depth - 0.5 * d_;
+    const double filled = run_outs_[0].bend_radius + 2.0 * layout.pocket_radius + layout.min_wall;
     const double fall1 = std::abs(p1_.slope) * filled, fall2 = std::abs(p2_.slope) * filled;
-    layout.z_p1 = std::max(flange + section_.walls.below_width() + fall1, sizes_.height());
-    pulley_.p1 = placed(p1_, layout.z_p1);
+    pulley_.p1 = placed(p1_, 0.0);
     pulley_.p2 = placed(p2_, 0.0);
-    const double lip = section_.depth - 0.5 * d_;
     fan_ = make_fan(SpiralCurve(p1_, pulley_.p1), SpiralCurve(p2_, pulley_.p2), lip, 0.5 * d_, tolerance_, filled);
+    ends_ = {GrooveEnd{Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
+             GrooveEnd{Side::right, fan_.p2.groove_front(), -1.0, 1.0, 0.0}};
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      run_outs_[i] = fitted_into(rim_of(fan_, ends_[i].side, lip), ends_[i], run_outs_[i], layout.min_wall);
+
+    layout.z_p1 = std::max(flange + section_.walls.below_width() + fall1, run_outs_[0].height());
+    raise(fan_.p1, pulley_.p1, layout.z_p1);
     heights_.lower = fan_.p1.rows.front().height + section_.walls.above_width() + 0.5 * flange;
     layout.middle_cone = layout.roof_slope > 0 ? rise_of(layout, std::max(0.0, middle_step(fan_, lip))) : 0.0;
     heights_.upper = heights_.lower + std::max(layout.middle_cone, k_least_cone);
-    const double lowest = heights_.upper + 0.5 * flange + section_.walls.below_width() - fan_.p2.rows.back().height;
-    pulley_.p2.offset += lowest;
-    for (WindingRow& row : fan_.p2.rows) row.height += lowest;
+    raise(fan_.p2, pulley_.p2,
+          heights_.upper + 0.5 * flange + section_.walls.below_width() - fan_.p2.rows.back().height);
     layout.z_p2 = fan_.p2.groove_front().height;
     layout.z_middle = heights_.lower;
     layout.z_mate = heights_.upper;
-    layout.z_top = layout.z_p2 + std::max(flange + section_.walls.above_width() + fall2, sizes_.height());
+    layout.z_top = layout.z_p2 + std::max(flange + section_.walls.above_width() + fall2, run_outs_[1].height());
     layout.z_hub = layout.z_top;
     heights_.top = layout.z_top;
-    ends_ = {GrooveEnd{Side::left, fan_.p1.groove_back(), 1.0, -1.0, 0.0},
-             GrooveEnd{Side::right, fan_.p2.groove_front(), -1.0, 1.0, layout.z_top}};
+    ends_[0].row = fan_.p1.groove_back();
+    ends_[1].row = fan_.p2.groove_front();
+    ends_[1].face = layout.z_top;
+    cover_channels();
     choose_bore();
     double room = std::numeric_limits<double>::infinity();
     for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + lip);
-    choose_hub(layout, mechanism_, std::min(room, pocket_inside(ends_[1])));
+    choose_hub(layout, mechanism_, std::min(room, pocket_inside(1)));
     heights_.hub_top = layout.z_hub;
   }
 
+  // In a shallow groove a channel would break through the lips, and leave a hanging tooth of its roof: it grows wide as
+  // it goes in, and the lips stand out over its mouth, as far as what is below carries them.
+  void cover_channels() {
+    const BodyLayout& layout = pulley_.layout;
+    const double lip = section_.depth - 0.5 * d_;
+    const auto carried = [&](double rise) {
+      return layout.roof_slope > 0 ? rise / rise_of(layout, 1.0) : std::numeric_limits<double>::max();
+    };
+    const std::array<double, 2> carried_low = {
+        carried(layout.z_p1 - section_.walls.below_width() - layout.flange_thickness),
+        carried(least_rise_to_fill(fan_.p2))};
+    const std::array<Winding*, 2> windings = {&fan_.p1, &fan_.p2};
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      const Polygon rim = rim_of(fan_, ends_[i].side, lip);
+      const double cover = mouth_cover(rim, ends_[i], run_outs_[i]), wanted = std::max(0.0, k_channel_cover - cover);
+      // The mouth lies between the two lips.
+      Winding& winding = *windings[i];
+      winding.bulge_low = std::clamp(carried_low[i], 0.0, wanted);
+      winding.bulge_high = std::min(2.0 * wanted - winding.bulge_low, winding.bulge_low + carried(section_.width()));
+      const double bulge = 0.5 * (winding.bulge_low + winding.bulge_high);
+      const double neighbour = axial_lead(i) - (i == 0 ? section_.walls.below_width() : section_.walls.above_width());
+      run_outs_[i].channel_radii =
+          channel_radii(rim, ends_[i], run_outs_[i], {k_channel_cover - bulge, section_.depth, neighbour});
+    }
+  }
+
+  // Where a groove ends, from the turn that lies beside its end.
+  double axial_lead(std::size_t i) const {
+    const std::vector<WindingRow>& rows = i == 0 ? fan_.p1.rows : fan_.p2.rows;
+    const std::size_t end = i == 0 ? rows.size() - 1 - fan_.p1.filled_back : fan_.p2.filled_front;
+    const std::size_t beside = i == 0 ? end - fan_.columns() : end + fan_.columns();
+    return std::abs(rows[end].height - rows[beside].height);
+  }
+
+  // Height between the lips of the filled rows and of the turn below them, that their own step does not take.
+  double least_rise_to_fill(const Winding& winding) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < winding.filled_front && j + fan_.columns() < winding.rows.size(); ++j) {
+      const WindingRow &above = winding.rows[j], &below = winding.rows[j + fan_.columns()];
+      const double growth = (above.position - below.position).dot(above.normal);
+      least = std::min(least, above.height - below.height - section_.width() - rise_of(pulley_.layout, growth));
+    }
+    return least;
+  }
+
+  static void raise(Winding& winding, SpiralPlace& place, double by) {
+    place.offset += by;
+    for (WindingRow& row : winding.rows) row.height += by;
+  }
+
   // How near to the axis a pocket comes.
-  double pocket_inside(const GrooveEnd& end) const { return pocket_place(end, sizes_).norm() - sizes_.pocket_radius; }
+  double pocket_inside(std::size_t i) const {
+    return pocket_place(ends_[i], run_outs_[i]).norm() - run_outs_[i].pocket_radius;
+  }
   double room_for_bore() const {
-    return std::min({least_floor(), pocket_inside(ends_[0]), pocket_inside(ends_[1])}) - pulley_.layout.min_wall;
+    return std::min({least_floor(), pocket_inside(0), pocket_inside(1)}) - pulley_.layout.min_wall;
   }
 
   void choose_bore() {
@@ -203,14 +285,11 @@ class Planner {
     add("bore_wall", least_floor() - reach(), layout.min_wall,
         fmt::format("the bore leaves {} to a groove's floor, it takes {} (body.min_wall_mm)",
                     mm(least_floor() - reach()), mm(layout.min_wall)));
-    for (const GrooveEnd& end : ends_) {
-      const double hub = end.side == Side::right ? layout.hub_radius : 0.0;
-      const double wall = pocket_inside(end) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0);
-      add(fmt::format("knot_pocket_{}", pulley_name(end.side)), wall, layout.min_wall,
-          fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to the bore or the hub, it takes {} "
-                      "(body.min_wall_mm)",
-                      pulley_name(end.side), mm(2.0 * sizes_.pocket_radius), mm(wall), mm(layout.min_wall)));
-    }
+    for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
+    add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
+        fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, it takes two thirds of "
+                    "the tendon's diameter: {}",
+                    mm(section_.depth), mm(k_least_depth_of_tendon * d_)));
     if (layout.bore.horn_recess > 0)
       pulley_.conditions.push_back(
           condition_of("horn_recess", false, layout.bore.horn_recess, 0.0,
@@ -219,6 +298,31 @@ class Planner {
     if (mechanism_.print.parts == Parts::two)
       pulley_.conditions.push_back(
           condition_of("parts", false, 2, 1, "a pulley of several turns is printed in one part (print.parts)"));
+  }
+
+  double wall_inside(std::size_t i) const {
+    const BodyLayout& layout = pulley_.layout;
+    const double hub = ends_[i].side == Side::right ? layout.hub_radius : 0.0;
+    return pocket_inside(i) - std::max(reach(), hub > 0 ? hub - layout.min_wall : 0.0);
+  }
+  double wall_outside(std::size_t i) const {
+    return rim_wall(rim_of(fan_, ends_[i].side, section_.depth - 0.5 * d_), ends_[i], run_outs_[i]);
+  }
+  bool pockets_fit() const {
+    const double least = std::min({wall_inside(0), wall_inside(1), wall_outside(0), wall_outside(1)});
+    return least >= pulley_.layout.min_wall - k_grain;
+  }
+
+  void knot_pocket(std::size_t i) {
+    const BodyLayout& layout = pulley_.layout;
+    const auto pulley = pulley_name(ends_[i].side);
+    const auto one = [&](const std::string& name, double wall, const std::string& to) {
+      add(fmt::format("{}_{}", name, pulley), wall, layout.min_wall - k_grain,
+          fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}, it takes {} (body.min_wall_mm)",
+                      pulley, mm(2.0 * layout.pocket_radius), mm(wall), to, mm(layout.min_wall)));
+    };
+    one("knot_pocket", wall_inside(i), "the bore or the hub");
+    one("knot_pocket_rim", wall_outside(i), "the rim");
   }
 
   void neighbours(const Winding& winding, Side side) {
@@ -236,8 +340,6 @@ class Planner {
       place = low;
     }
     if (place == nullptr) return;
-    // What rounding may take of a lead that is just large enough.
-    constexpr double k_grain = 1e-6;
     add(fmt::format("neighbouring_turns_{}", pulley_name(side)), lead, needed - k_grain,
         fmt::format(
             "{}'s turns lie {} apart at {:.0f}°, a groove, its rib and the step between them take {} (body.lead_mm)",
@@ -268,7 +370,11 @@ class Planner {
                                       (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
     for (int variant = 0; variant < k_cut_variants; ++variant) {
       std::vector<TriangleMesh> tools;
-      for (const GrooveEnd& end : ends_) tools.push_back(run_out_tool(end, sizes_, variant));
+      for (std::size_t i = 0; i < ends_.size(); ++i) {
+        auto tool = run_out_tool(ends_[i], run_outs_[i], variant);
+        if (tool) tools.push_back(std::move(*tool));
+      }
+      if (tools.size() < ends_.size()) continue;
       if (screw) tools.push_back(set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
       if (cut_with(blank, volume, tools)) return;
     }
@@ -293,7 +399,7 @@ class Planner {
     pulley_.mesh = std::move(mesh);
     pulley_.mesh_checks = std::move(checks);
     pulley_.expected_volume = volume;
-    for (const GrooveEnd& end : ends_) pulley_.anchors.push_back(anchor_at(end, sizes_));
+    for (std::size_t i = 0; i < ends_.size(); ++i) pulley_.anchors.push_back(anchor_at(ends_[i], run_outs_[i]));
     pulley_.made = true;
     return true;
   }
@@ -303,7 +409,7 @@ class Planner {
   double tolerance_, d_;
   HelicalSection section_;
   HelicalPulley pulley_;
-  RunOutSizes sizes_;
+  std::array<RunOutSizes, 2> run_outs_;
   Fan fan_;
   RingHeights heights_;
   std::array<GrooveEnd, 2> ends_;
@@ -338,6 +444,11 @@ std::string HelicalPulley::brief() const {
     if (!condition.ok) text += "; " + condition.message;
   }
   return text;
+}
+
+std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
+                                         double tolerance) {
+  return Planner(mechanism, p1, p2, tolerance).plan();
 }
 
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance) {

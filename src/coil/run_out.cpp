@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/boolean.h"
 #include "solid/tools.h"
@@ -20,6 +20,12 @@ constexpr double k_past_end = 0.06;
 constexpr int k_channel_facets = 14;
 constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
+// Arcs bend no sharper than this, of the tendon; in these steps one is looked for that fits.
+constexpr double k_sharpest_bend = 2.0;
+// And of the channel's radius: its gable stays outside of the middle that it turns about.
+constexpr double k_bend_of_channel = 1.5;
+constexpr int k_bends = 5;
+constexpr double k_step_inward = 0.05;
 
 // Ring of a tube about `centre`, its plane spanned by two unit vectors.
 std::vector<Vec3> ring_of(const Vec3& centre, const Vec3& across, const Vec3& up, double radius, int facets,
@@ -51,6 +57,17 @@ Vec3 arc_point(const GrooveEnd& end, double radius, double turn) {
   return start_of(end) + radius * (std::sin(turn) * along + (1.0 - std::cos(turn)) * towards);
 }
 
+double arc_turn(int step) { return 0.5 * k_pi * step / k_arc_steps; }
+Vec3 arc_place(const GrooveEnd& end, const RunOutSizes& sizes, int step) {
+  return arc_point(end, sizes.bend_radius, arc_turn(step));
+}
+
+// Where the channel is as far inwards as it goes, in the middle of the pocket.
+Vec3 way_end(const GrooveEnd& end, const RunOutSizes& sizes) {
+  const double straight = std::sqrt(2.0) * sizes.inward - sizes.bend_radius;
+  return arc_point(end, sizes.bend_radius, 0.5 * k_pi) + straight * directions_of(end).towards;
+}
+
 // A channel's section in its own plane, x level and y up: a circle under a gable that prints.
 std::vector<Vec2> channel_section(double radius, double roof_slope, int facets) {
   std::vector<Vec2> points;
@@ -76,13 +93,13 @@ TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int vari
   for (const double place : {-k_before_end - 0.017 * variant, k_past_end + 0.005 * variant})
     sections.push_back(ring_at(mouth + place * along, along, sizes.mouth_radius));
   for (int k = 1; k <= k_arc_steps; ++k) {
-    const double turn = 0.5 * k_pi * k / k_arc_steps;
-    sections.push_back(ring_at(arc_point(end, sizes.bend_radius, turn),
-                               std::cos(turn) * along + std::sin(turn) * towards, sizes.channel_radius));
+    const double turn = arc_turn(k);
+    sections.push_back(ring_at(arc_place(end, sizes, k), std::cos(turn) * along + std::sin(turn) * towards,
+                               sizes.channel_radii[static_cast<std::size_t>(k - 1)]));
   }
-  // On into the cone.
-  sections.push_back(ring_at(arc_point(end, sizes.bend_radius, 0.5 * k_pi) + 0.8 * sizes.channel_radius * towards,
-                             towards, sizes.channel_radius));
+  // Straight on, into the cone.
+  sections.push_back(
+      ring_at(way_end(end, sizes) + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius));
   return strip(sections);
 }
 
@@ -117,26 +134,69 @@ void set_mouth(RunOutSizes& sizes, const Body& body, double d) {
 
 }  // namespace
 
-RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout) {
+RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, double share) {
   const double d = mechanism.tendon.diameter;
   RunOutSizes sizes;
   sizes.channel_radius =
       0.5 * (mechanism.body.anchor_hole > 0 ? mechanism.body.anchor_hole : std::max(d + 0.3, k_least_channel));
   set_mouth(sizes, mechanism.body, d);
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
-                                                       : std::max(1.75 * d, 2.0 * sizes.channel_radius);
+                                                       : share * std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
   sizes.roof_slope = gable_slope(layout);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
-  // The pocket leaves a wall to the rim, and the arc is no sharper than twice the tendon.
+  // The pocket leaves a wall to the rim.
   const double to_rim = sizes.pocket_radius + layout.min_wall - (layout.groove_depth - 0.5 * d);
-  sizes.inward = std::max(to_rim, std::sqrt(2.0) * d);
+  sizes.sharpest_bend = std::max(k_sharpest_bend * d, k_bend_of_channel * sizes.channel_radius);
+  sizes.inward = std::max(to_rim, sizes.sharpest_bend / std::sqrt(2.0));
   sizes.bend_radius = std::sqrt(2.0) * sizes.inward;
   return sizes;
 }
 
-Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes) {
-  return arc_point(end, sizes.bend_radius, 0.5 * k_pi).head<2>();
+Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes) { return way_end(end, sizes).head<2>(); }
+
+double rim_wall(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes) {
+  return distance_to_edges(rim, pocket_place(end, sizes)) - sizes.pocket_radius;
+}
+
+double mouth_cover(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes) {
+  return distance_to_edges(rim, end.row.position) - sizes.mouth_outward - sizes.mouth_radius;
+}
+
+std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
+                                  const ChannelRoom& room) {
+  // Its gable points up: away from the face only in the lower part.
+  const double upwards = end.outward < 0 ? 1.0 / std::cos(sizes.roof_slope) : 1.0;
+  std::vector<double> radii;
+  for (int k = 1; k <= k_arc_steps; ++k) {
+    const Vec3 place = arc_place(end, sizes, k);
+    const double to_rim = distance_to_edges(rim, place.head<2>());
+    const double to_neighbour = room.neighbour + std::abs(place.z() - end.row.height) - room.cover;
+    double radius = std::min(to_rim - room.cover, sizes.channel_radius);
+    if (to_rim - radius < room.reach + room.cover) radius = std::min(radius, to_neighbour / upwards);
+    radii.push_back(std::clamp(radius, radii.empty() ? sizes.mouth_radius : radii.back(), sizes.channel_radius));
+  }
+  return radii;
+}
+
+RunOutSizes fitted_into(const Polygon& rim, const GrooveEnd& end, RunOutSizes sizes, double wall) {
+  // Not so gentle that the rim turns away from under the channel.
+  const double gentlest = std::clamp(end.row.rho / std::sqrt(2.0), sizes.sharpest_bend, sizes.bend_radius);
+  sizes.bend_radius = gentlest;
+  const double furthest = end.row.position.dot(end.row.normal);
+  RunOutSizes best = sizes;
+  double most = -std::numeric_limits<double>::infinity();
+  for (; sizes.inward < furthest; sizes.inward += k_step_inward) {
+    for (int k = 0; k < k_bends; ++k) {
+      sizes.bend_radius = gentlest + (sizes.sharpest_bend - gentlest) * k / (k_bends - 1);
+      const double here = rim_wall(rim, end, sizes);
+      if (here >= wall) return sizes;
+      if (here <= most) continue;
+      most = here;
+      best = sizes;
+    }
+  }
+  return best;
 }
 
 HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes) {
@@ -151,10 +211,10 @@ HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes) {
   return anchor;
 }
 
-TriangleMesh run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+std::optional<TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
   const auto both =
       unite(rounded_to_float(channel_of(end, sizes, variant)), rounded_to_float(pocket_of(end, sizes, variant)));
-  demand(both.has_value(), "run-out and knot pocket do not join");
+  if (!both) return std::nullopt;
   return both->mesh;
 }
 

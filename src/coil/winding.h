@@ -46,8 +46,17 @@ struct Winding {
   /// leaves the groove has solid about it.
   std::size_t filled_front = 0, filled_back = 0;
 
+  /// How far the lower and the upper lip of the first filled rows stand out over the others, mm.
+  double bulge_low = 0, bulge_high = 0;
+
   const WindingRow& groove_front() const { return rows[filled_front]; }
   const WindingRow& groove_back() const { return rows[rows.size() - 1 - filled_back]; }
+  /// 0 … 1 from the groove's end to the last filled row.
+  double share_of_fill(std::size_t row) const {
+    return row < filled_front
+               ? static_cast<double>(filled_front - row) / static_cast<double>(filled_front)
+               : static_cast<double>(row + filled_back + 1 - rows.size()) / static_cast<double>(filled_back);
+  }
   bool is_filled(std::size_t row) const { return row < filled_front || row + filled_back >= rows.size(); }
 };
 

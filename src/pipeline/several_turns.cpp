@@ -8,6 +8,7 @@
 #include "fusee/coil/helical_pulley.h"
 #include "fusee/coil/helical_rewind.h"
 #include "fusee/helix/synthesis.h"
+#include "fusee/mechanism/fields.h"
 #include "fusee/solid/print.h"
 
 namespace fusee {
@@ -177,20 +178,51 @@ std::vector<Check> check_several_turns(const Product& product, const TriangleMes
   return check_helical_pulley(mesh, product.helix->pulley, helical_section(product.joint.mechanism));
 }
 
+namespace {
+
+/// Numbers of the body that were written: what is automatic is fitted already.
+std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
+  std::vector<std::string> keys{"body.lead_mm", "body.spare_turns", "body.groove_depth_mm"};
+  for (const char* key : {"body.bore_diameter_mm", "body.knot_pocket_mm", "body.anchor_hole_mm", "body.min_wall_mm",
+                          "body.hub_diameter_mm"}) {
+    if (number_of(mechanism, *find_field(key)) > 0) keys.emplace_back(key);
+  }
+  return keys;
+}
+
+/// Of curves first, then of the body.
+std::vector<Condition> obstacles_of(const Mechanism& mechanism, double tolerance) {
+  SynthesisOptions options;
+  options.tolerance = tolerance;
+  options.stroke_steps = 36;
+  const HelixSynthesis made = synthesise_helix(mechanism, groove_of(mechanism), options);
+  if (!made.made()) return failed_of(made.conditions);
+  return helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, tolerance);
+}
+
+}  // namespace
+
 Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
                                 const std::function<void()>& between_tries) {
   constexpr double k_trial_tolerance = 0.05;
   const Judge judge{.obstacles =
                         [&](const Mechanism& changed) {
                           if (between_tries) between_tries();
-                          SynthesisOptions options;
-                          options.tolerance = k_trial_tolerance;
-                          options.stroke_steps = 36;
-                          return failed_of(synthesise_helix(changed, groove_of(changed), options).conditions);
+                          return obstacles_of(changed, k_trial_tolerance);
                         },
                     .made = made,
                     .is_dear = true};
-  return find_advice(product.file.mechanism, judge, {"body.lead_mm", "body.spare_turns", "body.groove_depth_mm"});
+  DeclaredMechanism in_one = product.file.mechanism;
+  const Field& parts = *find_field("print.parts");
+  if (const std::string from = parts.get_text(in_one); from == "two") {
+    parts.set_text(in_one, "one");
+    if (judge.obstacles(in_one).empty() && made(in_one)) {
+      Advice advice;
+      advice.alone.push_back({"print.parts", 0, 0, {}, "print.parts = \"one\"", from, "one"});
+      return advice;
+    }
+  }
+  return find_advice(product.file.mechanism, judge, keys_of_body(product.file.mechanism));
 }
 
 }  // namespace fusee

@@ -212,6 +212,40 @@ TEST(SeveralTurnsWords, RefuseWithAdviceThatBuilds) {
   EXPECT_FALSE(built.advice.empty());
 }
 
+/// Of what a body of several turns refuses: the number that is named builds.
+TEST(SeveralTurnsWords, BodiesAreRefusedWithNumbersThatBuild) {
+  const std::vector<Setting> pocket{{"tendon.diameter_mm", "1.07"}, {"body.knot_pocket_mm", "7"}};
+  const BuildResult built = made(read_profile("elbow_capstan", pocket));
+  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  EXPECT_THAT(failures_of(built), HasSubstr("knot pocket"));
+  const auto change = std::find_if(built.advice.alone.begin(), built.advice.alone.end(),
+                                   [](const Change& one) { return one.key == "body.knot_pocket_mm"; });
+  ASSERT_NE(change, built.advice.alone.end());
+  std::vector<Setting> mended = pocket;
+  mended.back().value = std::to_string(change->to);
+  EXPECT_EQ(made(read_profile("elbow_capstan", mended)).status, BuildStatus::done);
+}
+
+/// Each once left a body that crossed itself, or broke through its rim.
+TEST(SeveralTurnsBodies, ThatOnceWentWrong) {
+  const std::vector<std::vector<Setting>> designs{
+      {{"tendon.diameter_mm", "0.72"}, {"pulley.r1_mm", "6.61"}, {"body.spare_turns", "1.7"}},
+      {{"tendon.diameter_mm", "0.9"}, {"body.anchor_hole_mm", "2"}}};
+  for (const std::vector<Setting>& settings : designs) {
+    const BuildResult built = made(read_profile("elbow_capstan", settings));
+    EXPECT_EQ(built.status, BuildStatus::done) << settings.front().value << "\n" << failures_of(built);
+  }
+  // Turns of one normal lie far aside of one another.
+  const BuildResult aside = made(read_profile("wrist_turns", {{"pulley.ratio", "6.71"},
+                                                              {"joint.length_mm", "246.3"},
+                                                              {"guides.EB_mm", "136.6"},
+                                                              {"guides.ED_mm", "159.3"},
+                                                              {"pulley.EF_mm", "162.2"},
+                                                              {"joint.range_deg", "[-35.3, 29.7]"},
+                                                              {"body.groove", "u"}}));
+  EXPECT_EQ(aside.status, BuildStatus::done) << failures_of(aside);
+}
+
 TEST(SeveralTurnsWords, AKitIsNotMade) {
   KitOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";

@@ -73,6 +73,10 @@ struct HelicalPulley {
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
                                   double tolerance = 0.01);
 
+/// Why it cannot be made, as far as is known before it is cut.
+std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
+                                         double tolerance = 0.01);
+
 /// What a mesh of this pulley must be, measured on `mesh`: check_mesh, Euler number, volume, and by half-planes through
 /// the axis the thinnest rib, the shallowest groove and the thinnest wall to the bore.
 std::vector<Check> check_helical_pulley(const TriangleMesh& mesh, const HelicalPulley& pulley,
