@@ -158,8 +158,8 @@ void rub_in_sheaths(Hidden& h) { h.sheath_friction = 0.2; }
 void say_sheaths_rub(Imperfections& at) { at.sheath.friction = 0.2; }
 void slide_in_sheaths(Hidden& h) { h.sheath_friction = -0.15; }
 void say_sheaths_slide(Imperfections& at) { at.sheath.friction = -0.15; }
-void soften_sheaths(Hidden& h) { h.sheath_give = 0.02; }
-void say_sheaths_soft(Imperfections& at) { at.sheath.give = 0.02; }
+void soften_sheaths(Hidden& h) { h.sheath_give = 0.015; }
+void say_sheaths_soft(Imperfections& at) { at.sheath.give = 0.015; }
 
 const std::vector<WideFault> k_wide_faults{
     {"finger_mcp", 0.7, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
