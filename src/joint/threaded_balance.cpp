@@ -13,6 +13,9 @@ using Slides = std::array<int, k_bends>;
 /// Which bends hold and which slide is found by trial. Sets that were tried are few (a front that runs through the
 /// sheath from one end); rounding alone can make one return.
 constexpr int k_most_trials = 64;
+constexpr int k_most_steps = 60;
+/// After a step of this share what is left is rounding.
+constexpr double k_squared_away = 1e-7;
 /// Material that goes the wrong way past a bend by less is rounding's, of the length of a span.
 constexpr double k_rounding = 1e-14;
 
@@ -47,18 +50,24 @@ struct Joined {
     for (std::size_t i = first; i <= last; ++i) sum += softness(i, t);
     return sum;
   }
-  // All material is in these spans: Σ L/(1 + r t/EA) = Σ n. Falls and is hollow: Newton's steps from 0 come up to it.
+  /// Newton's step to where all material is in these spans: Σ L/(1 + r t/EA) = Σ n.
+  double step_from(double t) const {
+    double beyond = 0, slope = 0;
+    for (std::size_t i = first; i <= last; ++i) {
+      const double share = 1.0 / (1.0 + ratio[i] * t / spans.EA);
+      beyond += spans.length[i] * share - spans.material[i];
+      slope += spans.length[i] * ratio[i] * share * share;
+    }
+    return beyond * spans.EA / slope;
+  }
+  // Hollow: steps from 0 come up to it, and each squares the miss.
   double tension() const {
     if (first == last) return tension_of(spans.EA, spans.length[first], spans.material[first]);
     if (!(stretch() > 0)) return 0;
-    double t = 0;
-    for (int step = 0; step < 60; ++step) {
-      double beyond = 0;
-      for (std::size_t i = first; i <= last; ++i)
-        beyond += spans.length[i] / (1.0 + ratio[i] * t / spans.EA) - spans.material[i];
-      const double by = beyond / softness(t);
+    double t = 0, by = 0;
+    for (int step = 0; step < k_most_steps && (step == 0 || std::abs(by) > k_squared_away * t); ++step) {
+      by = step_from(t);
       t = std::max(0.0, t + by);
-      if (std::abs(by) <= 1e-14 * t) break;
     }
     return t;
   }
