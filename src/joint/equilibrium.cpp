@@ -47,6 +47,8 @@ constexpr int k_newton_rounds = 6;
 constexpr double k_glide = 0.02;  // rad
 /// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
 constexpr double k_least_hold = 1e-4;
+/// A joint that moves is pulled by its friction, but for this share.
+constexpr double k_rounding = 1e-6;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
@@ -502,6 +504,7 @@ struct JointMotion::State {
                                double last_step) const;
   std::optional<Rest> settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
   bool consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now, double move);
+  bool is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const;
   EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
@@ -602,6 +605,19 @@ std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, cons
   return rest;
 }
 
+/// Nothing but its bearing's friction keeps the joint where it is in its play. That is no hold: a joint was named whose
+/// friction of 0.007 N·mm made rows sure that without it rest anywhere (four false groups of 34 on wide joints).
+bool JointMotion::State::is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const {
+  const auto hardly_pulls = [&](const TendonState& tendon, const Trial& trial) {
+    const double held = model.bearing_friction > 0 ? (1.0 + k_rounding) * model.bearing_friction / trial.span.m : 0.0;
+    return tendon.upper < k_least_hold + held;
+  };
+  if (!hardly_pulls(point.t1, now[0]) || !hardly_pulls(point.t2, now[1])) return false;
+  // What keeps a tendon taut until the friction is used up is given back before the play begins.
+  const double taken_up = model.bearing_friction > 0 ? point.t1.stretch + point.t2.stretch : 0.0;
+  return point.t1.slack + point.t2.slack - taken_up > k_least_play;
+}
+
 EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest) {
   const std::array<Trial, 2>& now = rest.trials;
   const double found = rest.theta;
@@ -630,7 +646,7 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   point.stored += wound_energy - home_energy;
   point.friction = friction;
   point.groove_friction = groove_friction;
-  loose = std::max(point.t1.upper, point.t2.upper) < k_least_hold && point.t1.slack + point.t2.slack > k_least_play;
+  loose = is_loose(point, now);
   if (loose) {
     point.status = EquilibriumStatus::loose;
     point.loose_below = point.t2.slack / now[1].span.m;
