@@ -254,7 +254,7 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   const Imperfections& found = calibration.identified;
   Correction correction;
   correction.identified = composed(declared, found);
-  const bool gives_way = found.tendon.stretch != 0 || found.joint.weight != WeightError{};
+  const bool gives_way = found.tendon.stretch != 0 || found.sheath.give != 0 || found.joint.weight != WeightError{};
   if (gives_way && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const DeclaredLaw law(declared);
