@@ -11,7 +11,8 @@ double sheath_total(double added, const Mechanism& declared) {
 }  // namespace
 
 // Of μ and the bends a run shows the product alone: T2/T1 = e^{μβ} [7]. A liner that wore, dirt, a sheath that lies
-// in another curve than was thought. On a pin it is μφ; where the wrap φ hardly changes over the stroke the two are one.
+// in another curve than was thought. On a pin it is μφ; where the wrap φ hardly changes over the stroke the two are
+// one.
 Effect sheath_friction(JointKind) {
   Effect effect;
   effect.name = "sheath_friction";
@@ -22,16 +23,16 @@ Effect sheath_friction(JointKind) {
       "lay the sheaths straighter, or in one bend more, and repeat the loaded run: friction on the pins stays";
   effect.correctable_by = CorrectableBy::table;
   effect.needs = {.tendons = true, .sheath = true};
-  effect.parameters = {{.name = "mu_bend",
-                        .number = [](Imperfections& at) -> double& { return at.sheath.friction; },
-                        .least = -2,
-                        .most = 2,
-                        .step = 5e-3,
-                        .prior = 0.15,  // half a turn of bends at 0.05 more; a quarter turn more at 0.1
-                        .shown = sheath_total,
-                        .key = key::plain("sheath_mu_bend", "", -20, 20,
-                                          "added to sheath.friction times the bends in radians"),
-                        .again = WhenFoundAgain::added}};
+  effect.parameters = {
+      {.name = "mu_bend",
+       .number = [](Imperfections& at) -> double& { return at.sheath.friction; },
+       .least = -2,
+       .most = 2,
+       .step = 5e-3,
+       .prior = 0.15,  // half a turn of bends at 0.05 more; a quarter turn more at 0.1
+       .shown = sheath_total,
+       .key = key::plain("sheath_mu_bend", "", -20, 20, "added to sheath.friction times the bends in radians"),
+       .again = WhenFoundAgain::added}};
   effect.starts = {{0.1}, {0.4}};
   return effect;
 }

@@ -23,16 +23,16 @@ Effect sheath_stiffness(JointKind) {
       "hold a caliper over a sheath from end to end and hang the load on the joint: a tendon's stretch does not show";
   effect.correctable_by = CorrectableBy::pulley;
   effect.needs = {.tendons = true, .sheath = true};
-  effect.parameters = {{.name = "mm_per_N",
-                        .number = [](Imperfections& at) -> double& { return at.sheath.give; },
-                        .least = -1,
-                        .most = 1,
-                        .step = 2e-4,
-                        .prior = 0.005,  // a spiral of wire under compression, and what holds its ends: 50 N/mm and up
-                        .shown = sheath_give,
-                        .key = key::plain("sheath_give_mm_per_N", "mm_per_N", -10, 10,
-                                          "added to one over sheath.stiffness_N_per_mm"),
-                        .again = WhenFoundAgain::added}};
+  effect.parameters = {
+      {.name = "mm_per_N",
+       .number = [](Imperfections& at) -> double& { return at.sheath.give; },
+       .least = -1,
+       .most = 1,
+       .step = 2e-4,
+       .prior = 0.005,  // a spiral of wire under compression, and what holds its ends: 50 N/mm and up
+       .shown = sheath_give,
+       .key = key::plain("sheath_give_mm_per_N", "mm_per_N", -10, 10, "added to one over sheath.stiffness_N_per_mm"),
+       .again = WhenFoundAgain::added}};
   effect.starts = {{0.003}, {0.02}};
   return effect;
 }
