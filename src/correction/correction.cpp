@@ -41,13 +41,19 @@ Imperfections composed(const DeclaredMechanism& declared, const Imperfections& f
   return total;
 }
 
+/// What a sheath takes and gives is in the law that the pulley is drawn for.
+bool same_mouths(const Sheath& one, const Sheath& other) {
+  return one.is_there() == other.is_there() && one.exit_across == other.exit_across &&
+         one.exit_above == other.exit_above;
+}
+
 /// Friction moves the joint, not the curves.
 bool same_drawing(const DeclaredMechanism& a, const DeclaredMechanism& b) {
   JointAsItIs one = as_it_is(a), other = as_it_is(b);
   one.mechanism = without_friction(std::move(one.mechanism));
   other.mechanism = without_friction(std::move(other.mechanism));
   return one.outline == other.outline && one.mechanism.joint == other.mechanism.joint &&
-         one.mechanism.guides == other.mechanism.guides && one.mechanism.sheath == other.mechanism.sheath &&
+         one.mechanism.guides == other.mechanism.guides && same_mouths(one.mechanism.sheath, other.mechanism.sheath) &&
          one.mechanism.pulley == other.mechanism.pulley && one.mechanism.material == other.mechanism.material;
 }
 
@@ -248,7 +254,7 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
   const Imperfections& found = calibration.identified;
   Correction correction;
   correction.identified = composed(declared, found);
-  const bool gives_way = found.tendon.stretch != 0 || found.joint.weight != WeightError{};
+  const bool gives_way = found.tendon.stretch != 0 || found.sheath.give != 0 || found.joint.weight != WeightError{};
   if (gives_way && !declared.transmission)
     correction.identified.joint.mean_load = mean_load(measurement, declared) - declared.load.tip_force;
   const DeclaredLaw law(declared);

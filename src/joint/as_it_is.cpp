@@ -21,8 +21,8 @@ bool changes_geometry(const Imperfections& at) {
 }
 bool changes_statics(const Imperfections& at) {
   return at.tendon.stretch != 0 || at.tendon.pretension != 0 || at.pins.friction != 0 ||
-         at.pins.bearing_friction != 0 || at.tendon.groove_friction != 0 || at.joint.weight != WeightError{} ||
-         at.joint.mean_load != 0;
+         at.pins.bearing_friction != 0 || at.tendon.groove_friction != 0 || at.sheath != SheathError{} ||
+         at.joint.weight != WeightError{} || at.joint.mean_load != 0;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "fusee/base/plane.h"
 #include "fusee/transmission/load.h"
 #include "joint/tendon_balance.h"
+#include "joint/threaded_balance.h"
 #include "joint/upper_span_table.h"
 #include "joint/wound_profile.h"
 
@@ -46,19 +47,33 @@ constexpr int k_newton_rounds = 6;
 constexpr double k_glide = 0.02;  // rad
 /// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
 constexpr double k_least_hold = 1e-4;
+/// A joint that moves is pulled by its friction, but for this share.
+constexpr double k_rounding = 1e-6;
 
 double energy_per_material(double tension, double EA) { return 0.5 * tension * tension / EA; }
 
-/// What lies in a sheath is shared by both spans: friction in it and on the pin stand together in its middle. So is
-/// its give, a spring of each span, at home as it was mounted. A spring of c N⁻¹ is to its span as EA c of tendon that
-/// no temperature and no creep reaches (see Give).
+/// A sheath holds at so many places, each in the middle of its part (threaded_balance.h). One without friction is one
+/// place, and as good as none.
+std::size_t bends_of(const SheathLoad& sheath) { return sheath.log_ratio > 0 ? ThreadedSpans::k_bends : 1; }
+/// What each of both spans has of what lies in the sheath; of the pieces between bends each has twice that.
+double end_share(const SheathLoad& sheath) { return 0.5 / static_cast<double>(bends_of(sheath)); }
+
+/// So is its give shared, a spring of each span, at home as it was mounted. A spring of c N⁻¹ is to its span as EA c of
+/// tendon that no temperature and no creep reaches (see Give).
 struct SheathShare {
   double length = 0;
   double unseen = 0;
   double mounted = 0;  ///< by how much the spring is longer at home than without tension
 
-  SheathShare(const SheathLoad& sheath, double EA, double home)
-      : length(0.5 * sheath.length), unseen(0.5 * sheath.give * EA), mounted(0.5 * sheath.give * home) {}
+  SheathShare(const SheathLoad& sheath, double share, double EA, double home)
+      : length(share * sheath.length), unseen(share * sheath.give * EA), mounted(share * sheath.give * home) {}
+};
+
+/// Of what lies between the bends of a sheath, from the joint to the pulley.
+struct InSheath {
+  std::array<double, ThreadedSpans::k_bends - 1> material{};
+  std::array<double, ThreadedSpans::k_bends - 1> tension{};
+  std::array<int, ThreadedSpans::k_bends> slides{};  ///< at the last step
 };
 
 /// One tendon in its right-hand image, with its history.
@@ -67,6 +82,7 @@ struct TendonHistory {
   double rim_reference = 0;  ///< normal of the point of the rim between upper and lower part, rad
   double upper_material = 0;
   double lower_material = 0;
+  InSheath sheath;
   WoundProfile wound;
   double upper = 0;  ///< tensions at the last step
   double lower = 0;
@@ -126,8 +142,8 @@ AtAlpha at_alpha(const TendonHistory& tendon, const LowerPath& path, const Joint
   const double expansion = step.tendon.expansion[tendon.side == Side::left ? 0 : 1];
   AtAlpha at;
   at.path = path;
-  at.lower_length =
-      path.reach + pin.rho * (tendon.rim_reference - pin.off_pin(path.normal)) + 0.5 * model.sheath.length;
+  at.lower_length = path.reach + pin.rho * (tendon.rim_reference - pin.off_pin(path.normal)) +
+                    end_share(model.sheath) * model.sheath.length;
   at.swelling = 1.0 + expansion;
   at.spans.EA = model.EA;
   at.spans.upper_material = at.swelling * tendon.upper_material;
@@ -189,6 +205,8 @@ struct Trial {
   UpperSpanTable::Look span;
   double upper_length = 0;  ///< of the path
   Spans spans;
+  ThreadedSpans threaded;  ///< the same with what lies in a sheath of friction
+  ThreadedBalance slid;
   TendonBalance balance;
   double wrap = 0;
   double pull = 0;         ///< on the joint, towards the tendon's own side: T_up m
@@ -196,11 +214,33 @@ struct Trial {
   double lower_slope = 0;  ///< of the lower span's tension
 };
 
+/// The spans with the pieces of tendon between the bends of their sheath.
+ThreadedSpans threaded(const Spans& spans, const TendonHistory& tendon, const JointModel& model, double swelling) {
+  const SheathShare piece(model.sheath, 2.0 * end_share(model.sheath), spans.EA, tendon.home);
+  ThreadedSpans all;
+  all.EA = spans.EA;
+  all.holds.fill(model.sheath.log_ratio / ThreadedSpans::k_bends);
+  all.length.fill(piece.length + piece.unseen + piece.mounted);
+  all.length.front() = spans.upper_length;
+  all.length.back() = spans.lower_length;
+  all.material.front() = spans.upper_material;
+  all.material.back() = spans.lower_material;
+  for (std::size_t i = 0; i < tendon.sheath.material.size(); ++i)
+    all.material[i + 1] = swelling * tendon.sheath.material[i] + piece.unseen;
+  return all;
+}
+
+/// What is seen of it from both ends.
+TendonBalance from_ends(const ThreadedBalance& slid) {
+  return {slid.tension.front(), slid.tension.back(), slid.crossed.front(),
+          slid.contact,         slid.per_length,     slid.per_hold};
+}
+
 Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
   const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
   const double off_pin = pin.off_pin(at.path.normal);
-  const SheathShare sheath(model.sheath, at.spans.EA, tendon.home);
+  const SheathShare sheath(model.sheath, end_share(model.sheath), at.spans.EA, tendon.home);
   Trial trial;
   trial.span = upper.at(mirror_sign(tendon.side) * theta);
   trial.spans = with_slide(at.spans, at);
@@ -209,14 +249,25 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
     give_way(trial.spans, Give({trial.span.normal, off_pin}, tendon, model.pin_give, at.spans.EA));
   if (model.sheath.give > 0) give_way(trial.spans, sheath);
   trial.wrap = trial.span.normal - off_pin;
-  trial.spans.capstan = std::exp(model.guide.log_ratio(trial.wrap) + model.sheath.log_ratio);
-  trial.balance = balance(trial.spans);
+  const double on_pin = model.guide.log_ratio(trial.wrap);
+  const bool is_threaded = bends_of(model.sheath) > 1;
+  if (is_threaded) {
+    trial.threaded = threaded(trial.spans, tendon, model, at.swelling);
+    trial.threaded.holds.front() += on_pin;
+    trial.slid = balance(trial.threaded, tendon.sheath.slides);
+    trial.balance = from_ends(trial.slid);
+  } else {
+    trial.spans.capstan = std::exp(on_pin);
+    trial.balance = balance(trial.spans);
+  }
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
   if (trial.wrap > 0) rate += trial.balance.per_capstan * model.guide.slope(trial.wrap) * trial.span.dnormal;
   trial.slope = rate * m + trial.balance.upper * trial.span.dm;
-  if (trial.balance.crossed != 0 && trial.balance.upper > 0)
+  if (is_threaded)
+    trial.lower_slope = rate * trial.slid.lower_per_upper;
+  else if (trial.balance.crossed != 0 && trial.balance.upper > 0)
     trial.lower_slope = rate * trial.balance.lower / trial.balance.upper;
   return trial;
 }
@@ -291,13 +342,15 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   const UpperSpan span = upper_span(place, 0.0);
   TendonHistory tendon;
   tendon.side = side;
-  const double off_pin = place.off_pin(path.normal), in_sheath = 0.5 * model.sheath.length;
+  const double off_pin = place.off_pin(path.normal), in_sheath = end_share(model.sheath) * model.sheath.length;
   tendon.rim_reference = 0.5 * (span.normal + off_pin);
   const double density = 1.0 / (1.0 + tension / model.EA);
   tendon.upper_material =
       density * (span.free + place.rho * (span.normal - tendon.rim_reference) + in_sheath) + 0.5 * model.slack;
   tendon.lower_material =
       density * (path.reach + place.rho * (tendon.rim_reference - off_pin) + in_sheath) + 0.5 * model.slack;
+  tendon.sheath.material.fill(density * 2.0 * in_sheath);
+  tendon.sheath.tension.fill(tension);
   tendon.wound = WoundProfile(groove_of(model, side), model.groove_friction, place_of(side, path, 0.0), density);
   tendon.upper = tendon.lower = tendon.home = tension;
   tendon.home_push = AtPin(span.normal, off_pin).push(tension, tension);
@@ -329,19 +382,46 @@ Spent wind(WoundProfile& wound, const AtAlpha& at) {
   return spent;
 }
 
+/// Work that a tendon at the tension `t` brings with material that crosses to it.
+double head(double t, double EA) { return t + energy_per_material(t, EA); }
+
+/// What is lost at every bend of a sheath, and what its pieces then are.
+double pull_through(TendonHistory& tendon, const Trial& trial, double swelling) {
+  const double EA = trial.threaded.EA;
+  const ThreadedBalance& now = trial.slid;
+  InSheath& sheath = tendon.sheath;
+  std::array<double, ThreadedSpans::k_bends + 1> before{};
+  before.front() = tendon.upper;
+  before.back() = tendon.lower;
+  std::copy(sheath.tension.begin(), sheath.tension.end(), before.begin() + 1);
+  double lost = 0;
+  for (std::size_t j = 0; j < now.crossed.size(); ++j) {
+    const double then = head(before[j], EA) - head(before[j + 1], EA);
+    lost += 0.5 * (then + head(now.tension[j], EA) - head(now.tension[j + 1], EA)) * now.crossed[j];
+  }
+  for (std::size_t i = 0; i < sheath.material.size(); ++i) {
+    sheath.material[i] += (now.crossed[i + 1] - now.crossed[i]) / swelling;
+    sheath.tension[i] = now.tension[i + 1];
+  }
+  sheath.slides = now.slides;
+  return lost;
+}
+
 /// Takes a trial as what happened; what slides, but for `near`.
 Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial, double near) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
-  const auto head = [EA](double upper, double lower) {
-    return upper + energy_per_material(upper, EA) - lower - energy_per_material(lower, EA);
-  };
+  const bool is_threaded = trial.threaded.EA > 0;
+  const double to_joint = is_threaded ? trial.slid.crossed.back() : now.crossed;  // out of the lower span
   if (std::abs(at.slide.strain - now.lower / EA) > near)
     at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
   Spent spent = wind(tendon.wound, at);
-  spent.friction = 0.5 * (head(tendon.upper, tendon.lower) + head(now.upper, now.lower)) * now.crossed;
+  const auto dropped = [EA](double upper, double lower) { return head(upper, EA) - head(lower, EA); };
+  spent.friction = is_threaded
+                       ? pull_through(tendon, trial, at.swelling)
+                       : 0.5 * (dropped(tendon.upper, tendon.lower) + dropped(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
-  tendon.lower_material = (at.spans.lower_material - now.crossed) / at.swelling + at.slide.freed;
+  tendon.lower_material = (at.spans.lower_material - to_joint) / at.swelling + at.slide.freed;
   tendon.strained = (now.lower - tendon.lower) / EA;
   tendon.upper = now.upper;
   tendon.lower = now.lower;
@@ -361,8 +441,17 @@ TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial
   return state;
 }
 
-double energy_of_spans(const TendonHistory& tendon, double EA) {
-  return tendon.upper_material * energy_per_material(tendon.upper, EA) +
+double energy_of_pieces(const TendonHistory& tendon, double EA) {
+  double sum = 0;
+  for (std::size_t i = 0; i < tendon.sheath.material.size(); ++i)
+    sum += tendon.sheath.material[i] * energy_per_material(tendon.sheath.tension[i], EA);
+  return sum;
+}
+
+double energy_of_spans(const TendonHistory& tendon, const JointModel& model) {
+  const double EA = model.EA;
+  const double inside = bends_of(model.sheath) > 1 ? energy_of_pieces(tendon, EA) : 0.0;
+  return inside + tendon.upper_material * energy_per_material(tendon.upper, EA) +
          tendon.lower_material * energy_per_material(tendon.lower, EA);
 }
 
@@ -374,11 +463,15 @@ double energy_of_pin(const TendonHistory& tendon, const AtAlpha& at, const Trial
   return 0.5 * model.pin_give * (pin.push(tendon.upper, tendon.lower).squaredNorm() - tendon.home_push.squaredNorm());
 }
 
-/// The same of its sheath, half of which gives way to the tension at either end.
-double energy_of_sheath(const TendonHistory& tendon, double per_newton) {
-  if (!(per_newton > 0)) return 0;
-  const double ends = tendon.upper * tendon.upper + tendon.lower * tendon.lower;
-  return 0.25 * per_newton * (ends - 2.0 * tendon.home * tendon.home);
+/// The same of its sheath, every part of which gives way to the tension in it.
+double energy_of_sheath(const TendonHistory& tendon, const SheathLoad& sheath) {
+  if (!(sheath.give > 0)) return 0;
+  const double share = end_share(sheath), at_home = tendon.home * tendon.home;
+  double sum = share * (tendon.upper * tendon.upper + tendon.lower * tendon.lower - 2.0 * at_home);
+  if (bends_of(sheath) > 1) {
+    for (const double inside : tendon.sheath.tension) sum += 2.0 * share * (inside * inside - at_home);
+  }
+  return 0.5 * sheath.give * sum;
 }
 
 /// Where a joint comes to rest.
@@ -411,6 +504,7 @@ struct JointMotion::State {
                                double last_step) const;
   std::optional<Rest> settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
   bool consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now, double move);
+  bool is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const;
   EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest);
   EquilibriumPoint refuse(const JointStep& step) const;
 };
@@ -422,7 +516,7 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   tendons[0] = at_home(Side::left, model, paths[0], model.pretension);
   tendons[1] = at_home(Side::right, model, paths[1], model.pretension * arm1 / arm2);
   expected = model.expected(0.0);
-  for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model.EA);
+  for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model);
 }
 
 std::array<Trial, 2> JointMotion::State::trials(const std::array<AtAlpha, 2>& at, double at_theta) const {
@@ -511,6 +605,19 @@ std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, cons
   return rest;
 }
 
+/// Nothing but its bearing's friction keeps the joint where it is in its play. That is no hold: a joint was named whose
+/// friction of 0.007 N·mm made rows sure that without it rest anywhere (four false groups of 34 on wide joints).
+bool JointMotion::State::is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const {
+  const auto hardly_pulls = [&](const TendonState& tendon, const Trial& trial) {
+    const double held = model.bearing_friction > 0 ? (1.0 + k_rounding) * model.bearing_friction / trial.span.m : 0.0;
+    return tendon.upper < k_least_hold + held;
+  };
+  if (!hardly_pulls(point.t1, now[0]) || !hardly_pulls(point.t2, now[1])) return false;
+  // What keeps a tendon taut until the friction is used up is given back before the play begins.
+  const double taken_up = model.bearing_friction > 0 ? point.t1.stretch + point.t2.stretch : 0.0;
+  return point.t1.slack + point.t2.slack - taken_up > k_least_play;
+}
+
 EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest) {
   const std::array<Trial, 2>& now = rest.trials;
   const double found = rest.theta;
@@ -525,19 +632,21 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
     wound_energy += spent.wound;
     friction += spent.friction;
     groove_friction += spent.groove_friction;
-    point.stored += energy_of_spans(tendons[i], model.EA) + energy_of_pin(tendons[i], at[i], now[i], model) +
-                    energy_of_sheath(tendons[i], model.sheath.give);
+    point.stored += energy_of_spans(tendons[i], model) + energy_of_pin(tendons[i], at[i], now[i], model) +
+                    energy_of_sheath(tendons[i], model.sheath);
     (i == 0 ? point.t1 : point.t2) = state_of(tendons[i], at[i], now[i]);
     const double m = now[i].span.m;
     const double geometric = now[i].balance.upper * now[i].span.dm;
     point.stiffness_stuck += stuck_rate(now[i].spans, now[i].balance) * m * m - geometric;
-    point.stiffness += sliding_rate(now[i].spans, now[i].balance) * m * m - geometric;
+    const double passing = bends_of(model.sheath) > 1 ? sliding_rate(now[i].threaded, now[i].slid)
+                                                      : sliding_rate(now[i].spans, now[i].balance);
+    point.stiffness += passing * m * m - geometric;
   }
   point.motor_torque = point.t2.lower * at[1].path.p - point.t1.lower * at[0].path.p;
   point.stored += wound_energy - home_energy;
   point.friction = friction;
   point.groove_friction = groove_friction;
-  loose = std::max(point.t1.upper, point.t2.upper) < k_least_hold && point.t1.slack + point.t2.slack > k_least_play;
+  loose = is_loose(point, now);
   if (loose) {
     point.status = EquilibriumStatus::loose;
     point.loose_below = point.t2.slack / now[1].span.m;

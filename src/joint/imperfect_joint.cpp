@@ -43,6 +43,16 @@ void mount_drum(Joint& joint, const JointError& at) {
   tie_on_drum(joint.attachment2, joint);
 }
 
+/// A file may say that its sheaths do not bend, or not give: what was found then stands for itself.
+void mount_sheath(Sheath& sheath, const SheathError& at) {
+  if (!sheath.is_there() || at == SheathError{}) return;
+  const double friction = std::max(0.0, sheath.mu * sheath.bend + at.friction);
+  if (!(sheath.bend > 0)) sheath.bend = 1.0;
+  sheath.mu = friction / sheath.bend;
+  const double give = (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + at.give;
+  sheath.stiffness = give > 0 ? 1.0 / give : 0.0;
+}
+
 }  // namespace
 
 MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
@@ -62,6 +72,7 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   } else {
     guides.mu = std::max(0.0, guides.mu + at.pins.friction);
   }
+  mount_sheath(mechanism.sheath, at.sheath);
   mechanism.pulley.mu = std::max(0.0, mechanism.pulley.mu + at.tendon.groove_friction);
   mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.tendon.stretch);
   mechanism.tendon.pretension = std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);

@@ -28,9 +28,9 @@ bool has_free_end(const Mechanism& mechanism, Side side) {
 
 bool has_part(const Mechanism& mechanism, const Needs& needs) {
   if (mechanism.transmission)
-    return !(needs.tendons || needs.drum || needs.end1 || needs.end2 || needs.pins || needs.idlers);
+    return !(needs.tendons || needs.drum || needs.end1 || needs.end2 || needs.pins || needs.idlers || needs.sheath);
   const bool is_idler = mechanism.guides.kind == GuideKind::idler;
-  return !(needs.pins && is_idler) && !(needs.idlers && !is_idler) &&
+  return !(needs.pins && is_idler) && !(needs.idlers && !is_idler) && !(needs.sheath && !mechanism.sheath.is_there()) &&
          !(needs.drum && !on_drum(mechanism, Side::left).somewhere && !on_drum(mechanism, Side::right).somewhere) &&
          !(needs.end1 && !has_free_end(mechanism, Side::left)) &&
          !(needs.end2 && !has_free_end(mechanism, Side::right));

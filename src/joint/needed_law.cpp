@@ -33,7 +33,7 @@ LawCare care_of(LawSearch search) { return search == LawSearch::whole ? LawCare{
 /// What makes the declared law worth keeping under load. Friction and pretension alone hardly move the mean of both
 /// directions.
 bool gives_way(const Imperfections& at) {
-  return at.tendon.stretch != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
+  return at.tendon.stretch != 0 || at.sheath.give != 0 || at.joint.weight != WeightError{} || at.joint.mean_load != 0;
 }
 /// The declared law as rows, both ends of the range among them, a little beyond them where it goes on: past the end of
 /// a table all θ have one α, but for rounding. Empty where it does not exist.

@@ -34,6 +34,8 @@ std::string_view word(ChainPlace place) {
       return "pulley";
     case ChainPlace::tendon:
       return "tendon";
+    case ChainPlace::sheath:
+      return "sheath";
     case ChainPlace::pins:
       return "pins";
     case ChainPlace::joint:

@@ -112,14 +112,6 @@ std::vector<std::string> output_names(const MechanismFile& file) {
   return names;
 }
 
-/// The model knows sheaths; the catalogue has no errors of theirs.
-void warn_of_sheaths(MechanismFile& file) {
-  if (!file.mechanism.sheath.is_there()) return;
-  file.warnings.push_back({Severity::warning, file.place_of("sheath.length_mm"),
-                           "calibrate has no effects of a sheath yet",
-                           "an error of its friction is named capstan_friction, one of its stiffness tendon_stretch"});
-}
-
 void publish(const Bench& bench, OutputFolder& folder) {
   for (const OutputFile& output : bench.result.outputs) {
     if (bench.options.before_writing) bench.options.before_writing();
@@ -135,7 +127,6 @@ CalibrateResult calibrate(const MechanismFile& file, const std::vector<std::file
                           const CalibrateOptions& options) {
   CalibrateResult result;
   result.product.file = with_doubts_and_turns(file);
-  warn_of_sheaths(result.product.file);
   const Bench bench{file, options, result};
   OutputFolder target(options.folder, options.force);
   target.claim(output_names(file));  // before the work: a refusal should not cost a wait

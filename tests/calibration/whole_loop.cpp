@@ -107,6 +107,14 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
     add("drum_radius", [&](LoopCase& c) { c.hidden.drum_radius = -0.02 * drum; });
     add("drum_runout", [&](LoopCase& c) { c.hidden.drum_runout = 0.02 * drum, c.hidden.drum_runout_phase = 2.0; });
   }
+  if (declared.sheath.is_there()) {
+    add("sheath_friction", [](LoopCase& c) { c.hidden.sheath_friction = 0.15; });
+    add("sheath_stiffness", [&](LoopCase& c) {
+      c.hidden.sheath_give = 0.03;
+      c.plans = about(load);
+      c.load = load;
+    });
+  }
   const auto add_end = [&](const std::string& name, std::size_t tendon, const std::optional<Attachment>& own) {
     if (!own) return;
     const double away = std::hypot(own->across, own->along);

@@ -64,6 +64,35 @@ TEST(Pins, BothMovedAreThoseOfAnotherFile) {
   EXPECT_LT(rms(predict(mechanism, both, log)[0], forward({})[0]), 1e-9);
 }
 
+TEST(Sheath, ItsErrorsAreThoseOfAnotherFile) {
+  const Mechanism mechanism = testing::sheathed_wrist();
+  const BenchLog log{swept(mechanism, 6)};
+  Imperfections at;
+  at.sheath = {0.1, 0.004};
+  Mechanism rougher = mechanism, bent = mechanism;
+  rougher.sheath.stiffness = bent.sheath.stiffness = 1.0 / (1.0 / mechanism.sheath.stiffness + 0.004);
+  rougher.sheath.mu += 0.1 / mechanism.sheath.bend;
+  bent.sheath.bend += 0.1 / mechanism.sheath.mu;
+  const std::vector<double> found = predict(mechanism, at, log)[0];
+  EXPECT_GT(rms(found, predict(mechanism, {}, log)[0]), radians(0.02));
+  // Of friction and bends the product alone.
+  for (const Mechanism& other : {rougher, bent}) EXPECT_LT(rms(found, predict(other, {}, log)[0]), 1e-9);
+}
+
+TEST(Sheath, WithoutBendsOrGiveHasWhatWasFound) {
+  Mechanism straight = testing::sheathed_wrist();
+  straight.sheath.bend = 0;
+  straight.sheath.stiffness = 0;
+  const Mechanism whole = testing::sheathed_wrist();
+  Imperfections at;
+  at.sheath = {whole.sheath.mu * whole.sheath.bend, 1.0 / whole.sheath.stiffness};
+  const BenchLog log{swept(straight, 6)};
+  EXPECT_LT(rms(predict(straight, at, log)[0], predict(whole, {}, log)[0]), 1e-9);
+  // Less than none is none.
+  at.sheath = {-1, -1};
+  EXPECT_EQ(predict(straight, at, log), predict(straight, {}, log));
+}
+
 TEST(Creep, OfATendonIsStretchThatGrows) {
   // Without pretension all that is strained is what the load strains: held for long it is a softer tendon.
   Mechanism mechanism = testing::linear_wrist();

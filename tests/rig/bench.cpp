@@ -94,8 +94,15 @@ double softer_at_rest(double EA, double pretension, double hardening) {
 Vec2 flipped(const Vec2& point) { return {point.x(), -point.y()}; }
 
 constexpr int k_drum_corners = 2048;
+constexpr int k_sheath_bends = 16;
 
 double direction(const Vec2& v) { return std::atan2(v.y(), v.x()); }
+
+/// Share of its friction that a bristle has in use after so much slid: > 0 towards the pulley.
+double bent(double bristle, double slipped) {
+  const double towards = slipped > 0 ? 1.0 : -1.0;
+  return towards + (bristle - towards) * std::exp(-std::abs(slipped) / k_bristle);
+}
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle);
@@ -156,6 +163,7 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
                   declared.guides.radius + hidden.guide_radius + 0.5 * declared.tendon.diameter};
     build_link(tendon, side, declared);
     tendon.axis = {0.0, -declared.guides.OE - declared.pulley.EF};
+    if (declared.sheath.is_there()) thread(tendon, declared);
     const double own_arm = string_up(tendon, tendon.pin, 0.0, tendon.over).arm;
     const double pretension = hidden.slack > 0 ? 0.0 : declared.tendon.pretension;
     hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
@@ -187,6 +195,35 @@ void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMech
   tendon.over = tendon.tied = std::min_element(hull.begin(), hull.end(), nearer) - hull.begin();
 }
 
+// Bends all along, each with friction of its own and as much tendon before it as behind it.
+void Bench::thread(BenchTendon& tendon, const DeclaredMechanism& declared) const {
+  const Sheath& sheath = declared.sheath;
+  tendon.guide = {tendon.axis + Vec2(sheath.exit_across, sheath.exit_above), 0.0};
+  const double give = std::max(0.0, (sheath.stiffness > 0 ? 1.0 / sheath.stiffness : 0.0) + hidden_.sheath_give);
+  const double holds = std::max(0.0, sheath.mu * sheath.bend + hidden_.sheath_friction);
+  for (int i = 0; i <= k_sheath_bends; ++i) {
+    const double share = (i == 0 || i == k_sheath_bends ? 0.5 : 1.0) / k_sheath_bends;
+    tendon.sheath.push_back({share * sheath.length, share * give, i == 0 ? 0.0 : holds / k_sheath_bends});
+  }
+}
+
+Circle Bench::seen_guide(const BenchTendon& tendon, const Circle& pin) const {
+  const Circle& guide = tendon.sheath.empty() ? pin : tendon.guide;
+  return {guide.centre - tendon.axis, guide.radius};
+}
+
+double Bench::through(std::vector<SheathPiece>& sheath, const Cord& cord, double home, double tension,
+                      double& slipped) {
+  for (SheathPiece& piece : sheath) {
+    piece.bristle = bent(piece.bristle, slipped);
+    tension *= std::exp(-piece.holds * piece.bristle);
+    const double material = cord.material(piece.length - piece.give * (tension - home), tension);
+    slipped += material - piece.material;
+    piece.material = material;
+  }
+  return tension;
+}
+
 /// Lower per upper tension at this share of the friction. An idler's bearing is pressed by both as vectors.
 double Bench::ratio(double wrap, double bristle) const {
   if (turning_ == 0) return std::exp(friction_ * wrap * bristle);
@@ -204,12 +241,15 @@ double Bench::ratio(double wrap, double bristle) const {
 /// `unwound`.
 void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwound) {
   const UpperString up = string_up(tendon, tendon.pin, 0.0, tendon.over);
-  const Circle seen{tendon.pin.centre - tendon.axis, tendon.pin.radius};
+  const Circle seen = seen_guide(tendon, tendon.pin);
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
   const Cord cord{EA_, hidden_.hardening, 1.0};
-  tendon.mark = 0.5 * (direction(up.normal) + direction(low.normal));
+  // Into a sheath it goes straight down.
+  const double off_pin = tendon.sheath.empty() ? direction(low.normal) : 0.0;
+  tendon.mark = tendon.sheath.empty() ? 0.5 * (direction(up.normal) + off_pin) : off_pin;
   const double above = up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark);
-  const double below = low.length + tendon.pin.radius * (tendon.mark - direction(low.normal));
+  const double below = low.length + tendon.pin.radius * (tendon.mark - off_pin);
+  for (SheathPiece& piece : tendon.sheath) piece.material = cord.material(piece.length, tension);
   tendon.upper = cord.material(above, tension) + 0.25 * slack;
   tendon.lower = cord.material(below, tension) + 0.25 * slack;
   tendon.wound = low.arc;
@@ -222,7 +262,8 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
   const double knot = at_end.arc - k_knot_beyond;
   tendon.laid = GrooveChain(tendon.hull, knot, low.arc, tension, hidden_.groove_friction, cord);
   tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
-  tendon.push = tendon.home_push = tension * (turned(low.normal, -0.5 * k_pi) - turned(up.normal, -0.5 * k_pi));
+  const Vec2 down = turned(Vec2(std::cos(off_pin), std::sin(off_pin)), -0.5 * k_pi);
+  tendon.push = tendon.home_push = tension * (down - turned(up.normal, -0.5 * k_pi));
 }
 
 // ---- the material ---------------------------------------------------------------------------------------------------
@@ -258,9 +299,10 @@ Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer,
   Below below;
   below.pin = {tendon.pin.centre + hidden_.frame_give * (push - tendon.home_push), tendon.pin.radius};
   // The pulley stands still and the pin goes round it.
-  const Circle seen{turned(below.pin.centre - tendon.axis, image_angle), tendon.pin.radius};
+  const Circle guide = seen_guide(tendon, below.pin);
+  const Circle seen{turned(guide.centre, image_angle), guide.radius};
   const LowerString string = lower_string(tendon.hull, seen, tendon.corner);
-  below.normal = direction(turned(string.normal, -image_angle));
+  below.normal = tendon.sheath.empty() ? direction(turned(string.normal, -image_angle)) : 0.0;
   below.corner = string.corner;
   below.over = tendon.over;
   below.wound = string.arc;
@@ -286,15 +328,18 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
   const double wrap = std::max(0.0, normal - below.normal);
   Trial trial;
   const auto slip = [&](double slipped) {
-    const double towards = slipped > 0 ? 1.0 : -1.0;
     trial.slipped = slipped;
-    trial.bristle = towards + (tendon.bristle - towards) * std::exp(-std::abs(slipped) / k_bristle);
+    trial.bristle = bent(tendon.bristle, slipped);
     trial.upper_tension = below.cord.tension(length, tendon.upper - slipped);
   };
   const auto too_little = [&](double tension) {
-    trial.lower_tension = tension;
-    slip(below.cord.material(below.length, tension) - below.material + below.laid.taken(tension));
-    return trial.upper_tension * ratio(wrap, trial.bristle) - tension;
+    double slipped = below.cord.material(below.length, tension) - below.material + below.laid.taken(tension);
+    trial.pulley_tension = tension;
+    trial.to_span = slipped;
+    trial.sheath = tendon.sheath;
+    trial.lower_tension = through(trial.sheath, below.cord, tendon.home_tension, tension, slipped);
+    slip(slipped);
+    return trial.upper_tension * ratio(wrap, trial.bristle) - trial.lower_tension;
   };
   const double loose = too_little(0.0);
   if (loose > 0) {
@@ -302,7 +347,9 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
     too_little(below.guess);
   } else {
     // Both ends hang: no more slips than has to.
-    slip(std::clamp(0.0, trial.slipped, std::max(trial.slipped, tendon.upper - length / below.cord.natural)));
+    const double least = trial.slipped;
+    slip(std::clamp(0.0, least, std::max(least, tendon.upper - length / below.cord.natural)));
+    trial.to_span += trial.slipped - least;
   }
   trial.torque = trial.upper_tension * up.arm;
   trial.pull = turned(up.normal, -0.5 * k_pi);
@@ -379,8 +426,9 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];
     tendon.upper -= now[side].slipped;
-    const double taken = lower[side].laid.settle(now[side].lower_tension);
-    tendon.lower = lower[side].material - taken + now[side].slipped;
+    const double taken = lower[side].laid.settle(now[side].pulley_tension);
+    tendon.lower = lower[side].material - taken + now[side].to_span;
+    tendon.sheath = std::move(now[side].sheath);
     tendon.laid = std::move(lower[side].laid);
     tendon.wound = lower[side].wound;
     tendon.corner = lower[side].corner;
@@ -388,7 +436,7 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
     tendon.bristle = now[side].bristle;
     tendon.let_go = at.let_go[side];
     tendon.upper_tension = now[side].upper_tension;
-    tendon.lower_tension = now[side].lower_tension;
+    tendon.lower_tension = now[side].pulley_tension;
     tendon.push = now[side].push;
     creep(tendon, at.seconds);
     at.tension[side] = now[side].upper_tension;

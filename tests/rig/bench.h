@@ -18,6 +18,15 @@ struct Conditions : Moment {
   std::array<double, 2> let_go{};  ///< material let go at each knot so far, mm
 };
 
+/// A piece of tendon in a sheath, and the bend through which it goes on towards the pulley.
+struct SheathPiece {
+  double length = 0;   ///< at home, mm
+  double give = 0;     ///< by how much that gets shorter, mm/N
+  double holds = 0;    ///< ln of the tensions' ratio that the bend's friction can hold
+  double bristle = 0;  ///< as BenchTendon::bristle
+  double material = 0;
+};
+
 /// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
 struct BenchTendon {
   Hull hull;  ///< its pulley, in the pulley's frame at home
@@ -28,6 +37,8 @@ struct BenchTendon {
   Hull drum;                  ///< with that end, in the link at home, upside down; empty: no drum
   std::ptrdiff_t tied = 0;    ///< the corner of `drum` that the end is
   std::ptrdiff_t over = 0;    ///< and the one at which the string to the pin leaves it
+  std::vector<SheathPiece> sheath;  ///< from the mouth to the pin; empty: none
+  Circle guide;                     ///< from which it comes to its pulley: the pin, or the sheath's mouth
   double mark = 0;            ///< direction of the point of the pin's rim between the upper and the lower part
   double upper = 0;           ///< unstretched length above the mark, mm
   double lower = 0;           ///< below it, up to the pulley
@@ -75,15 +86,23 @@ class Bench {
   /// A tendon at a trial θ.
   struct Trial {
     double torque = 0;  ///< on the joint, towards its own side
-    double slipped = 0;
+    double slipped = 0;  ///< over the pin, down
+    double to_span = 0;  ///< into the span to the pulley
+    std::vector<SheathPiece> sheath;
     double bristle = 0;
-    double upper_tension = 0, lower_tension = 0;
+    double upper_tension = 0, lower_tension = 0;  ///< on both sides of the pin
+    double pulley_tension = 0;
     Vec2 pull = Vec2::Zero();  ///< unit, from the link's end to the pin, in the image
     Vec2 push = Vec2::Zero();
   };
 
   void build_link(BenchTendon& tendon, std::size_t side, const DeclaredMechanism& declared) const;
+  void thread(BenchTendon& tendon, const DeclaredMechanism& declared) const;
+  Circle seen_guide(const BenchTendon& tendon, const Circle& pin) const;
   double ratio(double wrap, double bristle) const;
+  /// Of the tension at the mouth what is left at the pin. `slipped` past each bend, from the mouth to the pin.
+  static double through(std::vector<SheathPiece>& sheath, const Cord& cord, double home, double tension,
+                        double& slipped);
   void hang(BenchTendon& tendon, double tension, double slack, double unwound);
   Cord cord(std::size_t side, const Conditions& conditions) const;
   void creep(BenchTendon& tendon, double seconds) const;

@@ -42,8 +42,8 @@ struct FaultList {
 
 /// Every effect of the catalogue by its name, in the order of the chain.
 std::vector<Fault> named_faults();
-/// The same of parts that only joints of the wider class have: drum, attachments, idlers. A list of its own: which
-/// faults random joints have is drawn from the other.
+/// The same of parts that only joints of the wider class have: drum, attachments, idlers, sheaths. A list of its own:
+/// which faults random joints have is drawn from the other.
 std::vector<Fault> wide_faults();
 /// Without a name: those that thresholds may be tuned on.
 std::vector<Fault> tuning_faults();

@@ -154,6 +154,13 @@ void say_ends_moved(Imperfections& at) {
 void rub_idlers(Hidden& h) { h.bearing_friction = 0.8; }
 void say_idlers_rub(Imperfections& at) { at.pins.bearing_friction = 0.8; }
 
+void rub_in_sheaths(Hidden& h) { h.sheath_friction = 0.2; }
+void say_sheaths_rub(Imperfections& at) { at.sheath.friction = 0.2; }
+void slide_in_sheaths(Hidden& h) { h.sheath_friction = -0.15; }
+void say_sheaths_slide(Imperfections& at) { at.sheath.friction = -0.15; }
+void soften_sheaths(Hidden& h) { h.sheath_give = 0.015; }
+void say_sheaths_soft(Imperfections& at) { at.sheath.give = 0.015; }
+
 const std::vector<WideFault> k_wide_faults{
     {"finger_mcp", 0.7, {"drum_radius", make_drum_larger, say_drum_larger, 0.02}},
     {"finger_mcp", 0.7, {"drum_runout", put_drum_off, say_drum_off, 0.02}},
@@ -166,6 +173,13 @@ const std::vector<WideFault> k_wide_faults{
     {"elbow_idlers", 2.5, {"drum_runout", put_drum_off, say_drum_off, 0.02}},
     {"elbow_idlers", 2.5, {"attachments", move_ends, say_ends_moved, 0.02}},
     {"elbow_idlers", 2.5, {"idler_friction", rub_idlers, say_idlers_rub, 0.05}},
+    {"wrist_sheath", 2, {"sheath_friction", rub_in_sheaths, say_sheaths_rub, 0.05}},
+    {"wrist_sheath", 2, {"sheath_slippery", slide_in_sheaths, say_sheaths_slide, 0.05}},
+    {"wrist_sheath", 2, {"sheath_stiffness", soften_sheaths, say_sheaths_soft, 0.05}},
+    {"wrist_sheath",
+     2,
+     {"pulley_scale", [](Hidden& h) { h.pulley_scale = 0.01; }, [](Imperfections& at) { at.pulley.scale = 0.01; },
+      0.02}},
 };
 
 class SameWide : public ::testing::TestWithParam<WideFault> {};

@@ -55,6 +55,10 @@ struct Hidden {
   double expansion = 0;          ///< strain per K
   double expansion_other = 0.3;  ///< tendon 1 stands in the draught: it follows by this share
 
+  // Sheaths, both alike.
+  double sheath_friction = 0;  ///< added to the coefficient times the bends
+  double sheath_give = 0;      ///< added to what a sheath gets shorter by, mm/N
+
   // Pins.
   double friction = 0;                  ///< added to μ
   double guide_radius = 0;              ///< added to the pins' radius, mm

@@ -54,6 +54,23 @@ std::vector<Fault> wide_faults() {
        .numbers = [](const H& h, const J& j) -> Numbers {
          return {{"mu", j.declared.guides.bearing_friction + h.bearing_friction}};
        }},
+      {.name = "sheath_friction",
+       .first = 0.1,
+       .most = 0.8,
+       .set = [](H& h, double s, const C&, const J&) { h.sheath_friction = s; },
+       .kin = {"capstan_friction"},
+       .numbers = [](const H& h, const J& j) -> Numbers {
+         return {{"mu_bend", j.declared.sheath.mu * j.declared.sheath.bend + h.sheath_friction}};
+       }},
+      {.name = "sheath_stiffness",
+       .first = 0.01,
+       .most = 0.1,
+       .set = [](H& h, double s, const C&, const J&) { h.sheath_give = s; },
+       .kin = {"tendon_stretch", "frame_compliance"},  // springs along the tendon
+       .numbers = [](const H& h, const J& j) -> Numbers {
+         const double stiffness = j.declared.sheath.stiffness;
+         return {{"mm_per_N", (stiffness > 0 ? 1.0 / stiffness : 0.0) + h.sheath_give}};
+       }},
   };
 }
 

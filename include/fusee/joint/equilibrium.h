@@ -1,10 +1,10 @@
 /// \file
 /// The joint in quasi-static equilibrium along any sequence of pulley angles and loads, history carried along.
 ///
-/// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them, or at pin and in
-/// sheath together; what is wound on a
-/// pulley slides in its groove as far as friction lets it (JointModel::groove_friction); a tendon cannot push. Source
-/// of the limits: the paper's [6]-[11] (tension.h).
+/// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them, and through a
+/// sheath in more, with friction at each of its bends; what is wound on a pulley slides in its groove as far as
+/// friction lets it (JointModel::groove_friction); a tendon cannot push. Source of the limits: the paper's [6]-[11]
+/// (tension.h).
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct JointStep {
 };
 
 enum class PinContact {
-  stick,      ///< no material crosses the pin
+  stick,      ///< no material crosses the pin; through a sheath: not all of the tendon slides
   slip_up,    ///< material crosses towards the joint: T_up = T_low e^{μφ}
   slip_down,  ///< towards the pulley: T_low = T_up e^{μφ}
   slack,      ///< no tension on either side

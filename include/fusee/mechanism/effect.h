@@ -16,7 +16,7 @@
 namespace fusee {
 
 /// Where in the chain from motor to sensor.
-enum class ChainPlace { motor_sensor, shaft, pulley, tendon, pins, joint, joint_sensor };
+enum class ChainPlace { motor_sensor, shaft, pulley, tendon, sheath, pins, joint, joint_sensor };
 std::string_view word(ChainPlace place);  ///< "motor sensor"
 
 /// What takes the error out that an effect makes.
@@ -101,6 +101,7 @@ struct Needs {
   bool end2 = false;     ///< the same of tendon 2
   bool pins = false;     ///< tendons slide over their guides
   bool idlers = false;   ///< tendons turn them
+  bool sheath = false;   ///< tendons run through sheaths
   bool time = false;
   bool load = false;         ///< declared or logged
   bool temperature = false;  ///< that changes

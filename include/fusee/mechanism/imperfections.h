@@ -1,6 +1,6 @@
 /// \file
 /// By how much a joint is not as declared, part by part in the order of the chain: motor sensor → shaft → pulley →
-/// tendon → pins → joint → joint sensor. All zero: as declared. rad, mm, N, s.
+/// tendon → sheath → pins → joint → joint sensor. All zero: as declared. rad, mm, N, s.
 ///
 /// What acts together stands together: sums, caches and corrections take parts, never lists of numbers. Which of these
 /// numbers belong to which cause says effect.h.
@@ -60,6 +60,14 @@ struct TendonError {
   double groove_friction = 0;  ///< added to the coefficient between tendon and groove
 
   bool operator==(const TendonError&) const = default;
+};
+
+/// Of both sheaths alike.
+struct SheathError {
+  double friction = 0;  ///< added to the friction coefficient times the bends, ln of a ratio of tensions
+  double give = 0;      ///< added to what a sheath gets shorter by, mm/N
+
+  bool operator==(const SheathError&) const = default;
 };
 
 struct PinPlaceError {
@@ -150,6 +158,7 @@ struct Imperfections {
   ShaftError shaft;
   PulleyError pulley;
   TendonError tendon;
+  SheathError sheath;
   PinError pins;
   JointError joint;
   RatioJointError ratio_joint;
