@@ -5,11 +5,13 @@ set(FUSEE_ROOMS base mechanism transmission profile helix joint analysis optimiz
 
 set(program COMPONENT program)
 install(TARGETS fusee_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${program})
-if(TARGET fusee_step)
-  # Loaded from there, and not linked: without it all is as before but `build --step`.
-  install(TARGETS fusee_step LIBRARY DESTINATION ${FUSEE_MODULES}
-    PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ ${program})
-endif()
+# Loaded from there, and not linked: without them all is as before but `build --step` and the searches by evolution.
+foreach(module IN ITEMS fusee_step fusee_evolution_module)
+  if(TARGET ${module})
+    install(TARGETS ${module} LIBRARY DESTINATION ${FUSEE_MODULES}
+      PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ ${program})
+  endif()
+endforeach()
 install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/fusee ${program})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} ${program})
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} ${program})
@@ -21,6 +23,9 @@ foreach(room IN LISTS FUSEE_ROOMS)
   install(TARGETS fusee_${room} EXPORT fuseeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${development})
   string(PREPEND FUSEE_PC_ROOMS "-lfusee_${room} ")  # a room uses those to its left
 endforeach()
+# Who links the library has evolution linked, and no module to find.
+set_target_properties(fusee_evolution PROPERTIES EXPORT_NAME evolution)
+install(TARGETS fusee_evolution EXPORT fuseeTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${development})
 install(TARGETS fusee EXPORT fuseeTargets)
 install(DIRECTORY include/fusee DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${development})
 install(EXPORT fuseeTargets NAMESPACE fusee:: DESTINATION ${FUSEE_PACKAGE_DIR} ${development})

@@ -1,12 +1,11 @@
 #include "fusee/export/step.h"
 
-#include <dlfcn.h>
-#include <fmt/format.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <limits>
 
+#include "base/module.h"
 #include "export/step/compact_text.h"
 #include "export/step/step_build.h"
 #include "export/step/step_part.h"
@@ -19,41 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the module lies under the folder that a program was installed in, or built in.
-constexpr const char* k_module = FUSEE_STEP_MODULE;
 /// Of the exact floor, mm.
 constexpr double k_floor_limit = 1e-4;
-
-/// Code is loaded from beside its own program alone, and not where somebody else could have put it.
-bool is_trusted(const fs::path& module, const fs::path& program) {
-  struct stat of_module {
-  }, of_program{};
-  if (::stat(module.c_str(), &of_module) != 0 || ::stat(program.c_str(), &of_program) != 0) return false;
-  return of_module.st_uid == 0 || of_module.st_uid == of_program.st_uid;
-}
-
-/// The file that this function was linked into: the program, or a shared library.
-fs::path own_file() {
-  std::error_code ignored;
-  Dl_info info{};
-  if (::dladdr(reinterpret_cast<const void*>(&step_missing), &info) != 0 && info.dli_fname != nullptr) {
-    const fs::path path = fs::weakly_canonical(info.dli_fname, ignored);
-    if (path.extension() == ".so") return path;
-  }
-  return fs::read_symlink("/proc/self/exe", ignored);
-}
-
-/// bin/fusee and lib/…/fusee/modules/ are beside each other; in a build tree the programs of tests lie deeper.
-std::optional<fs::path> module_file() {
-  constexpr int k_levels = 4;
-  const fs::path program = own_file();
-  fs::path folder = program.parent_path();
-  for (int level = 0; level < k_levels && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
-    const fs::path module = folder / k_module;
-    if (is_trusted(module, program)) return module;
-  }
-  return std::nullopt;
-}
 
 struct Loaded {
   const StepMaker* maker = nullptr;
@@ -61,19 +27,11 @@ struct Loaded {
 };
 
 Loaded load() {
-  const auto file = module_file();
-  if (!file) {
-    return {nullptr, FUSEE_HAS_STEP ? "its module fusee-step is not installed beside it"
-                                    : "its module fusee-step, which needs OpenCASCADE, was left out"};
-  }
-  void* module = ::dlopen(file->c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (module == nullptr) return {nullptr, std::string("its module fusee-step cannot be loaded: ") + ::dlerror()};
-  const auto* maker = static_cast<const StepMaker*>(::dlsym(module, k_step_maker));
-  if (maker == nullptr) return {nullptr, "its module fusee-step is of another version"};
-  return {maker, {}};
+  if (!FUSEE_HAS_STEP) return {nullptr, "its module fusee-step, which needs OpenCASCADE, was left out"};
+  const LoadedModule module = load_module("fusee-step", k_step_maker);
+  return {static_cast<const StepMaker*>(module.found), module.why_not};
 }
 
-/// Loaded once, and never let go: OpenCASCADE keeps what it has registered.
 const Loaded& loaded() {
   static const Loaded once = load();
   return once;

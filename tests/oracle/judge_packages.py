@@ -43,6 +43,9 @@ def what_is_unpacked(packages, root):
     code, said = run(program, "build", profile, "-o", root / "out", "-q")
     if code:
         yield f"the program from the package: exit {code}: {said}"
+    code, said = run(program, "optimize", profile, "--method", "ga", "--dry-run", "-q")
+    if code:
+        yield f"the program from the package does not search by evolution: exit {code}: {said}"
     if any(root.glob("usr/lib/**/fusee-step.so")):
         code, said = run(program, "build", profile, "-o", root / "cad", "-q", "--step")
         if code or not (root / "cad/pulley.step").exists():

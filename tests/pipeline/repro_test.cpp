@@ -86,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
         Repro{"slot_inside_out", "tests/data/repro/slot_inside_out.toml", {}, 0.01, BuildStatus::infeasible},
         Repro{"hollow_cut", "tests/data/repro/hollow_cut.toml", {}, 0.01, BuildStatus::infeasible},
         Repro{"horn_in_hub", "tests/data/repro/horn_in_hub.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"slack_of_many_turns", "tests/data/repro/slack_of_many_turns.toml", {}},
         Repro{"replanned_heights", "tests/data/repro/replanned_heights.toml", {}},
         Repro{"mark_over_channel", "tests/data/repro/mark_over_channel.toml", {}, 0.0030928800816377943},
         Repro{"thin_dowel", "tests/data/repro/thin_dowel.toml", {}},

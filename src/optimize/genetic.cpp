@@ -1,16 +1,17 @@
+#include "fusee/optimize/genetic.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
-#include <pagmo/algorithm.hpp>
-#include <pagmo/algorithms/nsga2.hpp>
-#include <pagmo/algorithms/sga.hpp>
-#include <pagmo/population.hpp>
-#include <pagmo/problem.hpp>
-#include <pagmo/utils/multi_objective.hpp>
+#include <string>
+#include <tuple>
+#include <vector>
 
+#include "base/module.h"
 #include "fusee/base/diagnostics.h"
-#include "fusee/optimize/genetic.h"
+#include "optimize/evolution.h"
 #include "optimize/hands.h"
 #include "optimize/random.h"
 
@@ -24,7 +25,7 @@ constexpr double k_none = 1e300;
 
 /// What designs cost, and why they are not possible.
 struct Costs {
-  pagmo::vector_double costs;
+  std::vector<double> costs;
   std::string reason;
 };
 
@@ -56,27 +57,23 @@ class Reasons {
   std::map<std::string, Kind> kinds_;
 };
 
-/// Thrown through pagmo, and caught here.
+/// Thrown where a search is to stop, and caught here.
 struct Stopped {};
 
-/// Designs are worth something to pagmo one after the other; here a generation is judged side by side, before pagmo
-/// asks for it. What a generation asks for depends on the one before alone: it is run once on a copy to see the
-/// designs, and once more with what they cost.
+/// What a generation asks for is judged side by side.
 struct Judge {
   const Problem& problem;
   std::vector<Objective> objectives;
   Hands hands;
   KeepGoing keep_going;
   SearchProgress progress;
-  bool foreseeing = false;
-  std::vector<pagmo::vector_double> foreseen;
-  std::map<pagmo::vector_double, pagmo::vector_double> known;
+  CostsOfDesigns known;
   Reasons reasons;
 
   Judge(const Problem& of, std::vector<Objective> by, const GeneticOptions& options)
       : problem(of), objectives(std::move(by)), hands(options.threads), keep_going(options.keep_going) {}
 
-  Costs costs_of(const pagmo::vector_double& design) const {
+  Costs costs_of(const Design& design) const {
     Costs result;
     const double violation = constraint_violation(problem, design);
     for (const Objective objective : objectives) {
@@ -91,17 +88,8 @@ struct Judge {
     return result;
   }
 
-  pagmo::vector_double fitness(const pagmo::vector_double& design) {
-    if (foreseeing) {
-      foreseen.push_back(design);
-      return pagmo::vector_double(objectives.size(), 0.0);
-    }
-    const auto found = known.find(design);
-    return found != known.end() ? found->second : costs_of(design).costs;
-  }
-
   /// A few at a time: in between it is asked whether to go on.
-  void judge(const std::vector<pagmo::vector_double>& designs) {
+  void judge(const std::vector<Design>& designs) {
     constexpr std::size_t k_at_once = 16;
     known.clear();
     for (std::size_t begin = 0; begin < designs.size(); begin += k_at_once) {
@@ -115,40 +103,37 @@ struct Judge {
       progress.evaluations += static_cast<long>(costs.size());
     }
   }
-
-  /// The next generation, as pagmo alone would make it.
-  pagmo::population evolved(pagmo::algorithm& algorithm, const pagmo::population& population) {
-    foreseen.clear();
-    foreseeing = true;
-    (void)pagmo::algorithm(algorithm).evolve(population);
-    foreseeing = false;
-    judge(foreseen);
-    return algorithm.evolve(population);
-  }
 };
 
-/// What pagmo copies about; the judge is shared.
-struct PagmoProblem {
-  Judge* judge = nullptr;
+/// Linked into this program, or else a module beside it.
+const EvolutionMaker& evolution_maker() {
+  if (&fusee_evolution_maker_1 != nullptr) return fusee_evolution_maker_1;
+  static const LoadedModule module = load_module("fusee-evolution", k_evolution_maker);
+  if (module.found == nullptr)
+    throw InputError("", "no search by evolution: " + module.why_not, "--method certified does without");
+  return *static_cast<const EvolutionMaker*>(module.found);
+}
 
-  pagmo::vector_double fitness(const pagmo::vector_double& design) const { return judge->fitness(design); }
-  std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
-    std::pair<pagmo::vector_double, pagmo::vector_double> bounds;
-    for (const Variable& variable : judge->problem.variables) {
-      bounds.first.push_back(variable.lower);
-      bounds.second.push_back(variable.upper);
-    }
-    return bounds;
+std::unique_ptr<Evolution> evolution_of(const Judge& judge, EvolutionKind kind, unsigned seed) {
+  EvolutionSettings settings{kind, {}, {}, static_cast<unsigned>(judge.objectives.size()), seed};
+  for (const Variable& variable : judge.problem.variables) {
+    settings.lower.push_back(variable.lower);
+    settings.upper.push_back(variable.upper);
   }
-  pagmo::vector_double::size_type get_nobj() const { return judge->objectives.size(); }
-};
+  return evolution_maker().make(settings);
+}
+
+void advance(Evolution& evolution, Judge& judge) {
+  judge.judge(evolution.next_designs());
+  evolution.advance(judge.known);
+}
 
 /// Random designs, those outside of a constraint drawn again: a thin set of possible designs must not be missed at the
 /// start.
-pagmo::population first_population(Judge& judge, const GeneticOptions& options) {
+void begin(Evolution& evolution, Judge& judge, const GeneticOptions& options) {
   constexpr int k_most_draws = 200;
   Random random(options.seed);
-  std::vector<pagmo::vector_double> designs;
+  std::vector<Design> designs;
   for (unsigned i = 0; i < options.population; ++i) {
     Design design = random_design(judge.problem, random);
     for (int draw = 0; draw < k_most_draws && constraint_violation(judge.problem, design) > 0; ++draw)
@@ -156,18 +141,16 @@ pagmo::population first_population(Judge& judge, const GeneticOptions& options) 
     designs.push_back(std::move(design));
   }
   judge.judge(designs);
-  pagmo::population population(pagmo::problem(PagmoProblem{&judge}), 0u, options.seed);
-  for (const auto& design : designs) population.push_back(design);
-  return population;
+  evolution.begin(designs, judge.known);
 }
 
-Generation described(unsigned number, const pagmo::population& population, Objective objective, double best_before) {
+Generation described(unsigned number, const Evolution& evolution, Objective objective, double best_before) {
   Generation generation;
   generation.number = number;
   const double sign = info(objective).largest ? -1.0 : 1.0;
   double sum = 0, best = sign * best_before;
   long possible = 0;
-  for (const auto& costs : population.get_f()) {
+  for (const auto& costs : evolution.costs()) {
     if (!(costs[0] < k_penalty)) continue;
     sum += costs[0];
     ++possible;
@@ -184,19 +167,18 @@ std::optional<double> found(double best) { return std::abs(best) < k_none ? std:
 
 GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options) {
   Judge judge(problem, {objective}, options);
-  // One generation a call, so that each can be looked at.
-  pagmo::algorithm algorithm{pagmo::sga(1u, 0.9, 1.0, 0.1, 1.0, 2u, "sbx", "polynomial", "tournament", options.seed)};
+  const auto evolution = evolution_of(judge, EvolutionKind::genetic, options.seed);
   GeneticResult result;
   double best = info(objective).largest ? -k_none : k_none;
   try {
-    pagmo::population population = first_population(judge, options);
+    begin(*evolution, judge, options);
     for (unsigned number = 0; number <= options.generations; ++number) {
       judge.progress.done = static_cast<double>(number) / options.generations;
-      if (number > 0) population = judge.evolved(algorithm, population);
-      result.generations.push_back(described(number, population, objective, best));
+      if (number > 0) advance(*evolution, judge);
+      result.generations.push_back(described(number, *evolution, objective, best));
       best = result.generations.back().best;
       judge.progress.best = found(best);
-      result.best = population.champion_x();
+      result.best = evolution->best();
     }
   } catch (const Stopped&) {
     result.stopped = true;
@@ -218,27 +200,26 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
                      "for example optimize.objective = [\"max_tension\", \"footprint\"]");
   }
   Judge judge(problem, problem.objectives, options);
-  pagmo::algorithm algorithm{pagmo::nsga2(1u, 0.95, 10.0, 0.02, 50.0, options.seed)};
+  const auto evolution = evolution_of(judge, EvolutionKind::nsga2, options.seed);
   ParetoResult result;
-  std::optional<pagmo::population> last;
+  bool has_begun = false;
   try {
-    last = first_population(judge, options);
+    begin(*evolution, judge, options);
+    has_begun = true;
     for (; result.generations < options.generations; ++result.generations) {
       judge.progress.done = static_cast<double>(result.generations) / options.generations;
-      last = judge.evolved(algorithm, *last);
+      advance(*evolution, judge);
     }
   } catch (const Stopped&) {
     result.stopped = true;
   }
   result.evaluations = judge.progress.evaluations;
   result.reason = judge.reasons.commonest();
-  if (!last) return result;
-  const pagmo::population& population = *last;
-  const auto costs = population.get_f();
-  const auto fronts = std::get<0>(pagmo::fast_non_dominated_sorting(costs));
-  for (const auto i : fronts.front()) {
+  if (!has_begun) return result;
+  const auto designs = evolution->designs(), costs = evolution->costs();
+  for (const std::size_t i : evolution->front()) {
     if (!(costs[i][0] < k_penalty)) continue;
-    FrontPoint point{population.get_x()[i], {}};
+    FrontPoint point{designs[i], {}};
     for (std::size_t k = 0; k < costs[i].size(); ++k)
       point.values.push_back(info(problem.objectives[k]).largest ? -costs[i][k] : costs[i][k]);
     result.front.push_back(std::move(point));
