@@ -69,6 +69,13 @@ struct Thresholds {
   /// Effects that simulated joints were read by, in a group: where it is anything at all, the ones most often there.
   std::size_t most_culprits = 6;
 
+  /// Nats that an effect must be ahead of the best that has no name in its place (nameless.h), else its group says that
+  /// it may be something without a name …
+  double ahead_of_nameless = 12.0;
+  /// … and where something stays without a name or walks beside it: what is there then is known to be nothing of the
+  /// catalogue, and it may do more than what it was left with.
+  double ahead_beside_rest = 40.0;
+
   // ---- what is given up ----
 
   /// Strokes that should be alike are apart by this part of the noise within them: the joint does not repeat. Matrix,
