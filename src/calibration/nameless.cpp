@@ -35,7 +35,10 @@ constexpr std::array k_widths = {0.04, 0.10};
 /// Times of a jump, over all runs.
 constexpr int k_times = 24;
 
-enum class Dependence { motor_wave, joint_wave, place, direction, load, load_size, load_direction, speed, time };
+/// Ways over which what a reversal leaves is gone, of the span.
+constexpr std::array k_shape_ways = {0.01, 0.02, 0.04, 0.08, 0.15, 0.3};
+
+enum class Dependence { motor_wave, joint_wave, place, direction, reversal, load, load_size, load_direction, speed, time };
 
 /// A family of shapes of which one is chosen by a searched number or two.
 struct Shape {
@@ -55,6 +58,9 @@ const char* separating_run(Dependence dependence) {
              "moves with it is its own";
     case Dependence::place:
       return "repeat the slow unloaded run with ten times as many rows about that place: an effect is smooth there";
+    case Dependence::reversal:
+      return "make short strokes, of a tenth of the range, at its middle and at both ends: what dies away behind a "
+             "reversal is all there is in them";
     case Dependence::direction:
       return "come to each place from both sides in steps, without load and with the largest";
     case Dependence::load:
@@ -85,7 +91,9 @@ class Shapes {
     add_waves(&RowFacts::theta, Dependence::joint_wave, "joint");
     add_places(one, Dependence::place, "whatever load and direction");
     add_places(direction, Dependence::direction, "that turns over with the direction");
+    add_ways(one, "");
     if (varies(facts_, &RowFacts::load, 0.05)) {
+      add_ways(load_size, ", with the size of the load");
       add_places(load, Dependence::load, "in proportion to the load");
       add_places(load_size, Dependence::load_size, "with the size of the load");
       add_places(load_direction, Dependence::load_direction, "of a loop that grows with the load");
@@ -155,6 +163,23 @@ class Shapes {
             }},
             centred);
       }
+    }
+  }
+
+  /// What dies away behind a reversal, unlike at the two ends: at once or at last.
+  void add_ways(const Part& times, const std::string& how) {
+    for (const double way : k_shape_ways) {
+      const auto fading = [=](const RowFacts& r) { return times(r) * std::exp(-r.since / way); };
+      const auto ending = [=](const RowFacts& r) { return times(r) * std::max(0.0, 1.0 - r.since / way); };
+      const std::string words = "what dies away over " + rounded(100 * way, 2) + " % of the way behind a reversal" + how;
+      add(Dependence::reversal, 1, words,
+          {[=](const RowFacts& r) { return r.direction > 0 ? fading(r) : 0.0; },
+           [=](const RowFacts& r) { return r.direction < 0 ? fading(r) : 0.0; }},
+          false);
+      add(Dependence::reversal, 1, words,
+          {[=](const RowFacts& r) { return r.direction > 0 ? ending(r) : 0.0; },
+           [=](const RowFacts& r) { return r.direction < 0 ? ending(r) : 0.0; }},
+          false);
     }
   }
 

@@ -67,7 +67,7 @@ TEST(Judge, a_group_that_may_be_nothing_with_a_name_blames_nobody) {
 // A sensor's interpolation error of eight waves a turn was named motor_sensor_harmonic, in whose catalogue are four.
 TEST(Judge, a_wave_without_a_name_is_not_given_one) {
   const Case made = make_case(random_truth(Kind::beside, "tuning", 31042), 31042, {Protocol::random, true});
-  ASSERT_THAT(made.faults, testing::ElementsAre("joint_length", "encoder_interpolation"));
+  ASSERT_THAT(made.faults, ::testing::ElementsAre("joint_length", "encoder_interpolation"));
   const Judgement one = calibrate_case(made, std::filesystem::path(::testing::TempDir()) / "wave");
   EXPECT_EQ(one.held, 1u) << one.words;
   EXPECT_EQ(one.false_names, 0u) << one.words;
