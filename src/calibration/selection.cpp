@@ -131,6 +131,7 @@ class Selector {
   bool exchange();
   std::vector<Weighed> weighed();
   void look_at_spread();
+  bool is_without_size(const Effect& effect) const;
   bool drop_doubtful();
   void write_down();
 
@@ -481,6 +482,16 @@ std::vector<Weighed> Selector::weighed() {
   return sets;
 }
 
+/// Whether the data say of its numbers that they may as well be nothing, and the readings that it hardly moves them. A
+/// friction that holds a joint fast moves it by all there is, and its slope is nothing then.
+bool Selector::is_without_size(const Effect& effect) const {
+  const Fit& best = selection_.best;
+  if (!has_no_size(best, effect, selection_.temperature)) return false;
+  const Fit others = workers_.one().fit(without(best.effects, effect), without(best.at, effect));
+  return others.usable &&
+         rms_apart(evidence_, others.residual, best.residual) < k_thresholds.least_moved * evidence_.floor;
+}
+
 /// What is not sure enough to be named, with all that could stand in its place, or has no size to name, goes, the most
 /// doubtful first. Whether something went.
 bool Selector::drop_doubtful() {
@@ -489,7 +500,7 @@ bool Selector::drop_doubtful() {
   for (const Effect* effect : selection_.best.effects)
     selection_.groups.push_back(credible_group(sets, selection_.best.effects, *effect, k_thresholds.least_of_a_group));
   for (CredibleGroup& group : selection_.groups) {
-    if (has_no_size(selection_.best, *group.members.front(), selection_.temperature)) group.doubt = 1;
+    if (is_without_size(*group.members.front())) group.doubt = 1;
   }
   const auto worst = std::max_element(selection_.groups.begin(), selection_.groups.end(),
                                       [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });

@@ -66,6 +66,8 @@ struct Thresholds {
   /// rubs ever so little rests elsewhere when it is loose. Matrix, seeds 31017, 32002, 32022: joint_friction named
   /// alone and not there by 16 to 20 nats, its squares 0.1 to 0.8; where it is there 160 and more.
   double least_size = 3.84;
+  /// … and that it moves the readings by no more than so many noise floors, rms.
+  double least_moved = 2.0;
 
   /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
   int worlds = 200;
