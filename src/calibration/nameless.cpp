@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "calibration/marginal.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
