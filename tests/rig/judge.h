@@ -33,7 +33,9 @@ struct Judgement {
   std::vector<std::string> outside;  ///< faults without a name that are there
   bool nothing = false;              ///< a joint as declared, but perhaps for its groove's friction
   std::vector<Covered> numbers;
-  std::string words;  ///< one line for a person
+  /// One line for a person: !false {groups}evidence~nats ahead of [what has no name], <numbers, by half their
+  /// intervals>.
+  std::string words;
 };
 
 /// `without`: effects that were left out of the catalogue; a fault of that name is one without a name then.
