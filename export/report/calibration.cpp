@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output_list.h"
+#include "export/report/calibration_words.h"
 #include "export/tool.h"
 #include "fusee/base/units.h"
 #include "fusee/calibration/words.h"
@@ -36,14 +37,19 @@ Json effect_json(const FoundEffect& effect) {
     parameters[parameter.name] = {{"value", number(parameter.value)},
                                   {"ci95", {number(parameter.low), number(parameter.high)}}};
   }
-  return {{"name", effect.name},
-          {"group", effect.group},
-          {"place", word(effect.place)},
-          {"parameters", parameters},
-          {"rms_drop_deg", angle(effect.rms_drop)},
-          {"evidence", number(effect.evidence)},
-          {"audit", audit_json(effect.audit)},
-          {"correctable_by", word(effect.correctable_by)}};
+  Json json = {{"name", effect.name},
+               {"group", effect.group},
+               {"place", word(effect.place)},
+               {"parameters", parameters},
+               {"rms_drop_deg", angle(effect.rms_drop)},
+               {"evidence", number(effect.evidence)},
+               {"audit", audit_json(effect.audit)},
+               {"correctable_by", word(effect.correctable_by)}};
+  // What is ahead of everything without a name keeps the keys it had.
+  if (effect.group.back() == k_nameless) {
+    json["nameless"] = {{"behind", number(effect.nameless.behind)}, {"words", nameless_words(effect)}};
+  }
+  return json;
 }
 
 /// What the discrepancy holds beside the effects.

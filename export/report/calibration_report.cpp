@@ -182,7 +182,9 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
   if (const auto found = known.find(effect.name); found != known.end())
     html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   if (const std::string audit = audit_words(effect); !audit.empty()) html += "<p>" + safe_text(audit) + "</p>";
-  const std::vector<std::string> rivals = rivals_of(effect);
+  if (const std::string words = nameless_words(effect); !words.empty()) html += "<p>" + safe_text(words) + "</p>";
+  std::vector<std::string> rivals = rivals_of(effect);
+  std::erase(rivals, k_nameless);
   if (rivals.empty()) return html + "<p>Nothing else in the catalogue explains these data as well.</p></div>";
   html += "<p><b>It may as well be:</b></p><ul>";
   for (const std::string& rival : rivals) {

@@ -20,6 +20,9 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 
 /// "In 200 simulated joints without backlash, these runs would have named it in 1."; "" where none were simulated.
 std::string audit_words(const FoundEffect& effect);
+/// "Or something without a name: a wave of 1.9 times a turn of the motor is 4.6 nats behind."; "" where the group holds
+/// names alone.
+std::string nameless_words(const FoundEffect& effect);
 /// "0.021° rms, place: the same at a place whichever way …"
 std::string unknown_words(const Unknown& unknown);
 

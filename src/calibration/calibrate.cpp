@@ -6,6 +6,7 @@
 #include "calibration/empirical.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
+#include "calibration/nameless.h"
 #include "calibration/next_runs.h"
 #include "calibration/thresholds.h"
 #include "calibration/verdict.h"
@@ -166,6 +167,10 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   calibration.noise = noise;
   calibration.effects = found_effects(evidence, selection);
   if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
+  if (options.audit) {
+    const std::vector<Nameless> nameless = nameless_rivals(evidence, workers, selection);
+    for (std::size_t i = 0; i < nameless.size(); ++i) calibration.effects[i].nameless = nameless[i];
+  }
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);
   ask_for_both_sides(learnt_from, calibration.next_runs);

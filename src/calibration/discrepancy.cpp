@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/decompositions.h"
+#include "calibration/row_facts.h"
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 
@@ -30,51 +31,6 @@ constexpr double k_bend = 0.06;
 constexpr int k_nodes = 41;
 /// Ways over which what a reversal leaves dies away, of the span: from a stiff drive's to a sheathed cable's.
 constexpr std::array k_ways = {0.02, 0.06, 0.2};
-
-/// What a row stands for.
-struct RowFacts {
-  double place = 0;  ///< 0 … 1 over the seen span of α
-  double direction = 0;
-  double since = 0;  ///< of the span, since the stroke began
-  double load = 0;   ///< by the largest
-  double speed = 0;  ///< of its run, by the largest
-  double time = 0;   ///< within its run, −1 … 1
-  std::size_t run = 0;
-  std::size_t block = 0;
-};
-
-std::vector<RowFacts> facts_of(const Evidence& evidence) {
-  const SeenSpan span = seen_span(evidence.measurement, &Sample::alpha);
-  double most_load = 0;
-  double most_speed = 0;
-  std::vector<std::size_t> offset;
-  std::size_t rows = 0;
-  for (const Run& run : evidence.measurement.runs) {
-    offset.push_back(rows);
-    rows += run.samples.size();
-    most_speed = std::max(most_speed, run.has_time ? run.speed : 0.0);
-    for (const Sample& sample : run.samples)
-      most_load = std::max(most_load, run.has_load ? std::abs(sample.load) : 0.0);
-  }
-  std::vector<RowFacts> facts;
-  for (std::size_t b = 0; b < evidence.blocks.size(); ++b) {
-    const Block& block = evidence.blocks[b];
-    const Run& run = evidence.measurement.runs[block.run];
-    const double begin = run.samples.front().time;
-    const double half = std::max(1e-9, 0.5 * (run.samples.back().time - begin));
-    for (const std::size_t row : block.rows) {
-      const Sample& sample = run.samples[row - offset[block.run]];
-      const double begun = run.samples[run.strokes[block.stroke].first].alpha;
-      facts.push_back({span.any() ? (sample.alpha - span.least) / span.size() : 0.0,
-                       static_cast<double>(run.strokes[block.stroke].direction),
-                       span.any() ? std::abs(sample.alpha - begun) / span.size() : 0.0,
-                       run.has_load && most_load > 0 ? sample.load / most_load : 0.0,
-                       run.has_time && most_speed > 0 ? run.speed / most_speed : 0.0,
-                       run.has_time ? (sample.time - begin) / half - 1.0 : 0.0, block.run, b});
-    }
-  }
-  return facts;
-}
 
 /// Legendre's polynomials over the span, orthonormal: any shape of so many bends, each as likely.
 Eigen::MatrixXd smooth_curves(const std::vector<RowFacts>& facts, Eigen::Index count) {
@@ -159,13 +115,6 @@ Eigen::MatrixXd transients(const std::vector<RowFacts>& facts, const Part& part)
   return all;
 }
 
-/// Whether the rows differ in it.
-bool varies(const std::vector<RowFacts>& facts, double RowFacts::*number, double least) {
-  SeenSpan span;
-  for (const RowFacts& row : facts) span.take(row.*number);
-  return span.size() > least;
-}
-
 /// Whether a stroke's rows lie at many places. A constant of each stand at one place is any data whatever.
 bool strokes_span_places(const Evidence& evidence) {
   return std::none_of(evidence.measurement.runs.begin(), evidence.measurement.runs.end(), is_from_point_to_point);
@@ -174,7 +123,7 @@ bool strokes_span_places(const Evidence& evidence) {
 }  // namespace
 
 Discrepancy discrepancy_of(const Evidence& evidence, const Eigen::VectorXd& deflection) {
-  const std::vector<RowFacts> facts = facts_of(evidence);
+  const std::vector<RowFacts> facts = row_facts(evidence);
   Builder builder(static_cast<Eigen::Index>(facts.size()));
   if (facts.empty()) return std::move(builder).made();
   const Eigen::MatrixXd bent = smooth_curves(facts, k_smooth);

@@ -131,6 +131,7 @@ class Selector {
   bool exchange();
   std::vector<Weighed> weighed();
   void look_at_spread();
+  bool is_without_size(const Effect& effect) const;
   bool drop_doubtful();
   void write_down();
 
@@ -457,6 +458,20 @@ bool Selector::exchange() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
+/// Whether all its numbers may as well be nothing.
+bool has_no_size(const Fit& fit, const Effect& effect, double temperature) {
+  std::vector<Eigen::Index> own;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const bool is_own = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                    [&](const EffectParameter& p) { return &p == fit.parameters[k]; });
+    if (is_own) own.push_back(static_cast<Eigen::Index>(k));
+  }
+  if (own.empty()) return false;
+  const Eigen::VectorXd x = fit.x(own);
+  const Eigen::MatrixXd variance = temperature * fit.explained.covariance(own, own);
+  return x.dot(variance.ldlt().solve(x)) < k_thresholds.least_size * static_cast<double>(own.size());
+}
+
 /// All sets that were looked at. Where more than noise is left that nothing describes, the model is wrong by more, and
 /// evidence is worth less.
 std::vector<Weighed> Selector::weighed() {
@@ -467,13 +482,26 @@ std::vector<Weighed> Selector::weighed() {
   return sets;
 }
 
-/// What is not sure enough to be named, with all that could stand in its place, goes, the most doubtful first. Whether
-/// something went.
+/// Whether the data say of its numbers that they may as well be nothing, and the readings that it hardly moves them. A
+/// friction that holds a joint fast moves it by all there is, and its slope is nothing then.
+bool Selector::is_without_size(const Effect& effect) const {
+  const Fit& best = selection_.best;
+  if (!has_no_size(best, effect, selection_.temperature)) return false;
+  const Fit others = workers_.one().fit(without(best.effects, effect), without(best.at, effect));
+  return others.usable &&
+         rms_apart(evidence_, others.residual, best.residual) < k_thresholds.least_moved * evidence_.floor;
+}
+
+/// What is not sure enough to be named, with all that could stand in its place, or has no size to name, goes, the most
+/// doubtful first. Whether something went.
 bool Selector::drop_doubtful() {
   const std::vector<Weighed> sets = weighed();
   selection_.groups.clear();
   for (const Effect* effect : selection_.best.effects)
     selection_.groups.push_back(credible_group(sets, selection_.best.effects, *effect, k_thresholds.least_of_a_group));
+  for (CredibleGroup& group : selection_.groups) {
+    if (is_without_size(*group.members.front())) group.doubt = 1;
+  }
   const auto worst = std::max_element(selection_.groups.begin(), selection_.groups.end(),
                                       [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });
   if (worst == selection_.groups.end() || worst->doubt <= k_thresholds.most_mistaken) return false;

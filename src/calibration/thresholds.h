@@ -61,6 +61,14 @@ struct Thresholds {
   /// Degrees of freedom that the noise floor is taken to have.
   double noise_freedom = 30.0;
 
+  /// Squares of an effect's numbers in their standard deviations, each: less says that they may as well be nothing (95
+  /// % of a number). Where the data are likelier with such an effect all the same it is not by its size: a joint that
+  /// rubs ever so little rests elsewhere when it is loose. Matrix, seeds 31017, 32002, 32022: joint_friction named
+  /// alone and not there by 16 to 20 nats, its squares 0.1 to 0.8; where it is there 160 and more.
+  double least_size = 3.84;
+  /// … and that it moves the readings by no more than so many noise floors, rms.
+  double least_moved = 2.0;
+
   /// Simulated joints without an effect, and the most of them in which its name may come up before it stands alone.
   int worlds = 200;
   double most_mistaken = 0.02;
@@ -68,6 +76,15 @@ struct Thresholds {
   double least_of_a_group = 0.005;
   /// Effects that simulated joints were read by, in a group: where it is anything at all, the ones most often there.
   std::size_t most_culprits = 6;
+
+  /// Nats that an effect must be ahead of the best that has no name in its place (nameless.h), else its group says that
+  /// it may be something without a name …
+  double ahead_of_nameless = 10.0;
+  /// … and where something stays without a name or walks beside it: what is there then is known to be nothing of the
+  /// catalogue, and it may do more than what it was left with. Matrix, 192 joints from seeds 31001 and 32001: falsely
+  /// blamed are 10 joints where nothing is left and 12 where something is; by names that are as far ahead as this 4 and
+  /// 2, and of 93 that stand alone and are there 79 are.
+  double ahead_beside_rest = 30.0;
 
   // ---- what is given up ----
 

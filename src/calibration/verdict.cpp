@@ -5,6 +5,7 @@
 #include <map>
 
 #include "calibration/empirical.h"
+#include "calibration/nameless.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -62,7 +63,10 @@ class Places {
 };
 
 std::string group_words(const FoundEffect& effect) {
-  return effect.group.size() > 1 ? "one of {" + list(effect.group) + "}" : effect.name;
+  const bool may_be_nameless = effect.group.back() == k_nameless;
+  const std::vector<std::string> names(effect.group.begin(), effect.group.end() - (may_be_nameless ? 1 : 0));
+  return (names.size() > 1 ? "one of {" + list(names) + "}" : effect.name) +
+         (may_be_nameless ? " or something without a name that does the same" : "");
 }
 
 std::string effects_words(const std::vector<FoundEffect>& effects) {
@@ -112,6 +116,11 @@ std::string figures(const Calibration& calibration, double floor) {
 
 /// What the verdict itself asks for, beside what would split a group.
 void ask_for_runs(Calibration& calibration) {
+  for (const FoundEffect& effect : calibration.effects) {
+    const std::string& run = effect.nameless.separating_run;
+    const bool asked = std::count(calibration.next_runs.begin(), calibration.next_runs.end(), run) > 0;
+    if (effect.group.back() == k_nameless && !run.empty() && !asked) calibration.next_runs.push_back(run);
+  }
   if (calibration.verdict == CalibrationVerdict::not_repeatable) {
     calibration.next_runs.insert(calibration.next_runs.begin(),
                                  "tighten what can be loose and repeat one run five times without touching anything");
@@ -150,6 +159,7 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     calibration.unexplained_where = rest.where;
     calibration.unknown = unnamed.parts;
   }
+  take_nameless(unexplained || is_walking(scatter), calibration.effects);
   calibration.verdict = verdict_of(is_walking(scatter), unexplained, calibration.effects);
   if (calibration.verdict == CalibrationVerdict::unexplained)
     calibration.curve = empirical_curve(evidence, selection.best, unnamed);

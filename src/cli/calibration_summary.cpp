@@ -43,10 +43,15 @@ std::string effect_text(const FoundEffect& effect, const std::string& load_unit)
   for (std::size_t i = 0; i < effect.parameters.size(); ++i)
     words += (i == 0 ? ": " : "; ") + parameter_words(effect.parameters[i], load_unit);
   words += ". Takes " + deg(effect.rms_drop) + " deg rms off";
-  const std::vector<std::string> rivals = rivals_of(effect);
-  words += rivals.empty() ? "; nothing else does as well" : "; as good: " + joined(rivals, ", ");
+  std::vector<std::string> rivals = rivals_of(effect);
+  std::erase(rivals, k_nameless);
+  const std::string nameless = nameless_words(effect);
+  words += !rivals.empty()    ? "; as good: " + joined(rivals, ", ")
+           : nameless.empty() ? "; nothing else does as well"
+                              : "; no other name does as well";
   const std::string audit = audit_words(effect);
-  return words + (audit.empty() ? "" : ". " + audit);
+  return words + (audit.empty() ? "" : ". " + audit) +
+         (nameless.empty() ? "" : (audit.empty() ? ". " : " ") + nameless);
 }
 
 std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {

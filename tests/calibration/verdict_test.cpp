@@ -6,6 +6,7 @@
 #include "calibration/catalogue.h"
 #include "calibration/explanation.h"
 #include "calibration/linear_joint.h"
+#include "calibration/thresholds.h"
 #include "fusee/calibration/words.h"
 
 namespace fusee::linear {
@@ -65,6 +66,39 @@ TEST_F(Concluded, OneOfTwo) {
   find({{"backlash"}, {"zero_offset", "motor_offset"}});
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
+}
+
+/// An effect that is so many nats ahead of what has no name.
+FoundEffect ahead_by(double nats) {
+  FoundEffect effect;
+  effect.name = "backlash";
+  effect.group = {"backlash"};
+  effect.nameless = {nats, "a jump at 50 % of the way", "come from both sides"};
+  return effect;
+}
+
+TEST_F(Concluded, WhatIsHardlyAheadOfSomethingWithoutANameIsNotNamedAlone) {
+  leave(1);
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless - 1)};
+  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "nameless"));
+  EXPECT_THAT(calibration.summary, HasSubstr("backlash or something without a name that does the same"));
+  EXPECT_THAT(calibration.next_runs, testing::Contains("come from both sides"));
+}
+
+TEST_F(Concluded, WhatIsFarAheadOfEverythingWithoutANameIs) {
+  leave(1);
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1)};
+  EXPECT_EQ(verdict(), CalibrationVerdict::explained);
+  EXPECT_THAT(calibration.next_runs, testing::Not(testing::Contains("come from both sides")));
+}
+
+TEST_F(Concluded, BesideSomethingUnexplainedANameNeedsMore) {
+  leave(5);
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1), ahead_by(k_thresholds.ahead_beside_rest + 1)};
+  EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "nameless"));
+  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash"));
 }
 
 TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {

@@ -56,7 +56,8 @@ void add_covered(const std::string& fault, const FoundEffect& effect, const Case
     for (const FittedParameter& found : effect.parameters) {
       // What is searched among whole numbers has no interval.
       if (found.name != name || !(found.high > found.low)) continue;
-      all.push_back({fault + " " + name, found.low <= value && value <= found.high});
+      const double away = (value - 0.5 * (found.low + found.high)) / (0.5 * (found.high - found.low));
+      all.push_back({fault + " " + name, found.low <= value && value <= found.high, away});
     }
   }
 }
@@ -133,6 +134,10 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
     ++one.named;
     const auto in = [&](const FoundEffect& effect) { return holds(effect.group, fault); };
     one.held += std::any_of(found.effects.begin(), found.effects.end(), in) ? 1 : 0;
+    one.held_by_names += std::any_of(found.effects.begin(), found.effects.end(),
+                                     [&](const FoundEffect& e) { return in(e) && !holds(e.group, k_nameless); })
+                             ? 1
+                             : 0;
     one.alone += std::any_of(found.effects.begin(), found.effects.end(),
                              [&](const FoundEffect& e) { return in(e) && e.group.size() == 1; })
                      ? 1
@@ -144,13 +149,16 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
       add_covered("groove_friction", effect, made, one.numbers);
     const bool wrong = !holds_truth(effect.group, made, without);
     one.false_groups += wrong ? 1 : 0;
+    one.false_names += wrong && !holds(effect.group, k_nameless) ? 1 : 0;
     one.wrong_alone += wrong && effect.group.size() == 1 ? 1 : 0;
-    groups += (wrong ? "  !{" : "  {") + joined(effect.group) + "}" + rounded(effect.evidence, 2);
+    groups += (wrong ? "  !{" : "  {") + joined(effect.group) + "}" + rounded(effect.evidence, 2) + "~" +
+              rounded(effect.nameless.behind, 2) + "[" + effect.nameless.words + "]";
   }
   std::string seen;
   for (const double times : made.seen) seen += (seen.empty() ? "" : ", ") + rounded(times, 3);
   one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
               " x noise): " + std::string(word(one.verdict)) + groups;
+  for (const Covered& number : one.numbers) one.words += "  <" + number.name + " " + rounded(number.away, 2) + ">";
   if (found.unexplained_rms > 0) one.words += "  left " + rounded(found.unexplained_rms / found.noise.rms, 2);
   return one;
 }
@@ -195,6 +203,11 @@ Rates rates(const std::vector<Judgement>& judgements) {
   for (const Judgement& one : judgements) {
     const bool blamed = one.false_groups > 0;
     count(!one.outside.empty() ? all.false_blame_outside : all.false_blame, blamed);
+    count(!one.outside.empty() ? all.false_names_outside : all.false_names, one.false_names > 0);
+    all.held_by_names.part += one.held_by_names;
+    all.held_by_names.all += one.named;
+    all.alone.part += one.alone;
+    all.alone.all += one.named;
     count(all.wrong_alone, one.wrong_alone > 0);
     count(all.untestable, one.verdict == CalibrationVerdict::not_testable);
     if (!one.outside.empty()) {
@@ -224,13 +237,20 @@ std::string rate_table(const std::vector<Judgement>& judgements) {
             (rate.all == 0 ? "–" : percent(bounds.low) + " … " + percent(bounds.high)) + " |\n";
   };
   const Rates found = rates(judgements);
-  row("false blame: a reported group that holds nothing of what is there, per joint whose faults all have names, or "
-      "that has none",
+  row("false blame: a reported group that names nothing of what is there and does not say that it may be something "
+      "without a name, per joint whose faults all have names, or that has none",
+      found.false_names);
+  row("the same, per joint with a fault without a name (its kin among the named do not count)",
+      found.false_names_outside);
+  row("a reported group that names nothing of what is there, whatever else it says, per joint whose faults all have "
+      "names, or that has none",
       found.false_blame);
   row("the same, per joint as declared", found.false_blame_nothing);
   row("the same, per joint with a fault without a name (its kin among the named do not count)",
       found.false_blame_outside);
   row("named alone and not there, per joint", found.wrong_alone);
+  row("named alone and there, per fault with a name, on all joints", found.alone);
+  row("in a reported group that does not say that it may be something without a name, the same", found.held_by_names);
   row("held: in a reported group, per fault with a name, where all have one",
       {found.miss.all - found.miss.part, found.miss.all});
   row("kept: in a reported group, per fault with a name beside one without", found.kept);

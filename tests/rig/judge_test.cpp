@@ -46,6 +46,33 @@ TEST(Judge, counts_what_was_found_and_what_was_not) {
   EXPECT_TRUE(one.outside.empty());
 }
 
+// The names in it are still false, and are counted as such by the older rate; it does not say that one of them is there.
+TEST(Judge, a_group_that_may_be_nothing_with_a_name_blames_nobody) {
+  const Judgement one = judge(with({"tendon_stretch", "backlash"}),
+                              answer(CalibrationVerdict::confounded,
+                                     {{"tendon_stretch", "nameless"}, {"sensor_lag", "nameless"}, {"backlash"}}));
+  EXPECT_EQ(one.held, 2u);
+  EXPECT_EQ(one.held_by_names, 1u);
+  EXPECT_EQ(one.alone, 1u);
+  EXPECT_EQ(one.false_groups, 1u);
+  EXPECT_EQ(one.false_names, 0u);
+  EXPECT_EQ(one.wrong_alone, 0u);
+  const Rates found = rates({one});
+  EXPECT_EQ(found.false_blame.part, 1u);
+  EXPECT_EQ(found.false_names.part, 0u);
+  EXPECT_EQ(found.held_by_names.part, 1u);
+  EXPECT_EQ(found.alone.all, 2u);
+}
+
+// A sensor's interpolation error of eight waves a turn was named motor_sensor_harmonic, in whose catalogue are four.
+TEST(Judge, a_wave_without_a_name_is_not_given_one) {
+  const Case made = make_case(random_truth(Kind::beside, "tuning", 31042), 31042, {Protocol::random, true});
+  ASSERT_THAT(made.faults, ::testing::ElementsAre("joint_length", "encoder_interpolation"));
+  const Judgement one = calibrate_case(made, std::filesystem::path(::testing::TempDir()) / "wave");
+  EXPECT_EQ(one.held, 1u) << one.words;
+  EXPECT_EQ(one.false_names, 0u) << one.words;
+}
+
 TEST(Judge, kin_of_a_fault_without_a_name_is_no_false_blame) {
   const Judgement kin = judge(with({"grease"}), answer(CalibrationVerdict::explained, {{"sensor_lag"}}));
   EXPECT_FALSE(kin.outside.empty());

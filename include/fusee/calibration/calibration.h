@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,15 +37,29 @@ struct Audit {
   int named = 0;
 };
 
+/// Stands in a group beside names: what is there may have none.
+inline constexpr const char* k_nameless = "nameless";
+
+/// Something without a name that would do what a named effect does.
+struct Nameless {
+  /// Nats by which the data are likelier with the effect, whatever else has no name beside either; infinite: not asked.
+  double behind = std::numeric_limits<double>::infinity();
+  std::string words;           ///< what it would be: "a wave of 5.2 times a turn of the motor"; "" where nothing is
+  std::string separating_run;  ///< what would tell it from the effect
+};
+
 /// One effect that the data ask for, with all that would do as well.
 struct FoundEffect {
   std::string name;
-  std::vector<std::string> group;  ///< `name` and every effect that would do nearly as well in its place
+  /// `name` and every effect that would do nearly as well in its place; k_nameless where the data do not say that it
+  /// is anything with a name.
+  std::vector<std::string> group;
   ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
   double rms_drop = 0;  ///< of the held-out residual, rad; never below 0
   double evidence = 0;  ///< log of how many times less likely the data are without it
   Audit audit;
+  Nameless nameless;
   CorrectableBy correctable_by = CorrectableBy::nothing;
 };
 

@@ -1,0 +1,20 @@
+/// \file
+/// What has no name and would do what a named effect does: a few sharp shapes of few numbers, as any fault that nobody
+/// has a word for may have. Smooth ones are the discrepancy's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/selection.h"
+#include "calibration/workers.h"
+
+namespace fusee {
+
+/// Of every accepted effect, in their order.
+std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection);
+
+/// Groups that may hold nothing with a name say so. `is_something_left`: beside all effects.
+void take_nameless(bool is_something_left, std::vector<FoundEffect>& effects);
+
+}  // namespace fusee
