@@ -13,7 +13,8 @@ from setting import harness
 
 import fusee
 
-USE = "import fusee; print(fusee.__file__, fusee.__version__, fusee.build(fusee.read(fusee.new('finger'))).status)"
+STEP = any(harness.PROGRAM.parent.glob("lib/**/fusee/modules/fusee-step.so"))
+USE = f"import fusee; print(fusee.__file__, fusee.__version__, fusee.build(fusee.read(fusee.new('finger')), step={STEP}).status)"
 
 
 def can(*command):
