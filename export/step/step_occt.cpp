@@ -441,8 +441,8 @@ struct Zone {
 };
 
 const Zone& zone_of(const TopoDS_Face& face, const StepPart& part) {
-  static const Zone zones[] = {{"P1", Quantity_Color(0.85, 0.45, 0.20, Quantity_TOC_sRGB)},
-                               {"P2", Quantity_Color(0.20, 0.45, 0.75, Quantity_TOC_sRGB)},
+  static const Zone zones[] = {{"P1", Quantity_Color(0.20, 0.45, 0.75, Quantity_TOC_sRGB)},
+                               {"P2", Quantity_Color(0.85, 0.45, 0.20, Quantity_TOC_sRGB)},
                                {"hub", Quantity_Color(0.60, 0.60, 0.60, Quantity_TOC_sRGB)}};
   constexpr double k_above = 1e-3;
   Bnd_Box box;
