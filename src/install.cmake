@@ -53,7 +53,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/debian/changelog "fusee (${PROJECT_VERSION}) un
  -- the authors of fusee <fusee@packages.debian.org>  Sun, 22 Nov 2026 12:00:00 +0000
 ")
 execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/debian/changelog COMMAND_ERROR_IS_FATAL ANY)
-foreach(package IN ITEMS program=fusee development=libfusee-dev)
+foreach(package IN ITEMS program=fusee development=libfusee-dev python=python3-fusee)
   string(REPLACE "=" ";" package ${package})
   list(GET package 0 component)
   list(GET package 1 name)

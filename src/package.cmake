@@ -28,4 +28,17 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "pulleys for tendon-driven joints: l
 Headers and static libraries of fusee, for find_package(fusee) of CMake and
 for pkg-config.")
 
+# Where the module is built: of one Python alone, the system's.
+if(TARGET fusee_python)
+  math(EXPR next_minor "${FUSEE_PYTHON_MINOR} + 1")
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-fusee)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${FUSEE_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "fusee (= ${PROJECT_VERSION})")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "pulleys for tendon-driven joints: Python module
+The verbs of fusee as functions, with frozen values and read-only arrays of
+NumPy. STEP files are made where the package fusee is installed too.")
+endif()
+
 include(CPack)

@@ -21,7 +21,11 @@ constexpr std::size_t k_most_spans = 300;
 constexpr int k_samples_a_span = 13;
 constexpr double k_share_of_worst = 0.25;
 /// Two kinks nearer than this are one.
-constexpr double k_same_kink = radians(0.02);
+constexpr double k_same_kink = radians(0.002);
+/// Where a curve's mean radius is this many times those of both samples beside, it runs straight.
+constexpr double k_straight_beside = 3;
+/// What the normals of a straight turn by: its middle stands out by an eighth of that, 1e-5 of its length.
+constexpr double k_straight_turn = radians(0.005);
 
 /// A knot and how often it counts.
 struct Break {
@@ -80,8 +84,8 @@ std::vector<Break> first_breaks(double from, double to, const std::vector<double
   return breaks;
 }
 
-/// Least squares through samples, both ends met exactly, and where radii are known both tangents' lengths too: pieces
-/// side by side then join as smoothly as the curve.
+/// Least squares through samples, both ends met exactly, and both tangents' lengths too: pieces side by side then join
+/// as smoothly as the curve.
 class SectorFit {
  public:
   SectorFit(const SupportCurve& curve, double tolerance, double reach)
@@ -90,7 +94,7 @@ class SectorFit {
   NormalSpline on(const std::vector<Break>& breaks) const {
     NormalSpline spline{flat_knots(breaks), {}, {}};
     const std::size_t count = spline.knots.size() - k_order;
-    const std::size_t fixed = curve_.is_drawn_with_radii() && count >= 6 ? 2 : 1;
+    const std::size_t fixed = count >= 6 ? 2 : 1;
     Eigen::MatrixXd poles = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), 4);
     const double from = breaks.front().psi, to = breaks.back().psi;
     set_end(poles, spline.knots, 0, from, fixed);
@@ -170,7 +174,7 @@ class SectorFit {
     const double step =
         first ? knots[k_order] - knots[k_order - 1] : knots[knots.size() - k_order - 1] - knots[knots.size() - k_order];
     const Vec2 tangent = turned_left(unit(psi));
-    const double radius = curve_.radius_near(psi), share = step / k_step_degree;
+    const double radius = curve_.radius_at(psi), share = step / k_step_degree;
     Eigen::RowVector4d slope;
     slope << radius * tangent.x(), radius * tangent.y(), tangent.x(), tangent.y();
     poles.row(first ? row + 1 : row - 1) = poles.row(row) + share * slope;
@@ -181,57 +185,115 @@ class SectorFit {
   double reach_;
 };
 
-}  // namespace
-
-SupportCurve::SupportCurve(std::vector<double> psi, const std::vector<Vec2>& points, const std::vector<double>& radii)
-    : psi_(std::move(psi)), with_radii_(!radii.empty()) {
-  for (std::size_t i = 0; i < psi_.size(); ++i) {
-    const Vec2 normal = unit(psi_[i]);
-    h_.push_back(points[i].dot(normal));
-    dh_.push_back(points[i].dot(turned_left(normal)));
-    if (with_radii_) ddh_.push_back(radii[i] - h_.back());
+/// Spans were halved where they were too long: of the breaks between, those that are not needed are left out.
+std::vector<Break> thinned(const SectorFit& sector, std::vector<Break> breaks) {
+  for (std::size_t i = 1; i + 1 < breaks.size();) {
+    std::vector<Break> fewer = breaks;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+    if (breaks[i].times == 1 && sector.coarse_spans(sector.on(fewer), fewer).empty())
+      breaks = std::move(fewer);
+    else
+      ++i;
   }
-  for (auto* values : {&h_, &dh_, &ddh_}) {
-    if (!values->empty()) values->push_back(values->front());
-  }
-  psi_.push_back(psi_.front() + k_two_pi);
+  return breaks;
 }
 
-std::size_t SupportCurve::interval_of(double& psi) const {
-  psi = turned_into(psi_.front(), psi);
+/// A curve's radii at its samples, from the chords to both neighbours.
+std::vector<double> radii_beside(const std::vector<double>& psi, const std::vector<Vec2>& points) {
+  std::vector<double> means, radii;
+  for (std::size_t i = 0; i + 1 < psi.size(); ++i)
+    means.push_back((points[i + 1] - points[i]).norm() / (psi[i + 1] - psi[i]));
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const auto [less, more] = std::minmax(means[i], means[i == 0 ? means.size() - 1 : i - 1]);
+    // Beside a straight its own side's counts.
+    radii.push_back(more > k_straight_beside * less ? less : 2 * less * more / (less + more));
+  }
+  return radii;
+}
+
+}  // namespace
+
+SupportCurve::SupportCurve(std::vector<double> psi, std::vector<Vec2> points, std::vector<double> radii) {
+  const auto close = [&] {
+    psi.push_back(psi.front() + k_two_pi);
+    points.push_back(points.front());
+  };
+  close();
+  if (radii.empty()) radii = radii_beside(psi, points);
+  radii.push_back(radii.front());
+  for (std::size_t i = 0; i + 1 < psi.size(); ++i) {
+    const Sample from{psi[i], points[i], radii[i]}, to{psi[i + 1], points[i + 1], radii[i + 1]};
+    const auto straight = straight_between(from, to);
+    add(from, straight ? straight->first : to);
+    if (!straight) continue;
+    kinks_.insert(kinks_.end(), {straight->first.psi, straight->second.psi});
+    add(straight->first, straight->second);
+    add(straight->second, to);
+  }
+  psi_.push_back(psi.back());
+}
+
+// Hermite's polynomial of degree 5 over u from 0 to 1, which has the radii of both ends; where that is no convex curve,
+// as beside a bridge over a hollow, of degree 3 without them.
+void SupportCurve::add(const Sample& from, const Sample& to) {
+  constexpr int k_looks = 8;
+  const double width = to.psi - from.psi;
+  const double h0 = from.support(), d0 = width * from.slope(), e0 = 0.5 * width * width * (from.radius - h0);
+  const double h1 = to.support(), d1 = width * to.slope(), e1 = 0.5 * width * width * (to.radius - h1);
+  const double rise = h1 - h0 - d0 - e0, steeper = d1 - d0 - 2 * e0, bent = e1 - e0;
+  psi_.push_back(from.psi);
+  support_.push_back(
+      {h0, d0, e0, 10 * rise - 4 * steeper + bent, -15 * rise + 7 * steeper - 2 * bent, 6 * rise - 3 * steeper + bent});
+  for (int k = 1; k < k_looks; ++k) {
+    if (look(support_.size() - 1, width, static_cast<double>(k) / k_looks).radius >= 0) continue;
+    support_.back() = {h0, d0, 3 * (h1 - h0) - 2 * d0 - d1, d0 + d1 - 2 * (h1 - h0), 0, 0};
+    return;
+  }
+}
+
+std::size_t SupportCurve::interval_of(double psi) const {
   const auto above = std::upper_bound(psi_.begin() + 1, psi_.end() - 1, psi);
   return static_cast<std::size_t>(above - psi_.begin()) - 1;
 }
 
-double SupportCurve::radius_near(double psi) const {
-  const std::size_t i = interval_of(psi);
-  const double share = (psi - psi_[i]) / (psi_[i + 1] - psi_[i]);
-  return (1 - share) * (h_[i] + ddh_[i]) + share * (h_[i + 1] + ddh_[i + 1]);
+SupportCurve::Look SupportCurve::look(std::size_t interval, double width, double u) const {
+  double h = 0, dh = 0, half_ddh = 0;
+  for (auto c = support_[interval].rbegin(); c != support_[interval].rend(); ++c) {
+    half_ddh = half_ddh * u + dh;
+    dh = dh * u + h;
+    h = h * u + *c;
+  }
+  return {h, dh / width, h + 2 * half_ddh / (width * width)};
 }
 
-// Newton's form on the nodes 0, 0, (0,) 1, 1, (1) of the interval, and its derivative.
-Vec2 SupportCurve::at(double psi) const {
+SupportCurve::Look SupportCurve::look_at(double psi) const {
+  psi = turned_into(psi_.front(), psi);
   const std::size_t i = interval_of(psi);
-  const double width = psi_[i + 1] - psi_[i], u = (psi - psi_[i]) / width;
-  const double h0 = h_[i], h1 = h_[i + 1], d0 = width * dh_[i], d1 = width * dh_[i + 1];
-  double h = 0, dh = 0;
-  const double rise = h1 - h0, b0 = rise - d0, b1 = d1 - rise;
-  // Beside a bridge over a hollow radii are no second derivatives.
-  const bool quintic = with_radii_ && std::abs(dh_[i + 1] - dh_[i] - 0.5 * width * (ddh_[i] + ddh_[i + 1])) <=
-                                          0.1 * std::abs(0.5 * width * (h0 + ddh_[i] + h1 + ddh_[i + 1]));
-  if (quintic) {
-    const double e0 = 0.5 * width * width * ddh_[i], e1 = 0.5 * width * width * ddh_[i + 1];
-    const double c0 = b0 - e0, c1 = b1 - b0, c2 = e1 - b1;
-    const double f0 = c1 - c0, f1 = c2 - c1, g = f1 - f0, v = u - 1;
-    h = h0 + u * (d0 + u * (e0 + u * (c0 + v * (f0 + v * g))));
-    dh = d0 + 2 * u * e0 + 3 * u * u * c0 + f0 * (3 * u * u * v + u * u * u) +
-         g * (3 * u * u * v * v + 2 * u * u * u * v);
-  } else {
-    const double c = b1 - b0, v = u - 1;
-    h = h0 + u * (d0 + u * (b0 + v * c));
-    dh = d0 + 2 * u * b0 + c * (2 * u * v + u * u);
-  }
-  return h * unit(psi) + dh / width * turned_left(unit(psi));
+  const double width = psi_[i + 1] - psi_[i];
+  return look(i, width, (psi - psi_[i]) / width);
+}
+
+Vec2 SupportCurve::at(double psi) const {
+  const Look found = look_at(psi);
+  return found.support * unit(psi) + found.slope * turned_left(unit(psi));
+}
+
+// Both circles of curvature and the line that touches them from outside: n · (c1 − c0) = r0 − r1. Its direction is one,
+// and its normals turn by k_straight_turn here, so that it has a place among the parameters.
+std::optional<std::pair<SupportCurve::Sample, SupportCurve::Sample>> SupportCurve::straight_between(const Sample& from,
+                                                                                                    const Sample& to) {
+  const double width = to.psi - from.psi, mean = (to.point - from.point).norm() / width;
+  if (mean <= k_straight_beside * std::max(from.radius, to.radius)) return std::nullopt;
+  const Vec2 c0 = from.point - from.radius * unit(from.psi), c1 = to.point - to.radius * unit(to.psi);
+  const Vec2 apart = c1 - c0;
+  const double half = 0.5 * k_straight_turn, along = (from.radius - to.radius) / apart.norm();
+  if (!(std::abs(along) < 1)) return std::nullopt;
+  const double psi = turned_into(from.psi - 0.5 * k_pi, std::atan2(apart.y(), apart.x()) - std::acos(along));
+  if (psi - from.psi < 2 * half || to.psi - psi < 2 * half) return std::nullopt;
+  const auto on = [](const Vec2& centre, double radius, double at) {
+    return Sample{at, centre + radius * unit(at), radius};
+  };
+  return std::pair(on(c0, from.radius, psi - half), on(c1, to.radius, psi + half));
 }
 
 StepSpline NormalSpline::parallel(double distance) const {
@@ -251,11 +313,13 @@ Vec2 point_on(const StepSpline& spline, double psi) {
 std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double to, const std::vector<double>& kinks,
                                 double tolerance, double reach) {
   const SectorFit sector(curve, tolerance, reach);
-  std::vector<Break> breaks = first_breaks(from, to, kinks);
+  std::vector<double> known = kinks;
+  known.insert(known.end(), curve.kinks().begin(), curve.kinks().end());
+  std::vector<Break> breaks = first_breaks(from, to, known);
   while (true) {
     const NormalSpline spline = sector.on(breaks);
     const std::vector<std::size_t> coarse = sector.coarse_spans(spline, breaks);
-    if (coarse.empty()) return spline;
+    if (coarse.empty()) return sector.on(thinned(sector, breaks));
     if (breaks.size() + coarse.size() > k_most_spans) return std::nullopt;
     std::vector<Break> finer;
     auto next = coarse.begin();

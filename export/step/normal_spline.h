@@ -2,7 +2,9 @@
 /// Closed convex curves known at sampled normals, as B-splines over the normal's direction.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "export/step/step_part.h"
@@ -11,24 +13,40 @@
 namespace fusee {
 
 /// A curve by its support function h(ψ): its point with the normal n is h n + h' t. Between samples a polynomial that
-/// has h, h' and, where they are known, the second derivatives of both ends.
+/// has h, h' and h'' of both ends. A straight between two of them runs within a turn of 0.005° about its own direction.
 class SupportCurve {
  public:
-  /// Points of a curve with outward normals in the directions `psi`, increasing within a turn. `radii`: of curvature,
-  /// or none.
-  SupportCurve(std::vector<double> psi, const std::vector<Vec2>& points, const std::vector<double>& radii);
+  /// Points of a curve with outward normals in the directions `psi`, increasing within a turn. `radii`: of curvature;
+  /// none: taken from the points.
+  SupportCurve(std::vector<double> psi, std::vector<Vec2> points, std::vector<double> radii);
 
   Vec2 at(double psi) const;
-  const std::vector<double>& directions() const { return psi_; }  ///< the first a turn on at the end
-  bool is_drawn_with_radii() const { return with_radii_; }
-  /// d point / dψ = radius · tangent; at a sample.
-  double radius_near(double psi) const;
+  /// d point / dψ = radius · tangent.
+  double radius_at(double psi) const { return look_at(psi).radius; }
+  /// Directions at which straights end.
+  const std::vector<double>& kinks() const { return kinks_; }
 
  private:
-  std::size_t interval_of(double& psi) const;
+  struct Sample {
+    double psi;
+    Vec2 point;
+    double radius;
+    double support() const { return point.dot(unit(psi)); }
+    double slope() const { return point.dot(turned_left(unit(psi))); }
+  };
+  struct Look {
+    double support, slope, radius;
+  };
 
-  std::vector<double> psi_, h_, dh_, ddh_;
-  bool with_radii_ = false;
+  static std::optional<std::pair<Sample, Sample>> straight_between(const Sample& from, const Sample& to);
+  void add(const Sample& from, const Sample& to);
+  std::size_t interval_of(double psi) const;
+  Look look(std::size_t interval, double width, double u) const;
+  Look look_at(double psi) const;
+
+  std::vector<double> psi_;                     ///< the first a turn on at the end
+  std::vector<std::array<double, 6>> support_;  ///< h over u, by its powers, of each interval
+  std::vector<double> kinks_;
 };
 
 /// The curve over one sector and its normals, on the same knots: a parallel curve's poles are position + distance ·

@@ -166,7 +166,7 @@ class StepBuilder {
     for (const Vec2& point : base.points) points.push_back(layout_.scale * point);
     for (const double radius : base.radii) radii.push_back(layout_.scale * radius);
     for (const std::size_t kink : base.kinks) kinks.push_back(psi_[kink]);
-    const SupportCurve curve(psi_, points, radii);
+    const SupportCurve curve(psi_, std::move(points), std::move(radii));
     for (std::size_t s = 0; s < sectors(); ++s) {
       auto fitted = fit(curve, part_.sectors[s], part_.sectors[s + 1], kinks, base.tolerance, layout_.scale * reach_);
       if (!fitted) refuse_as_too_large("its curves take more pieces than a part for CAD may have");

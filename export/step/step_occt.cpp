@@ -30,6 +30,7 @@
 #include <GCPnts_TangentialDeflection.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GProp_GProps.hxx>
+#include <GeomConvert_ApproxCurve.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Circle.hxx>
@@ -37,6 +38,7 @@
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -408,6 +410,29 @@ TopoDS_Solid only_solid(const TopoDS_Shape& shape) {
   return TopoDS::Solid(solids(1));
 }
 
+/// Where a cut meets a face whose parameter runs unevenly, the kernel walks in steps of microns: the same curves with
+/// fewer poles. What is isoparametric is left as it is.
+void shorten_curves(const TopoDS_Shape& shape) {
+  constexpr int k_many_poles = 30, k_most_pieces = 20;
+  constexpr double k_near = 1e-6;
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    double from = 0, to = 0;
+    TopLoc_Location place;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, place, from, to);
+    const Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(curve);
+    if (spline.IsNull() || spline->Degree() == k_step_degree || spline->NbPoles() <= k_many_poles) continue;
+    const Handle(Geom_Curve) piece = new Geom_TrimmedCurve(spline, from, to);
+    const GeomConvert_ApproxCurve shorter(piece, k_near, GeomAbs_C1, k_most_pieces, k_step_degree);
+    if (!shorter.HasResult() || shorter.MaxError() > 2 * k_near) continue;
+    if (shorter.Curve()->NbPoles() < spline->NbPoles())
+      BRep_Builder().UpdateEdge(edge, shorter.Curve(), place, BRep_Tool::Tolerance(edge));
+  }
+}
+
 // ---- names, colours, bytes ----
 
 struct Zone {
@@ -416,8 +441,8 @@ struct Zone {
 };
 
 const Zone& zone_of(const TopoDS_Face& face, const StepPart& part) {
-  static const Zone zones[] = {{"P1", Quantity_Color(0.85, 0.45, 0.20, Quantity_TOC_sRGB)},
-                               {"P2", Quantity_Color(0.20, 0.45, 0.75, Quantity_TOC_sRGB)},
+  static const Zone zones[] = {{"P1", Quantity_Color(0.20, 0.45, 0.75, Quantity_TOC_sRGB)},
+                               {"P2", Quantity_Color(0.85, 0.45, 0.20, Quantity_TOC_sRGB)},
                                {"hub", Quantity_Color(0.60, 0.60, 0.60, Quantity_TOC_sRGB)}};
   constexpr double k_above = 1e-3;
   Bnd_Box box;
@@ -483,7 +508,9 @@ std::string write(const StepPart& part, std::string& complaint) {
     TopoDS_Shape shape = BodyMaker(part).solid();
     shape = combined<BRepAlgoAPI_Cut>(shape, part.cuts);
     shape = combined<BRepAlgoAPI_Fuse>(shape, part.raised);
-    return written(only_solid(shape), part);
+    const TopoDS_Solid solid = only_solid(shape);
+    shorten_curves(solid);
+    return written(solid, part);
   } catch (const Standard_Failure& failure) {
     complaint = std::string(failure.DynamicType()->Name()) + " " + failure.GetMessageString();
   } catch (const std::runtime_error& error) {

@@ -34,9 +34,10 @@ fs::path own_file() {
   return fs::read_symlink("/proc/self/exe", ignored);
 }
 
-/// bin/fusee and lib/…/fusee/modules/ are beside each other; in a build tree the programs of tests lie deeper.
+/// bin/fusee and lib/…/fusee/modules/ are beside each other; in a build tree the programs of tests lie deeper,
+/// and so does Python's module in lib/python3/dist-packages/fusee.
 std::optional<fs::path> module_file(const std::string& name) {
-  constexpr int k_levels = 4;
+  constexpr int k_levels = 5;
   const fs::path program = own_file();
   fs::path folder = program.parent_path();
   for (int level = 0; level < k_levels && folder.has_relative_path(); ++level, folder = folder.parent_path()) {

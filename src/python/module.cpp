@@ -221,7 +221,7 @@ void aim(Options& options, const Target& target) {
 DxfVersion dxf_version(const std::string& name) { return name == "r12" ? DxfVersion::r12 : DxfVersion::ac1015; }
 
 py::dict build_pulley(const CarriedMechanism& carried, const Target& target, double tolerance, const std::string& dxf,
-                      double max_theta_error, double max_slack, const Stop& stop) {
+                      bool step, double max_theta_error, double max_slack, const Stop& stop) {
   return to_python(made_unlocked(carried.files, [&] {
     demand_tendons(carried.file, "build a pulley for");
     BuildOptions options;
@@ -229,6 +229,7 @@ py::dict build_pulley(const CarriedMechanism& carried, const Target& target, dou
     options.tolerance = tolerance;
     options.limits = limits_of(max_theta_error, max_slack);
     options.dxf = dxf_version(dxf);
+    options.step = step;
     options.before_step = [&stop](std::string_view) { stop.look(); };
     options.between_tries = options.before_writing = [&stop] { stop.look(); };
     options.while_waiting = [&stop](const std::function<void()>&) { stop.look(); };

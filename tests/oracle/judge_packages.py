@@ -1,6 +1,6 @@
 """Debian's own tools as judges of the packages: cpack makes them from a build, lintian finds no error and no warning but the overrides that they
-state, and what they hold runs from where dpkg puts it: the program makes a pulley, man finds its page, pkg-config's flags compile and link a program
-of somebody else.
+state, and what they hold runs from where dpkg puts it: the program makes a pulley, man finds its page, Python imports its module, pkg-config's flags
+compile and link a program of somebody else.
 Usage: judge_packages.py BUILD CONSUMER.cpp   Prints what is wrong; exit 1 when anything is, 77 without the tools."""
 import os
 import pathlib
@@ -55,6 +55,19 @@ def what_is_unpacked(packages, root):
         yield f"man does not show {page.name}: {said[:200]}"
 
 
+def what_python_imports(packages, root):
+    if "python3-fusee" not in packages:
+        return
+    code, said = run("dpkg-deb", "-f", packages["python3-fusee"], "Depends")
+    if "python3-numpy" not in said or "libc6" not in said:
+        yield f"python3-fusee depends on {said}"
+    step = any(root.glob("usr/lib/**/fusee-step.so"))
+    lines = f"import fusee; print(fusee.__file__, fusee.build(fusee.read(fusee.new('finger')), step={step}).status)"
+    code, said = run("/usr/bin/python3", "-c", lines, cwd=root, env={"PYTHONPATH": str(root / "usr/lib/python3/dist-packages"), "PATH": os.environ["PATH"]})
+    if code or not said.startswith(str(root)) or "done" not in said:
+        yield f"the Python module from the package: exit {code}: {said}"
+
+
 def what_compiles(root, source):
     found = sorted(root.glob("usr/lib/**/fusee.pc"))
     if len(found) != 1:
@@ -83,7 +96,7 @@ def main():
         folder = pathlib.Path(folder)
         packages = packages_of(build, folder / "made")
         root = folder / "root"
-        faults = [*what_lintian_says(packages), *what_is_unpacked(packages, root), *what_compiles(root, source)]
+        faults = [*what_lintian_says(packages), *what_is_unpacked(packages, root), *what_python_imports(packages, root), *what_compiles(root, source)]
     for fault in faults:
         print(fault)
     return 1 if faults else 0

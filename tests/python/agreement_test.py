@@ -50,6 +50,15 @@ class Agreement(harness.Scratch):
             self.assertEqual((theirs["value"], theirs["limit"], theirs["ok"]), (mine.value, mine.limit, mine.ok))
         self.assertEqual(said["as_built"]["max_theta_error_deg"], math.degrees(built.as_built.max_theta_error_rad))
 
+    def test_build_for_cad(self):
+        said = self.fusee("build arm.toml -o theirs --step")
+        if said.returncode == 3:
+            with self.assertRaisesRegex(fusee.InputError, "STEP"):
+                fusee.build(self.arm, step=True)
+            self.skipTest("this fusee was built without OpenCASCADE")
+        self.same_files(fusee.build(self.arm, step=True).files, "theirs")
+        self.assertTrue((self.folder / "theirs/pulley.step").exists())
+
     def test_build_with_settings(self):
         arm = self.arm.with_({"pulley.r1_mm": 15, "print.parts": "one", "joint.range_deg": (-25, 25)})
         self.expect('build arm.toml -o theirs --set pulley.r1_mm=15 --set print.parts=one --set "joint.range_deg=[-25, 25]" --dxf r12', 0)

@@ -75,7 +75,7 @@ class Input(unittest.TestCase):
     def test_arguments_that_cannot_be(self):
         verbs = {
             fusee.synthesise: {"tolerance_mm": (0, -1, math.nan, 2, "x", None, True, 1j), "steps": (0, 1.5, 10**9, 10**30, "x")},
-            fusee.build: {"tolerance_mm": (0, math.inf), "dxf": ("r13", 3, None, []), "max_slack_mm": (-1, "x"), "folder": (3, "a\0", "", b"\0", [])},
+            fusee.build: {"tolerance_mm": (0, math.inf), "dxf": ("r13", 3, None, []), "max_slack_mm": (-1, "x"), "step": ("no", 1, None), "folder": (3, "a\0", "", b"\0", [])},
             fusee.analyze: {"steps": (1, 3000, 2.0), "samples": (0, 10**9), "seed": (-1, 2**32), "tolerance_mm": (-0.1, 11)},
             fusee.optimize: {"method": ("ga", None, 3), "population": (0, -4, 20000), "generations": (0,), "threads": (-1, 5000)},
             fusee.plan: {"minutes": (-1, math.nan), "loads_N": ((math.inf,), 5, "12", ("x",), range(13)), "range_deg": ((1,), (2, 1), 3, "ab"), "speeds_deg_per_s": ((0,),)},

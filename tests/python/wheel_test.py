@@ -14,6 +14,9 @@ from setting import harness
 import fusee
 
 USE = "import fusee; print(fusee.__file__, fusee.__version__, fusee.build(fusee.read(fusee.new('finger'))).status)"
+# A wheel brings the module for STEP along, where there is one.
+HAS_STEP = any(harness.PROGRAM.parent.glob("lib/**/fusee/modules/fusee-step.so"))
+USE_FOR_CAD = f"import fusee; print(fusee.build(fusee.read(fusee.new('finger')), step={HAS_STEP}).status)"
 
 
 def can(*command):
@@ -47,6 +50,7 @@ class Installed(unittest.TestCase):
         place, version, status = self.run_all([python, "-c", USE], cwd=self.folder)
         self.assertTrue(place.startswith(str(self.folder)), place)
         self.assertEqual((version, status), (fusee.__version__, "done"))
+        self.assertEqual(self.run_all([python, "-c", USE_FOR_CAD], cwd=self.folder), ["done"])
         self.assertEqual(self.run_all([python, "-m", "pip", "show", "fusee"])[:4], ["Name:", "fusee", "Version:", fusee.__version__])
         self.run_all([python, "-m", "pip", "uninstall", "-y", "fusee"])
 

@@ -68,6 +68,12 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
     return int(number(name, int(value), least, most))
 
 
+def flag(name: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise input_error(name, f"must be True or False, not {type(value).__name__}")
+    return value
+
+
 def choice(name: str, value: Any, choices: List[str]) -> str:
     if value not in choices:
         raise input_error(name, f"{value!r} is not one of " + ", ".join(repr(known) for known in choices))

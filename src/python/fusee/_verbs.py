@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._errors import diagnostics_from, input_error
 from ._mechanism import Mechanism, _made
-from ._run import PathLike, choice, heard, number, path_bytes, text_bytes, whole
+from ._run import PathLike, choice, flag, heard, number, path_bytes, text_bytes, whole
 from ._values import (
     Analysis,
     Built,
@@ -178,10 +178,14 @@ def build(
     force: bool = False,
     tolerance_mm: float = 0.01,
     dxf: str = "ac1015",
+    step: bool = False,
     max_theta_error_deg: float = 0.05,
     max_slack_mm: float = 0.05,
 ) -> Built:
     """The pulley in every format, checked as it was written. OutputError where `folder` holds what fusee did not write.
+
+    `step`: the part for CAD too, pulley.step, which takes some seconds. InputError where it is too large for one, or where fusee was built
+    without OpenCASCADE.
 
     >>> import fusee
     >>> built = fusee.build(fusee.read(fusee.new("forearm")))
@@ -196,7 +200,8 @@ def build(
     version = choice("dxf", dxf, ["ac1015", "r12"])
     theta = number("max_theta_error_deg", max_theta_error_deg, 0, 180, "deg")
     slack = number("max_slack_mm", max_slack_mm, 0, 1000, "mm")
-    made = heard(lambda stop: _core.build(joint, target, tolerance, version, theta, slack, stop))
+    cad = flag("step", step)
+    made = heard(lambda stop: _core.build(joint, target, tolerance, version, cad, theta, slack, stop))
     parts: Row = {
         "synthesis": _synthesis(made.pop("synthesis")),
         "mesh": Mesh(**made.pop("mesh")),

@@ -41,6 +41,12 @@ def compiled(given):
     return build / "python/fusee"
 
 
+def step_module(package):
+    """What step=True loads, where it was built: in the wheel it lies below the package as it does below the build."""
+    build = package.parents[1]
+    return {f"fusee/{path.relative_to(build)}": path.read_bytes() for path in sorted(build.glob("lib/**/fusee/modules/fusee-step.so"))}
+
+
 def tag():
     number = f"cp{sys.version_info[0]}{sys.version_info[1]}"
     return f"{number}-{number}-" + re.sub("[-.]", "_", sysconfig.get_platform())
@@ -64,7 +70,7 @@ def contents(package):
     if not (package / library).exists():
         raise SystemExit(f"fusee: {package} was compiled for another Python: {library} is missing")
     files = [path for path in sorted(package.iterdir()) if path.suffix in (".py", ".pyi", ".typed") or path.name == library]
-    return {**{f"fusee/{path.name}": path.read_bytes() for path in files}, **about_wheel()}
+    return {**{f"fusee/{path.name}": path.read_bytes() for path in files}, **step_module(package), **about_wheel()}
 
 
 def record(held, name):

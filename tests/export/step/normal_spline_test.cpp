@@ -90,25 +90,63 @@ TEST(NormalSpline, PiecesMeetWithTheirTangents) {
   EXPECT_LT(std::abs(cross(before.normalized(), after.normalized())), 1e-9);
 }
 
-/// Of radius 10 up to ψ = π and of 20 from there on: the tangent is continuous, the radius is not. No curve closes so:
-/// the sector leaves out where this one does not.
+/// Of radius 10 up to ψ = π, growing by 8 mm/rad from there on. No curve closes so: the sector leaves out where this
+/// one does not.
 TEST(NormalSpline, AKinkThatIsSaidTakesNoPolesBesideIt) {
   std::vector<double> psi = directions(), radii;
   *std::min_element(psi.begin(), psi.end(),
                     [](double a, double b) { return std::abs(a - k_pi) < std::abs(b - k_pi); }) = k_pi;
-  const auto is_first = [](double at) { return at <= k_pi; };
-  const auto point = [&](double at) { return is_first(at) ? Vec2(10 * unit(at)) : Vec2(20 * unit(at) + Vec2(10, 0)); };
+  const auto point = [](double at) -> Vec2 {
+    const double on = std::max(0.0, at - k_pi);
+    return 10 * unit(at) + 8 * Vec2(std::sin(on) - on * std::cos(on), 1 - std::cos(on) - on * std::sin(on));
+  };
   std::vector<Vec2> points;
   for (const double at : psi) {
-    radii.push_back(is_first(at) ? 10 : 20);
+    radii.push_back(10 + 8 * std::max(0.0, at - k_pi));
     points.push_back(point(at));
   }
-  const SupportCurve curve(psi, points, {});
-  const auto said = fit(curve, 1, 5, {k_pi}, 1e-4, 1), unsaid = fit(curve, 1, 5, {}, 1e-4, 1);
+  const SupportCurve curve(psi, points, radii);
+  const auto said = fit(curve, 1, 5, {k_pi}, 1e-5, 1), unsaid = fit(curve, 1, 5, {}, 1e-5, 1);
   ASSERT_TRUE(said && unsaid);
   EXPECT_LT(said->position.size() + 4, unsaid->position.size());
   const StepSpline spline = said->parallel(0);
-  for (const double at : {1.5, 3.0, k_pi, 3.3, 4.5}) EXPECT_LT((point_on(spline, at) - point(at)).norm(), 2e-4) << at;
+  for (const double at : {1.5, 3.0, k_pi, 3.3, 4.5}) EXPECT_LT((point_on(spline, at) - point(at)).norm(), 2e-5) << at;
+}
+
+/// Over idlers a tendon leaves a straight in the curve; the samples beside it are a fifth of a degree apart. Of radius
+/// 12 up to it and of 14 from there on.
+TEST(NormalSpline, AStraightBetweenSamplesIsStraight) {
+  constexpr double k_straight = 2.4, k_at = 3.5;
+  constexpr double k_beside = radians(0.1), k_turn = radians(0.005);
+  const Vec2 normal = unit(k_at), begin = 12 * normal, end = begin + k_straight * turned_left(normal);
+  const Vec2 centre = end - 14 * normal;
+  std::vector<double> psi, radii;
+  for (const double at : directions()) {
+    if (std::abs(at - k_at) > 2 * k_beside) psi.push_back(at);
+  }
+  psi.insert(psi.end(), {k_at - k_beside, k_at + 0.7 * k_beside});
+  std::sort(psi.begin(), psi.end());
+  std::vector<Vec2> points;
+  for (const double at : psi) {
+    radii.push_back(at < k_at ? 12 : 14);
+    points.push_back(at < k_at ? Vec2(12 * unit(at)) : Vec2(centre + 14 * unit(at)));
+  }
+  const auto spline = fit(SupportCurve(psi, points, radii), 2, 5, {}, 5e-5, 1);
+  ASSERT_TRUE(spline);
+  const StepSpline drawn = spline->parallel(0);
+  const auto off = [&](double at) {
+    const Vec2 point = point_on(drawn, at);
+    if (at < k_at - k_turn) return std::abs(point.norm() - 12);
+    if (at > k_at + k_turn) return std::abs((point - centre).norm() - 14);
+    return std::abs((point - begin).dot(normal));
+  };
+  double worst = 0;
+  for (int i = 0; i <= 2000; ++i) {
+    const double share = i / 1000.0 - 1;
+    worst = std::max({worst, off(k_at + 1.2 * share), off(k_at + 3 * k_beside * share), off(k_at + k_turn * share)});
+  }
+  EXPECT_LT(worst, 9e-5);
+  EXPECT_LT(spline->position.size(), 40u);
 }
 
 }  // namespace
