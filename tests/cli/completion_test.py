@@ -1,5 +1,6 @@
 """What shells offer at the Tab key, asked of the shells themselves; pages for man(1); what fusee says when nothing is asked of it."""
 
+import hashlib
 import json
 import shutil
 import subprocess
@@ -122,6 +123,18 @@ class Manual(harness.Scratch):
 
     def test_of_nothing(self):
         self.expect("manual biuld", 2, err="did you mean 'fusee build'")
+
+
+class Bytes(harness.Scratch):
+    """Completions and manual pages are files that are installed: same program, same bytes, whichever compiler made it."""
+
+    pinned = harness.SOURCE / "tests/cli/shared_words.sha256"
+
+    def test_are_the_pinned_ones(self):
+        made = {f"completion.{shell}": ["completion", shell] for shell in ["bash", "zsh", "fish"]}
+        made |= {"-".join(["fusee", *words]) + ".1": ["manual", *words] for words in [[], *([one] for one in commands())]}
+        now = "".join(f"{hashlib.sha256(self.fusee(line).stdout).hexdigest()}  {name}\n" for name, line in sorted(made.items()))
+        self.assertEqual(self.pinned.read_text(), now, f"where the change is meant, this is the new {self.pinned.name}:\n{now}")
 
 
 class Alone(harness.Scratch):
