@@ -83,7 +83,7 @@ TEST(WidePath, OverABoxHoldsEveryPathInIt) {
     ASSERT_TRUE(domain.possible);
     about_lift_off += lying > 0 && lying < static_cast<int>(inside.size());
     for (const auto& [one, span] : inside) {
-      const auto holds = [&](const Jet& jet, double value, double at_middle) {
+      const auto holds = [&, &one = one](const Jet& jet, double value, double at_middle) {
         constexpr double k_rounding = 1e-9;
         EXPECT_GE(value, jet.value.lower() - k_rounding);
         EXPECT_LE(value, jet.value.upper() + k_rounding);
