@@ -1,5 +1,6 @@
 #include "joint/outline_error.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fusee/joint/as_it_is.h"
@@ -17,6 +18,13 @@ void draw_wave_out(OutlinePoint& point, const OutlineError& outline) {
   const double slope = w.slope + w.slope * w.bend / rho;
   point.position -= support * point.normal + slope * Vec2(-point.normal.y(), point.normal.x());
   point.curvature_radius -= w.outward + w.bend;
+}
+
+/// A point whose normal is across the line between those beside it.
+Vec2 made_between(const Vec2& point, const Vec2& before, const Vec2& after, const OutlineError& outline) {
+  const Vec2 along = (after - before).normalized(), normal(along.y(), -along.x());
+  return point + Vec2(outline.runout_x, outline.runout_y) +
+         outline_wave(std::atan2(normal.y(), normal.x()), outline).outward * normal;
 }
 
 }  // namespace
@@ -43,24 +51,33 @@ SupportWave support_wave(double psi, double support, const OutlineError& outline
   return {w.outward + 0.5 * w.slope * w.slope / support, (c * sine - s * cosine) / n + 0.5 * squares / support};
 }
 
+OutlinePoint drawn_for_making(OutlinePoint point, const OutlineError& outline) {
+  draw_wave_out(point, outline);
+  point.position -= Vec2(outline.runout_x, outline.runout_y) + outline.offset * point.normal;
+  point.curvature_radius -= outline.offset;
+  return point;
+}
+
 void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline) {
   for (Outline* curve : {&synthesis.p1, &synthesis.p2}) {
-    for (OutlinePoint& point : curve->points) {
-      draw_wave_out(point, outline);
-      point.position -= Vec2(outline.runout_x, outline.runout_y) + outline.offset * point.normal;
-      point.curvature_radius -= outline.offset;
-    }
+    for (OutlinePoint& point : curve->points) point = drawn_for_making(point, outline);
   }
 }
 
 Polygon as_made(Polygon drawn, const OutlineError& outline) {
   const Polygon centred = drawn;
   const std::size_t n = drawn.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 along = (centred[(i + 1) % n] - centred[(i + n - 1) % n]).normalized();
-    drawn[i] += Vec2(outline.runout_x, outline.runout_y);
-    const Vec2 normal(along.y(), -along.x());
-    drawn[i] += outline_wave(std::atan2(normal.y(), normal.x()), outline).outward * normal;
+  for (std::size_t i = 0; i < n; ++i)
+    drawn[i] = made_between(drawn[i], centred[(i + n - 1) % n], centred[(i + 1) % n], outline);
+  return drawn;
+}
+
+Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside) {
+  const Polygon centred = drawn;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const std::size_t near_end = std::min({beside, i, drawn.size() - 1 - i}), away = std::max<std::size_t>(near_end, 1);
+    const std::size_t before = i < away ? 0 : i - away, after = std::min(i + away, drawn.size() - 1);
+    drawn[i] = made_between(drawn[i], centred[before], centred[after], outline);
   }
   return drawn;
 }

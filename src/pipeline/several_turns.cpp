@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fusee/analysis/plausibility.h"
 #include "fusee/base/text.h"
 #include "fusee/coil/helical_pulley.h"
 #include "fusee/coil/helical_rewind.h"
 #include "fusee/helix/synthesis.h"
+#include "fusee/joint/as_it_is.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/print.h"
 
@@ -94,6 +96,25 @@ std::string words_on_slopes(const Mechanism& mechanism) {
   return words;
 }
 
+void draw_for_making(Spiral& spiral, const OutlineError& outline) {
+  for (SpiralRow& row : spiral.rows) {
+    const OutlinePoint made = drawn_for_making({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho}, outline);
+    row.x = made.position.x();
+    row.y = made.position.y();
+    row.rho = made.curvature_radius;
+  }
+}
+
+FloorLine as_made(FloorLine drawn, const OutlineError& outline) {
+  Polygon plan;
+  for (const Vec3& point : drawn) plan.push_back(point.head<2>());
+  // Half-planes see each side of the floor's polygon several times: a normal is that of several sides.
+  constexpr std::size_t k_beside = 14;
+  plan = line_as_made(std::move(plan), outline, k_beside);
+  for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].head<2>() = plan[i];
+  return drawn;
+}
+
 void take_over(Product& product, const HelixProduct& helix) {
   SynthesisResult& synthesis = product.synthesis;
   synthesis = {};
@@ -116,7 +137,6 @@ std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism) 
   if (mechanism.pulley.winding == WindingChoice::one_turn) return "pulley.winding = \"one_turn\"";
   if (mechanism.pulley.method == Method::paper) return "pulley.method = \"paper\" draws no spirals";
   if (mechanism.sheath.is_there()) return "a tendon out of a sheath is not wound several times yet";
-  if (!(mechanism.identified == Imperfections{})) return "of a joint with [identified] none is made yet";
   return std::nullopt;
 }
 
@@ -143,9 +163,11 @@ bool design_several_turns(Product& product, double tolerance,
   HelixProduct& helix = product.helix.emplace();
   SynthesisOptions options;
   options.tolerance = tolerance;
+  options.drawn_out = -product.joint.outline.offset;
   helix.synthesis = synthesise_helix(mechanism, groove_of(mechanism), options);
   take_over(product, helix);
   if (!helix.synthesis.made()) return false;
+  for (HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
   if (before_step) before_step("making the body");
   helix.pulley =
       make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral, tolerance);
@@ -169,9 +191,10 @@ bool design_several_turns(Product& product, double tolerance,
 }
 
 HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh) {
-  const Mechanism& mechanism = product.joint.mechanism;
-  return rewind_helical(mesh, mechanism, product.synthesis.stroke, product.helix->laid(mechanism.guides.collar),
-                        product.pulley.layout.scale);
+  const JointAsItIs& joint = product.joint;
+  auto [floor1, floor2] = both_helical_floors(mesh, product.pulley.layout.scale);
+  return rewind_floors(as_made(std::move(floor1), joint.outline), as_made(std::move(floor2), joint.outline),
+                       with_inset(joint), product.synthesis.stroke, product.helix->laid(joint.mechanism.guides.collar));
 }
 
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh) {
@@ -208,7 +231,9 @@ Advice advice_for_several_turns(const Product& product, const std::function<bool
   const Judge judge{.obstacles =
                         [&](const Mechanism& changed) {
                           if (between_tries) between_tries();
-                          return obstacles_of(changed, k_trial_tolerance);
+                          DeclaredMechanism declared = product.file.mechanism;
+                          static_cast<Mechanism&>(declared) = changed;
+                          return obstacles_of(as_it_is(declared, LawSearch::brief).mechanism, k_trial_tolerance);
                         },
                     .made = made,
                     .is_dear = true};

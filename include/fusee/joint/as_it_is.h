@@ -34,10 +34,14 @@ JointAsItIs as_it_is(const DeclaredMechanism& declared, LawSearch search = LawSe
 /// `identified`.
 DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 
-/// Draws both curves further in and off the axis, so that they come out where they belong.
+/// A point of a curve further in and off the axis, so that it comes out where it belongs …
+OutlinePoint drawn_for_making(OutlinePoint point, const OutlineError& outline);
+/// … and all of both curves.
 void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline);
 /// Seen the other way: a floor drawn off the axis, on it …
 Polygon as_made(Polygon drawn, const OutlineError& outline);
+/// … of which an open line is known in many points on each side, so that normals are those of so many on either hand …
+Polygon line_as_made(Polygon drawn, const OutlineError& outline, std::size_t beside);
 /// … and the joint in which the tendon lies on a floor drawn further in as the real one lies on the made floor:
 /// thicker, over thinner pins.
 Mechanism with_inset(const JointAsItIs& joint);
