@@ -60,8 +60,11 @@ bool same_drawing(const DeclaredMechanism& a, const DeclaredMechanism& b) {
 std::string why_infeasible(const DeclaredMechanism& corrected) {
   SynthesisOptions options;
   options.advice = false;
-  const SynthesisResult made = synthesise(as_it_is(corrected).mechanism, options);
-  return made.made() ? "" : made.brief();
+  const Mechanism mechanism = as_it_is(corrected).mechanism;
+  const SynthesisResult made = synthesise(mechanism, options);
+  // Whether a body can be wound several times is left to the build.
+  const bool is_wound_on = need_several_turns(made) && !kept_to_one_turn(mechanism);
+  return made.made() || is_wound_on ? "" : made.brief();
 }
 
 // ---- errors ---------------------------------------------------------------------------------------------------------

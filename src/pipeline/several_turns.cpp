@@ -126,20 +126,6 @@ void take_over(Product& product, const HelixProduct& helix) {
 
 }  // namespace
 
-bool need_several_turns(const SynthesisResult& synthesis) {
-  const std::vector<Condition> failed = failed_of(synthesis.conditions);
-  return !failed.empty() && std::all_of(failed.begin(), failed.end(), [](const Condition& condition) {
-    return condition.name.rfind("one_turn_", 0) == 0;
-  });
-}
-
-std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism) {
-  if (mechanism.pulley.winding == WindingChoice::one_turn) return "pulley.winding = \"one_turn\"";
-  if (mechanism.pulley.method == Method::paper) return "pulley.method = \"paper\" draws no spirals";
-  if (mechanism.sheath.is_there()) return "a tendon out of a sheath is not wound several times yet";
-  return std::nullopt;
-}
-
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
   const DeclaredMechanism& mechanism = file.mechanism;
   if (mechanism.transmission || kept_to_one_turn(mechanism)) return std::nullopt;

@@ -12,11 +12,6 @@
 
 namespace fusee {
 
-/// The one thing that keeps these curves from being made is that they are longer than a turn.
-bool need_several_turns(const SynthesisResult& synthesis);
-/// Why this file's pulley is not wound several times; null where it is.
-std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism);
-
 /// What a joint of level tendons leaves out of one whose tendons are wound several times; null where they are not.
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file);
 /// with_doubts(), and that note.

@@ -86,6 +86,20 @@ SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& o
   return result;
 }
 
+bool need_several_turns(const SynthesisResult& synthesis) {
+  const std::vector<Condition> failed = failed_of(synthesis.conditions);
+  return !failed.empty() && std::all_of(failed.begin(), failed.end(), [](const Condition& condition) {
+    return condition.name.rfind("one_turn_", 0) == 0;
+  });
+}
+
+std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism) {
+  if (mechanism.pulley.winding == WindingChoice::one_turn) return "pulley.winding = \"one_turn\"";
+  if (mechanism.pulley.method == Method::paper) return "pulley.method = \"paper\" draws no spirals";
+  if (mechanism.sheath.is_there()) return "a tendon out of a sheath is not wound several times yet";
+  return std::nullopt;
+}
+
 const TransmissionPoint* SynthesisResult::home() const {
   const auto nearest = std::min_element(stroke.begin(), stroke.end(), [](const auto& a, const auto& b) {
     return std::abs(a.alpha) < std::abs(b.alpha);

@@ -62,4 +62,9 @@ struct SynthesisResult {
 
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options = {});
 
+/// The one thing that keeps these curves from being made is that they are longer than a turn.
+bool need_several_turns(const SynthesisResult& synthesis);
+/// Why a pulley is not wound several times; null where it is when one turn does not suffice.
+std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism);
+
 }  // namespace fusee
