@@ -137,15 +137,14 @@ TEST_P(Taut, TendonsAreAsLongAsAStringPulledTaut) {
   ASSERT_TRUE(made.product.tendons);
   const TendonModel& tendons = *made.product.tendons;
   const WrappedTendon& held = tendons.tendons[tendons.held == Side::left ? 0 : 1];
-  const double R = made.product.mechanism.joint.R;
   const AngleMap& map = made.product.curves.stands.middle;
   for (int i = 0; i <= 6; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 6.0), theta = map.theta(alpha);
     const Vec2 end(std::cos(theta) * held.end.x() + std::sin(theta) * held.end.y(),
                    std::cos(theta) * held.end.y() - std::sin(theta) * held.end.x());
     const double length = taut(held, end) + (held.mouth ? (*held.mouth - held.anchor).norm() : 0);
-    // A moment arm is no longer than R.
-    EXPECT_NEAR(length, held.home_length + tendons.length(alpha), R * (tendons.error + 1e-6))
+    // A moment arm is no longer than the lever.
+    EXPECT_NEAR(length, held.home_length + tendons.length(alpha), held.end.norm() * (tendons.error + 1e-6))
         << "theta " << degrees(theta);
   }
 }
