@@ -17,6 +17,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
+#include "fusee/kit/kit.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/pipeline.h"
 
@@ -164,6 +165,19 @@ double rewinding_limit(const SynthesisResult& synthesis) {
   return 0.005 * std::max(1.0, 8.0 / arm);
 }
 
+/// Plates to drill the joint by, each a sound solid, or what stands in another's place.
+void expect_plates_or_reasons(const Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const KitPlan plan = plan_kit(mechanism, product.synthesis, product.pulley.layout);
+  EXPECT_EQ(plan.made(), failed_of(plan.conditions).empty());
+  EXPECT_EQ(plan.made(), !plan.parts.empty());
+  for (const KitPart& part : plan.parts) {
+    if (part.places.empty()) continue;
+    for (const Check& check : check_mesh(printed_mesh(part, mechanism, product.pulley.layout)))
+      EXPECT_TRUE(check.ok) << part.name << " " << check.name << " " << check.value;
+  }
+}
+
 enum class WideEnd { made, refused, bad_input };
 
 WideEnd wide_end(const std::string& text) {
@@ -184,6 +198,7 @@ WideEnd wide_end(const std::string& text) {
       EXPECT_LT(degrees(wound.max_theta_error), rewinding_limit(built.product.synthesis))
           << "at alpha " << degrees(wound.max_theta_error_at);
     }
+    if (!built.product.helix) expect_plates_or_reasons(built.product);
     return WideEnd::made;
   } catch (const NoWideAdvice&) {
     return WideEnd::refused;
