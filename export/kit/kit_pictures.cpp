@@ -299,7 +299,8 @@ Figure kit_template_view(const KitProduct& product) {
     for (const OutlinePoint& point : outline.points) pitch.push_back(pulley_axis(mechanism) + point.position);
     figure.body += svg_path("main", paper(shown(pitch)), true);
     if (mechanism.sheath.is_there())
-      figure.body += svg_path("kit-bought-side kit-sheath", paper(shown(sheath_curve(mechanism, side))));
+      figure.body += "<g class=\"kit-sheath\" style=\"fill:none;stroke:#c9b48a;stroke-width:7\"><path d=\"" +
+                     path_data(paper(shown(sheath_curve(mechanism, side))), false) + "\"/></g>";
     if (const auto trace = trace_tendon(mechanism, outline, 0, 0))
       figure.body +=
           svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));

@@ -364,7 +364,7 @@ TEST(TemplatePage, DrawsDrumIdlersAndSheaths) {
                                    [](const OutputFile& file) { return file.name == "kit.html"; });
     ASSERT_NE(page, made.outputs.end());
     const bool sheathed = made.product.pulley.joint.mechanism.sheath.is_there();
-    EXPECT_EQ(page->bytes.find("class=\"kit-bought-side kit-sheath\"") != std::string::npos, sheathed);
+    EXPECT_EQ(page->bytes.find("class=\"kit-sheath\"") != std::string::npos, sheathed);
     EXPECT_EQ(page->bytes.find("Idlers onto bolts") != std::string::npos, !sheathed);
   }
 }
