@@ -232,6 +232,50 @@ std::string key_section(const KitProduct& product) {
   return html_section("numbers", "In short", numbers.html());
 }
 
+// ---- plates to drill by
+// ----------------------------------------------------------------------------------------------
+
+std::vector<std::string> template_words(const Mechanism& mechanism) {
+  const bool idlers = mechanism.guides.kind == GuideKind::idler;
+  std::vector<std::string> words{
+      "Drill base and link by their plates, or cut them (kit.dxf): every hole stands where the file has its axis.",
+      idlers ? "Idlers onto bolts at B and D, their grooves at the heights of both tendons."
+             : "Rods into B and D, upright: the tendons run on their outer sides.",
+      "The motor with the pulley at the large hole, P1 towards the base."};
+  if (mechanism.joint.drum_radius > 0)
+    words.push_back(
+        "The drum under the link, both on the axle: glue or screw them to each other, so that the tendons " +
+        std::string("lie on the drum at the heights of P1 and P2."));
+  if (mechanism.sheath.is_there())
+    words.push_back(
+        "Sheaths from beside the pins, straight down there, to the mouths over the pulley. Their length and "
+        "bends are the file’s; the part of the base with the pulley may stand anywhere.");
+  words.push_back("At home the link’s hole C stands straight away from the pulley over the axle.");
+  return words;
+}
+
+std::string template_sections(const KitProduct& product) {
+  const Mechanism& mechanism = product.pulley.joint.mechanism;
+  std::string rows, cuts;
+  for (const KitCut& cut : kit_cuts(product))
+    cuts += "<tr>" + html_cell(cut.side == Side::left ? "Tendon 1" : "Tendon 2") +
+            html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
+            html_cell(winding_words(cut.side)) + "</tr>";
+  for (const Condition& condition : product.plan.conditions)
+    rows += "<tr>" + html_cell(plain_name(condition.name)) + html_number_cell(mm(condition.value, 2)) +
+            html_number_cell(mm(condition.limit, 2)) + "</tr>";
+  return html_section("assembly", "Where everything stands",
+                      "<div class=\"pictures\"><div>" + inline_svg(kit_template_view(product)) + "</div><div>" +
+                          html_list(template_words(mechanism), "ol") + "</div></div>") +
+         html_section(
+             "tendons", "Tendons",
+             html_table({"", "# taut, at home", "# cut at", "which way it is wound"}, cuts) +
+                 "<p class=\"hint\">Taut: from the knot on the pulley to that at its end on the link, with " +
+                 std::string(mechanism.sheath.is_there() ? "what lies in its sheath" : "all that it runs over") +
+                 ".</p>") +
+         html_section("fit", "Between holes", html_table({"", "# distance", "# at least"}, rows));
+}
+
 }  // namespace
 
 std::string kit_html(const KitProduct& product) {
@@ -239,13 +283,16 @@ std::string kit_html(const KitProduct& product) {
   if (!product.plan.notes.empty())
     notes = "<section class=\"warnings\">" + html_list(product.plan.notes) + "</section>";
   const std::string spec = std::filesystem::path(product.pulley.file.path).filename().string();
+  const bool drilled = product.plan.drilled;
   Page page{.title = "test model",
             .kicker = "Test model",
             .name = product.pulley.joint.mechanism.name,
             .source = "for <code>" + safe_text(spec) + "</code>",
-            .body = notes + key_section(product) + coupon_section(product.pulley.joint.mechanism) +
-                    parts_section(product) + items_section(product) + pictures(product) + tendon_section(product) +
-                    fit_section(product) + plan_steps_html(product.bench),
+            .body = notes + (drilled ? std::string() : key_section(product)) +
+                    coupon_section(product.pulley.joint.mechanism) + parts_section(product) + items_section(product) +
+                    (drilled ? template_sections(product)
+                             : pictures(product) + tendon_section(product) + fit_section(product)) +
+                    plan_steps_html(product.bench),
             .foot = "Lengths in mm. What was not measured is said to be assumed.",
             .styles = {embedded::page_css, embedded::plan_css, embedded::kit_css, embedded::figure_css},
             .scripts = {}};

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "export/report/tendon_trace.h"
 #include "fusee/base/text.h"
@@ -253,6 +256,55 @@ Figure kit_plan_view(const KitProduct& product) {
           svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));
   }
   for (const Polygon& link : links) figure.body += svg_path("main", paper(shown(link)), true);
+  return figure;
+}
+
+Figure kit_template_view(const KitProduct& product) {
+  const Product& made = product.pulley;
+  const Mechanism& mechanism = made.joint.mechanism;
+  Paper paper;
+  const auto shown = [](const std::vector<Vec2>& points) {
+    std::vector<Vec2> result;
+    for (const Vec2& p : points) result.emplace_back(p.x(), -p.y());
+    return result;
+  };
+  std::vector<std::pair<std::string, Polygon>> drawn;
+  for (const char* name : {"base_template", "drum", "link_template"}) {
+    for (const KitPart& part : product.plan.parts) {
+      if (part.name != name) continue;
+      const bool link = part.places.front().on_link, drum = part.name == "drum";
+      for (const SlabLoop& loop : part.body.slabs.front().loops)
+        drawn.emplace_back(loop.hole ? "main"
+                           : drum    ? "kit-new-top"
+                           : link    ? "main"
+                                     : "kit-top",
+                           outline_of(loop.hull));
+    }
+  }
+  for (const auto& [classes, outline] : drawn) {
+    for (const Vec2& p : shown(outline)) paper.include(p);
+  }
+  Figure figure{k_picture_width, k_picture_height, "From above, at home: base, drum and link with their holes", {}, {}};
+  for (const auto& [classes, outline] : drawn) figure.body += svg_path(classes, paper(shown(outline)), true);
+  const auto circle = [&](const std::string& classes, const Vec2& place, double radius) {
+    figure.body += svg_path(classes, paper(shown(outline_of(disc(place, radius)))), true);
+  };
+  for (const KitPin& pin : product.plan.pins) {
+    circle("kit-bought-top", pin.place, pin.radius);
+    if (mechanism.guides.kind == GuideKind::idler) circle("kit-bought-top", pin.place, mechanism.guides.bearing_radius);
+  }
+  for (const Side side : {Side::left, Side::right}) {
+    const Outline& outline = side == Side::left ? made.synthesis.p1 : made.synthesis.p2;
+    Polygon pitch;
+    for (const OutlinePoint& point : outline.points) pitch.push_back(pulley_axis(mechanism) + point.position);
+    figure.body += svg_path("main", paper(shown(pitch)), true);
+    if (mechanism.sheath.is_there())
+      figure.body += "<g class=\"kit-sheath\" style=\"fill:none;stroke:#c9b48a;stroke-width:7\"><path d=\"" +
+                     path_data(paper(shown(sheath_curve(mechanism, side))), false) + "\"/></g>";
+    if (const auto trace = trace_tendon(mechanism, outline, 0, 0))
+      figure.body +=
+          svg_path(side == Side::left ? "kit-tendon p1" : "kit-tendon p2 whole", paper(shown(trace->free_path)));
+  }
   return figure;
 }
 

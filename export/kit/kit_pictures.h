@@ -27,4 +27,7 @@ Figure kit_picture(const KitProduct& product, const std::vector<KitStep>& steps,
 /// The joint from above, with the room that the link takes over the range.
 Figure kit_plan_view(const KitProduct& product);
 
+/// The same of a joint whose kit is plates to drill by: drum, ends, pins or idlers, sheaths and their mouths, pulley.
+Figure kit_template_view(const KitProduct& product);
+
 }  // namespace fusee

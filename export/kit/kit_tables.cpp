@@ -49,6 +49,7 @@ KitJson parts_json(const KitProduct& product) {
 
 KitJson places_json(const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
+  if (plan.drilled) return {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}}};
   KitJson feet = KitJson::array();
   for (const Vec2& foot : plan.feet) feet.push_back(point_json(foot));
   return {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}},

@@ -74,13 +74,17 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
   tendon.side = std::string_view(equality.attribute("tendon1").value()) == "tendon_1" ? Side::left : Side::right;
   const std::string n = tendon.side == Side::left ? "1" : "2";
   const pugi::xml_node spatial = named(root.child("tendon"), "spatial", "tendon_" + n);
-  const pugi::xml_node pin = spatial.child("geom")
-                                 ? named(world, "geom", spatial.child("geom").attribute("geom").value())
-                                 : named(world, "site", "over_" + n);
-  tendon.pin = point_in(pin);
-  tendon.rho = spatial.child("geom") ? 1e3 * numbers_in(pin.attribute("size").value()).front() : 0;
+  const pugi::xml_node link = named(world, "body", "link");
+  tendon.end = point_in(named(link, "site", spatial.child("site").attribute("site").value()));
+  for (const pugi::xml_node& wrapped : spatial.children("geom")) {
+    const std::string name = wrapped.attribute("geom").value();
+    const bool on_link = name == "drum";
+    const pugi::xml_node cylinder = named(on_link ? link : world, "geom", name);
+    (on_link ? tendon.drum : tendon.rho) = 1e3 * numbers_in(cylinder.attribute("size").value()).front();
+    if (!on_link) tendon.pin = point_in(cylinder);
+  }
+  if (tendon.rho == 0) tendon.pin = point_in(named(world, "site", "over_" + n));
   tendon.anchor = point_in(named(world, "site", "anchor_" + n));
-  const double R = point_in(named(named(world, "body", "link"), "site", "C_" + n)).y();
   Polynomial length{numbers_in(equality.attribute("polycoef").value())};
   double arm = 1e3;
   const double coef = named(root.child("tendon"), "fixed", equality.attribute("tendon2").value())
@@ -91,7 +95,7 @@ double error_of_tendons_xml(const ModelProduct& product, const std::vector<Outpu
     c *= arm;
     arm *= coef;
   }
-  return tendon_error(tendon, R, length, product.curves.stands.middle);
+  return tendon_error(tendon, length, product.curves.stands.middle);
 }
 
 double error_of_urdf(const ModelProduct& product, const std::vector<OutputFile>& outputs) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 #include "export/model/words.h"
 #include "export/tool.h"
@@ -124,6 +127,106 @@ std::string pins(const Mechanism& mechanism, double rho_if_none) {
   return text;
 }
 
+/// Of joint.xml: where the tendons come from is drawn, and holds nothing.
+std::string drum(const Mechanism& mechanism) {
+  if (!(mechanism.joint.drum_radius > 0)) return "";
+  const Attachment& centre = mechanism.joint.drum_centre;
+  return "      <geom name=\"drum\" type=\"cylinder\" pos=\"" + place({centre.across, centre.along}) + "\" size=\"" +
+         metres(mechanism.drum_pitch_radius()) + " 0.006\" rgba=\"0.35 0.5 0.65 0.6\"/>\n";
+}
+
+std::string site(const std::string& name, const Vec2& at, double z) {
+  return "site name=\"" + name + "\" pos=\"" + place(at, z) + "\" size=\"0.001\"/>\n";
+}
+
+std::string side_site(const std::string& name, const Vec2& at, double z) {
+  return "site name=\"" + name + "\" pos=\"" + place(at, z) + "\" size=\"0.0005\" rgba=\"0 0 0 0\"/>\n";
+}
+
+/// Sites of the world and of the link, and what a tendon goes through.
+struct TendonText {
+  std::string world, link, way;
+
+  void through(const std::string& name) { way += "      <site site=\"" + name + "\"/>\n"; }
+  void round(const std::string& geom, const std::string& beside) {
+    way += "      <geom geom=\"" + geom + "\" sidesite=\"" + beside + "\"/>\n";
+  }
+};
+
+void add_drum(TendonText& text, const WrappedTendon& tendon, const std::string& n, double z) {
+  for (std::size_t i = 0; i < tendon.on_drum.size(); ++i) {
+    const std::string name = "on_drum_" + n + "_" + std::to_string(i + 1);
+    text.link += "      <" + site(name, tendon.on_drum[i], z);
+    text.through(name);
+  }
+  text.world += "    <" + side_site("beside_drum_" + n, tendon.drum_outer, z);
+  text.world += "    <" + site("off_drum_" + n, tendon.off_drum, z);
+  text.round("drum", "beside_drum_" + n);
+  text.through("off_drum_" + n);
+}
+
+TendonText text_of(const WrappedTendon& tendon, bool ends_in_C) {
+  TendonText text;
+  const std::string n = number_of(tendon.side), end = (ends_in_C ? "C_" : "A_") + n;
+  const double z = tendon.side == Side::left ? -k_tendon_height : k_tendon_height;
+  text.world += "    <" + site("anchor_" + n, tendon.anchor, z);
+  text.link += "      <" + site(end, tendon.end, z);
+  text.through(end);
+  if (tendon.drum > 0) add_drum(text, tendon, n, z);
+  if (tendon.rho > 0) {
+    text.world += "    <" + side_site("outer_" + n, tendon.outer, z);
+    text.round(pin_name(tendon.side), "outer_" + n);
+  } else {
+    text.world += "    <" + site("over_" + n, tendon.pin, z);
+    text.through("over_" + n);
+  }
+  text.through("anchor_" + n);
+  if (tendon.mouth) {
+    text.world += "    <" + site("mouth_" + n, *tendon.mouth, z);
+    text.through("mouth_" + n);
+  }
+  return text;
+}
+
+/// What the tendons run over, and what of that MuJoCo cannot have.
+std::vector<std::string> way_words(const ModelProduct& product) {
+  const TendonModel& model = *product.tendons;
+  const Mechanism& mechanism = product.mechanism;
+  const std::string held = number_of(model.held);
+  const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler" : "pin";
+  const std::string taken = model.length.c.size() == 2 ? " is its radius times alpha: P" + held + " is round."
+                                                       : " is a polynomial of alpha (degree 4).";
+  const std::string misses =
+      "It misses theta(alpha) by " + at_most_deg(model.error) + " deg at most, over the whole range.";
+  const std::string draws = " The other tendon is drawn, and holds nothing:";
+  if (mechanism.is_papers()) {
+    return {
+        "Both tendons run over their pins; MuJoCo wraps them round cylinders and spheres only, so that below its pin "
+        "each ends",
+        "at a point that stands still, and what pulley P" + held + " takes of tendon " + held + taken, misses + draws,
+        "its length follows from theta. No friction at the pins: MuJoCo's tendons have none."};
+  }
+  std::vector<std::string> lines{
+      std::string(mechanism.joint.drum_radius > 0 ? "Tendons run over the link's drum and their "
+                                                  : "Tendons run over their ") +
+          pin + "s; MuJoCo wraps them round cylinders and spheres only, so that below its " + pin + " each ends",
+      "at a point that stands still, and what pulley P" + held + " takes of tendon " + held + taken};
+  const bool both = model.left_out[0].empty() && model.left_out[1].empty();
+  lines.push_back(misses + (both ? draws : ""));
+  if (both) lines.push_back("its length follows from theta.");
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!model.left_out[i].empty())
+      lines.push_back("Tendon " + std::to_string(i + 1) + " is not in this file: " + model.left_out[i] + ".");
+  }
+  if (mechanism.sheath.is_there())
+    lines.push_back(
+        "Between the mouths of its sheath a tendon is drawn straight: the sheath's own way and length, its "
+        "stretch and its friction are not in this file.");
+  lines.push_back("No friction at drum, pins and bearings: MuJoCo's tendons have none" +
+                  std::string(pin == "idler" ? ", and idlers stand still." : "."));
+  return lines;
+}
+
 }  // namespace
 
 std::string mujoco_joint_xml(const ModelProduct& product) {
@@ -136,7 +239,7 @@ std::string mujoco_joint_xml(const ModelProduct& product) {
           rounded(100 * fit.slope_error, 2) + " % at most.",
       k_gives_way};
   return opening(product, body, coupling) +
-         bodies(product, body, pins(product.mechanism, 0.01 * product.mechanism.joint.R), "") +
+         bodies(product, body, pins(product.mechanism, 0.01 * product.mechanism.joint.R), drum(product.mechanism)) +
          "  <equality>\n    <joint joint1=\"" + (fit.of_alpha ? "theta" : "alpha") + "\" joint2=\"" +
          (fit.of_alpha ? "alpha" : "theta") + "\" polycoef=\"" + numbers(fit.p.c) + "\" " + stiff(body) +
          "/>\n  </equality>\n" + ending(product, body);
@@ -147,38 +250,23 @@ std::string mujoco_tendons_xml(const ModelProduct& product) {
   const Mechanism& mechanism = product.mechanism;
   const SimulatedBody body = body_of(product);
   const std::string held = number_of(model.held);
-  const bool round = model.length.c.size() == 2;
-  const std::vector<std::string> coupling = {
-      "Both tendons run over their pins; MuJoCo wraps them round cylinders and spheres only, so that below its pin "
-      "each ends",
-      "at a point that stands still, and what pulley P" + held + " takes of tendon " + held +
-          (round ? " is its radius times alpha: P" + held + " is round." : " is a polynomial of alpha (degree 4)."),
-      "It misses theta(alpha) by " + at_most_deg(model.error) +
-          " deg at most, over the whole range. The other tendon is drawn, and holds nothing:",
-      "its length follows from theta. No friction at the pins: MuJoCo's tendons have none.", k_gives_way};
-  std::string world, link, tendons;
-  for (const WrappedTendon& tendon : model.tendons) {
-    const std::string n = number_of(tendon.side);
-    const double z = tendon.side == Side::left ? -k_tendon_height : k_tendon_height;
-    world += "    <site name=\"anchor_" + n + "\" pos=\"" + place(tendon.anchor, z) + "\" size=\"0.001\"/>\n";
-    link += "      <site name=\"C_" + n + "\" pos=\"" + place({0, mechanism.joint.R}, z) + "\" size=\"0.001\"/>\n";
-    tendons += "    <spatial name=\"tendon_" + n + "\" width=\"" +
+  std::vector<std::string> coupling = way_words(product);
+  coupling.push_back(k_gives_way);
+  std::string world, link = drum(mechanism), tendons;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!model.left_out[i].empty()) continue;
+    const WrappedTendon& tendon = model.tendons[i];
+    const TendonText text = text_of(tendon, !(i == 0 ? mechanism.joint.attachment1 : mechanism.joint.attachment2));
+    world += text.world;
+    link += text.link;
+    tendons += "    <spatial name=\"tendon_" + number_of(tendon.side) + "\" width=\"" +
                metres(std::max(0.5 * mechanism.tendon.diameter, 0.004 * mechanism.joint.R)) +
-               "\" rgba=\"0.8 0.2 0.2 1\">\n      <site site=\"C_" + n + "\"/>\n";
-    if (tendon.rho > 0) {
-      world += "    <site name=\"outer_" + n + "\" pos=\"" + place(tendon.outer, z) +
-               "\" size=\"0.0005\" rgba=\"0 0 0 0\"/>\n";
-      tendons += "      <geom geom=\"" + pin_name(tendon.side) + "\" sidesite=\"outer_" + n + "\"/>\n";
-    } else {
-      world += "    <site name=\"over_" + n + "\" pos=\"" + place(tendon.pin, z) + "\" size=\"0.001\"/>\n";
-      tendons += "      <site site=\"over_" + n + "\"/>\n";
-    }
-    tendons += "      <site site=\"anchor_" + n + "\"/>\n    </spatial>\n";
+               "\" rgba=\"0.8 0.2 0.2 1\">\n" + text.way + "    </spatial>\n";
   }
   // Of the size of the true moment arm: MuJoCo makes a constraint as soft as the inertia of both sides, unscaled, asks
   // for.
   const double arm = std::stod(rounded(body.pulley_radius, 3));
-  const double drawn = model.tendons[0].rho > 0 ? 0 : 0.01 * mechanism.joint.R;
+  const double drawn = mechanism.seen_pitch_radius() > 0 ? 0 : 0.01 * mechanism.joint.R;
   return opening(product, body, coupling) + bodies(product, body, pins(mechanism, drawn) + world, link) +
          "  <tendon>\n" + tendons + "    <fixed name=\"wound\">\n      <joint joint=\"alpha\" coef=\"" + number(arm) +
          "\"/>\n    </fixed>\n  </tendon>\n  <equality>\n    <tendon tendon1=\"tendon_" + held +

@@ -25,12 +25,11 @@ std::string ranges_words(const std::vector<AlphaRange>& ranges) {
   return words.empty() ? "nowhere" : words;
 }
 
-std::string key_numbers_of(const AnalysisResult& result) {
+std::string key_numbers_of(const AnalysisResult& result, const Mechanism& mechanism) {
   const TensionExtreme& most = result.largest_tension;
   KeyNumbers numbers;
   numbers.add("Largest tension", with_unit(most.tension, "N"),
-              std::string(most.tendon == Side::left ? "tendon 1 " : "tendon 2 ") +
-                  (most.below_pin ? "below its pin, " : "above its pin, ") + at_words(most.alpha));
+              place_words(most, mechanism) + ", " + at_words(most.alpha));
   numbers.add("By the paper’s chain", with_unit(result.largest_paper_tension.value, "N"),
               at_words(result.largest_paper_tension.alpha));
   if (result.strength)
@@ -58,9 +57,12 @@ PlotAxis axis_of(const std::string& label, const std::string& unit, double least
   return {label, unit, {}, {}, least_span};
 }
 
-std::string plots(const AnalysisResult& result) {
+std::string plots(const AnalysisResult& result, const Mechanism& mechanism) {
   const PlotAxis alpha = axis_of("pulley angle α", "°", 1e-6);
-  Plot tension{"Tension below the pins, α growing", alpha, axis_of("tension", "N", 0.1), {}, {}, {}};
+  const std::string where = mechanism.sheath.is_there()                 ? "behind the sheaths, at the pulley"
+                            : mechanism.guides.kind == GuideKind::idler ? "below the idlers"
+                                                                        : "below the pins";
+  Plot tension{"Tension " + where + ", α growing", alpha, axis_of("tension", "N", 0.1), {}, {}, {}};
   tension.series = {{"tendon 1", Ink::p1, over_rows(result, [](const auto& r) { return r.rising.t1.lower; })},
                     {"tendon 2", Ink::p2, over_rows(result, [](const auto& r) { return r.rising.t2.lower; })},
                     {"the paper’s T_b", Ink::third, over_rows(result, [](const auto& r) { return r.paper.Tb; }), true}};
@@ -131,9 +133,9 @@ std::string analysis_html(const MechanismFile& file, const AnalysisResult& resul
        .kicker = "Analysis",
        .name = file.mechanism.name,
        .source = "of <code>" + safe_text(std::filesystem::path(file.path).filename().string()) + "</code>",
-       .body = said_section(said) + html_section("numbers", "Key numbers", key_numbers_of(result)) +
+       .body = said_section(said) + html_section("numbers", "Key numbers", key_numbers_of(result, file.mechanism)) +
                html_section("moving", "The joint moves", moving.empty() ? "" : std::string(k_moving_words) + moving) +
-               html_section("forces", "Over the range", plots(result)) +
+               html_section("forces", "Over the range", plots(result, file.mechanism)) +
                html_section("budget", "What makes the joint miss its angle", sources_table(result.sources)) +
                html_section("tolerances", "Tolerances",
                             "<p class=\"lead\">Each dimension within " + safe_text(with_unit(options.tolerance, "mm")) +

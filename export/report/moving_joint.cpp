@@ -192,11 +192,12 @@ std::string effect_controls(const RehearsedEffect& effect, std::size_t number) {
          "</div>";
 }
 
-std::string numbers_list(bool imperfect) {
+std::string numbers_list(bool imperfect, const Joint& joint) {
   return "<dl class=\"numbers\" hidden=\"hidden\">" + number_row("Joint angle θ, declared", "theta") +
          number_row(imperfect ? "θ as the sensor shows it" : "θ under the load", "loaded") +
          number_row("dθ/dα", "slope") + number_row("r1, r2", "radii") +
-         number_row("Tendon 1, at C / at P1", "tendon1") + number_row("Tendon 2, at C / at P2", "tendon2") +
+         number_row(joint.attachment1 ? "Tendon 1, at A1 / at P1" : "Tendon 1, at C / at P1", "tendon1") +
+         number_row(joint.attachment2 ? "Tendon 2, at A2 / at P2" : "Tendon 2, at C / at P2", "tendon2") +
          number_row("Motor torque", "torque") + number_row("Turning", "way") +
          (imperfect ? number_row("Off the declared law", "off") : "") + "</dl>";
 }
@@ -208,8 +209,9 @@ std::string moving(const Mechanism& mechanism, const SynthesisResult& synthesis,
   html += "<div class=\"scenes\">";
   for (const Figure& figure : moving_figures(mechanism, synthesis))
     html += "<div>" + inline_svg(figure) + "</div>";
-  return html + "</div>" + numbers_list(!effects.empty()) + "<script type=\"application/json\" id=\"motion\">" +
-         motion_json(mechanism, synthesis, strokes, effects) + "</script></div>";
+  return html + "</div>" + numbers_list(!effects.empty(), mechanism.joint) +
+         "<script type=\"application/json\" id=\"motion\">" + motion_json(mechanism, synthesis, strokes, effects) +
+         "</script></div>";
 }
 
 }  // namespace

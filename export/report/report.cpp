@@ -296,11 +296,35 @@ std::vector<Pose> poses(const Product& product) {
   return result;
 }
 
-constexpr std::string_view k_mechanism_words =
-    "<p class=\"lead\">To scale. Both tendons run on their true path at the centre line: from C over the pin to the "
-    "pulley, and along the groove to their anchor.\nThe pulleys are shown by their pitch curves; the dash-dotted ray "
-    "points to home.</p>\n<p class=\"key\"><span class=\"swatch p1\">tendon 1, pulley P1</span><span class=\"swatch "
-    "p2\">tendon 2, pulley P2</span><span class=\"swatch dot\">take-off point</span></p>\n";
+/// Where the tendons end, and what they run over on their way to the pulley.
+std::string way_words(const Mechanism& mechanism) {
+  if (mechanism.is_papers()) return "from C over the pin to the pulley";
+  std::string words = mechanism.joint.is_plain() ? "from C" : "from their ends on the link";
+  if (mechanism.joint.drum_radius > 0) words += ", on its drum as far as they touch it,";
+  words += mechanism.guides.kind == GuideKind::idler ? " over the idlers" : " over the pins";
+  return words +
+         (mechanism.sheath.is_there() ? ", through their sheaths (drawn shorter) to the pulley" : " to the pulley");
+}
+
+std::string mechanism_words(const Mechanism& mechanism) {
+  return "<p class=\"lead\">To scale. Both tendons run on their true path at the centre line: " + way_words(mechanism) +
+         ", and along the groove to their anchor.\nThe pulleys are shown by their pitch curves; the dash-dotted ray "
+         "points to home.</p>\n<p class=\"key\"><span class=\"swatch p1\">tendon 1, pulley P1</span><span "
+         "class=\"swatch p2\">tendon 2, pulley P2</span><span class=\"swatch dot\">take-off point</span></p>\n";
+}
+
+/// "C → pin B → P1".
+std::string path_words(const Mechanism& mechanism, Side side) {
+  const bool left = side == Side::left;
+  const bool own = (left ? mechanism.joint.attachment1 : mechanism.joint.attachment2).has_value();
+  std::string words = !own ? "C" : left ? "A1" : "A2";
+  if (mechanism.joint.drum_radius > 0) words += " → drum";
+  words += mechanism.guides.kind == GuideKind::idler ? " → idler " : " → pin ";
+  words += left ? "B" : "D";
+  if (mechanism.sheath.is_there()) words += " → sheath";
+  return words + (left ? " → P1, lower groove" : " → P2, upper groove");
+}
+
 constexpr std::string_view k_profile_words =
     "<p class=\"lead\">Radii are measured to the tendon’s centre line, before the scale for shrinkage. a: anchor under "
     "load; s: spare anchor.</p>\n";
@@ -322,10 +346,20 @@ std::string moving_section(const Product& product) {
   return "<section id=\"moving\"><h2>The joint moves</h2>" + std::string(k_moving_words) + joint + "</section>";
 }
 
-std::string forces_section(const Product& product) {
-  const std::vector<Plot> plots = force_plots(product);
+std::string torques_section(const Product& product) {
+  const std::vector<Plot> plots = torque_plots(product);
   if (plots.empty()) return "";
-  return "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" +
+  return "<section id=\"torques\"><h2>Torques</h2><p class=\"lead\">What the motor is wanted to turn with, and what it "
+         "takes: without friction, from the angles of the pulley as it was wound; and with stretch and friction, α "
+         "growing and falling.</p><div class=\"plots\">" +
+         all_in_divs(plots) + "</div></section>";
+}
+
+std::string forces_section(const Product& product) {
+  const std::string torques = torques_section(product);
+  const std::vector<Plot> plots = force_plots(product);
+  if (plots.empty()) return torques;
+  return torques + "<section id=\"forces\"><h2>Forces</h2><p class=\"lead\">" +
          safe_text(with_unit(product.joint.mechanism.load.tip_force, "N")) +
          " at the tip, across OC, tendon 1 slack: the paper’s equations 6 to 11.</p><div class=\"plots\">" +
          all_in_divs(plots) + "</div></section>";
@@ -333,25 +367,27 @@ std::string forces_section(const Product& product) {
 
 // Making --------------------------------------------------------------------------------------------------------------
 
-std::string tendon_row(const TendonLength& tendon) {
+std::string tendon_row(const TendonLength& tendon, const Mechanism& mechanism) {
   const bool left = tendon.side == Side::left;
-  return "<tr><td>" + std::string(left ? "Tendon 1" : "Tendon 2") + "</td><td>" +
-         (left ? "C → pin B → P1, lower groove" : "C → pin D → P2, upper groove") + "</td><td class=\"number\">" +
-         readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" + readable(tendon.cut, 0) +
-         " mm</td><td class=\"number\">" + readable(degrees(tendon.spare_lap), 0) + "°</td></tr>";
+  return "<tr><td>" + std::string(left ? "Tendon 1" : "Tendon 2") + "</td><td>" + path_words(mechanism, tendon.side) +
+         "</td><td class=\"number\">" + readable(tendon.between_knots, 1) + " mm</td><td class=\"number\">" +
+         readable(tendon.cut, 0) + " mm</td><td class=\"number\">" + readable(degrees(tendon.spare_lap), 0) +
+         "°</td></tr>";
 }
 
 std::string tendon_table(const Product& product) {
   std::string rows;
-  for (const TendonLength& tendon : tendon_lengths(product)) rows += tendon_row(tendon);
+  for (const TendonLength& tendon : tendon_lengths(product)) rows += tendon_row(tendon, product.joint.mechanism);
   if (rows.empty()) return "";
   return "<h3>Tendons</h3><div class=\"scroll\"><table><thead><tr><th></th><th>Path</th><th class=\"number\">Knot to "
          "knot</th>"
          "<th class=\"number\">Cut at</th><th class=\"number\">Left on the pulley at full "
          "pay-out</th></tr></thead><tbody>" +
-         rows +
-         "</tbody></table></div><p class=\"hint\">From C to the knot’s pocket, taut, with the joint and the pulley at "
-         "home. The cut holds that, both knots, and a tail of 50 mm at each end to pull them tight with, rounded up to 5 mm.</p>";
+         rows + "</tbody></table></div><p class=\"hint\">From " +
+         std::string(product.joint.mechanism.joint.is_plain() ? "C" : "its end") +
+         " to the knot’s pocket, taut, with the joint and the pulley at "
+         "home. The cut holds that, both knots, and a tail of 50 mm at each end to pull them tight with, rounded up to "
+         "5 mm.</p>";
 }
 
 std::string knot_row(const KnotHold& knot, const Holding& holding) {
@@ -414,6 +450,16 @@ std::string polyhole_words(const BoreLayout& bore) {
          with_unit(bore.circle->diameter, "mm") + ": try the shaft in it.";
 }
 
+/// How a tendon is led from its pulley to its end.
+std::string lead_words(const Mechanism& mechanism) {
+  const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler " : "pin ";
+  const std::string over = mechanism.sheath.is_there() ? "through its sheath, over the " : "up over the ";
+  std::string to = " to C";
+  if (!mechanism.joint.is_plain())
+    to = mechanism.joint.drum_radius > 0 ? " and the drum to its end on the link" : " to its end on the link";
+  return over + "outer side of " + pin + "B" + to + "; tendon 2 likewise from P2 over " + pin + "D.";
+}
+
 std::vector<std::string> steps(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
   std::vector<std::string> items{
@@ -431,8 +477,8 @@ std::vector<std::string> steps(const Product& product) {
     items.push_back(helix_heights(product));
   } else
     items.push_back(
-        "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it up over the "
-        "outer side of pin B to C; tendon 2 likewise from P2 over pin D.");
+        "Hold the joint at home. Knot tendon 1 into P1’s anchor, lay it into the lower groove and lead it " +
+        lead_words(product.joint.mechanism));
   items.push_back("Tighten both until tendon 1 carries " + with_unit(product.joint.mechanism.tendon.pretension, "N") +
                   " at home, then turn the pulley over the whole stroke: neither may go slack.");
   return items;
@@ -539,7 +585,7 @@ std::string report_html(const Product& product) {
           {"key_numbers", key_numbers(product)},
           {"part", part_view(product)},
           {"moving", moving_section(product)},
-          {"mechanism_words", std::string(product.helix ? k_helix_words : k_mechanism_words)},
+          {"mechanism_words", product.helix ? std::string(k_helix_words) : mechanism_words(product.joint.mechanism)},
           {"mechanism_class", product.helix ? "plots" : "panels"},
           {"mechanism", mechanism_panels(product)},
           {"transmission_plots", all_in_divs(transmission_plots(product))},

@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "export/report/tables.h"
+#include "fusee/base/units.h"
+#include "fusee/transmission/load.h"
 #include "fusee/transmission/tension.h"
 
 namespace fusee {
@@ -161,15 +168,99 @@ std::vector<Plot> as_built_plots(const Product& product) {
                         find_check(product, "slack"), [](const auto& p) { return p.slack; })};
 }
 
+namespace {
+
+const PlotAxis k_theta_axis{"joint angle θ", "°", {}, {}, 1e-6};
+
+std::vector<Vec2> wanted_torque(const Mechanism& mechanism) {
+  std::vector<Vec2> points;
+  for (const TorqueRow& row : mechanism.pulley.torque_rows) points.emplace_back(degrees(row.theta), row.torque);
+  if (points.empty()) {
+    for (const double theta : {mechanism.joint.theta_min, mechanism.joint.theta_max})
+      points.emplace_back(degrees(theta), mechanism.pulley.motor_torque);
+  }
+  return points;
+}
+
+/// What holds the load on the pulley as it was wound: load · dθ/dα, by differences of the wound angles over some
+/// degrees. The corners of facets, some 0.001° high, would be all that shows over less.
+std::vector<Vec2> torque_as_wound(const Product& product) {
+  const std::vector<RewindPoint>& wound = product.as_built.points;
+  constexpr double k_over = radians(4);
+  std::vector<Vec2> points;
+  for (std::size_t i = 0, first = 0, last = 0; i < wound.size(); ++i) {
+    while (last < wound.size() && wound[last].alpha < wound[i].alpha + k_over) ++last;
+    while (wound[first].alpha < wound[i].alpha - k_over) ++first;
+    if (last == wound.size()) break;
+    if (wound[i].alpha - wound.front().alpha < k_over) continue;
+    const double slope = (wound[last].theta - wound[first].theta) / (wound[last].alpha - wound[first].alpha);
+    const double theta = 0.5 * (wound[last].theta + wound[first].theta);
+    points.emplace_back(degrees(theta), law_load_torque(product.joint.mechanism, theta).value * slope);
+  }
+  return points;
+}
+
+std::vector<Vec2> torque_with_friction(const Product& product, bool rising) {
+  std::vector<Vec2> points;
+  for (const StrokePoint& at : product.holding.loaded) {
+    const EquilibriumPoint& point = rising ? at.rising : at.falling;
+    const bool held = point.status == EquilibriumStatus::held;
+    points.emplace_back(degrees(point.theta), held ? point.motor_torque : k_nan);
+  }
+  return points;
+}
+
+Plot motor_plot(const Product& product) {
+  Plot plot{"Motor torque that holds the load", k_theta_axis, {"torque towards +α", "N·mm", {}, {}, 1}, {}, {}, {}};
+  plot.series = {{"wanted", Ink::third, wanted_torque(product.joint.mechanism)},
+                 {"no friction", Ink::main, torque_as_wound(product)}};
+  if (!product.holding.loaded.empty()) {
+    plot.series.push_back({"α growing", Ink::p1, torque_with_friction(product, true), true});
+    plot.series.push_back({"α falling", Ink::p2, torque_with_friction(product, false), true});
+  }
+  return plot;
+}
+
+Plot load_plot(const Product& product) {
+  const Mechanism& mechanism = product.joint.mechanism;
+  const auto over_theta = [&](auto value) {
+    std::vector<Vec2> points;
+    for (const TransmissionPoint& at : product.synthesis.stroke)
+      points.emplace_back(degrees(at.theta), value(at.theta));
+    return points;
+  };
+  const auto spring = [&](double theta) { return mechanism.spring.torque(theta); };
+  const auto all = [&](double theta) { return law_load_torque(mechanism, theta).value; };
+  Plot plot{"What it holds, at the joint", k_theta_axis, {"torque against +θ", "N·mm", {}, {}, 1}, {}, {}, {}};
+  const bool sprung = mechanism.spring != Spring{};
+  plot.series = {{sprung ? "weight, force and spring" : "weight and force", Ink::main, over_theta(all)}};
+  if (!sprung) return plot;
+  plot.series.push_back({"spring", Ink::p2, over_theta(spring), true});
+  plot.series.push_back(
+      {"weight and force", Ink::p1, over_theta([&](double theta) { return all(theta) - spring(theta); }), true});
+  return plot;
+}
+
+}  // namespace
+
+std::vector<Plot> torque_plots(const Product& product) {
+  if (product.joint.mechanism.pulley.law != Law::torque || product.synthesis.stroke.empty()) return {};
+  return {motor_plot(product), load_plot(product)};
+}
+
 std::vector<Plot> force_plots(const Product& product) {
   const Mechanism& mechanism = product.joint.mechanism;
   if (mechanism.load.tip_force == 0) return {};
   const auto force = [&](auto value) {
     return over_alpha(product.synthesis, [&](const auto& p) { return value(paper_forces(mechanism, p)); });
   };
+  const std::string below = mechanism.sheath.is_there()                 ? "Tb, behind the sheath"
+                            : mechanism.guides.kind == GuideKind::idler ? "Tb, below the idler"
+                                                                        : "Tb, below the pin";
   Plot tension{"Tension of tendon 2 under the tip force", k_alpha_axis, {"tension", "N", 0.0, {}, 0.1}, {}, {}, {}};
-  tension.series = {{"T2, above the pin", Ink::p2, force([](const PaperForces& f) { return f.T2; })},
-                    {"Tb, below the pin (with friction)", Ink::main, force([](const PaperForces& f) { return f.Tb; })}};
+  tension.series = {{mechanism.guides.kind == GuideKind::idler ? "T2, above the idler" : "T2, above the pin", Ink::p2,
+                     force([](const PaperForces& f) { return f.T2; })},
+                    {below + " (with friction)", Ink::main, force([](const PaperForces& f) { return f.Tb; })}};
   Plot stretch{"Joint angle lost by stretch", k_alpha_axis, {"Δθ", "°", {}, {}, 1e-3}, {}, {}, {}};
   stretch.series = {{"Δθ", Ink::p2, force([](const PaperForces& f) { return degrees(f.theta_error); })}};
   return {tension, stretch};

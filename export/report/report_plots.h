@@ -17,6 +17,10 @@ std::vector<Plot> as_built_plots(const Product& product);
 /// Tension of tendon 2 and the joint angle that its stretch costs. None without a tip force.
 std::vector<Plot> force_plots(const Product& product);
 
+/// Of law = "torque", over θ: what the motor is wanted to turn with, what the pulley as wound makes of the load, and
+/// what it takes with friction and stretch, each way; what weight, force and spring ask of the joint.
+std::vector<Plot> torque_plots(const Product& product);
+
 /// The product's check of this name, or null.
 const Check* find_check(const Product& product, std::string_view name);
 

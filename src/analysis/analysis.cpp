@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "fusee/analysis/stroke.h"
@@ -140,6 +141,14 @@ std::optional<double> breaking_place(const AnalysisResult& result) {
 }
 
 }  // namespace
+
+std::string place_words(const TensionExtreme& extreme, const Mechanism& mechanism) {
+  const bool left = extreme.tendon == Side::left;
+  const std::string tendon = left ? "tendon 1 " : "tendon 2 ";
+  if (extreme.below_pin && mechanism.sheath.is_there()) return tendon + "between sheath and pulley";
+  const std::string pin = mechanism.guides.kind == GuideKind::idler ? "idler " : "pin ";
+  return tendon + (extreme.below_pin ? "below " : "above ") + pin + (left ? "B" : "D");
+}
 
 LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<double>& alphas) {
   LargestTensions largest;

@@ -32,22 +32,23 @@ std::string line(std::string title, const std::string& text) {
   return "  " + title + text + "\n";
 }
 
-std::string tension_line(const AnalysisResult& result) {
+std::string tension_line(const AnalysisResult& result, const Mechanism& mechanism) {
   const TensionExtreme& most = result.largest_tension;
-  const bool left = most.tendon == Side::left;
-  const std::string where = std::string("tendon ") + (left ? "1 " : "2 ") + (most.below_pin ? "below" : "above") + " pin " + (left ? "B" : "D");
-  return line("largest tension", rounded(most.tension) + " N, " + where + ", " + alpha_text(most.alpha) + (most.rising ? ", rising" : ", falling")) +
-         line("", "(paper: T_b " + rounded(result.largest_paper_tension.value) + " N, " + alpha_text(result.largest_paper_tension.alpha) + ")");
+  return line("largest tension", rounded(most.tension) + " N, " + place_words(most, mechanism) + ", " +
+                                     alpha_text(most.alpha) + (most.rising ? ", rising" : ", falling")) +
+         line("", "(paper: T_b " + rounded(result.largest_paper_tension.value) + " N, " +
+                      alpha_text(result.largest_paper_tension.alpha) + ")");
 }
 
-std::string strength_line(const AnalysisResult& result) {
+std::string strength_line(const AnalysisResult& result, const Mechanism& mechanism) {
   if (!result.strength) return line("tendon bears", "not known: set tendon.strength_N");
   const std::string source = result.strength->source == "tendon.strength_N" ? result.strength->source : result.strength->source + " of the catalogue";
   std::string margin;
   if (result.largest_tension.tension > 0) margin = ", " + rounded(result.strength->tension / result.largest_tension.tension, 3) + " times that";
   return line("tendon bears", rounded(result.strength->tension) + " N (" + source + ")" + margin) +
          line("", rounded(result.strength->at_knot) + " N at a knot (tendon.knot_efficiency)") +
-         line("", "at C it carries up to " + rounded(result.largest_at_joint.value) + " N");
+         line("", (mechanism.joint.is_plain() ? "at C" : "at its end") + std::string(" it carries up to ") +
+                      rounded(result.largest_at_joint.value) + " N");
 }
 
 std::string slack_lines(const AnalysisResult& result) {
@@ -82,8 +83,9 @@ std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
                cells);
 }
 
-std::string summary(const AnalysisResult& result, const AnalysisOptions& options) {
-  std::string text = "Summary\n" + tension_line(result) + strength_line(result) + slack_lines(result);
+std::string summary(const AnalysisResult& result, const AnalysisOptions& options, const Mechanism& mechanism) {
+  std::string text =
+      "Summary\n" + tension_line(result, mechanism) + strength_line(result, mechanism) + slack_lines(result);
   text += line("motor torque", "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
   text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " + alpha_text(result.hysteresis.alpha));
   text += "\nError budget\n" + sources_table(result.sources);
@@ -212,7 +214,8 @@ Reply run_analyze(const Arguments& arguments, Console& console) {
   write_result(arguments, file, result, options, reply);
   const bool csv = arguments.has("--csv");
   reply.text = csv ? stroke_csv(result.rows)
-                   : file.mechanism.name + "\n\n" + stroke_tables(result.rows, console.verbose()) + "\n" + summary(result, options);
+                   : file.mechanism.name + "\n\n" + stroke_tables(result.rows, console.verbose()) + "\n" +
+                         summary(result, options, file.mechanism);
   reply.fields["name"] = file.mechanism.name;
   reply.fields["summary"] = summary_json(result);
   reply.fields["error_budget"] = sources_json(result.sources);

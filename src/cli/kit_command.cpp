@@ -57,11 +57,14 @@ std::string kit_summary(const KitResult& made, const KitOptions& options) {
     if (condition.unit == "mm" && (!tightest || condition.value - condition.limit < tightest->value - tightest->limit))
       tightest = &condition;
   }
-  std::string text = product.pulley.joint.mechanism.name + ": the rest of the test model\n";
+  std::string text = product.pulley.joint.mechanism.name +
+                     (product.plan.drilled ? ": plates to drill its joint by\n" : ": the rest of the test model\n");
   text += "  parts       " + std::to_string(printed) + " to print, of " + std::to_string(product.plan.parts.size()) +
           " kinds; plates to cut in kit.dxf\n";
-  text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: none of the catalogue fits") + "\n";
-  text += "  joint       two bearings " + sizes.bearing->name + ", " + sizes.board->name + " over the axis\n";
+  if (!product.plan.drilled) {
+    text += "  motor       " + (sizes.motor ? sizes.motor->name : "your own: none of the catalogue fits") + "\n";
+    text += "  joint       two bearings " + sizes.bearing->name + ", " + sizes.board->name + " over the axis\n";
+  }
   for (const KitCut& cut : kit_cuts(product))
     text += "  tendon " + std::string(cut.side == Side::left ? "1" : "2") + "    cut at " + fixed(cut.cut, 0) + " mm\n";
   if (tightest)

@@ -134,7 +134,9 @@ std::string model_summary(const ModelResult& made, const ModelOptions& options) 
     text += "    joint.xml       " + deg_text(product.equality.error) + " (polynomial of degree 4)\n";
   if (product.tendons)
     text += "    joint_tendons.xml " + deg_text(product.tendons->error) + " (tendon " +
-            (product.tendons->held == Side::left ? "1" : "2") + " over its pin)\n";
+            (product.tendons->held == Side::left ? "1" : "2") +
+            (product.tendons->tendons[product.tendons->held == Side::left ? 0 : 1].drum > 0 ? " on the drum)\n"
+                                                                                            : " over its pin)\n");
   text += "    joint.urdf      " + deg_text(product.line.error) + " (a straight line; joint_ros2_control.urdf too)\n";
   text += "    joint_table.h   " + deg_text(std::max(table.errors.theta, table.errors.returned)) + " (" +
           std::to_string(table.pieces + 1) + " entries; joint_table.json too)\n";

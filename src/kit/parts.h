@@ -28,6 +28,9 @@ double post_steepness(const Mechanism& mechanism);
 /// Fills parts, items and tendons of a plan whose conditions hold.
 void make_parts(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout);
 
+/// Of a joint that is not the paper's: plates to drill by, and its drum.
+KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout);
+
 /// "-20" in strokes that do not touch, to be engraved: `up` is the digits' height.
 std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2& up);
 

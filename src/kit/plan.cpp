@@ -491,6 +491,7 @@ double shaft_of(const Mechanism& mechanism, const BodyLayout& layout) {
 }
 
 KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout) {
+  if (!mechanism.is_papers()) return plan_template(mechanism, layout);
   const Scene scene(mechanism);
   const std::vector<BearingType>& all = bearing_types();
   KitPlan plan;

@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
@@ -12,51 +16,130 @@ constexpr int k_places = 1000;
 
 /// In the right-hand image, where θ is positive towards the pin's side.
 struct Span {
-  double length = 0;  ///< C to the tangent point, and on round the pin to its rightmost point; mm, but for a constant
+  double length =
+      0;  ///< its end to the tangent point, and on round the pin to its rightmost point; mm, but for a constant
   double normal = 0;  ///< direction of the outward normal, rad
 };
 
-Span span_at(const WrappedTendon& tendon, double R, double theta) {
-  const Vec2 pin(mirror_sign(tendon.side) * tendon.pin.x(), tendon.pin.y());
-  const Vec2 to_c = Vec2(R * std::sin(theta), R * std::cos(theta)) - pin;
-  const double distance = to_c.norm();
-  // From straight up, so that no turn is lost where C comes down beside the pin.
-  const double towards_c = 0.5 * k_pi + std::atan2(-to_c.x(), to_c.y());
-  const double normal = towards_c - std::acos(std::min(1.0, tendon.rho / distance));
+Vec2 mirrored(const Vec2& point, Side side) { return {mirror_sign(side) * point.x(), point.y()}; }
+
+/// Where a point of the link is, of the image.
+Vec2 at_angle(const Vec2& home, double theta) {
+  const double c = std::cos(theta), s = std::sin(theta);
+  return {c * home.x() + s * home.y(), c * home.y() - s * home.x()};
+}
+
+Span span_at(const WrappedTendon& tendon, double theta) {
+  const Vec2 pin = mirrored(tendon.pin, tendon.side);
+  const Vec2 to_end = at_angle(mirrored(tendon.end, tendon.side), theta) - pin;
+  const double distance = to_end.norm();
+  // From straight up, so that no turn is lost where the end comes down beside the pin.
+  const double towards = 0.5 * k_pi + std::atan2(-to_end.x(), to_end.y());
+  const double normal = towards - std::acos(std::min(1.0, tendon.rho / distance));
   return {std::sqrt(std::max(0.0, (distance - tendon.rho) * (distance + tendon.rho))) + tendon.rho * normal, normal};
 }
 
-Vec2 mirrored(const Vec2& point, Side side) { return {mirror_sign(side) * point.x(), point.y()}; }
-
-WrappedTendon wrapped(const Mechanism& mechanism, Side side, const AngleMap& map) {
-  WrappedTendon tendon;
-  tendon.side = side;
-  const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
-  tendon.pin = mirrored(place.pin(), side);
-  tendon.rho = place.rho;
-  double least = k_pi, most = -k_pi;
-  for (int i = 0; i <= k_places; ++i) {
-    const double theta = mirror_sign(side) * std::lerp(map.theta_min, map.theta_max, double(i) / k_places);
-    const double normal = span_at(tendon, mechanism.joint.R, theta).normal;
-    least = std::min(least, normal);
-    most = std::max(most, normal);
-  }
-  // Where it leaves the pin for a point that stands still: so far on that it lies on the pin at every angle.
-  constexpr double k_always_wrapped = radians(10);
-  const double leaving = least - k_always_wrapped;
-  const Vec2 normal(std::cos(leaving), std::sin(leaving)), onwards(normal.y(), -normal.x());
-  const double reach = 0.5 * mechanism.joint.R;
-  tendon.most_wrap = most - leaving;
-  const double middle = 0.5 * (most + leaving);
-  tendon.anchor = mirrored(place.pin() + tendon.rho * normal + reach * onwards, side);
-  tendon.outer = mirrored(place.pin() + 3 * tendon.rho * Vec2(std::cos(middle), std::sin(middle)), side);
-  tendon.home_length = span_at(tendon, mechanism.joint.R, 0).length - tendon.rho * leaving + reach;
-  return tendon;
+/// What the joint takes in of it, but for a constant. A drum winds as much as it turns.
+double length_at(const WrappedTendon& tendon, double theta) {
+  return tendon.drum > 0 ? -tendon.drum * theta : span_at(tendon, theta).length;
 }
 
 /// −dL/dθ: how far the span passes from O, mm.
-double arm_at(const WrappedTendon& tendon, double R, double theta) {
-  return R * std::sin(theta + span_at(tendon, R, theta).normal);
+double arm_at(const WrappedTendon& tendon, double theta) {
+  if (tendon.drum > 0) return tendon.drum;
+  const Vec2 end = at_angle(mirrored(tendon.end, tendon.side), theta), normal = unit(span_at(tendon, theta).normal);
+  return end.dot(normal);
+}
+
+constexpr double k_always_wrapped = radians(10);  // so far on a tendon goes that it lies on its cylinder at every angle
+
+/// From the pin on: the point that stands still, on the pin's outer side; through a sheath. `least`, `most`: of the
+/// normals at which the tendon comes to the pin.
+void lay_off_pin(WrappedTendon& tendon, const PinPlace& place, double least, double most, double R) {
+  // Into a sheath it goes straight down, where that still wraps it.
+  const bool down = place.mouth && least > radians(1);
+  const double leaving = down ? 0.0 : least - k_always_wrapped;
+  const Vec2 normal = unit(leaving), onwards(normal.y(), -normal.x());
+  const double reach = down ? tendon.rho + 0.1 * R : 0.5 * R;
+  tendon.most_wrap = most - leaving;
+  const Vec2 anchor = place.pin() + tendon.rho * normal + reach * onwards;
+  tendon.anchor = mirrored(anchor, tendon.side);
+  tendon.outer = mirrored(place.pin() + 3 * tendon.rho * unit(0.5 * (most + leaving)), tendon.side);
+  tendon.home_length += reach - tendon.rho * leaving;
+  if (!place.mouth) return;
+  const Vec2 mouth = place.pulley_axis() + Vec2(place.mouth->across, place.mouth->above);
+  tendon.mouth = mirrored(mouth, tendon.side);
+  tendon.home_length += (mouth - anchor).norm();
+}
+
+/// A tendon that is never on a drum.
+void lay_free(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
+  double least = k_pi, most = -k_pi;
+  for (int i = 0; i <= k_places; ++i) {
+    const double theta = mirror_sign(tendon.side) * std::lerp(map.theta_min, map.theta_max, double(i) / k_places);
+    const double normal = span_at(tendon, theta).normal;
+    least = std::min(least, normal);
+    most = std::max(most, normal);
+  }
+  tendon.home_length = span_at(tendon, 0).length;
+  lay_off_pin(tendon, place, least, most, R);
+}
+
+// What lies on the drum reaches from where it touches the drum, which the link carries along, to where it leaves it for
+// the pin, which stands still. So much of it as is covered at every angle is as long at each: places on the link that
+// the tendon goes straight through, near to each other. Wrapped between two places on the drum's surface MuJoCo takes
+// now one way round, now the other (3.14.0).
+void lay_on_drum(WrappedTendon& tendon, const PinPlace& place, const AngleMap& map, double R) {
+  const double sign = mirror_sign(tendon.side);
+  const UpperSpan home = upper_span(place, 0), low = upper_span(place, sign * map.theta_min),
+                  high = upper_span(place, sign * map.theta_max);
+  const double least = std::min(low.on_drum, high.on_drum), always = std::max(0.0, least - k_always_wrapped);
+  // Just outside, as everything must be that simulators wrap round something.
+  constexpr double k_outside = 1e-6, k_chord = radians(10);
+  const double rho = place.drum, just = rho * (1 + k_outside);
+  tendon.drum = rho;
+  const bool ends_on_it = place.R < just;
+  if (ends_on_it) tendon.end *= just / place.R;
+  const int chords = static_cast<int>(std::ceil(always / k_chord));
+  for (int i = ends_on_it ? 1 : 0; i <= chords && chords > 0; ++i)
+    tendon.on_drum.push_back(mirrored(just * unit(home.end_normal - always * i / chords), tendon.side));
+  const double wrapped = 0.5 * (low.on_drum + high.on_drum) - always;
+  tendon.drum_outer = mirrored(1.5 * rho * unit(home.normal + 0.5 * wrapped), tendon.side);
+  tendon.off_drum =
+      mirrored(0.5 * (rho * unit(home.normal) + place.pin() + place.rho * unit(home.normal)), tendon.side);
+  tendon.home_length = home.length;
+  if (chords > 0) tendon.home_length += 2 * just * chords * std::sin(0.5 * always / chords) - rho * always;
+  lay_off_pin(tendon, place, home.normal, home.normal, R);
+}
+
+/// Why simulators cannot have it, or "". They wrap a tendon the shorter way round a cylinder, and ask for a point of it
+/// between two cylinders.
+std::string lay(WrappedTendon& tendon, const Mechanism& mechanism, Side side, const AngleMap& map) {
+  const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+  tendon.side = side;
+  tendon.pin = mirrored(place.pin(), side);
+  tendon.rho = place.rho;
+  tendon.end =
+      place.at_C ? Vec2(0, place.R) : mirrored(place.R * Vec2(std::sin(place.twist), std::cos(place.twist)), side);
+  const double sign = mirror_sign(side), low = std::min(sign * map.theta_min, sign * map.theta_max),
+               high = std::max(sign * map.theta_min, sign * map.theta_max);
+  const auto leaves = lift_off(place);
+  if (leaves && place.drum_off != 0) return "it lies on a drum whose centre goes round the joint";
+  if (leaves && low < *leaves && *leaves < high)
+    return "it leaves the drum within the range, and simulators ask for a point that stands still between two "
+           "cylinders";
+  constexpr double k_most_wrap = radians(170);
+  if (leaves && high <= *leaves) {
+    lay_on_drum(tendon, place, map, mechanism.joint.R);
+    if (std::min(*leaves - high, k_always_wrapped) + high - low > k_most_wrap)
+      return "it is wound on the drum by nearly half a turn, and simulators wrap it the shorter way";
+  } else {
+    lay_free(tendon, place, map, mechanism.joint.R);
+  }
+  // The judges' joints lie round it by less; beyond half a turn the other way round would be the shorter one.
+  if (tendon.rho > 0 && tendon.most_wrap > k_most_wrap)
+    return "it lies round nearly half of its pin, and simulators wrap it the shorter way";
+  return "";
 }
 
 /// Whether this path has the moment arms that the transmission knows: whatever else a joint's tendons run over, there
@@ -64,8 +147,7 @@ double arm_at(const WrappedTendon& tendon, double R, double theta) {
 bool has_arms(const WrappedTendon& tendon, double R, const Transmission& law) {
   for (int i = 0; i <= 8; ++i) {
     const TransmissionPoint point = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
-    const double theta = mirror_sign(tendon.side) * point.theta;
-    const double arm = arm_at(tendon, R, theta);
+    const double arm = arm_at(tendon, mirror_sign(tendon.side) * point.theta);
     const double known = (tendon.side == Side::left ? point.t1 : point.t2).m;
     if (!(std::abs(arm - known) <= 1e-6 * R)) return false;
   }
@@ -78,12 +160,12 @@ struct Held {
 };
 
 /// What the pulley takes of a tendon, as a polynomial of α of as low a degree as does.
-Held fit_length(const WrappedTendon& tendon, double R, const AngleMap& map) {
-  const double home = span_at(tendon, R, 0).length, sign = mirror_sign(tendon.side);
+Held fit_length(const WrappedTendon& tendon, const AngleMap& map) {
+  const double home = length_at(tendon, 0), sign = mirror_sign(tendon.side);
   std::vector<FitPoint> points;
   for (int i = 0; i <= k_places; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_places), theta = sign * map.theta(alpha);
-    points.push_back({alpha, span_at(tendon, R, theta).length - home, 1 / std::abs(arm_at(tendon, R, theta))});
+    points.push_back({alpha, length_at(tendon, theta) - home, 1 / std::abs(arm_at(tendon, theta))});
   }
   constexpr double k_exact = 1e-9;  // rad: round to the last digits that a fit has
   PolynomialFit fit = least_largest_error(points, 1);
@@ -93,15 +175,15 @@ Held fit_length(const WrappedTendon& tendon, double R, const AngleMap& map) {
 
 }  // namespace
 
-double tendon_error(const WrappedTendon& tendon, double R, const Polynomial& length, const AngleMap& map) {
-  const double home = span_at(tendon, R, 0).length, sign = mirror_sign(tendon.side);
+double tendon_error(const WrappedTendon& tendon, const Polynomial& length, const AngleMap& map) {
+  const double home = length_at(tendon, 0), sign = mirror_sign(tendon.side);
   double largest = 0;
   for (int i = 0; i <= k_places; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, double(i) / k_places), wanted = map.theta(alpha);
     double theta = wanted;
     for (int turn = 0; turn < 20; ++turn) {
-      const double missing = home + length(alpha) - span_at(tendon, R, sign * theta).length;
-      const double move = -sign * missing / arm_at(tendon, R, sign * theta);
+      const double missing = home + length(alpha) - length_at(tendon, sign * theta);
+      const double move = -sign * missing / arm_at(tendon, sign * theta);
       if (!std::isfinite(move)) return k_pi;
       theta += move;
       if (std::abs(move) < 1e-13) break;
@@ -112,32 +194,26 @@ double tendon_error(const WrappedTendon& tendon, double R, const Polynomial& len
 }
 
 std::optional<TendonModel> tendon_model(const Mechanism& mounted, const AngleMap& map, std::string& why_not) {
-  if (!mounted.joint.is_plain()) {
-    why_not = "tendons over a drum of the joint, or to ends of their own, have no such model yet";
-    return std::nullopt;
-  }
   const Transmission law(mounted);
   TendonModel model;
   model.error = std::numeric_limits<double>::infinity();
   for (const Side side : {Side::left, Side::right}) {
     const std::size_t i = side == Side::left ? 0 : 1;
-    model.tendons[i] = wrapped(mounted, side, map);
-    if (!has_arms(model.tendons[i], mounted.joint.R, law)) {
-      why_not = "the tendons of this joint do not run straight from C to a pin";
-      return std::nullopt;
+    WrappedTendon& tendon = model.tendons[i];
+    model.left_out[i] = lay(tendon, mounted, side, map);
+    if (model.left_out[i].empty() && !has_arms(tendon, mounted.joint.R, law))
+      model.left_out[i] = "it does not run straight to its pin";
+    if (!model.left_out[i].empty()) {
+      why_not = "tendon " + std::string(i == 0 ? "1" : "2") + ": " + model.left_out[i];
+      continue;
     }
-    // The judges' joints lie round it by less; beyond half a turn the other way round would be the shorter one.
-    constexpr double k_most_wrap = radians(170);
-    if (model.tendons[i].rho > 0 && model.tendons[i].most_wrap > k_most_wrap) {
-      why_not = "a tendon lies round nearly half of its pin, and simulators wrap it the shorter way";
-      return std::nullopt;
-    }
-    if (const Held held = fit_length(model.tendons[i], mounted.joint.R, map); held.error < model.error) {
+    if (const Held held = fit_length(tendon, map); held.error < model.error) {
       model.held = side;
       model.length = held.length;
       model.error = held.error;
     }
   }
+  if (!model.left_out[0].empty() && !model.left_out[1].empty()) return std::nullopt;
   return model;
 }
 

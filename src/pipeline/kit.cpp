@@ -155,36 +155,7 @@ std::vector<Check> kit_fit_checks(const KitPlan& plan) {
   return checks;
 }
 
-namespace {
-
-/// A link of the kit has one lever, to C.
-void demand_plain_joint(const MechanismFile& file) {
-  if (file.mechanism.transmission) return;
-  if (file.mechanism.guides.kind == GuideKind::idler) {
-    throw InputError(Diagnostic{Severity::error, file.place_of("guides.kind"),
-                                "the test model has pins, and knows no idlers yet",
-                                "fusee build makes the pulley of this joint"});
-  }
-  if (file.mechanism.sheath.is_there()) {
-    throw InputError(Diagnostic{Severity::error, file.place_of("sheath.length_mm"),
-                                "the test model has its pulley under the pins, and knows no sheaths yet",
-                                "fusee build makes the pulley of this joint"});
-  }
-  if (file.mechanism.joint.is_plain()) return;
-  for (const char* key : {"joint.drum_radius_mm", "joint.attachment1_mm", "joint.attachment2_mm"}) {
-    const Place place = file.place_of(key);
-    if (place.line == 0) continue;
-    throw InputError(Diagnostic{Severity::error, place, "the test model knows no drum and no attachments but C yet",
-                                "fusee build makes the pulley of this joint"});
-  }
-  throw InputError(file.path, "the test model knows no drum and no attachments but C yet",
-                   "fusee build makes the pulley of this joint");
-}
-
-}  // namespace
-
 KitResult kit(const MechanismFile& file, const KitOptions& options) {
-  demand_plain_joint(file);
   if (note_on_turns(file)) {
     throw InputError(Diagnostic{Severity::error, file.place_of("pulley.winding"),
                                 "the test model is of one turn, and this pulley takes several",

@@ -158,6 +158,10 @@ bool find_fits(ModelResult& result, const ModelOptions& options) {
     product.tendons.reset();
   }
   if (!product.tendons) product.notes.push_back("no joint_tendons.xml: " + product.without_tendons);
+  for (std::size_t i = 0; product.tendons && i < 2; ++i) {
+    if (const std::string& why = product.tendons->left_out[i]; !why.empty())
+      product.notes.push_back("joint_tendons.xml is without tendon " + std::to_string(i + 1) + ": " + why);
+  }
   if (options.with_polynomial && !(product.equality.error <= options.most_error)) {
     result.ending = ModelEnding::polynomial_off;
     result.changes = changes_for_polynomial(product, options);

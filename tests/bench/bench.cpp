@@ -55,6 +55,18 @@ void synthesis(benchmark::State& state) {
 }
 BENCHMARK(synthesis)->Unit(benchmark::kMillisecond);
 
+/// Over drums, to ends of their own, through sheaths, and of a wanted torque.
+void synthesis_of_wide_joint(benchmark::State& state, const char* profile) {
+  const MechanismFile file =
+      read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (std::string(profile) + ".toml"));
+  for (auto _ : state) benchmark::DoNotOptimize(synthesise(file.mechanism));
+}
+BENCHMARK_CAPTURE(synthesis_of_wide_joint, finger_pip, "finger_pip")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(synthesis_of_wide_joint, ankle_exo, "ankle_exo")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(synthesis_of_wide_joint, elbow_idlers, "elbow_idlers")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(synthesis_of_wide_joint, wrist_sheath, "wrist_sheath")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(synthesis_of_wide_joint, gravity_arm, "gravity_arm")->Unit(benchmark::kMillisecond);
+
 void body(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(make_pulley(paper().mechanism, paper_synthesis()));
 }

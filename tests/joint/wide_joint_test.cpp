@@ -68,6 +68,36 @@ TEST(WideJoint, AWeightOnOneTendonOfADrumIsItsTorqueOverTheDrum) {
   }
 }
 
+/// Second route for what the statics leaves out: a string in a thousand links on the drum, each pressed on it and
+/// rubbing as far as the capstan law lets it, and its knot, all on the link. Together they turn it by the span's
+/// tension times the span's arm, whatever rubs.
+TEST(WideJoint, WhatRubsOnTheDrumTurnsTheJointNoOtherWay) {
+  const Mechanism mechanism = testing::finger();
+  const PinPlace place = pin_place(mechanism, Side::right, mechanism.seen_pitch_radius());
+  for (const double theta : {-0.3, 0.0, 1.2}) {
+    const UpperSpan span = upper_span(place, theta);
+    ASSERT_GT(span.on_drum, 0);
+    for (const double friction : {0.0, 0.2, -0.2}) {
+      constexpr int links = 1000;
+      const double tension = 20.0, step = span.on_drum / links;
+      double turns = 0, here = tension;
+      for (int i = 0; i < links; ++i) {
+        const double next = tension * std::exp(-friction * step * (i + 1));
+        const Vec2 at = place.drum * unit(span.normal + step * (i + 0.5));
+        const Vec2 from(-std::sin(span.normal + step * i), std::cos(span.normal + step * i)),
+            to(-std::sin(span.normal + step * (i + 1)), std::cos(span.normal + step * (i + 1)));
+        // A link is pulled towards the span and back from the knot: what is left of both, the drum holds.
+        turns += cross(at, next * to - here * from);
+        here = next;
+      }
+      const double end = span.normal + span.on_drum;
+      const Vec2 tangent(-std::sin(end), std::cos(end));
+      turns += cross(place.drum * unit(end), -here * tangent);
+      EXPECT_NEAR(-turns, tension * span.m, 1e-5 * tension * span.m) << theta << " " << friction;
+    }
+  }
+}
+
 /// Over a drum the wrap on the guide stays what it is: there an idler takes what a pin of some friction takes.
 TEST(WideJoint, AnIdlerIsAPinOfItsOwnFrictionWhereTheWrapStays) {
   Mechanism idler = testing::finger();

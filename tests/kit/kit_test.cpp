@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -297,6 +298,74 @@ TEST(KitOfOne, ATendonIsCutForAllItsWay) {
     EXPECT_GT(cut.between_knots, way);
     EXPECT_LT(cut.between_knots, way + 1.5 * perimeter(parallel(outline, 0)));
     EXPECT_GT(cut.cut, cut.between_knots + 100);
+  }
+}
+
+// ---- plates to drill by
+// ----------------------------------------------------------------------------------------------
+
+class Template : public ::testing::TestWithParam<std::string> {};
+
+/// In the meshes: through the plates at every axis of the file, and nowhere between two of them.
+TEST_P(Template, HasAHoleAtEveryAxis) {
+  const Model model = model_of(GetParam());
+  ASSERT_TRUE(model.plan.made());
+  EXPECT_TRUE(model.plan.drilled);
+  const Mechanism& mechanism = model.mechanism;
+  const auto loops_of = [&](const std::string& name) {
+    const auto part = std::find_if(model.plan.parts.begin(), model.plan.parts.end(),
+                                   [&](const KitPart& one) { return one.name == name; });
+    if (part == model.plan.parts.end()) return std::vector<Polygon>();
+    const TriangleMesh mesh = standing(*part, part->places.front(), 0);
+    for (const Check& check : check_mesh(mesh)) EXPECT_TRUE(check.ok) << name << ": " << check.name;
+    return section(mesh, part->places.front().z + 1.0);
+  };
+  const auto base = loops_of("base_template"), link = loops_of("link_template"), drum = loops_of("drum");
+  const Guides& guides = mechanism.guides;
+  const Vec2 G(0, -guides.OE - mechanism.pulley.EF);
+  std::vector<Vec2> bored{{0, 0}, {-guides.EB, -guides.OE}, {guides.ED, -guides.OE}, G};
+  if (mechanism.sheath.is_there()) {
+    for (const double x : {-1.0, 1.0})
+      bored.push_back(G + Vec2(x * mechanism.sheath.exit_across, mechanism.sheath.exit_above));
+  }
+  for (const Vec2& at : bored) EXPECT_FALSE(is_inside(base, at)) << at.transpose();
+  EXPECT_EQ(base.size(), bored.size() + 1);
+  EXPECT_TRUE(is_inside(base, 0.5 * (bored[1] + bored[0])));
+  for (const auto& end : {mechanism.joint.attachment1, mechanism.joint.attachment2}) {
+    const Vec2 at = end ? Vec2(end->across, end->along) : Vec2(0, mechanism.joint.R);
+    EXPECT_FALSE(is_inside(link, at)) << at.transpose();
+    EXPECT_GT(distance_to_edges(link.front(), at), 0.4);
+  }
+  EXPECT_FALSE(is_inside(link, {0, 0}));
+  EXPECT_EQ(drum.empty(), mechanism.joint.drum_radius == 0);
+  if (drum.empty()) return;
+  double most = 0;
+  for (const Polygon& loop : drum) {
+    for (const Vec2& point : loop) most = std::max(most, point.norm());
+  }
+  EXPECT_NEAR(most, mechanism.joint.drum_radius, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Template,
+                         ::testing::Values("finger_mcp", "finger_pip", "ankle_exo", "elbow_idlers", "wrist_sheath",
+                                           "gravity_arm"),
+                         [](const auto& tested) { return tested.param; });
+
+TEST(TemplatePage, DrawsDrumIdlersAndSheaths) {
+  for (const char* profile : {"elbow_idlers", "wrist_sheath"}) {
+    KitOptions options;
+    options.dry_run = true;
+    options.folder = std::filesystem::temp_directory_path() / "fusee-kit-test";
+    const KitResult made =
+        kit(read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (std::string(profile) + ".toml")),
+            options);
+    ASSERT_EQ(made.ending, KitEnding::done);
+    const auto page = std::find_if(made.outputs.begin(), made.outputs.end(),
+                                   [](const OutputFile& file) { return file.name == "kit.html"; });
+    ASSERT_NE(page, made.outputs.end());
+    const bool sheathed = made.product.pulley.joint.mechanism.sheath.is_there();
+    EXPECT_EQ(page->bytes.find("class=\"kit-sheath\"") != std::string::npos, sheathed);
+    EXPECT_EQ(page->bytes.find("Idlers onto bolts") != std::string::npos, !sheathed);
   }
 }
 

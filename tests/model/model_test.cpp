@@ -130,18 +130,21 @@ double taut(const WrappedTendon& tendon, const Vec2& C) {
   return length;
 }
 
-TEST_P(OfProfile, TendonsAreAsLongAsAStringPulledTaut) {
+class Taut : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Taut, TendonsAreAsLongAsAStringPulledTaut) {
   const ModelResult made = dry(profile(GetParam()));
   ASSERT_TRUE(made.product.tendons);
   const TendonModel& tendons = *made.product.tendons;
   const WrappedTendon& held = tendons.tendons[tendons.held == Side::left ? 0 : 1];
-  const double R = made.product.mechanism.joint.R;
   const AngleMap& map = made.product.curves.stands.middle;
   for (int i = 0; i <= 6; ++i) {
     const double alpha = std::lerp(map.alpha_min, map.alpha_max, i / 6.0), theta = map.theta(alpha);
-    const double length = taut(held, {R * std::sin(theta), R * std::cos(theta)});
-    // A moment arm is no longer than R.
-    EXPECT_NEAR(length, held.home_length + tendons.length(alpha), R * (tendons.error + 1e-6))
+    const Vec2 end(std::cos(theta) * held.end.x() + std::sin(theta) * held.end.y(),
+                   std::cos(theta) * held.end.y() - std::sin(theta) * held.end.x());
+    const double length = taut(held, end) + (held.mouth ? (*held.mouth - held.anchor).norm() : 0);
+    // A moment arm is no longer than the lever.
+    EXPECT_NEAR(length, held.home_length + tendons.length(alpha), held.end.norm() * (tendons.error + 1e-6))
         << "theta " << degrees(theta);
   }
 }
@@ -165,6 +168,43 @@ INSTANTIATE_TEST_SUITE_P(Of, OfProfile,
                                            "unsymmetric", "wrist_exo"),
                          [](const auto& tested) { return tested.param; });
 
+INSTANTIATE_TEST_SUITE_P(Of, Taut,
+                         ::testing::Values("paper_optimum", "forearm", "finger", "gripper", "linear_wrist",
+                                           "unsymmetric", "wrist_exo", "ankle_exo", "wrist_sheath"),
+                         [](const auto& tested) { return tested.param; });
+
+/// Home and back by sites and one cylinder: what is wound on a drum is its radius times what the joint turned.
+TEST(Tendons, OnADrumAreHeldByWhatItWinds) {
+  for (const char* name : {"finger_mcp", "elbow_capstan"}) {
+    const ModelResult made = dry(profile(name));
+    ASSERT_TRUE(made.product.tendons) << name;
+    const TendonModel& tendons = *made.product.tendons;
+    const double rho = made.product.mechanism.drum_pitch_radius();
+    for (const WrappedTendon& tendon : tendons.tendons) {
+      EXPECT_EQ(tendon.drum, rho);
+      // Every place on the link lies on the drum, and the tendon leaves it for one further out.
+      for (const Vec2& at : tendon.on_drum) EXPECT_NEAR(at.norm(), rho, 1e-5 * rho);
+      EXPECT_GT(tendon.off_drum.norm(), 1.001 * rho);
+      EXPECT_GT(tendon.drum_outer.norm(), rho);
+    }
+    const AngleMap& map = made.product.curves.stands.middle;
+    const double sign = tendons.held == Side::left ? 1 : -1;
+    EXPECT_NEAR(tendons.length.slope(0), sign * rho * map.slope(0), 1e-6 * rho);
+    EXPECT_LT(tendons.error, 1e-8);
+  }
+}
+
+TEST(Tendons, ThatLeaveTheirDrumAreLeftOutInWords) {
+  const ModelResult pip = dry(profile("finger_pip"));
+  ASSERT_TRUE(pip.product.tendons);
+  EXPECT_EQ(pip.product.tendons->held, Side::right);
+  EXPECT_THAT(pip.product.tendons->left_out[0], ::testing::HasSubstr("leaves the drum within the range"));
+  EXPECT_THAT(pip.product.notes, ::testing::Contains(::testing::HasSubstr("without tendon 1")));
+  const ModelResult elbow = dry(profile("elbow_idlers"));
+  EXPECT_FALSE(elbow.product.tendons);
+  EXPECT_THAT(elbow.product.without_tendons, ::testing::HasSubstr("leaves the drum within the range"));
+}
+
 /// Over the whole range the joint is where the tendon's length puts it, also with C below the pins.
 TEST(Tendons, AreFollowedThroughWideRanges) {
   const MechanismFile file = profile("finger", {{"joint.range_deg", "[-20, 75]"},
@@ -180,7 +220,7 @@ TEST(Tendons, AreFollowedThroughWideRanges) {
   ASSERT_TRUE(model) << why_not;
   const WrappedTendon& held = model->tendons[0];
   EXPECT_EQ(model->held, Side::left);
-  EXPECT_LT(tendon_error(held, file.mechanism.joint.R, model->length, map), 1e-9);
+  EXPECT_LT(tendon_error(held, model->length, map), 1e-9);
 }
 
 // ---- curves ---------------------------------------------------------------------------------------------------------

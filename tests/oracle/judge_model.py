@@ -60,33 +60,54 @@ def follow(library, path):
     return json.loads(script.stdout)
 
 
-def path_faults(path, said):
-    """Lengths of both tendons against a taut string, by differences from the first moment."""
-    root = ET.parse(path).getroot()
-    world = root.find("worldbody")
-    place = lambda node: [float(x) for x in node.get("pos").split()]
-    link = float(next(s for s in root.iter("site") if s.get("name") == "C_1").get("pos").split()[1])
-    for i, name in enumerate(("1", "2")):
-        pin = next((g for g in world.findall("geom") if g.get("name") == ("pin_B", "pin_D")[i]))
-        over = next((s for s in world.findall("site") if s.get("name") == "over_" + name), None)
-        anchor = place(next(s for s in world.findall("site") if s.get("name") == "anchor_" + name))
-        x, y, _ = place(over if over is not None else pin)
-        rho = 0.0 if over is not None else float(pin.get("size").split()[0])
-        side = -1 if i == 0 else 1
+def taut(a, b, cylinder):
+    """From a over the outer side of a cylinder (its place, radius and a point beside it) to b: two tangents and an arc."""
+    x, y, rho, beside = cylinder
+    side = math.copysign(1, (b[0] - a[0]) * (beside[1] - y) - (b[1] - a[1]) * (beside[0] - x))
 
+    def tangent(px, py, turn):
+        distance = math.hypot(px - x, py - y)
+        return math.atan2(py - y, px - x) + turn * math.acos(min(1, rho / distance)), math.sqrt(distance**2 - rho**2)
+    come, free = tangent(*a, -side)
+    go, held = tangent(*b, side)
+    arc = (side * (come - go)) % (2 * math.pi)
+    return free + held + rho * (arc if arc < 1.9 * math.pi else 0)
+
+
+def path_faults(path, said):
+    """Lengths of all tendons against a taut string, from site to site and round what is between them."""
+    root = ET.parse(path).getroot()
+    place = lambda node: [float(x) for x in node.get("pos").split()][:2]
+    link = next(body for body in root.iter("body") if body.get("name") == "link")
+
+    def at(kind, name, theta):
+        """Of the world, or carried along by the link, which turns clockwise."""
+        own = next((node for node in link.findall(kind) if node.get("name") == name), None)
+        if own is None:
+            return place(next(node for node in root.find("worldbody").findall(kind) if node.get("name") == name))
+        x, y = place(own)
+        return [x * math.cos(theta) + y * math.sin(theta), y * math.cos(theta) - x * math.sin(theta)]
+
+    for i, tendon in enumerate(root.find("tendon").findall("spatial")):
         def length(theta):
-            # The shorter way over the outer side: two tangents and an arc.
-            def tangent(px, py, turn):
-                distance = math.hypot(px - x, py - y)
-                return math.atan2(py - y, px - x) + turn * math.acos(min(1, rho / distance)), math.sqrt(distance**2 - rho**2)
-            a, free = tangent(link * math.sin(theta), link * math.cos(theta), -side)
-            b, held = tangent(anchor[0], anchor[1], side)
-            arc = (side * (a - b)) % (2 * math.pi)
-            return free + held + rho * (arc if arc < 1.9 * math.pi else 0)
+            total, last, geom = 0.0, None, None
+            for step in tendon:
+                if step.tag == "geom":
+                    geom = step
+                    continue
+                here = at("site", step.get("site"), theta)
+                if geom is not None:
+                    cylinder = next(g for g in root.iter("geom") if g.get("name") == geom.get("geom"))
+                    around = (*at("geom", geom.get("geom"), theta), float(cylinder.get("size").split()[0]), at("site", geom.get("sidesite"), theta))
+                    total += taut(last, here, around)
+                elif last is not None:
+                    total += math.dist(last, here)
+                last, geom = here, None
+            return total
 
         worst = max(abs(row[4 + i] - length(row[3])) for row in said["rows"])
         if worst > 1e-8:
-            yield f"tendon {name} is {worst * 1e3:.2g} mm from a string round its pin"
+            yield f"{tendon.get('name')} is {worst * 1e3:.2g} mm from a string round what it is wrapped on"
 
 
 def following_faults(library, path, law, low, high):
@@ -160,6 +181,10 @@ def broken_copies(judge, folder, scratch):
 
     if judge == "mujoco":
         yield copy("gain", replace("joint.xml", r'polycoef="(\S+) (\S+)', lambda m: f'polycoef="{m[1]} {float(m[2]) * 1.01}'))
+        if 'name="drum"' in (folder / "joint_tendons.xml").read_text():
+            yield copy("drum", replace("joint_tendons.xml", r'name="drum" type="cylinder" pos="0 0 0" size="(\S+)', lambda m: m[0][:-len(m[1])] + str(0.98 * float(m[1]))))
+            yield copy("side", replace("joint_tendons.xml", r'sidesite="beside_drum_1"', 'sidesite="off_drum_2"'))
+            return
         yield copy("pin", replace("joint_tendons.xml", r'name="pin_([BD])" type="cylinder" pos="(\S+) (\S+)', lambda m: f'name="pin_{m[1]}" type="cylinder" pos="{float(m[2]) * 1.05} {m[3]}'))
         yield copy("side", replace("joint_tendons.xml", r'sidesite="outer_1"', 'sidesite="anchor_2"'))
     else:

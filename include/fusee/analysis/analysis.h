@@ -112,6 +112,8 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
 std::vector<ErrorSource> error_sources(const Mechanism& mechanism);
 /// Both roads for every dimension of the mechanism.
 std::vector<ToleranceEffect> tolerance_effects(const Mechanism& mechanism, const AnalysisOptions& options);
+/// "tendon 2 below pin D"; behind a sheath there is no pin: "tendon 2 between sheath and pulley".
+std::string place_words(const TensionExtreme& extreme, const Mechanism& mechanism);
 /// What the tendons bear at most.
 struct LargestTensions {
   TensionExtreme anywhere;

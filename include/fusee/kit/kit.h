@@ -118,6 +118,9 @@ struct KitPlan {
   std::vector<KitItem> items;
   std::array<KitTendon, 2> tendons;
   std::vector<std::string> notes;
+  /// Of a joint with a drum, ends of its own, idlers or sheaths: plates to drill by, no model that stands by itself;
+  /// `sizes`, `feet` and `legs` are then empty.
+  bool drilled = false;
 
   bool made() const { return status == KitStatus::made; }
 };

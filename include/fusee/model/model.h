@@ -122,31 +122,41 @@ EqualityFit measured(EqualityFit fit, const AngleMap& map);
 
 // ---- tendons --------------------------------------------------------------------------------------------------------
 
-/// A tendon from C over its pin to a point that stands still, as a simulator that wraps round cylinders has it. In the
-/// frame of the mechanism, mm.
+/// A tendon from its end on the link over its pin to a point that stands still, as a simulator that wraps round
+/// cylinders has it. In the frame of the mechanism, with the joint at home, mm.
 struct WrappedTendon {
   Side side = Side::left;
+  Vec2 end{0, 0};  ///< on the link
   Vec2 pin{0, 0};
   double rho = 0;          ///< the cylinder, to the tendon's centre line; 0: a point that it goes through
-  Vec2 anchor{0, 0};       ///< the point that stands still, below the pin
+  Vec2 anchor{0, 0};       ///< the point that stands still, below the pin, or where the tendon goes into its sheath
   Vec2 outer{0, 0};        ///< on the side of the pin that the tendon passes
-  double home_length = 0;  ///< from C to there at home
+  double home_length = 0;  ///< from its end to the anchor, or to the far mouth of its sheath
   double most_wrap = 0;    ///< round the pin, at any angle of the range, rad
+  /// The link's drum about O, to the tendon's centre line, where the tendon lies on it at every angle of the range; 0:
+  /// it does nowhere.
+  double drum = 0;
+  std::vector<Vec2> on_drum;  ///< places on the link that it always covers, from its end on, by short chords
+  Vec2 drum_outer{0, 0};      ///< on the side of the drum that it passes after them
+  Vec2 off_drum{0, 0};        ///< a point that stands still, on its straight way from drum to pin
+  std::optional<Vec2> mouth = std::nullopt;  ///< where its sheath ends, beside the pulley
 };
 
 /// The law by tendons: above the pin they are wrapped, what the pulley takes in of one of them is a polynomial of α.
 struct TendonModel {
   std::array<WrappedTendon, 2> tendons;
-  Side held = Side::left;  ///< whose length is held to that polynomial
-  Polynomial length;       ///< of that tendon, less home_length; mm over rad
-  double error = 0;        ///< of θ at any α of the range, rad
+  std::array<std::string, 2> left_out;  ///< why a simulator cannot have this one; "": it has it
+  Side held = Side::left;               ///< whose length is held to that polynomial
+  Polynomial length;                    ///< of that tendon, less home_length; mm over rad
+  double error = 0;                     ///< of θ at any α of the range, rad
 };
 
-/// Null, with why, where tendons run another way than C → pin, or nearly half round it.
+/// Null, with why, where neither tendon can be had. One that leaves the drum within the range cannot, nor one that lies
+/// nearly half round its pin, or further round the drum than simulators wrap.
 std::optional<TendonModel> tendon_model(const Mechanism& mounted, const AngleMap& map, std::string& why_not);
 
 /// What θ misses, rad, where a tendon's length is held to `length` of α; found by moving the joint until it is.
-double tendon_error(const WrappedTendon& tendon, double R, const Polynomial& length, const AngleMap& map);
+double tendon_error(const WrappedTendon& tendon, const Polynomial& length, const AngleMap& map);
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
 

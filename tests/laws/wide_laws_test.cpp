@@ -1,0 +1,169 @@
+// Closed forms of random joints of the wide class against other numerics: strings laid by hand, work on a way through
+// the range and back, and joints of which the answer is a number of the file. FUSEE_LAW_CASES: how many.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "fusee/joint/equilibrium.h"
+#include "fusee/joint/joint_model.h"
+#include "fusee/profile/synthesis.h"
+#include "fusee/transmission/tendon_path.h"
+#include "fusee/transmission/transmission.h"
+#include "laws/random_mechanism.h"
+#include "support/brute_string.h"
+
+namespace fusee {
+namespace {
+
+using testing::BruteString;
+using testing::expect_law;
+
+/// Lengths from the range's one end to its other, and arms by their differences, of one tendon.
+void expect_string(const Mechanism& mechanism, const Transmission& law, Side side) {
+  PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+  // Without a drum the same string is laid round a hair at the axis: it is never met where there is an arm.
+  if (place.drum == 0) place.drum = 1e-3 * place.R;
+  const double sign = mirror_sign(side), R = place.R;
+  const auto leaves = lift_off(place);
+  if (!leaves) return;
+  BruteString string(place);
+  double before = 0, formula_before = 0;
+  for (int i = 0; i <= 8; ++i) {
+    const TransmissionPoint at = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 8.0));
+    const double theta = sign * at.theta;
+    const TendonPoint& tendon = side == Side::left ? at.t1 : at.t2;
+    const UpperSpan span = upper_span(place, theta);
+    // Which point is the last one is an accident there; between an end and a pin as near as the points are, a string
+    // is laid that much more roughly.
+    if (std::abs(theta - *leaves) < 0.02 || (span.on_drum == 0 && span.free < 0.5 * R)) {
+      before = 0;
+      continue;
+    }
+    const double length = string.length(theta);
+    if (before != 0) RC_ASSERT(std::abs((length - before) - (span.length - formula_before)) < 1e-6 * R);
+    RC_ASSERT(std::abs(tendon.m - span.m) <= 1e-12 * R);
+    const double turned = 0.005;
+    const double arm = -(string.length(theta + turned) - string.length(theta - turned)) / (2 * turned);
+    const double formula =
+        -(upper_span(place, theta + turned).length - upper_span(place, theta - turned).length) / (2 * turned);
+    RC_ASSERT(std::abs(arm - formula) < 1e-4 * R);
+    RC_ASSERT(std::abs(arm - tendon.m) < 0.02 * R);
+    string.length(theta);
+    before = length;
+    formula_before = span.length;
+  }
+}
+
+TEST(WideLaws, LengthsAndArmsAreThoseOfAStringLaidByHand) {
+  expect_law(
+      400,
+      [](const Mechanism& mechanism) {
+        const Transmission law(mechanism);
+        if (law.dead_centre()) return false;
+        expect_string(mechanism, law, Side::left);
+        expect_string(mechanism, law, Side::right);
+        return true;
+      },
+      testing::random_wide_mechanism);
+}
+
+/// Up, down and home under a load, twice.
+std::vector<JointStep> round_trip(const Transmission& law, double tip_force, int steps) {
+  std::vector<JointStep> way;
+  for (int i = 0; i <= 200; ++i) way.push_back({0.0, tip_force * i / 200, 0.0});
+  const auto run = [&](double from, double to) {
+    for (int i = 1; i <= steps; ++i) way.push_back({std::lerp(from, to, double(i) / steps), tip_force, 0.0});
+  };
+  for (int round = 0; round < 2; ++round) {
+    run(0.0, law.alpha_max());
+    run(law.alpha_max(), law.alpha_min());
+    run(law.alpha_min(), 0.0);
+  }
+  return way;
+}
+
+/// What the motor gave, less what the load took, what is stored, and what rubbed away.
+bool loses_no_energy(Mechanism mechanism) {
+  using testing::detail::between;
+  const double R = mechanism.joint.R;
+  mechanism.load = {};
+  mechanism.spring = {};
+  // Of tendons that leave their pins, and of hollow pulleys, the statics knows nothing.
+  if (!synthesise(mechanism, {.advice = false}).made()) return false;
+  const Transmission law(mechanism);
+  mechanism.tendon.pretension = *between(5.0, 40.0);
+  mechanism.tendon.modulus = *between(5000.0, 50000.0);
+  mechanism.guides.mu = *between(0.0, 0.3);
+  mechanism.pulley.mu = *between(0.0, 0.3);
+  if (*rc::gen::element(true, false) && mechanism.guides.radius > 0) {
+    mechanism.guides.kind = GuideKind::idler;
+    mechanism.guides.bearing_radius = 0.4 * mechanism.guides.radius;
+    mechanism.guides.bearing_friction = *between(0.001, 0.3);
+  }
+  const double force = *between(-5.0, 5.0);
+  const std::vector<EquilibriumPoint> points = follow(joint_model(mechanism), round_trip(law, force, 1500));
+  double motor = 0, load = 0, most = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    // A joint so soft that it snaps over loses energy in no time; one that lies loose has no torque to be summed up.
+    if (points[i].status != EquilibriumStatus::held) return false;
+    if (std::abs(points[i].theta - law.theta(points[i].alpha)) > radians(5)) return false;
+    motor += 0.5 * (points[i].motor_torque + points[i - 1].motor_torque) * (points[i].alpha - points[i - 1].alpha);
+    load += 0.5 * (points[i].load_torque + points[i - 1].load_torque) * (points[i].theta - points[i - 1].theta);
+    most = std::max(most, std::abs(points[i].motor_torque));
+  }
+  const EquilibriumPoint& end = points.back();
+  const double missing = motor - load - end.stored - end.friction - end.groove_friction;
+  RC_LOG() << write_mechanism(DeclaredMechanism(mechanism)) << "missing " << missing << " friction " << end.friction
+           << " groove " << end.groove_friction << " stored " << end.stored << " force " << force << " R " << R;
+  const double scale = end.friction + std::abs(end.groove_friction) + std::abs(end.stored) + most;
+  RC_ASSERT(end.friction >= 0 && end.groove_friction >= -1e-4 * scale);
+  RC_ASSERT(std::abs(missing) < 1e-4 * scale);
+  return true;
+}
+
+TEST(WideLaws, NoEnergyIsLostOnARoundTrip) { expect_law(80, loses_no_energy, testing::random_wide_mechanism); }
+
+TEST(WideLaws, NoEnergyIsLostThroughSheaths) { expect_law(60, loses_no_energy, testing::random_sheathed_mechanism); }
+
+// Both ends on the drum, and so far round it that neither tendon leaves it: arms of the drum's pitch radius, and with a
+// linear law round pulleys of that radius over the ratio, to the last digit but the rounding of a product or two.
+TEST(WideLaws, OnTheDrumBothPulleysAreRoundToTheLastDigit) {
+  expect_law(
+      1000,
+      [](Mechanism mechanism) {
+        using testing::detail::between;
+        if (mechanism.joint.drum_radius == 0) return false;
+        const double rho = mechanism.drum_pitch_radius();
+        mechanism.pulley.law = Law::linear;
+        mechanism.pulley.ratio = *between(0.5, 4.0);
+        // Tendon 2's lift-off lies at its end's angle from above the pin's line; so far round it is beyond the range.
+        const double low = mechanism.joint.theta_min, high = mechanism.joint.theta_max;
+        const double end1 = radians(90.0) + low - radians(20.0), end2 = -(radians(90.0) - high - radians(20.0));
+        mechanism.joint.attachment1 = Attachment{rho * std::sin(-end1), rho * std::cos(end1)};
+        mechanism.joint.attachment2 = Attachment{rho * std::sin(-end2), rho * std::cos(end2)};
+        const Transmission law(mechanism);
+        if (law.dead_centre()) return false;
+        for (const Side side : {Side::left, Side::right}) {
+          const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+          const auto leaves = lift_off(place);
+          const double furthest = side == Side::right ? high : -low;
+          if (!leaves || *leaves < furthest) return false;
+        }
+        const double radius = rho / mechanism.pulley.ratio;
+        for (int i = 0; i <= 20; ++i) {
+          const TransmissionPoint at = law.at_alpha(std::lerp(law.alpha_min(), law.alpha_max(), i / 20.0));
+          RC_ASSERT(at.t1.m == rho && at.t2.m == rho);
+          RC_ASSERT(std::abs(at.t1.p - radius) <= 4e-16 * radius);
+          RC_ASSERT(std::abs(at.t2.p - radius) <= 4e-16 * radius);
+          RC_ASSERT(std::abs(at.theta - at.alpha / mechanism.pulley.ratio) <= 4e-16 * std::abs(at.theta));
+        }
+        return true;
+      },
+      testing::random_wide_mechanism);
+}
+
+}  // namespace
+}  // namespace fusee

@@ -1,0 +1,113 @@
+/// \file
+/// A tendon over drum and pin as a string that is laid round them by brute force: both circles are a few thousand
+/// points each, the string is the chain of points that leaves all others on its inner side, found by looking, and turns
+/// are counted by following the joint. No formula of tendon_path.cpp is in it.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "fusee/base/units.h"
+#include "fusee/transmission/tendon_path.h"
+
+namespace fusee::testing {
+
+constexpr int k_string_points = 4096;
+constexpr double k_string_step = k_two_pi / k_string_points;
+
+/// Counter-clockwise round the inner side of a tendon of the right-hand image, which goes up on their right.
+inline std::vector<Vec2> circle(const Vec2& centre, double radius) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < k_string_points; ++i)
+    points.push_back(centre + radius * Vec2(std::cos(k_string_step * i), std::sin(k_string_step * i)));
+  return points;
+}
+
+inline double right_of(const Vec2& from, const Vec2& to, const Vec2& point) { return cross(point - from, to - from); }
+
+/// The point of a circle at which a string to (or from) `far` leaves it: it has no other on its right.
+inline int tangent_point(const std::vector<Vec2>& points, const Vec2& far, bool towards, int start) {
+  // The rightmost point turns once round with the string: walked to from where it was last.
+  const auto worse = [&](int i, int than) {
+    const Vec2 &a = points[static_cast<std::size_t>(i)], &b = points[static_cast<std::size_t>(than)];
+    return towards ? right_of(a, far, b) > 0 : right_of(far, a, b) > 0;
+  };
+  int at = start;
+  for (int walked = 0; walked < 2 * k_string_points; ++walked) {
+    const int next = (at + 1) % k_string_points, before = (at + k_string_points - 1) % k_string_points;
+    if (worse(at, next)) {
+      at = next;
+    } else if (worse(at, before)) {
+      at = before;
+    } else {
+      return at;
+    }
+  }
+  return at;
+}
+
+/// A string from the pin's rightmost point over what is in its way to the end.
+class BruteString {
+ public:
+  explicit BruteString(const PinPlace& place)
+      : place_(place), pin_(circle(place.pin(), place.rho)), drum_(circle({0, 0}, place.drum)) {
+    // The line that has all of both circles on its left: ends move until none is on its right.
+    int i = 0, j = 0;
+    for (int round = 0; round < 50; ++round) {
+      const int i_before = i, j_before = j;
+      i = tangent_point(pin_, drum_[static_cast<std::size_t>(j)], true, i);
+      j = tangent_point(drum_, pin_[static_cast<std::size_t>(i)], false, j);
+      if (i == i_before && j == j_before) break;
+    }
+    pin_leaves_ = i;
+    drum_meets_ = j;
+    // From an end above the point where the string meets the drum, where nothing is wound, the joint is turned to where
+    // it is asked. Directions are counted from straight below O.
+    const double meets = k_string_step * drum_meets_;
+    turned_ = 0.5 * k_pi - (meets < 1.5 * k_pi ? meets : meets - k_two_pi);
+    drum_leaves_ = tangent_point(drum_, end(), true, 0);
+    wound_ = drum_leaves_ - drum_meets_;
+    wound_ -= k_string_points * static_cast<int>(std::lround(wound_ / double(k_string_points)));
+  }
+
+  /// From the pin's point at (1, 0) of it; `theta` of the image.
+  double length(double theta) {
+    const double wanted = theta + place_.twist;
+    const int steps = 1 + static_cast<int>(std::ceil(std::abs(wanted - turned_) / 0.2));
+    const double from = turned_;
+    for (int i = 1; i <= steps; ++i) {
+      turned_ = from + (wanted - from) * i / steps;
+      const int leaves = tangent_point(drum_, end(), true, drum_leaves_);
+      int by = leaves - drum_leaves_;
+      by -= k_string_points * static_cast<int>(std::lround(by / double(k_string_points)));
+      wound_ += by;
+      drum_leaves_ = leaves;
+    }
+    if (wound_ > 0) {
+      return round_pin(pin_leaves_) + distance(pin_leaves_, drum_[static_cast<std::size_t>(drum_meets_)]) +
+             place_.drum * k_string_step * wound_ + (end() - drum_[static_cast<std::size_t>(drum_leaves_)]).norm();
+    }
+    const int leaves = tangent_point(pin_, end(), true, pin_leaves_);
+    return round_pin(leaves) + distance(leaves, end());
+  }
+  bool is_wound() const { return wound_ > 0; }
+
+ private:
+  Vec2 end() const { return place_.R * Vec2(std::sin(turned_), std::cos(turned_)); }
+  double distance(int i, const Vec2& to) const { return (to - pin_[static_cast<std::size_t>(i)]).norm(); }
+  /// Along the pin from where the string to the drum leaves it, less than half a turn either way.
+  double round_pin(int i) const {
+    const int by = i - pin_leaves_;
+    return place_.rho * k_string_step *
+           (by - k_string_points * static_cast<int>(std::lround(by / double(k_string_points))));
+  }
+
+  PinPlace place_;
+  std::vector<Vec2> pin_, drum_;
+  int pin_leaves_ = 0, drum_meets_ = 0, drum_leaves_ = 0;
+  int wound_ = 0;  ///< points between them, turns counted; negative: the string is free of the drum
+  double turned_ = 0;
+};
+
+}  // namespace fusee::testing
