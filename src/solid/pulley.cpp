@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -253,12 +254,20 @@ class PieceMaker {
   PieceMaker(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
              std::vector<Mark> marks)
       : mechanism_(mechanism), plan_(plan), marks_(std::move(marks)) {
-    add(synthesis, Piece::whole);
-    if (plan.layout.parts == Parts::two) {
-      add(synthesis, Piece::p1);
-      add(synthesis, Piece::p2);
+    std::vector<Piece> pieces{Piece::whole};
+    if (plan.layout.parts == Parts::two) pieces = {Piece::whole, Piece::p1, Piece::p2};
+    for (const Piece piece : pieces) {
+      const RingStack stack = scaled_to_float(body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter,
+                                                         mechanism_.body.flange, plan_.layout, piece),
+                                              plan_.layout.scale);
+      coinciding_ = coinciding_points(stack);
+      if (coinciding_) return;
+      blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
     }
   }
+
+  // Where a piece has no mesh; nothing can be cut then.
+  const std::optional<Vec3>& coinciding() const { return coinciding_; }
 
   void demand_solids() const {
     for (const Blank& blank : blanks_) demand_solid(blank.mesh, "body");
@@ -295,19 +304,13 @@ class PieceMaker {
     int euler;
   };
 
-  void add(const SynthesisResult& synthesis, Piece piece) {
-    const RingStack stack = scaled_to_float(
-        body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange, plan_.layout, piece),
-        plan_.layout.scale);
-    blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
-  }
-
   inline static const std::vector<Mark> k_no_marks;
 
   const Mechanism& mechanism_;
   const BodyPlan& plan_;
   std::vector<Mark> marks_;
   std::vector<Blank> blanks_;
+  std::optional<Vec3> coinciding_;
 };
 
 // No variant left a solid: walls between features, each wide enough seen along the axis, meet in space.
@@ -340,6 +343,22 @@ std::optional<Condition> too_far_out(const Outline& outline) {
       "the arc that closes {} would reach {} m from the axis: the ends of its active arc lie all but opposite each "
       "other",
       pulley_name(outline.side), rounded(1e-3 * reach, 3));
+  return condition;
+}
+
+// A sharp bend metres from the axis: campaign of seed 620001, design 399 (2.9 m).
+Condition finer_than_floats(const Vec3& place) {
+  const double reach = place.head<2>().norm();
+  Condition condition;
+  condition.name = "resolution";
+  condition.ok = false;
+  condition.value = 0;
+  condition.limit = std::ldexp(1.0, std::ilogb(reach) - 23);
+  condition.unit = "mm";
+  condition.message = fmt::format(
+      "at {}, {} m from the axis, a groove or flange bends more sharply than the numbers of a mesh can hold: steps of "
+      "{} µm",
+      place_of(place), rounded(1e-3 * reach, 3), rounded(1e3 * condition.limit, 2));
   return condition;
 }
 
@@ -468,6 +487,10 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   }
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   const PieceMaker maker(mechanism, synthesis, plan, marks);
+  if (maker.coinciding()) {
+    pulley.conditions.push_back(finer_than_floats(*maker.coinciding()));
+    return rated;
+  }
   // What is no solid has no cut, but is a bug and not a refusal.
   auto gate = beside([&maker] { maker.demand_solids(); });
   const int variants = std::min(effort.variants, first + maker.ways(effort.variants));

@@ -219,6 +219,13 @@ double stacked_volume(const std::vector<Ring>& rings) {
   return volume;
 }
 
+std::optional<Vec3> coinciding_in(const Polygon& loop, double z) {
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (loop[i] == loop[(i + 1) % loop.size()]) return lifted(loop[i], z);
+  }
+  return std::nullopt;
+}
+
 double prism_volume(const Shaft& shaft) { return signed_area(shaft.outline) * (shaft.high - shaft.low); }
 
 }  // namespace
@@ -241,6 +248,18 @@ RingStack scaled_to_float(RingStack stack, double scale) {
   for (Shaft& shaft : stack.through) round_shaft(shaft);
   if (stack.hub) round_shaft(*stack.hub);
   return stack;
+}
+
+std::optional<Vec3> coinciding_points(const RingStack& stack) {
+  for (const std::vector<Ring>* rings : {&stack.rings, &stack.recess}) {
+    for (const Ring& ring : *rings) {
+      if (const auto place = coinciding_in(ring.points, ring.z)) return place;
+    }
+  }
+  for (const Shaft& shaft : stack.through) {
+    if (const auto place = coinciding_in(shaft.outline, shaft.low)) return place;
+  }
+  return stack.hub ? coinciding_in(stack.hub->outline, stack.hub->low) : std::nullopt;
 }
 
 TriangleMesh mesh_of(const RingStack& stack) {
