@@ -3,11 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
+#include "base/beside.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/corefinement.h"
@@ -48,7 +51,7 @@ class Share {
   TriangleMesh mesh_;
 };
 
-// Those whose boxes touch the tool's, and all others.
+// Facets that a tool touches, and all others.
 struct Neighbourhood {
   TriangleMesh near, far;
 };
@@ -72,18 +75,42 @@ std::vector<Bounds> boxes_of_pieces(const TriangleMesh& tool) {
   return all;
 }
 
-Neighbourhood neighbourhood(const TriangleMesh& body, const TriangleMesh& tool) {
+// Facets of the body whose boxes touch the tool's.
+std::vector<bool> touched_by(const TriangleMesh& tool, const TriangleMesh& body) {
   const std::vector<Bounds> boxes = boxes_of_pieces(tool);
-  Share near(body), far(body);
+  std::vector<bool> touched;
+  touched.reserve(body.triangles.size());
   for (const auto& triangle : body.triangles) {
     const Vec3 &a = body.vertices[triangle[0]], &b = body.vertices[triangle[1]], &c = body.vertices[triangle[2]];
     const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    const bool touches = std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) {
+    touched.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) {
       return (low.array() <= box.high.array()).all() && (high.array() >= box.low.array()).all();
-    });
-    (touches ? near : far).add(triangle);
+    }));
   }
+  return touched;
+}
+
+Neighbourhood neighbourhood(const TriangleMesh& body, const std::vector<bool>& touched) {
+  Share near(body), far(body);
+  for (std::size_t f = 0; f < body.triangles.size(); ++f) (touched[f] ? near : far).add(body.triangles[f]);
   return {near.mesh(), far.mesh()};
+}
+
+// Facets near to a tool, cut along the line in which it meets them; null where they cross themselves, which leaves CGAL
+// without an answer, without an end, or without its wits, or are no manifold.
+struct Division {
+  TriangleMesh near;
+  std::optional<Corefined> cut;
+};
+
+Division divided(TriangleMesh near, const TriangleMesh& tool) {
+  Division division{std::move(near), {}};
+  if (!find_crossing(division.near).facets) division.cut = corefined(division.near, tool);
+  return division;
+}
+
+bool are_same(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.triangles == b.triangles && a.vertices == b.vertices;
 }
 
 // The middle and the normal of a patch's largest facet.
@@ -264,11 +291,19 @@ TriangleMesh in_order(TriangleMesh mesh) {
   return mesh;
 }
 
-std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMesh& tool, Operation operation) {
-  const Neighbourhood parts = neighbourhood(body, tool);
-  // What crosses itself leaves CGAL without an answer, without an end, or without its wits.
-  if (find_crossing(parts.near).facets) return std::nullopt;
-  const std::optional<Corefined> cut = corefined(parts.near, tool);
+// Of what a boolean leaves: as floats hold it.
+TriangleMesh settled(const TriangleMesh& exact) { return in_order(without_short_edges(rounded_to_float(exact))); }
+
+// `foreseen`: the division, if the body's facets near to the tool are what they were then.
+std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMesh& tool, Operation operation,
+                                      const Division* foreseen = nullptr) {
+  const Neighbourhood parts = neighbourhood(body, touched_by(tool, body));
+  Division made;
+  if (foreseen == nullptr || !are_same(foreseen->near, parts.near)) {
+    made = divided(parts.near, tool);
+    foreseen = &made;
+  }
+  const std::optional<Corefined>& cut = foreseen->cut;
   Kept kept;
   if (!cut || !sort_patches(cut->first, tool, true, operation, kept) ||
       !sort_patches(cut->second, body, false, operation, kept))
@@ -277,16 +312,49 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
   // It has to fit into the place of what it was.
   const auto border = border_of(near);
   if (!border || border != border_of(parts.near)) return std::nullopt;
-  const TriangleMesh exact = together({near, parts.far});
-  BooleanResult outcome{in_order(without_short_edges(rounded_to_float(exact))), enclosed_volume(in_order(weld(together(kept.common))))};
+  BooleanResult outcome{settled(together({near, parts.far})), enclosed_volume(in_order(weld(together(kept.common))))};
   flip_flat_facets(outcome.mesh);
   return outcome;
+}
+
+// Of each tool after the first that touches no facet which an earlier one touches, begun on threads. The body is put
+// into the order in which the first cut will leave it.
+std::vector<std::future<Division>> foreseen_divisions(const TriangleMesh& body,
+                                                      const std::vector<TriangleMesh>& tools) {
+  std::vector<std::future<Division>> divisions(tools.size());
+  if (tools.size() < 2) return divisions;
+  const TriangleMesh ordered = settled(body);
+  std::vector<bool> taken = touched_by(tools.front(), ordered);
+  for (std::size_t k = 1; k < tools.size(); ++k) {
+    const std::vector<bool> touched = touched_by(tools[k], ordered);
+    bool is_apart = true;
+    for (std::size_t f = 0; f < touched.size(); ++f) {
+      is_apart = is_apart && !(touched[f] && taken[f]);
+      taken[f] = taken[f] || touched[f];
+    }
+    if (!is_apart) continue;
+    divisions[k] =
+        beside([near = neighbourhood(ordered, touched).near, &tool = tools[k]] { return divided(near, tool); });
+  }
+  return divisions;
 }
 
 }  // namespace
 
 std::optional<BooleanResult> subtract(const TriangleMesh& body, const TriangleMesh& tool) {
   return combined(body, tool, Operation::subtract);
+}
+std::optional<CutBody> subtract_each(const TriangleMesh& body, const std::vector<TriangleMesh>& tools) {
+  CutBody result{body, {}};
+  std::vector<std::future<Division>> divisions = foreseen_divisions(body, tools);
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    const std::optional<Division> foreseen = divisions[k].valid() ? std::optional(divisions[k].get()) : std::nullopt;
+    auto outcome = combined(result.mesh, tools[k], Operation::subtract, foreseen ? &*foreseen : nullptr);
+    if (!outcome) return std::nullopt;
+    result.mesh = std::move(outcome->mesh);
+    result.common_volumes.push_back(outcome->common_volume);
+  }
+  return result;
 }
 std::optional<BooleanResult> unite(const TriangleMesh& a, const TriangleMesh& b) {
   return combined(a, b, Operation::unite);
