@@ -49,10 +49,12 @@ constexpr std::size_t after(std::size_t corner) { return corner == 2 ? 0 : corne
 // arithmetic, whose margin is far above its rounding.
 class FacetPlanes {
  public:
-  explicit FacetPlanes(const std::array<Vec3, 3>& corners) : corners_(corners) {
+  // `extent`: no two points that are asked about are further apart along any axis.
+  FacetPlanes(const std::array<Vec3, 3>& corners, double extent) : corners_(corners), extent_(extent) {
     const Vec3 along = corners_[1] - corners_[0], across = corners_[2] - corners_[0];
     normal_ = along.cross(across);
     reach_ = along.cwiseAbs().maxCoeff() * across.cwiseAbs().maxCoeff();
+    margin_ = k_margin * reach_ * extent;
   }
 
   const Vec3& corner(std::size_t k) const { return corners_[k]; }
@@ -62,20 +64,16 @@ class FacetPlanes {
 
   // +1, −1: surely on that side of the plane; 0: who knows.
   int side_of(const Vec3& point) const {
-    const Vec3 offset = point - corners_[0];
-    const double height = normal_.dot(offset);
-    const double margin = k_margin * reach_ * offset.cwiseAbs().maxCoeff();
-    return height > margin ? 1 : height < -margin ? -1 : 0;
+    const double height = normal_.dot(point - corners_[0]);
+    return height > margin_ ? 1 : height < -margin_ ? -1 : 0;
   }
 
   // All of these corners of the other facet lie surely beyond the edge from corner k to the next.
   bool are_beyond(std::size_t k, const FacetPlanes& other, const std::array<bool, 3>& left_out) const {
     const Vec3 outward = (corners_[after(k)] - corners_[k]).cross(normal_);
-    const double size = k_edge_margin * outward.cwiseAbs().maxCoeff();
+    const double margin = k_edge_margin * extent_ * outward.cwiseAbs().maxCoeff();
     for (std::size_t j = 0; j < 3; ++j) {
-      if (left_out[j]) continue;
-      const Vec3 offset = other.corners_[j] - corners_[k];
-      if (!(outward.dot(offset) > size * offset.cwiseAbs().maxCoeff())) return false;
+      if (!left_out[j] && !(outward.dot(other.corners_[j] - corners_[k]) > margin)) return false;
     }
     return true;
   }
@@ -86,7 +84,7 @@ class FacetPlanes {
 
   std::array<Vec3, 3> corners_;
   Vec3 normal_;
-  double reach_ = 0;
+  double extent_ = 0, reach_ = 0, margin_ = 0;
 };
 
 // Exact, once plain arithmetic has not told two facets apart.
@@ -230,10 +228,12 @@ FacetBoxes boxes_of(const TriangleMesh& mesh) {
   of.boxes.reserve(mesh.triangles.size());
   polar.reserve(mesh.triangles.size());
   double cartesian_crowd = 0, polar_crowd = 0, reach = 0;
+  const Bounds box = bounds(mesh);
+  const double extent = (box.high - box.low).maxCoeff();
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const auto& [a, b, c] = mesh.triangles[f];
     const std::array<Vec3, 3> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
-    const FacetPlanes planes(corners);
+    const FacetPlanes planes(corners, extent);
     if (!planes.has_area() && is_degenerate(mesh, f)) continue;
     of.facets.push_back(f);
     of.planes.push_back(planes);
