@@ -56,36 +56,39 @@ struct Neighbourhood {
   TriangleMesh near, far;
 };
 
-// One for each piece that hangs together.
-std::vector<Bounds> boxes_of_pieces(const TriangleMesh& tool) {
-  DisjointSets pieces(tool.vertices.size());
-  for (const auto& [a, b, c] : tool.triangles) {
+// What of a mesh hangs together.
+std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
+  DisjointSets pieces(mesh.vertices.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
     pieces.unite(a, b);
     pieces.unite(a, c);
   }
-  constexpr double far = std::numeric_limits<double>::infinity();
-  std::map<std::size_t, Bounds> boxes;
-  for (std::size_t k = 0; k < tool.vertices.size(); ++k) {
-    Bounds& box = boxes.try_emplace(pieces.root(k), Bounds{Vec3::Constant(far), Vec3::Constant(-far)}).first->second;
-    box.low = box.low.cwiseMin(tool.vertices[k]);
-    box.high = box.high.cwiseMax(tool.vertices[k]);
-  }
-  std::vector<Bounds> all;
-  for (const auto& [root, box] : boxes) all.push_back(box);
+  std::map<std::size_t, Share> shares;
+  for (const auto& triangle : mesh.triangles)
+    shares.try_emplace(pieces.root(triangle[0]), mesh).first->second.add(triangle);
+  std::vector<TriangleMesh> all;
+  for (const auto& [root, share] : shares) all.push_back(share.mesh());
   return all;
 }
 
-// Facets of the body whose boxes touch the tool's.
+bool touches(const Bounds& box, const Bounds& other) {
+  return (box.low.array() <= other.high.array()).all() && (box.high.array() >= other.low.array()).all();
+}
+
+Bounds box_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+// Facets of the body whose boxes touch that of one of the tool's pieces.
 std::vector<bool> touched_by(const TriangleMesh& tool, const TriangleMesh& body) {
-  const std::vector<Bounds> boxes = boxes_of_pieces(tool);
+  std::vector<Bounds> boxes;
+  for (const TriangleMesh& piece : pieces_of(tool)) boxes.push_back(bounds(piece));
   std::vector<bool> touched;
   touched.reserve(body.triangles.size());
   for (const auto& triangle : body.triangles) {
-    const Vec3 &a = body.vertices[triangle[0]], &b = body.vertices[triangle[1]], &c = body.vertices[triangle[2]];
-    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    touched.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) {
-      return (low.array() <= box.high.array()).all() && (high.array() >= box.low.array()).all();
-    }));
+    const Bounds facet = box_of(body, triangle);
+    touched.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return touches(facet, box); }));
   }
   return touched;
 }
@@ -103,9 +106,62 @@ struct Division {
   std::optional<Corefined> cut;
 };
 
+// Pieces of a tool, and the facets that they touch and no other piece does.
+struct Encounter {
+  TriangleMesh near, tool;
+};
+
+// `near`: facets each of which a piece of the tool touches.
+std::vector<Encounter> encounters(const TriangleMesh& near, const TriangleMesh& tool) {
+  const std::vector<TriangleMesh> pieces = pieces_of(tool);
+  if (pieces.size() < 2) return {{near, tool}};
+  std::vector<Bounds> boxes;
+  for (const TriangleMesh& piece : pieces) boxes.push_back(bounds(piece));
+  DisjointSets together_with(pieces.size());
+  std::vector<std::size_t> piece_at(near.triangles.size());
+  for (std::size_t f = 0; f < near.triangles.size(); ++f) {
+    const Bounds facet = box_of(near, near.triangles[f]);
+    std::size_t first = pieces.size();
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (!touches(facet, boxes[k])) continue;
+      if (first == pieces.size()) first = k;
+      together_with.unite(first, k);
+    }
+    piece_at[f] = first;
+  }
+  std::map<std::size_t, std::pair<Share, std::vector<TriangleMesh>>> groups;
+  const auto group_of = [&](std::size_t piece) -> auto& {
+    return groups.try_emplace(together_with.root(piece), Share(near), std::vector<TriangleMesh>()).first->second;
+  };
+  for (std::size_t f = 0; f < near.triangles.size(); ++f) group_of(piece_at[f]).first.add(near.triangles[f]);
+  for (std::size_t k = 0; k < pieces.size(); ++k) group_of(k).second.push_back(pieces[k]);
+  std::vector<Encounter> all;
+  for (const auto& [root, group] : groups) all.push_back({group.first.mesh(), together(group.second)});
+  return all;
+}
+
+// Each encounter beside the others.
+std::optional<Corefined> corefined_apart(const TriangleMesh& near, const TriangleMesh& tool) {
+  const std::vector<Encounter> all = encounters(near, tool);
+  std::vector<std::future<std::optional<Corefined>>> others;
+  for (std::size_t k = 1; k < all.size(); ++k)
+    others.push_back(beside([&all, k] { return corefined(all[k].near, all[k].tool); }));
+  std::optional<Corefined> whole = corefined(all.front().near, all.front().tool);
+  for (auto& other : others) {
+    const std::optional<Corefined> part = other.get();
+    if (!whole || !part) {
+      whole.reset();
+      continue;
+    }
+    whole->first.insert(whole->first.end(), part->first.begin(), part->first.end());
+    whole->second.insert(whole->second.end(), part->second.begin(), part->second.end());
+  }
+  return whole;
+}
+
 Division divided(TriangleMesh near, const TriangleMesh& tool) {
   Division division{std::move(near), {}};
-  if (!find_crossing(division.near).facets) division.cut = corefined(division.near, tool);
+  if (!find_crossing(division.near).facets) division.cut = corefined_apart(division.near, tool);
   return division;
 }
 
