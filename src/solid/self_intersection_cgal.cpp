@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/beside.h"
 #include "fusee/base/units.h"
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"
@@ -209,6 +210,9 @@ Box3 polar_box(const std::array<Vec3, 3>& corners, const std::array<double, 3>& 
   return box;
 }
 
+// Of fewer facets the search is over before a thread has begun.
+constexpr std::size_t k_worth_halving = 2000;
+
 /// What facets take up: those whose boxes are apart do not meet.
 struct FacetBoxes {
   std::vector<std::size_t> facets;  ///< that have an area
@@ -258,16 +262,24 @@ bool is_degenerate(const TriangleMesh& mesh, std::size_t facet) {
 CrossingSearch find_crossing(const TriangleMesh& welded) {
   const FacetBoxes facets = boxes_of(welded);
   const CrossingTest cross(welded, facets.facets, facets.planes);
-  // A part whose facets all lie in one heap would take hours; no real one comes near this.
-  std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
-  CrossingSearch search;
-  BoxTree(facets.boxes).any_pair([&](std::size_t i, std::size_t j) {
-    search.gave_up = pairs_left-- == 0;
-    if (search.gave_up) return true;
-    if (cross(i, j)) search.facets = std::minmax(facets.facets[i], facets.facets[j]);
-    return search.facets.has_value();
-  });
-  return search;
+  const BoxTree tree(facets.boxes);
+  const auto search_in = [&](const auto& any_pair) {
+    // A part whose facets all lie in one heap would take hours; no real one comes near this.
+    std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
+    CrossingSearch search;
+    any_pair([&](std::size_t i, std::size_t j) {
+      search.gave_up = pairs_left-- == 0;
+      if (search.gave_up) return true;
+      if (cross(i, j)) search.facets = std::minmax(facets.facets[i], facets.facets[j]);
+      return search.facets.has_value();
+    });
+    return search;
+  };
+  auto in_rest = beside([&] { return search_in([&](const auto& look) { return tree.any_pair_in_the_rest(look); }); },
+                        facets.boxes.size() > k_worth_halving);
+  CrossingSearch first = search_in([&](const auto& look) { return tree.any_pair_in_first_half(look); });
+  const CrossingSearch rest = in_rest.get();
+  return first.facets || first.gave_up ? first : rest;
 }
 
 }  // namespace fusee
