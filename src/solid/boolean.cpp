@@ -295,13 +295,6 @@ std::optional<std::vector<OpenSide>> border_of(const TriangleMesh& welded) {
   return border;
 }
 
-// Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone.
-TriangleMesh without_short_edges(const TriangleMesh& rounded) {
-  TriangleMesh mesh = weld(rounded);
-  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-  return mesh;
-}
-
 // Rounding may put a facet's three corners on a line. It lies along its longest edge: the two facets on that edge are
 // divided the other way.
 void flip_flat_facets(TriangleMesh& mesh) {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -279,14 +278,9 @@ class PieceMaker {
       const RingStack stack = scaled_to_float(body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter,
                                                          mechanism_.body.flange, plan_.layout, piece),
                                               plan_.layout.scale);
-      coinciding_ = coinciding_points(stack);
-      if (coinciding_) return;
       blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
     }
   }
-
-  // Where a piece has no mesh; nothing can be cut then.
-  const std::optional<Vec3>& coinciding() const { return coinciding_; }
 
   void demand_solids() const {
     for (const Blank& blank : blanks_) demand_solid(blank.mesh, "body");
@@ -330,7 +324,6 @@ class PieceMaker {
   std::vector<Mark> marks_;
   Corners corners_;
   std::vector<Blank> blanks_;
-  std::optional<Vec3> coinciding_;
 };
 
 // No variant left a solid: walls between features, each wide enough seen along the axis, meet in space.
@@ -363,22 +356,6 @@ std::optional<Condition> too_far_out(const Outline& outline) {
       "the arc that closes {} would reach {} m from the axis: the ends of its active arc lie all but opposite each "
       "other",
       pulley_name(outline.side), rounded(1e-3 * reach, 3));
-  return condition;
-}
-
-// A sharp bend metres from the axis: campaign of seed 620001, design 399 (2.9 m).
-Condition finer_than_floats(const Vec3& place) {
-  const double reach = place.head<2>().norm();
-  Condition condition;
-  condition.name = "resolution";
-  condition.ok = false;
-  condition.value = 0;
-  condition.limit = std::ldexp(1.0, std::ilogb(reach) - 23);
-  condition.unit = "mm";
-  condition.message = fmt::format(
-      "at {}, {} m from the axis, a groove or flange bends more sharply than the numbers of a mesh can hold: steps of "
-      "{} µm",
-      place_of(place), rounded(1e-3 * reach, 3), rounded(1e3 * condition.limit, 2));
   return condition;
 }
 
@@ -508,10 +485,6 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   }
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
   const PieceMaker maker(mechanism, synthesis, plan, marks, corners);
-  if (maker.coinciding()) {
-    pulley.conditions.push_back(finer_than_floats(*maker.coinciding()));
-    return rated;
-  }
   // What is no solid has no cut, but is a bug and not a refusal.
   auto gate = beside([&maker] { maker.demand_solids(); });
   const int variants = std::min(effort.variants, first + maker.ways(effort.variants));

@@ -70,7 +70,7 @@ class StackMesher {
       below = above;
     }
     add_holes(below);
-    return std::move(mesh_);
+    return has_short_edges_ ? without_short_edges(mesh_) : std::move(mesh_);
   }
 
  private:
@@ -174,8 +174,16 @@ class StackMesher {
     std::vector<Polygon> loops;
     std::vector<std::uint32_t> index;
     for (std::size_t k = 0; k < face.loops.size(); ++k) {
-      loops.push_back(*face.loops[k]);
-      for (std::uint32_t i = 0; i < loops.back().size(); ++i) index.push_back(face.firsts[k] + i);
+      const Polygon& loop = *face.loops[k];
+      Polygon& apart = loops.emplace_back();
+      for (std::uint32_t i = 0; i < loop.size(); ++i) {
+        if (loop[i] == loop[(i + 1) % loop.size()]) {
+          has_short_edges_ = true;
+          continue;
+        }
+        apart.push_back(loop[i]);
+        index.push_back(face.firsts[k] + i);
+      }
     }
     const std::vector<Vec2> inner = points_within(loops);
     const auto first_inner = add_loop(inner, mesh_.vertices[index.front()].z());
@@ -191,6 +199,7 @@ class StackMesher {
 
   const RingStack& stack_;
   TriangleMesh mesh_;
+  bool has_short_edges_ = false;  ///< along a flat face
 };
 
 // Half-way between two rings the strip's section is the polygon through the middles of its uprights and diagonals.
@@ -219,13 +228,6 @@ double stacked_volume(const std::vector<Ring>& rings) {
   return volume;
 }
 
-std::optional<Vec3> coinciding_in(const Polygon& loop, double z) {
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    if (loop[i] == loop[(i + 1) % loop.size()]) return lifted(loop[i], z);
-  }
-  return std::nullopt;
-}
-
 double prism_volume(const Shaft& shaft) { return signed_area(shaft.outline) * (shaft.high - shaft.low); }
 
 }  // namespace
@@ -248,18 +250,6 @@ RingStack scaled_to_float(RingStack stack, double scale) {
   for (Shaft& shaft : stack.through) round_shaft(shaft);
   if (stack.hub) round_shaft(*stack.hub);
   return stack;
-}
-
-std::optional<Vec3> coinciding_points(const RingStack& stack) {
-  for (const std::vector<Ring>* rings : {&stack.rings, &stack.recess}) {
-    for (const Ring& ring : *rings) {
-      if (const auto place = coinciding_in(ring.points, ring.z)) return place;
-    }
-  }
-  for (const Shaft& shaft : stack.through) {
-    if (const auto place = coinciding_in(shaft.outline, shaft.low)) return place;
-  }
-  return stack.hub ? coinciding_in(stack.hub->outline, stack.hub->low) : std::nullopt;
 }
 
 TriangleMesh mesh_of(const RingStack& stack) {
