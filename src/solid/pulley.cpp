@@ -552,19 +552,23 @@ Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResul
                                 Corners corners, const Effort& effort) {
   TieOffWishes wishes;
   wishes.mouth_lean = mouth_lean;
+  std::optional<Pulley> printable;  // of a mesh that bears less than it might
   for (int round = 0;; ++round) {
     const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
     if (mechanism.print.supports) return pulley_of(mechanism, synthesis, plan, corners, effort, k_sound).pulley;
     // Any cut shows whether it prints; the best is looked for where it does.
     RatedPulley rated = pulley_of(mechanism, synthesis, plan, corners, effort, k_any);
-    if (!rated.pulley.made()) return std::move(rated.pulley);
-    if (rated.soundness != k_sound && rated.unprintable.empty())
+    if (rated.pulley.made() && rated.unprintable.empty()) {
+      if (rated.soundness == k_sound) return std::move(rated.pulley);
+      printable = std::move(rated.pulley);
       rated = pulley_of(mechanism, synthesis, plan, corners, effort, k_sound);
+    }
     Pulley& pulley = rated.pulley;
-    const std::vector<Vec3>& places = rated.unprintable;
-    if (places.empty()) return std::move(pulley);
-    const std::vector<Rejection> blamed = news(blamed_for(places, plan), wishes.rejected);
-    if (blamed.empty() || round == effort.rounds) return refused(std::move(pulley), mechanism, places);
+    if (pulley.made() && rated.unprintable.empty()) return std::move(pulley);
+    if (!pulley.made()) return printable ? std::move(*printable) : std::move(pulley);
+    const std::vector<Rejection> blamed = news(blamed_for(rated.unprintable, plan), wishes.rejected);
+    if (blamed.empty() || round == effort.rounds)
+      return printable ? std::move(*printable) : refused(std::move(pulley), mechanism, rated.unprintable);
     wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
   }
 }
