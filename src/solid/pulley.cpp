@@ -36,6 +36,8 @@ constexpr int k_brief_variants = 2;
 // So many facets are cut in all: a large part is tried in fewer ways, and no less than two. One of 110 000 took ten
 // seconds for eight ways that are all as good (campaign of seed 310001, design 171).
 constexpr std::size_t k_most_cut_facets = 300'000;
+// Facets; parts of ordinary size and tolerance have half as many.
+constexpr std::size_t k_large_body = 30'000;
 // How often tie-offs that do not print are planned anew.
 constexpr int k_rounds = 8;
 constexpr int k_brief_rounds = 1;
@@ -136,7 +138,9 @@ class FeatureCutter {
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
     auto soundness = beside([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
-    auto unprintable = beside([&] { return unprintable_places_of(result.mesh); }, is_printed());
+    // Of a large part it takes long, and is for nothing where its mesh has a fault: then it waits for the checks.
+    const bool is_worth_a_thread = is_printed() && result.mesh.triangles.size() < k_large_body;
+    auto unprintable = beside([&] { return unprintable_places_of(result.mesh); }, is_worth_a_thread);
     result.checks = check_mesh(result.mesh);
     if (!all_ok(result.checks)) return std::nullopt;
     if (piece_ == Piece::whole) result.soundness = soundness.get();

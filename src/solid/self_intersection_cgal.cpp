@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -263,13 +264,14 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
   const FacetBoxes facets = boxes_of(welded);
   const CrossingTest cross(welded, facets.facets, facets.planes);
   const BoxTree tree(facets.boxes);
+  std::atomic<bool> is_over = false;
   const auto search_in = [&](const auto& any_pair) {
     // A part whose facets all lie in one heap would take hours; no real one comes near this.
     std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
     CrossingSearch search;
     any_pair([&](std::size_t i, std::size_t j) {
       search.gave_up = pairs_left-- == 0;
-      if (search.gave_up) return true;
+      if (search.gave_up || is_over) return true;
       if (cross(i, j)) search.facets = std::minmax(facets.facets[i], facets.facets[j]);
       return search.facets.has_value();
     });
@@ -277,7 +279,8 @@ CrossingSearch find_crossing(const TriangleMesh& welded) {
   };
   auto in_rest = beside([&] { return search_in([&](const auto& look) { return tree.any_pair_in_the_rest(look); }); },
                         facets.boxes.size() > k_worth_halving);
-  CrossingSearch first = search_in([&](const auto& look) { return tree.any_pair_in_first_half(look); });
+  const CrossingSearch first = search_in([&](const auto& look) { return tree.any_pair_in_first_half(look); });
+  is_over = first.facets || first.gave_up;
   const CrossingSearch rest = in_rest.get();
   return first.facets || first.gave_up ? first : rest;
 }
