@@ -92,7 +92,7 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   return welded;
 }
 
-TriangleMesh without_short_edges(const TriangleMesh& mesh) {
+TriangleMesh without_collapsed_facets(const TriangleMesh& mesh) {
   TriangleMesh welded = weld(mesh);
   std::erase_if(welded.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
   return welded;

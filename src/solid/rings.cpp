@@ -70,7 +70,7 @@ class StackMesher {
       below = above;
     }
     add_holes(below);
-    return has_short_edges_ ? without_short_edges(mesh_) : std::move(mesh_);
+    return has_short_edges_ ? without_collapsed_facets(mesh_) : std::move(mesh_);
   }
 
  private:
