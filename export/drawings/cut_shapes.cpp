@@ -38,14 +38,19 @@ void put_on_arc(Polygon& points, std::size_t count, double radius) {
 }
 
 bool beyond(const Vec2& low, const Vec2& high, const Vec2& point, double margin) {
-  return (point - low).minCoeff() < -margin || (high - point).minCoeff() < -margin;
+  return point.x() - low.x() < -margin || point.y() - low.y() < -margin || high.x() - point.x() < -margin ||
+         high.y() - point.y() < -margin;
 }
 
 bool near_an_edge(const Polygon& polygon, const Vec2& point, double margin) {
   const double surely = margin * (1.0 + 1e-9);  // of an edge whose box is further off the distance need not be asked
+  const double left = point.x() - surely, right = point.x() + surely, below = point.y() - surely,
+               above = point.y() + surely;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
     const Vec2 &a = polygon[j], &b = polygon[i];
-    if (!beyond(a.cwiseMin(b), a.cwiseMax(b), point, surely) && distance_to_segment(point, a, b) < margin) return true;
+    const bool is_far = (a.x() > right && b.x() > right) || (a.x() < left && b.x() < left) ||
+                        (a.y() > above && b.y() > above) || (a.y() < below && b.y() < below);
+    if (!is_far && distance_to_segment(point, a, b) < margin) return true;
   }
   return false;
 }

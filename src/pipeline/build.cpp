@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <functional>
 #include <future>
+#include <memory>
 
 #include "base/beside.h"
 #include "fusee/analysis/plausibility.h"
@@ -125,36 +126,6 @@ DracoFile write_climbing(Workshop& shop) {
   return file;
 }
 
-/// The Draco file and what was found of it.
-DracoFile write_parts(Workshop& shop) {
-  Product& product = shop.result.product;
-  const TriangleMesh& mesh = product.pulley.mesh;
-  const std::string& name = product.file.mechanism.name;
-  shop.step("writing meshes and drawings");
-  // Each beside the others; all are staged in order.
-  auto draco = beside([&] { return draco_file(mesh, shop.options.tolerance); });
-  auto plates = beside([&] { return plates_dxf(product, shop.options.dxf); });
-  auto profile = beside([&] { return profile_dxf(product, shop.options.dxf); });
-  auto threemf = beside([&] { return threemf_bytes(plate_of(product.pulley), name); });
-  auto obj = beside([&] { return obj_text(mesh, name); });
-  auto scad = beside([&] { return scad_text(product); });
-  auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
-  auto stl = beside([&] { return stl_bytes(mesh, name); });
-  auto step = beside([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
-  shop.stage("pulley.stl", shop.take(stl));
-  shop.stage("pulley.obj", shop.take(obj));
-  shop.stage("pulley.3mf", shop.take(threemf));
-  for (const PrintedPart& part : product.pulley.parts) shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
-  DracoFile file = shop.take(draco);
-  shop.stage("pulley.drc", file.bytes);
-  if (shop.options.step) stage_step(shop, shop.take(step));
-  shop.stage("pulley.scad", shop.take(scad));
-  shop.stage("profile.dxf", shop.take(profile));
-  shop.stage("plates.dxf", shop.take(plates));
-  product.holding = shop.take(holding);
-  return file;
-}
-
 /// As it lies on the printer.
 std::vector<Check> print_checks(const Print& print, const TriangleMesh& mesh) {
   if (print.supports) return {};
@@ -191,41 +162,91 @@ std::vector<Check> checks_of_printed(const Workshop& shop, const PrintedPart& pa
   return checks;
 }
 
-/// Everything below looks at files, not at what is in memory: only what was written can be printed. What was found of
-/// the same bytes, or of the same facets, before they were written is not looked for again.
-void check_parts(Workshop& shop, const DracoFile& draco) {
-  Product& product = shop.result.product;
+/// Looks at files, not at what is in memory: only what was written can be printed. What was found of the same bytes, or
+/// of the same facets, before they were written is not looked for again. Each begins as soon as its file is staged.
+struct Looks {
+  using Found = std::future<std::vector<Check>>;
+
+  std::shared_future<TriangleMesh> mesh;  ///< of pulley.stl
+  Found of_pulley, of_obj, of_3mf, of_draco, of_step, of_profile, of_plates;
+  std::vector<Found> of_printed;
+  std::future<RewindResult> as_built;
+};
+
+void look_at_mesh(Looks& looks, const Workshop& shop) {
+  const Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
+  looks.mesh = beside([&shop] { return shop.mesh_of("pulley.stl"); }).share();
+  looks.of_pulley = beside([&shop, &product, mesh = looks.mesh] {
+    return check_pulley(mesh.get(), product.joint.mechanism, product.synthesis, product.pulley, shop.options.tolerance);
+  });
+  looks.as_built =
+      beside([&product, mesh = looks.mesh] { return rewind_made(product.joint, product.pulley.layout, mesh.get()); });
+  if (product.pulley.parts.empty())
+    looks.of_printed.push_back(
+        beside([&mechanism, mesh = looks.mesh] { return print_checks(mechanism.print, mesh.get()); }));
+}
+
+/// Every file that has a part in it, in order, each made beside the others.
+Looks write_parts(Workshop& shop) {
+  Product& product = shop.result.product;
+  const TriangleMesh& mesh = product.pulley.mesh;
+  const std::string& name = product.file.mechanism.name;
+  shop.step("writing meshes and drawings");
+  auto draco = beside([&] { return draco_file(mesh, shop.options.tolerance); });
+  auto plates = beside([&] { return plates_dxf(product, shop.options.dxf); });
+  auto profile = beside([&] { return profile_dxf(product, shop.options.dxf); });
+  auto threemf = beside([&] { return threemf_bytes(plate_of(product.pulley), name); });
+  auto obj = beside([&] { return obj_text(mesh, name); });
+  auto scad = beside([&] { return scad_text(product); });
+  auto holding = beside([&] { return tendon_holding(product.joint.mechanism, product.synthesis, product.pulley); });
+  auto step = beside([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
+  Looks looks;
+  shop.stage("pulley.stl", stl_bytes(mesh, name));
+  look_at_mesh(looks, shop);
+  shop.stage("pulley.obj", shop.take(obj));
+  looks.of_obj = beside([&shop, read = looks.mesh] { return same_mesh(read.get(), shop.mesh_of("pulley.obj")); });
+  shop.stage("pulley.3mf", shop.take(threemf));
+  looks.of_3mf = beside([&shop, &product] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
+  for (const PrintedPart& part : product.pulley.parts) {
+    shop.stage(part_file_name(part.side), stl_bytes(part.mesh, name));
+    looks.of_printed.push_back(beside([&shop, &part] { return checks_of_printed(shop, part); }));
+  }
+  DracoFile file = shop.take(draco);
+  shop.stage("pulley.drc", file.bytes);
+  looks.of_draco = beside([&shop, read = looks.mesh, made = std::make_shared<const DracoFile>(std::move(file))] {
+    return draco_checks(shop, read.get(), *made);
+  });
+  if (shop.options.step) stage_step(shop, shop.take(step));
+  shop.stage("pulley.scad", shop.take(scad));
+  shop.stage("profile.dxf", shop.take(profile));
+  looks.of_profile = beside([&shop] { return check_part(shop.read_back("profile.dxf")); });
+  shop.stage("plates.dxf", shop.take(plates));
+  looks.of_plates = beside([&shop] { return check_part(shop.read_back("plates.dxf")); });
+  product.holding = shop.take(holding);
+  const bool is_step = has_step(shop);
+  looks.of_step = beside([&shop, is_step] { return is_step ? step_checks(shop) : std::vector<Check>(); }, is_step);
+  return looks;
+}
+
+/// What the looks found.
+void check_parts(Workshop& shop, Looks& looks) {
+  Product& product = shop.result.product;
   shop.step("checking what was written");
-  auto written = beside([&] { return shop.mesh_of("pulley.stl"); });
-  const TriangleMesh mesh = shop.take(written);
-  auto of_draco = beside([&] { return draco_checks(shop, mesh, draco); });
-  auto of_plates = beside([&] { return check_part(shop.read_back("plates.dxf")); });
-  auto of_profile = beside([&] { return check_part(shop.read_back("profile.dxf")); });
-  auto of_3mf = beside([&] { return same_mesh(plate_of(product.pulley), shop.mesh_of("pulley.3mf")); });
-  auto of_obj = beside([&] { return same_mesh(mesh, shop.mesh_of("pulley.obj")); });
-  auto of_pulley =
-      beside([&] { return check_pulley(mesh, mechanism, product.synthesis, product.pulley, shop.options.tolerance); });
-  std::vector<std::future<std::vector<Check>>> of_printed;
-  for (const PrintedPart& part : product.pulley.parts)
-    of_printed.push_back(beside([&] { return checks_of_printed(shop, part); }));
-  if (product.pulley.parts.empty()) of_printed.push_back(beside([&] { return print_checks(mechanism.print, mesh); }));
-  auto as_built = beside([&] { return rewind_made(product.joint, product.pulley.layout, mesh); });
-  auto of_step = beside([&] { return has_step(shop) ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
-  shop.add(shop.take(of_pulley));
+  shop.add(shop.take(looks.of_pulley));
   shop.step("winding tendons on it");
-  product.as_built = shop.take(as_built);
-  shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
+  product.as_built = shop.take(looks.as_built);
+  shop.add(as_built_checks(product.joint.mechanism, product.as_built, shop.options.limits));
   shop.step("checking the other files");
   for (std::size_t k = 0; k < product.pulley.parts.size(); ++k)
-    shop.add(shop.take(of_printed[k]), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
-  if (product.pulley.parts.empty()) shop.add(shop.take(of_printed.front()));
-  shop.add(shop.take(of_obj), "obj_");
-  shop.add(shop.take(of_3mf), "3mf_");
-  shop.add(shop.take(of_draco), "drc_");
-  shop.add(shop.take(of_step), "step_");
-  shop.add(shop.take(of_profile), "profile_dxf_");
-  shop.add(shop.take(of_plates), "plates_dxf_");
+    shop.add(shop.take(looks.of_printed[k]), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
+  if (product.pulley.parts.empty()) shop.add(shop.take(looks.of_printed.front()));
+  shop.add(shop.take(looks.of_obj), "obj_");
+  shop.add(shop.take(looks.of_3mf), "3mf_");
+  shop.add(shop.take(looks.of_draco), "drc_");
+  shop.add(shop.take(looks.of_step), "step_");
+  shop.add(shop.take(looks.of_profile), "profile_dxf_");
+  shop.add(shop.take(looks.of_plates), "plates_dxf_");
 }
 
 void check_climbing(Workshop& shop, const DracoFile& draco) {
@@ -253,12 +274,23 @@ void check_climbing(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_profile), "profile_dxf_");
 }
 
-/// Looks at what is staged. A file of ours that cannot be used is nobody's bad input.
-void check_written(Workshop& shop, const DracoFile& draco) {
+/// A file of ours that cannot be used is nobody's bad input.
+template <typename Look>
+void check_written(const Look& look) {
   try {
-    shop.result.product.helix ? check_climbing(shop, draco) : check_parts(shop, draco);
+    look();
   } catch (const InputError& error) {
     throw Bug(std::string("what was written cannot be used: ") + error.what());
+  }
+}
+
+void write_and_check_parts(Workshop& shop) {
+  if (shop.result.product.helix) {
+    const DracoFile draco = write_climbing(shop);
+    check_written([&] { check_climbing(shop, draco); });
+  } else {
+    Looks looks = write_parts(shop);
+    check_written([&] { check_parts(shop, looks); });
   }
 }
 
@@ -437,8 +469,7 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
 }
 
 void write_and_check(Workshop& shop) {
-  const DracoFile draco = shop.result.product.helix ? write_climbing(shop) : write_parts(shop);
-  check_written(shop, draco);
+  write_and_check_parts(shop);
   write_texts(shop);
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }

@@ -3,12 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 #include <tuple>
+#include <utility>
 
+#include "base/beside.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/corefinement.h"
@@ -50,42 +53,122 @@ class Share {
   TriangleMesh mesh_;
 };
 
-// Those whose boxes touch the tool's, and all others.
+// Facets that a tool touches, and all others.
 struct Neighbourhood {
   TriangleMesh near, far;
 };
 
-// One for each piece that hangs together.
-std::vector<Bounds> boxes_of_pieces(const TriangleMesh& tool) {
-  DisjointSets pieces(tool.vertices.size());
-  for (const auto& [a, b, c] : tool.triangles) {
+// What of a mesh hangs together.
+std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
+  DisjointSets pieces(mesh.vertices.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
     pieces.unite(a, b);
     pieces.unite(a, c);
   }
-  constexpr double far = std::numeric_limits<double>::infinity();
-  std::map<std::size_t, Bounds> boxes;
-  for (std::size_t k = 0; k < tool.vertices.size(); ++k) {
-    Bounds& box = boxes.try_emplace(pieces.root(k), Bounds{Vec3::Constant(far), Vec3::Constant(-far)}).first->second;
-    box.low = box.low.cwiseMin(tool.vertices[k]);
-    box.high = box.high.cwiseMax(tool.vertices[k]);
-  }
-  std::vector<Bounds> all;
-  for (const auto& [root, box] : boxes) all.push_back(box);
+  std::map<std::size_t, Share> shares;
+  for (const auto& triangle : mesh.triangles)
+    shares.try_emplace(pieces.root(triangle[0]), mesh).first->second.add(triangle);
+  std::vector<TriangleMesh> all;
+  for (const auto& [root, share] : shares) all.push_back(share.mesh());
   return all;
 }
 
-Neighbourhood neighbourhood(const TriangleMesh& body, const TriangleMesh& tool) {
-  const std::vector<Bounds> boxes = boxes_of_pieces(tool);
-  Share near(body), far(body);
+bool touches(const Bounds& box, const Bounds& other) {
+  return (box.low.array() <= other.high.array()).all() && (box.high.array() >= other.low.array()).all();
+}
+
+Bounds box_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+// Facets of the body whose boxes touch that of one of the tool's pieces.
+std::vector<bool> touched_by(const TriangleMesh& tool, const TriangleMesh& body) {
+  std::vector<Bounds> boxes;
+  for (const TriangleMesh& piece : pieces_of(tool)) boxes.push_back(bounds(piece));
+  std::vector<bool> touched;
+  touched.reserve(body.triangles.size());
   for (const auto& triangle : body.triangles) {
-    const Vec3 &a = body.vertices[triangle[0]], &b = body.vertices[triangle[1]], &c = body.vertices[triangle[2]];
-    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    const bool touches = std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) {
-      return (low.array() <= box.high.array()).all() && (high.array() >= box.low.array()).all();
-    });
-    (touches ? near : far).add(triangle);
+    const Bounds facet = box_of(body, triangle);
+    touched.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return touches(facet, box); }));
   }
+  return touched;
+}
+
+Neighbourhood neighbourhood(const TriangleMesh& body, const std::vector<bool>& touched) {
+  Share near(body), far(body);
+  for (std::size_t f = 0; f < body.triangles.size(); ++f) (touched[f] ? near : far).add(body.triangles[f]);
   return {near.mesh(), far.mesh()};
+}
+
+// Facets near to a tool, cut along the line in which it meets them; null where they cross themselves, which leaves CGAL
+// without an answer, without an end, or without its wits, or are no manifold.
+struct Division {
+  TriangleMesh near;
+  std::optional<Corefined> cut;
+};
+
+// Pieces of a tool, and the facets that they touch and no other piece does.
+struct Encounter {
+  TriangleMesh near, tool;
+};
+
+// `near`: facets each of which a piece of the tool touches.
+std::vector<Encounter> encounters(const TriangleMesh& near, const TriangleMesh& tool) {
+  const std::vector<TriangleMesh> pieces = pieces_of(tool);
+  if (pieces.size() < 2) return {{near, tool}};
+  std::vector<Bounds> boxes;
+  for (const TriangleMesh& piece : pieces) boxes.push_back(bounds(piece));
+  DisjointSets together_with(pieces.size());
+  std::vector<std::size_t> piece_at(near.triangles.size());
+  for (std::size_t f = 0; f < near.triangles.size(); ++f) {
+    const Bounds facet = box_of(near, near.triangles[f]);
+    std::size_t first = pieces.size();
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (!touches(facet, boxes[k])) continue;
+      if (first == pieces.size()) first = k;
+      together_with.unite(first, k);
+    }
+    piece_at[f] = first;
+  }
+  std::map<std::size_t, std::pair<Share, std::vector<TriangleMesh>>> groups;
+  const auto group_of = [&](std::size_t piece) -> auto& {
+    return groups.try_emplace(together_with.root(piece), Share(near), std::vector<TriangleMesh>()).first->second;
+  };
+  for (std::size_t f = 0; f < near.triangles.size(); ++f) group_of(piece_at[f]).first.add(near.triangles[f]);
+  for (std::size_t k = 0; k < pieces.size(); ++k) group_of(k).second.push_back(pieces[k]);
+  std::vector<Encounter> all;
+  for (const auto& [root, group] : groups) all.push_back({group.first.mesh(), together(group.second)});
+  return all;
+}
+
+// Each encounter beside the others.
+std::optional<Corefined> corefined_apart(const TriangleMesh& near, const TriangleMesh& tool) {
+  const std::vector<Encounter> all = encounters(near, tool);
+  std::vector<std::future<std::optional<Corefined>>> others;
+  for (std::size_t k = 1; k < all.size(); ++k)
+    others.push_back(beside([&all, k] { return corefined(all[k].near, all[k].tool); }));
+  std::optional<Corefined> whole = corefined(all.front().near, all.front().tool);
+  for (auto& other : others) {
+    const std::optional<Corefined> part = other.get();
+    if (!whole || !part) {
+      whole.reset();
+      continue;
+    }
+    whole->first.insert(whole->first.end(), part->first.begin(), part->first.end());
+    whole->second.insert(whole->second.end(), part->second.begin(), part->second.end());
+  }
+  return whole;
+}
+
+Division divided(TriangleMesh near, const TriangleMesh& tool) {
+  Division division{std::move(near), {}};
+  if (!find_crossing(division.near).facets) division.cut = corefined_apart(division.near, tool);
+  return division;
+}
+
+bool are_same(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.triangles == b.triangles && a.vertices == b.vertices;
 }
 
 // The middle and the normal of a patch's largest facet.
@@ -245,8 +328,7 @@ void erase_collapsed(TriangleMesh& mesh) {
 // those that are no longer than some grains of a float: the facets beside them have a normal that nobody can compute.
 TriangleMesh without_short_edges(const TriangleMesh& rounded) {
   constexpr double k_short = 2.0 * k_float_grain;
-  TriangleMesh mesh = weld(rounded);
-  erase_collapsed(mesh);
+  TriangleMesh mesh = without_collapsed_facets(rounded);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const auto& triangle : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -306,11 +388,19 @@ TriangleMesh in_order(TriangleMesh mesh) {
   return mesh;
 }
 
-std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMesh& tool, Operation operation) {
-  const Neighbourhood parts = neighbourhood(body, tool);
-  // What crosses itself leaves CGAL without an answer, without an end, or without its wits.
-  if (find_crossing(parts.near).facets) return std::nullopt;
-  const std::optional<Corefined> cut = corefined(parts.near, tool);
+// Of what a boolean leaves: as floats hold it.
+TriangleMesh settled(const TriangleMesh& exact) { return in_order(without_short_edges(rounded_to_float(exact))); }
+
+// `foreseen`: the division, if the body's facets near to the tool are what they were then.
+std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMesh& tool, Operation operation,
+                                      const Division* foreseen = nullptr) {
+  const Neighbourhood parts = neighbourhood(body, touched_by(tool, body));
+  Division made;
+  if (foreseen == nullptr || !are_same(foreseen->near, parts.near)) {
+    made = divided(parts.near, tool);
+    foreseen = &made;
+  }
+  const std::optional<Corefined>& cut = foreseen->cut;
   Kept kept;
   if (!cut || !sort_patches(cut->first, tool, true, operation, kept) ||
       !sort_patches(cut->second, body, false, operation, kept))
@@ -319,16 +409,49 @@ std::optional<BooleanResult> combined(const TriangleMesh& body, const TriangleMe
   // It has to fit into the place of what it was.
   const auto border = border_of(near);
   if (!border || border != border_of(parts.near)) return std::nullopt;
-  const TriangleMesh exact = together({near, parts.far});
-  BooleanResult outcome{in_order(without_short_edges(rounded_to_float(exact))), enclosed_volume(in_order(weld(together(kept.common))))};
+  BooleanResult outcome{settled(together({near, parts.far})), enclosed_volume(in_order(weld(together(kept.common))))};
   flip_flat_facets(outcome.mesh);
   return outcome;
+}
+
+// Of each tool after the first that touches no facet which an earlier one touches, begun on threads. The body is put
+// into the order in which the first cut will leave it.
+std::vector<std::future<Division>> foreseen_divisions(const TriangleMesh& body,
+                                                      const std::vector<TriangleMesh>& tools) {
+  std::vector<std::future<Division>> divisions(tools.size());
+  if (tools.size() < 2) return divisions;
+  const TriangleMesh ordered = settled(body);
+  std::vector<bool> taken = touched_by(tools.front(), ordered);
+  for (std::size_t k = 1; k < tools.size(); ++k) {
+    const std::vector<bool> touched = touched_by(tools[k], ordered);
+    bool is_apart = true;
+    for (std::size_t f = 0; f < touched.size(); ++f) {
+      is_apart = is_apart && !(touched[f] && taken[f]);
+      taken[f] = taken[f] || touched[f];
+    }
+    if (!is_apart) continue;
+    divisions[k] =
+        beside([near = neighbourhood(ordered, touched).near, &tool = tools[k]] { return divided(near, tool); });
+  }
+  return divisions;
 }
 
 }  // namespace
 
 std::optional<BooleanResult> subtract(const TriangleMesh& body, const TriangleMesh& tool) {
   return combined(body, tool, Operation::subtract);
+}
+std::optional<CutBody> subtract_each(const TriangleMesh& body, const std::vector<TriangleMesh>& tools) {
+  CutBody result{body, {}};
+  std::vector<std::future<Division>> divisions = foreseen_divisions(body, tools);
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    const std::optional<Division> foreseen = divisions[k].valid() ? std::optional(divisions[k].get()) : std::nullopt;
+    auto outcome = combined(result.mesh, tools[k], Operation::subtract, foreseen ? &*foreseen : nullptr);
+    if (!outcome) return std::nullopt;
+    result.mesh = std::move(outcome->mesh);
+    result.common_volumes.push_back(outcome->common_volume);
+  }
+  return result;
 }
 std::optional<BooleanResult> unite(const TriangleMesh& a, const TriangleMesh& b) {
   return combined(a, b, Operation::unite);

@@ -16,6 +16,14 @@ struct BooleanResult {
 
 /// `body` without `tool`. Null when the surfaces meet in a way that leaves no manifold.
 std::optional<BooleanResult> subtract(const TriangleMesh& body, const TriangleMesh& tool);
+
+struct CutBody {
+  TriangleMesh mesh;                   ///< rounded to float
+  std::vector<double> common_volumes;  ///< with each tool, in order, before rounding, mm³
+};
+/// One tool after the other, as subtract() would: tools that touch no facet that an earlier one touches are cut beside
+/// it.
+std::optional<CutBody> subtract_each(const TriangleMesh& body, const std::vector<TriangleMesh>& tools);
 /// `a` and `b` as one.
 std::optional<BooleanResult> unite(const TriangleMesh& a, const TriangleMesh& b);
 

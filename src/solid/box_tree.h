@@ -27,7 +27,18 @@ class BoxTree {
   /// Calls `look`, (size_t, size_t) → bool, once for each two boxes that overlap, until it says true; whether it did.
   template <typename Look>
   bool any_pair(const Look& look) const {
-    return !nodes_.empty() && within(0, look);
+    return any_pair_in_first_half(look) || any_pair_in_the_rest(look);
+  }
+  /// The same in two parts, which may be gone through at once.
+  template <typename Look>
+  bool any_pair_in_first_half(const Look& look) const {
+    return !nodes_.empty() && within(nodes_.front().right == 0 ? 0 : 1, look);
+  }
+  template <typename Look>
+  bool any_pair_in_the_rest(const Look& look) const {
+    if (nodes_.empty() || nodes_.front().right == 0) return false;
+    const std::uint32_t right = nodes_.front().right;
+    return within(right, look) || between(1, right, look);
   }
 
  private:

@@ -92,6 +92,12 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   return welded;
 }
 
+TriangleMesh without_collapsed_facets(const TriangleMesh& mesh) {
+  TriangleMesh welded = weld(mesh);
+  std::erase_if(welded.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return welded;
+}
+
 TriangleMesh rounded_to_float(TriangleMesh mesh) {
   for (Vec3& vertex : mesh.vertices) vertex = vertex.unaryExpr(&nearest_float);
   return mesh;

@@ -36,6 +36,8 @@ constexpr int k_brief_variants = 2;
 // So many facets are cut in all: a large part is tried in fewer ways, and no less than two. One of 110 000 took ten
 // seconds for eight ways that are all as good (campaign of seed 310001, design 171).
 constexpr std::size_t k_most_cut_facets = 300'000;
+// Facets; parts of ordinary size and tolerance have half as many.
+constexpr std::size_t k_large_body = 30'000;
 // How often tie-offs that do not print are planned anew.
 constexpr int k_rounds = 8;
 constexpr int k_brief_rounds = 1;
@@ -81,6 +83,7 @@ struct Featured {
   double volume = 0;
   std::vector<Check> checks = {};
   int soundness = k_any;
+  std::vector<Vec3> unprintable = {};  // places of the whole; of a piece that is printed as it is
 };
 
 // From where a piece stands in the whole to where it lies on the printer: P1 is turned over about the x axis.
@@ -95,48 +98,66 @@ TriangleMesh laid_on_bed(TriangleMesh mesh, Piece piece, double mate) {
 
 class FeatureCutter {
  public:
-  FeatureCutter(const Mechanism& mechanism, const BodyPlan& plan, const std::vector<Mark>& marks, Piece piece)
+  FeatureCutter(const Mechanism& mechanism, const BodyPlan& plan, const std::vector<Mark>& marks, Corners corners,
+                Piece piece)
       : mechanism_(mechanism),
         plan_(plan),
         layout_(plan.layout),
         marks_(marks),
+        corners_(corners),
         piece_(piece),
         has_p1_(piece != Piece::p2),
         has_p2_(piece != Piece::p1) {}
 
   // Null when the result is no solid: the next variant may do better.
   std::optional<Featured> cut(const TriangleMesh& body, double volume, int variant) const {
-    Featured result{body, volume};
     // What may overlap is cut one after the other: two mouths meet outside of the flanges.
     std::vector<std::vector<TriangleMesh>> passes;
     for (const PlannedAnchor& anchor : plan_.anchors) {
       if (has(anchor)) passes.push_back({tie_off_tool(plan_, anchor, variant)});
     }
     for (auto& pass : {cuts(variant), tail_slots(), clamp_pilots()}) passes.push_back(pass);
-    for (const std::vector<TriangleMesh>& tools : passes) {
-      const TriangleMesh tool = placed(tools);
+    std::vector<TriangleMesh> tools;
+    for (const std::vector<TriangleMesh>& pass : passes) {
+      TriangleMesh tool = placed(pass);
       if (tool.triangles.empty()) continue;
       // What crosses itself cannot be cut with: it may never end.
       if (find_crossing(tool).facets) return std::nullopt;
-      const auto outcome = subtract(result.mesh, tool);
-      if (!outcome) return std::nullopt;
-      result = {outcome->mesh, result.volume - outcome->common_volume};
+      tools.push_back(std::move(tool));
     }
+    auto cut = subtract_each(body, tools);
+    if (!cut) return std::nullopt;
+    Featured result{std::move(cut->mesh), volume};
+    for (const double common : cut->common_volumes) result.volume -= common;
     if (const TriangleMesh raised = placed(raised_marks()); !raised.triangles.empty()) {
       const double added = enclosed_volume(raised);
       const auto outcome = unite(result.mesh, raised);
       if (!outcome) return std::nullopt;
-      result = {outcome->mesh, result.volume + added - outcome->common_volume};
+      result.mesh = outcome->mesh;
+      result.volume = result.volume + added - outcome->common_volume;
     }
     result.mesh = laid_on_bed(std::move(result.mesh), piece_, layout_.scale * layout_.z_mate);
     auto soundness = beside([&result] { return soundness_of(result.mesh); }, piece_ == Piece::whole);
+    // Of a large part it takes long, and is for nothing where its mesh has a fault: then it waits for the checks.
+    const bool is_worth_a_thread = is_printed() && result.mesh.triangles.size() < k_large_body;
+    auto unprintable = beside([&] { return unprintable_places_of(result.mesh); }, is_worth_a_thread);
     result.checks = check_mesh(result.mesh);
-    if (piece_ == Piece::whole) result.soundness = soundness.get();
     if (!all_ok(result.checks)) return std::nullopt;
+    if (piece_ == Piece::whole) result.soundness = soundness.get();
+    result.unprintable = unprintable.get();
     return result;
   }
 
  private:
+  // Without supports.
+  bool is_printed() const {
+    return !mechanism_.print.supports && (piece_ == Piece::whole) == (layout_.parts == Parts::one);
+  }
+  std::vector<Vec3> unprintable_places_of(const TriangleMesh& mesh) const {
+    if (!is_printed()) return {};
+    return unprintable_places(mesh, piece_, layout_, mechanism_.print.overhang, corners_);
+  }
+
   // From the layout's mm to the mesh's floats.
   TriangleMesh placed(const std::vector<TriangleMesh>& tools) const {
     TriangleMesh all = together(tools);
@@ -192,6 +213,7 @@ class FeatureCutter {
   const BodyPlan& plan_;
   const BodyLayout& layout_;
   const std::vector<Mark>& marks_;
+  Corners corners_;
   Piece piece_;
   bool has_p1_, has_p2_;
 };
@@ -223,6 +245,7 @@ struct Made {
   int euler = 0;
   std::vector<Check> checks = {};
   int soundness = k_any;  // of the whole
+  std::vector<Vec3> unprintable = {};
 };
 
 // A variant moves channels a little, within the walls to what is cut along the axis.
@@ -251,12 +274,15 @@ bool keeps_walls(const BodyPlan& plan, int variant) {
 class PieceMaker {
  public:
   PieceMaker(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyPlan& plan,
-             std::vector<Mark> marks)
-      : mechanism_(mechanism), plan_(plan), marks_(std::move(marks)) {
-    add(synthesis, Piece::whole);
-    if (plan.layout.parts == Parts::two) {
-      add(synthesis, Piece::p1);
-      add(synthesis, Piece::p2);
+             std::vector<Mark> marks, Corners corners)
+      : mechanism_(mechanism), plan_(plan), marks_(std::move(marks)), corners_(corners) {
+    std::vector<Piece> pieces{Piece::whole};
+    if (plan.layout.parts == Parts::two) pieces = {Piece::whole, Piece::p1, Piece::p2};
+    for (const Piece piece : pieces) {
+      const RingStack stack = scaled_to_float(body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter,
+                                                         mechanism_.body.flange, plan_.layout, piece),
+                                              plan_.layout.scale);
+      blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
     }
   }
 
@@ -278,11 +304,11 @@ class PieceMaker {
     std::vector<Made> made;
     if (variant > 0 && !keeps_walls(plan_, variant)) return made;
     for (const Blank& blank : blanks_) {
-      auto featured = FeatureCutter(mechanism_, plan_, marked ? marks_ : k_no_marks, blank.piece)
+      auto featured = FeatureCutter(mechanism_, plan_, marked ? marks_ : k_no_marks, corners_, blank.piece)
                           .cut(blank.mesh, blank.volume, variant);
       if (!featured || !has_euler(featured->mesh, blank.euler)) return {};
-      made.push_back(
-          {std::move(featured->mesh), featured->volume, blank.euler, std::move(featured->checks), featured->soundness});
+      made.push_back({std::move(featured->mesh), featured->volume, blank.euler, std::move(featured->checks),
+                      featured->soundness, std::move(featured->unprintable)});
     }
     return made;
   }
@@ -295,18 +321,12 @@ class PieceMaker {
     int euler;
   };
 
-  void add(const SynthesisResult& synthesis, Piece piece) {
-    const RingStack stack = scaled_to_float(
-        body_stack(synthesis.p1, synthesis.p2, mechanism_.tendon.diameter, mechanism_.body.flange, plan_.layout, piece),
-        plan_.layout.scale);
-    blanks_.push_back({piece, mesh_of(stack), volume_of(stack), 2 - 2 * handles(stack, plan_, piece)});
-  }
-
   inline static const std::vector<Mark> k_no_marks;
 
   const Mechanism& mechanism_;
   const BodyPlan& plan_;
   std::vector<Mark> marks_;
+  Corners corners_;
   std::vector<Blank> blanks_;
 };
 
@@ -445,11 +465,12 @@ BestCut best_cut(const PieceMaker& maker, bool marked, const AnchorVariants& anc
 struct RatedPulley {
   Pulley pulley;
   int soundness = k_any;
+  std::vector<Vec3> unprintable = {};  // where a layer stands out too far, or begins in mid-air
 };
 
 // Whether it prints is another question.
-RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, const Effort& effort,
-                      int enough) {
+RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthesis, BodyPlan plan, Corners corners,
+                      const Effort& effort, int enough) {
   RatedPulley rated;
   Pulley& pulley = rated.pulley;
   pulley.conditions = plan.conditions;
@@ -467,7 +488,7 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
     return rated;
   }
   const std::vector<Mark> marks = marks_of(mechanism.body.marks, plan);
-  const PieceMaker maker(mechanism, synthesis, plan, marks);
+  const PieceMaker maker(mechanism, synthesis, plan, marks, corners);
   // What is no solid has no cut, but is a bug and not a refusal.
   auto gate = beside([&maker] { maker.demand_solids(); });
   const int variants = std::min(effort.variants, first + maker.ways(effort.variants));
@@ -486,6 +507,8 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
     return rated;
   }
   rated.soundness = pieces.front().soundness;
+  for (const Made& piece : pieces)
+    rated.unprintable.insert(rated.unprintable.end(), piece.unprintable.begin(), piece.unprintable.end());
   pulley.anchors = anchors.at(taken).anchors;
   if (is_marked) pulley.marks = marks;
   pulley.mesh = std::move(pieces.front().mesh);
@@ -498,17 +521,6 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
          std::move(pieces[k].checks)});
   pulley.status = PulleyStatus::made;
   return rated;
-}
-
-std::vector<Vec3> unprintable_places(const Pulley& pulley, double overhang, Corners corners) {
-  if (pulley.parts.empty()) return unprintable_places(pulley.mesh, Piece::whole, pulley.layout, overhang, corners);
-  std::vector<Vec3> places;
-  for (const PrintedPart& part : pulley.parts) {
-    const Piece piece = part.side == Side::left ? Piece::p1 : Piece::p2;
-    const std::vector<Vec3> of_part = unprintable_places(part.mesh, piece, pulley.layout, overhang, corners);
-    places.insert(places.end(), of_part.begin(), of_part.end());
-  }
-  return places;
 }
 
 std::vector<Rejection> news(std::vector<Rejection> blamed, const std::vector<Rejection>& known) {
@@ -544,21 +556,23 @@ Pulley with_tie_offs_that_print(const Mechanism& mechanism, const SynthesisResul
                                 Corners corners, const Effort& effort) {
   TieOffWishes wishes;
   wishes.mouth_lean = mouth_lean;
+  std::optional<Pulley> printable;  // of a mesh that bears less than it might
   for (int round = 0;; ++round) {
     const BodyPlan plan = plan_body(mechanism, synthesis, wishes);
-    if (mechanism.print.supports) return pulley_of(mechanism, synthesis, plan, effort, k_sound).pulley;
+    if (mechanism.print.supports) return pulley_of(mechanism, synthesis, plan, corners, effort, k_sound).pulley;
     // Any cut shows whether it prints; the best is looked for where it does.
-    RatedPulley rated = pulley_of(mechanism, synthesis, plan, effort, k_any);
-    Pulley& pulley = rated.pulley;
-    if (!pulley.made()) return std::move(pulley);
-    std::vector<Vec3> places = unprintable_places(pulley, mechanism.print.overhang, corners);
-    if (rated.soundness != k_sound && places.empty()) {
-      pulley = pulley_of(mechanism, synthesis, plan, effort, k_sound).pulley;
-      places = unprintable_places(pulley, mechanism.print.overhang, corners);
+    RatedPulley rated = pulley_of(mechanism, synthesis, plan, corners, effort, k_any);
+    if (rated.pulley.made() && rated.unprintable.empty()) {
+      if (rated.soundness == k_sound) return std::move(rated.pulley);
+      printable = std::move(rated.pulley);
+      rated = pulley_of(mechanism, synthesis, plan, corners, effort, k_sound);
     }
-    if (places.empty()) return std::move(pulley);
-    const std::vector<Rejection> blamed = news(blamed_for(places, plan), wishes.rejected);
-    if (blamed.empty() || round == effort.rounds) return refused(std::move(pulley), mechanism, places);
+    Pulley& pulley = rated.pulley;
+    if (pulley.made() && rated.unprintable.empty()) return std::move(pulley);
+    if (!pulley.made()) return printable ? std::move(*printable) : std::move(pulley);
+    const std::vector<Rejection> blamed = news(blamed_for(rated.unprintable, plan), wishes.rejected);
+    if (blamed.empty() || round == effort.rounds)
+      return printable ? std::move(*printable) : refused(std::move(pulley), mechanism, rated.unprintable);
     wishes.rejected.insert(wishes.rejected.end(), blamed.begin(), blamed.end());
   }
 }

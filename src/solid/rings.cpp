@@ -70,7 +70,7 @@ class StackMesher {
       below = above;
     }
     add_holes(below);
-    return std::move(mesh_);
+    return has_short_edges_ ? without_collapsed_facets(mesh_) : std::move(mesh_);
   }
 
  private:
@@ -174,8 +174,16 @@ class StackMesher {
     std::vector<Polygon> loops;
     std::vector<std::uint32_t> index;
     for (std::size_t k = 0; k < face.loops.size(); ++k) {
-      loops.push_back(*face.loops[k]);
-      for (std::uint32_t i = 0; i < loops.back().size(); ++i) index.push_back(face.firsts[k] + i);
+      const Polygon& loop = *face.loops[k];
+      Polygon& apart = loops.emplace_back();
+      for (std::uint32_t i = 0; i < loop.size(); ++i) {
+        if (loop[i] == loop[(i + 1) % loop.size()]) {
+          has_short_edges_ = true;
+          continue;
+        }
+        apart.push_back(loop[i]);
+        index.push_back(face.firsts[k] + i);
+      }
     }
     const std::vector<Vec2> inner = points_within(loops);
     const auto first_inner = add_loop(inner, mesh_.vertices[index.front()].z());
@@ -191,6 +199,7 @@ class StackMesher {
 
   const RingStack& stack_;
   TriangleMesh mesh_;
+  bool has_short_edges_ = false;  ///< along a flat face
 };
 
 // Half-way between two rings the strip's section is the polygon through the middles of its uprights and diagonals.

@@ -37,7 +37,8 @@ struct RingStack {
 bool recess_goes_through(const RingStack& stack);
 /// Every coordinate times `scale`, rounded to float.
 RingStack scaled_to_float(RingStack stack, double scale);
-/// The stack's coordinates are kept to the bit.
+/// The stack's coordinates are kept to the bit. Neighbouring points that are one (far from the axis floats hold no finer
+/// curve) are one vertex.
 TriangleMesh mesh_of(const RingStack& stack);
 /// Exact volume of that mesh: between two rings the section's area is a quadratic in z, so Simpson's rule has no error.
 double volume_of(const RingStack& stack);

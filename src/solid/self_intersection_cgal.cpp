@@ -4,10 +4,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "base/beside.h"
 #include "fusee/base/units.h"
 #include "solid/box_tree.h"
 #include "solid/self_intersection.h"
@@ -49,10 +51,12 @@ constexpr std::size_t after(std::size_t corner) { return corner == 2 ? 0 : corne
 // arithmetic, whose margin is far above its rounding.
 class FacetPlanes {
  public:
-  explicit FacetPlanes(const std::array<Vec3, 3>& corners) : corners_(corners) {
+  // `extent`: no two points that are asked about are further apart along any axis.
+  FacetPlanes(const std::array<Vec3, 3>& corners, double extent) : corners_(corners), extent_(extent) {
     const Vec3 along = corners_[1] - corners_[0], across = corners_[2] - corners_[0];
     normal_ = along.cross(across);
     reach_ = along.cwiseAbs().maxCoeff() * across.cwiseAbs().maxCoeff();
+    margin_ = k_margin * reach_ * extent;
   }
 
   const Vec3& corner(std::size_t k) const { return corners_[k]; }
@@ -62,20 +66,16 @@ class FacetPlanes {
 
   // +1, −1: surely on that side of the plane; 0: who knows.
   int side_of(const Vec3& point) const {
-    const Vec3 offset = point - corners_[0];
-    const double height = normal_.dot(offset);
-    const double margin = k_margin * reach_ * offset.cwiseAbs().maxCoeff();
-    return height > margin ? 1 : height < -margin ? -1 : 0;
+    const double height = normal_.dot(point - corners_[0]);
+    return height > margin_ ? 1 : height < -margin_ ? -1 : 0;
   }
 
   // All of these corners of the other facet lie surely beyond the edge from corner k to the next.
   bool are_beyond(std::size_t k, const FacetPlanes& other, const std::array<bool, 3>& left_out) const {
     const Vec3 outward = (corners_[after(k)] - corners_[k]).cross(normal_);
-    const double size = k_edge_margin * outward.cwiseAbs().maxCoeff();
+    const double margin = k_edge_margin * extent_ * outward.cwiseAbs().maxCoeff();
     for (std::size_t j = 0; j < 3; ++j) {
-      if (left_out[j]) continue;
-      const Vec3 offset = other.corners_[j] - corners_[k];
-      if (!(outward.dot(offset) > size * offset.cwiseAbs().maxCoeff())) return false;
+      if (!left_out[j] && !(outward.dot(other.corners_[j] - corners_[k]) > margin)) return false;
     }
     return true;
   }
@@ -86,7 +86,7 @@ class FacetPlanes {
 
   std::array<Vec3, 3> corners_;
   Vec3 normal_;
-  double reach_ = 0;
+  double extent_ = 0, reach_ = 0, margin_ = 0;
 };
 
 // Exact, once plain arithmetic has not told two facets apart.
@@ -211,6 +211,9 @@ Box3 polar_box(const std::array<Vec3, 3>& corners, const std::array<double, 3>& 
   return box;
 }
 
+// Of fewer facets the search is over before a thread has begun.
+constexpr std::size_t k_worth_halving = 2000;
+
 /// What facets take up: those whose boxes are apart do not meet.
 struct FacetBoxes {
   std::vector<std::size_t> facets;  ///< that have an area
@@ -230,10 +233,12 @@ FacetBoxes boxes_of(const TriangleMesh& mesh) {
   of.boxes.reserve(mesh.triangles.size());
   polar.reserve(mesh.triangles.size());
   double cartesian_crowd = 0, polar_crowd = 0, reach = 0;
+  const Bounds box = bounds(mesh);
+  const double extent = (box.high - box.low).maxCoeff();
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const auto& [a, b, c] = mesh.triangles[f];
     const std::array<Vec3, 3> corners{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
-    const FacetPlanes planes(corners);
+    const FacetPlanes planes(corners, extent);
     if (!planes.has_area() && is_degenerate(mesh, f)) continue;
     of.facets.push_back(f);
     of.planes.push_back(planes);
@@ -258,16 +263,26 @@ bool is_degenerate(const TriangleMesh& mesh, std::size_t facet) {
 CrossingSearch find_crossing(const TriangleMesh& welded) {
   const FacetBoxes facets = boxes_of(welded);
   const CrossingTest cross(welded, facets.facets, facets.planes);
-  // A part whose facets all lie in one heap would take hours; no real one comes near this.
-  std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
-  CrossingSearch search;
-  BoxTree(facets.boxes).any_pair([&](std::size_t i, std::size_t j) {
-    search.gave_up = pairs_left-- == 0;
-    if (search.gave_up) return true;
-    if (cross(i, j)) search.facets = std::minmax(facets.facets[i], facets.facets[j]);
-    return search.facets.has_value();
-  });
-  return search;
+  const BoxTree tree(facets.boxes);
+  std::atomic<bool> is_over = false;
+  const auto search_in = [&](const auto& any_pair) {
+    // A part whose facets all lie in one heap would take hours; no real one comes near this.
+    std::size_t pairs_left = 100'000'000 + 2000 * facets.boxes.size();
+    CrossingSearch search;
+    any_pair([&](std::size_t i, std::size_t j) {
+      search.gave_up = pairs_left-- == 0;
+      if (search.gave_up || is_over) return true;
+      if (cross(i, j)) search.facets = std::minmax(facets.facets[i], facets.facets[j]);
+      return search.facets.has_value();
+    });
+    return search;
+  };
+  auto in_rest = beside([&] { return search_in([&](const auto& look) { return tree.any_pair_in_the_rest(look); }); },
+                        facets.boxes.size() > k_worth_halving);
+  const CrossingSearch first = search_in([&](const auto& look) { return tree.any_pair_in_first_half(look); });
+  is_over = first.facets || first.gave_up;
+  const CrossingSearch rest = in_rest.get();
+  return first.facets || first.gave_up ? first : rest;
 }
 
 }  // namespace fusee

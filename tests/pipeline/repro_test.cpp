@@ -100,6 +100,9 @@ INSTANTIATE_TEST_SUITE_P(
               0.01,
               BuildStatus::infeasible},
         Repro{"arc_16_km_out_was_advised", "tests/data/repro/arc_16_km_out.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"sharp_bend_3_m_out", "tests/data/repro/sharp_bend_3_m_out.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"table_over_turns", "tests/data/repro/table_over_turns.toml", {}},
+        Repro{"sound_or_printable", "tests/data/repro/sound_or_printable.toml", {}},
         Repro{"floor_of_a_giant_helix", "tests/data/repro/floor_of_a_giant_helix.toml", {}, 0.00525628},
         Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
         Repro{

@@ -25,6 +25,8 @@ struct Bounds {
 Bounds bounds(const TriangleMesh& mesh);
 /// One index per distinct position (exact equality), triangles renumbered: what a soup of facets needs before its topology is looked at.
 TriangleMesh weld(const TriangleMesh& mesh);
+/// Welded, without the facets of which two corners are one: rounding makes the ends of very short edges so.
+TriangleMesh without_collapsed_facets(const TriangleMesh& mesh);
 /// Every coordinate rounded to the nearest float, as every mesh format will hold it.
 TriangleMesh rounded_to_float(TriangleMesh mesh);
 
