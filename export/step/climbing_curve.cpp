@@ -23,6 +23,9 @@ double slope_of(const std::array<double, 6>& powers, double u) {
   return value;
 }
 
+/// On the second half of the way.
+double late_step(double share) { return smooth_step(2.0 * share - 1.0); }
+
 /// From 0.
 double integral_of(const std::array<double, 6>& powers, double u) {
   double value = 0;
@@ -61,9 +64,9 @@ Vec3 ClimbingCurve::at(double turn) const {
   return {point.x(), point.y(), piece.height + climb_ * length};
 }
 
-double step_blend(double share) {
-  const double t = std::clamp(2.0 * share - 1.0, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
+double smooth_step(double share) {
+  const double t = std::clamp(share, 0.0, 1.0);
+  return t * t * t * (10.0 - t * (15.0 - 6.0 * t));
 }
 
 ClimbingGroove::ClimbingGroove(const Spiral& spiral, const SpiralPlace& place, const Winding& winding)
@@ -86,8 +89,7 @@ double ClimbingGroove::bulge(double turn, bool low) const {
   const double past = turn > end_ ? turn - end_ : begin_ - turn;
   const double whole = turn > end_ ? filled_to_ - end_ : begin_ - filled_from_;
   if (!(past > 0 && past < whole)) return 0;
-  const double grown = std::min(past / std::min(k_bulge_turn, 0.25 * whole), 1.0);
-  return most * grown * grown * (3.0 - 2.0 * grown) * (1.0 - step_blend(past / whole));
+  return most * smooth_step(past / std::min(k_bulge_turn, 0.25 * whole)) * (1.0 - late_step(past / whole));
 }
 
 // As the grid's (coil/helical_blank.cpp): on the half where there is most room it leaves the turn for where that began.
@@ -97,7 +99,7 @@ Vec2 ClimbingGroove::ring(double direction, bool lowest, double outward) const {
   const double turned = away - k_two_pi * std::floor(away / k_two_pi);
   const double turn = first + inwards * turned;
   const Vec2 gap = (at(first) - at(first + inwards * k_two_pi)).head<2>();
-  return at(turn).head<2>() + outward * unit(turn) + step_blend(turned / k_two_pi) * gap;
+  return at(turn).head<2>() + outward * unit(turn) + late_step(turned / k_two_pi) * gap;
 }
 
 }  // namespace fusee

@@ -31,8 +31,8 @@ class ClimbingCurve {
   double climb_ = 0;  ///< height per planar length
 };
 
-/// 0 up to half of the way, 1 after all of it, level at both ends.
-double step_blend(double share);
+/// From 0 at 0 to 1 at 1, two derivatives are 0 at both.
+double smooth_step(double share);
 
 /// A groove of the part with what its lips do beyond its ends: they go on as the turn before did.
 class ClimbingGroove {

@@ -28,7 +28,7 @@ namespace fusee {
 namespace {
 
 constexpr double k_floor_tolerance = 6e-5;
-constexpr double k_other_tolerance = 5e-4;
+constexpr double k_other_tolerance = 2e-3;
 /// What offsets may lose by the normals, mm.
 constexpr double k_normal_tolerance = 1e-5;
 constexpr double k_inside = 1e-4;  // rad, of one-sided slopes
@@ -331,7 +331,7 @@ class SkinBuilder {
     const bool back = turn > 0.5 * (groove.begin() + groove.end());
     const double from = back ? wound_[g].held_last : wound_[g].held_first;
     const double to = back ? wound_[g].lips_last : wound_[g].lips_first;
-    const double t = std::clamp((turn - from) / (to - from), 0.0, 1.0), gone = t * t * (3.0 - 2.0 * t);
+    const double gone = smooth_step((turn - from) / (to - from));
     const auto [below, above] = around(g, turn, back);
     const double share = share_of(g, low, back);
     return (1.0 - gone) * lip_at(g, turn, low, groove.bulge(turn, low)) +

@@ -23,7 +23,6 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
-#include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -716,9 +715,10 @@ bool mesh_closes(const TopoDS_Face& face) {
   return boundary == along_edges;
 }
 
-int open_faces(const TopoDS_Shape& shape) {
-  constexpr double k_sagitta = 0.05, k_turn = 0.3;
-  BRepMesh_IncrementalMesh(shape, k_sagitta, false, k_turn, false);
+/// `finely`: enough to find grooves in it, and for the wall that a channel leaves of a groove's end, 0.02 mm thin.
+int open_faces(const TopoDS_Shape& shape, bool finely) {
+  const double sagitta = finely ? 0.01 : 0.05, turn = finely ? 0.2 : 0.3;
+  BRepMesh_IncrementalMesh(shape, sagitta, false, turn, false);
   int open = 0;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
     open += mesh_closes(TopoDS::Face(faces.Current())) ? 0 : 1;
@@ -888,16 +888,21 @@ class Nearest {
   /// On a patch along u, its lowest place in the point's half-plane, and whether it is level all across.
   static std::optional<std::pair<gp_Pnt, bool>> lowest_on(const Geom_Surface& surface, const gp_Pnt& point,
                                                           const Node& start) {
-    constexpr int k_narrowings = 45;
+    constexpr int k_narrowings = 24;
+    // No patch across a groove is wider.
+    constexpr double k_far = 3;
     constexpr double k_golden = 0.6180339887498949, k_level = 1e-5;
     double u1, u2, v1, v2;
     surface.Bounds(u1, u2, v1, v2);
     if (Precision::IsInfinite(v1) || Precision::IsInfinite(v2)) return std::nullopt;
-    const auto at = [&](double v) { return across(surface, point, start.u, v); };
+    double u = start.u;
+    const auto at = [&](double v) { return across(surface, point, u, v); };
     const auto radius_at = [&](double v) {
       const auto crossing = at(v);
       return crossing ? radius_of(crossing->place) : std::numeric_limits<double>::quiet_NaN();
     };
+    const auto halfway = at(0.5 * (v1 + v2));
+    if (!halfway || halfway->place.Distance(point) > k_far) return std::nullopt;
     const double first = radius_at(v1), last = radius_at(v2), level = radius_at(0.5 * (v1 + v2));
     const bool is_level = std::abs(first - level) < k_level && std::abs(last - level) < k_level;
     for (int k = 0; k < k_narrowings && !is_level; ++k) {
@@ -912,9 +917,9 @@ class Nearest {
     return std::pair(lowest->place, is_level);
   }
 
-  /// Where the row v crosses the point's half-plane, by Newton's steps along u. A half-plane may cross some rows just
+  /// Where the row v crosses the point's half-plane, by Newton's steps from u on. A half-plane may cross some rows just
   /// past the end of a patch: it goes on a little.
-  static std::optional<Crossing> across(const Geom_Surface& surface, const gp_Pnt& point, double u, double v) {
+  static std::optional<Crossing> across(const Geom_Surface& surface, const gp_Pnt& point, double& u, double v) {
     constexpr int k_steps = 20;
     constexpr double k_near = 1e-10;
     constexpr double k_past_end = 0.1, k_most_past = 0.05, k_at_end = 1e-6;
@@ -964,13 +969,6 @@ class Nearest {
   std::map<Cell, std::vector<Node>> cells_;
 };
 
-/// Finely enough to find grooves in it.
-void mesh_finely(const TopoDS_Shape& shape) {
-  constexpr double k_sagitta = 0.01, k_turn = 0.2;
-  BRepTools::Clean(shape);
-  BRepMesh_IncrementalMesh(shape, k_sagitta, false, k_turn, false);
-}
-
 StepReading read(const std::string& path, const StepQuestion& question) {
   be_silent();
   StepReading reading;
@@ -1000,9 +998,8 @@ StepReading read(const std::string& path, const StepQuestion& question) {
     reading.volume = volume.Mass();
     reading.area = area.Mass();
     for (const double z : question.planes) reading.sections.push_back(floor_at(shape, z));
-    reading.open_faces = open_faces(shape);
+    reading.open_faces = open_faces(shape, question.grounds != nullptr);
     if (question.grounds) {
-      mesh_finely(shape);
       const Nearest nearest(shape);
       for (const Vec3& place : question.places) reading.distances.push_back(nearest.distance(point_at(place)));
       for (const Vec3& place : question.grounds(mesh_of(shape))) {
