@@ -228,25 +228,39 @@ std::string key_numbers(const Product& product) {
 
 std::string vector_words(const Vec3& v) { return shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z()); }
 
-/// Plane, half height and least radius of a groove, for its tint.
-std::string groove_words(const BodyLayout& layout, double z, const GrooveWalls& walls) {
-  const double half = std::min(walls.below_width(), walls.above_width());
-  return vector_words(layout.scale * Vec3(z, 0.98 * half, 1.1 * layout.bore.radius));
+/// Middle and half height of what a groove takes along the axis.
+struct GrooveBand {
+  double middle = 0, half = 0;
+};
+
+/// Of one that climbs, from its first turn to its last one, with the ribs between them.
+GrooveBand groove_band(const Product& product, Side which) {
+  const bool left = which == Side::left;
+  const BodyLayout& layout = product.pulley.layout;
+  const GrooveWalls& walls = left ? layout.p1 : layout.p2;
+  const double half = 0.98 * std::min(walls.below_width(), walls.above_width());
+  if (!product.helix) return {left ? layout.z_p1 : layout.z_p2, half};
+  const SpiralPlace& place = left ? product.helix->pulley.p1 : product.helix->pulley.p2;
+  const std::vector<SpiralRow>& rows = product.helix->synthesis.sides.at(left ? 0 : 1).spiral.rows;
+  const double first = place.height(rows.front().z), last = place.height(rows.back().z);
+  return {0.5 * (first + last), 0.5 * std::abs(last - first) + half};
+}
+
+/// With the least radius at which it is tinted.
+std::string groove_words(const Product& product, Side which) {
+  const BodyLayout& layout = product.pulley.layout;
+  const GrooveBand band = groove_band(product, which);
+  return vector_words(layout.scale * Vec3(band.middle, band.half, 1.1 * layout.bore.radius));
 }
 
 std::string part_view(const Product& product) {
   const auto code = encode_mesh(product.pulley.mesh);
   if (!code) return "<p>There is no mesh to show.</p>";
-  const BodyLayout& layout = product.pulley.layout;
-  const auto tint = [&](double z, const GrooveWalls& walls) {
-    // Grooves that climb lie in no plane that could be tinted.
-    return product.helix ? vector_words(Vec3(0, 0, 0)) : groove_words(layout, z, walls);
-  };
   std::string html =
       "<div class=\"stage\"><canvas tabindex=\"0\" aria-label=\"The pulley in three dimensions\" data-low=\"" +
       vector_words(code->low) + "\" data-step=\"" + shortest(code->step) + "\" data-triangles=\"" +
-      std::to_string(code->triangles) + "\" data-groove1=\"" + tint(layout.z_p1, layout.p1) + "\" data-groove2=\"" +
-      tint(layout.z_p2, layout.p2) + "\"></canvas>";
+      std::to_string(code->triangles) + "\" data-groove1=\"" + groove_words(product, Side::left) +
+      "\" data-groove2=\"" + groove_words(product, Side::right) + "\"></canvas>";
   html +=
       "<div class=\"buttons\" hidden=\"hidden\"><button data-view=\"slanted\">Slanted</button><button "
       "data-view=\"top\">Top</button>"

@@ -41,7 +41,8 @@ double radius_at(const OutlinePiece& piece, double z) {
   return piece.r0 + (piece.r1 - piece.r0) * (z - piece.z0) / (piece.z1 - piece.z0);
 }
 
-// From one half-plane to the next a floor goes on within this. mm
+// From one half-plane to the next a floor goes on within this (mm), and within what a floor at 45° to its radius goes
+// on by.
 constexpr double k_next = 0.4;
 // A groove's end wall stands across the groove, a half-plane may cut it at an angle: so much of a turn is no floor yet.
 constexpr double k_end_of_groove = radians(4);
@@ -77,7 +78,7 @@ class FloorJoiner {
 
   void join(std::size_t here, std::size_t there) {
     for (std::size_t i = 0; i < floors_[here].size(); ++i) {
-      double nearest = k_next;
+      double nearest = k_next + k_two_pi / static_cast<double>(planes_) * floors_[here][i].r;
       for (std::size_t j = 0; j < floors_[there].size(); ++j) {
         const FloorPlace &a = floors_[here][i], &b = floors_[there][j];
         const double away = std::hypot(a.z - b.z, a.r - b.r);

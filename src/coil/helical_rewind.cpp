@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "coil/half_planes.h"
@@ -21,19 +22,54 @@ namespace {
 constexpr double k_least_depth = 0.3;
 // Half-planes on either side of a place over which a groove's slope is measured.
 constexpr std::size_t k_slope_window = 40;
+// Sides of a polygon that turn by less against each other are one: what a float leaves of a straight line, rad.
+constexpr double k_straight = 1e-4;
+
+double turn_at(const FloorLine& line, std::size_t i) {
+  const Vec2 before = (line[i] - line[i - 1]).head<2>(), after = (line[i + 1] - line[i]).head<2>();
+  return std::abs(cross(before, after)) / (before.norm() * after.norm());
+}
+
+// Where two sides of a floor's polygon meet between places i and i + 1, each seen beyond them; null where no side can
+// be told from what half-planes cut off its corners.
+std::optional<Vec3> corner_after(const FloorLine& line, std::size_t i) {
+  if (turn_at(line, i) < k_straight || turn_at(line, i + 1) < k_straight || turn_at(line, i - 1) > k_straight ||
+      turn_at(line, i + 2) > k_straight)
+    return std::nullopt;
+  const Vec2 before = (line[i] - line[i - 1]).head<2>(), after = (line[i + 2] - line[i + 1]).head<2>();
+  const Vec2 chord = (line[i + 1] - line[i]).head<2>();
+  const double beyond = cross(chord, after) / cross(before, after);  // of `before`
+  const Vec2 corner = line[i].head<2>() + beyond * before;
+  const double share = (corner - line[i].head<2>()).norm() / chord.norm();
+  if (!(beyond > 0 && share < 1)) return std::nullopt;
+  return Vec3(corner.x(), corner.y(), line[i].z() + share * (line[i + 1].z() - line[i].z()));
+}
+
+// Half-planes cut off the corners of the polygon: a string on what they leave would be short by up to a tenth of a
+// millimetre in ten turns.
+FloorLine with_corners(const FloorLine& line) {
+  FloorLine whole;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    whole.push_back(line[i]);
+    if (i < 2 || i + 3 >= line.size()) continue;
+    if (const auto corner = corner_after(line, i)) whole.push_back(*corner);
+  }
+  return whole;
+}
+
 // One string in its helical groove. `hand` is +1 for tendon 2 on the right, −1 for tendon 1 on the left.
 class HelicalString {
  public:
   HelicalString(const FloorLine& floor, const Mechanism& mechanism, double hand, double end_height, bool collar,
                 double home_from_knot)
-      : floor_(floor),
+      : floor_(with_corners(floor)),
         hand_(hand),
         half_(0.5 * mechanism.tendon.diameter),
         above_(mechanism, hand),
         end_height_(end_height),
         collar_(collar) {
     along_.push_back(0.0);
-    for (std::size_t i = 0; i + 1 < floor.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < floor_.size(); ++i) {
       const Vec2 edge = plan(i + 1) - plan(i);
       along_.push_back(along_.back() + edge.norm());
       const double normal = direction(edge) - 0.5 * k_pi;
@@ -83,27 +119,31 @@ class HelicalString {
   double planar(double theta) const { return span_ + above_.length(theta, normal_ - alpha_); }
   double sloping(double theta) const { return collar_ ? span_ : planar(theta); }
 
-  // Corner by corner: arcs of half the thickness about corners, edges between them.
+  // Corner by corner: arcs of half the thickness about corners, edges between them. Floors rise along the edges alone,
+  // the tendon over both: its slope is that of several corners.
   void lay_centre_line() {
     const std::size_t last = floor_.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
       const double before = edge_normals_[i == 0 ? 0 : i - 1], after = edge_normals_[i == last ? last - 1 : i];
       planar_.push_back(along_[i] + half_ * 0.5 * (before + after));
-      const double step = i == 0 ? 0.0 : std::hypot(planar_[i] - planar_[i - 1], floor_[i].z() - floor_[i - 1].z());
-      wound_.push_back(i == 0 ? 0.0 : wound_[i - 1] + step);
     }
+    wound_.push_back(0.0);
+    for (std::size_t i = 1; i <= last; ++i)
+      wound_.push_back(wound_[i - 1] + (planar_[i] - planar_[i - 1]) * std::hypot(1.0, slope_between(i - 1, i)));
+  }
+
+  double slope_between(std::size_t a, std::size_t b) const {
+    const std::size_t from = a > k_slope_window ? a - k_slope_window : 0,
+                      to = std::min(b + k_slope_window, planar_.size() - 1);
+    return (floor_[to].z() - floor_[from].z()) / (planar_[to] - planar_[from]);
   }
 
   Place centre_line_at(double planar) const {
     const auto after = std::upper_bound(planar_.begin() + 1, planar_.end() - 1, planar);
     const auto b = static_cast<std::size_t>(after - planar_.begin()), a = b - 1;
     const double share = (planar - planar_[a]) / (planar_[b] - planar_[a]);
-    // At a corner of the polygon the centre line turns without rising, between two it rises the more: the slope is that
-    // of several corners.
-    const std::size_t from = a > k_slope_window ? a - k_slope_window : 0,
-                      to = std::min(b + k_slope_window, planar_.size() - 1);
     return {wound_[a] + share * (wound_[b] - wound_[a]), floor_[a].z() + share * (floor_[b].z() - floor_[a].z()),
-            (floor_[to].z() - floor_[from].z()) / (planar_[to] - planar_[from])};
+            slope_between(a, b)};
   }
 
   // On the right the knot is where the groove begins, on the left where it ends.
@@ -137,7 +177,7 @@ class HelicalString {
     // Two neighbours that each point to the other, by rounding: both are right.
   }
 
-  const FloorLine& floor_;
+  FloorLine floor_;
   double hand_, half_;
   StringAbove above_;
   double end_height_;

@@ -22,14 +22,17 @@ namespace {
 
 constexpr int k_nodes = 48;
 constexpr int k_places_of_turn = 72;
+constexpr int k_places_of_brief_turn = 18;
 /// Between the places that are looked at a pair of turns may need a little more.
 constexpr double k_spare_lead = 1.005;
 constexpr double k_settled = 1e-10;  // mm
 
 /// The least height from turn to turn, and what the tightest pair of them needs.
-void look_at_turns(Climb& climb, const PitchSpiral& curve, Side side, const LeastLead& least_lead, double wanted) {
+void look_at_turns(Climb& climb, const PitchSpiral& curve, Side side, const LeastLead& least_lead, double wanted,
+                   HelixLook closely) {
+  const int places = closely == HelixLook::brief ? k_places_of_brief_turn : k_places_of_turn;
   double least_slope = 0, circumference = 1e300;
-  for (double psi = curve.begin(); psi + k_two_pi <= curve.end() + 1e-9; psi += k_two_pi / k_places_of_turn) {
+  for (double psi = curve.begin(); psi + k_two_pi <= curve.end() + 1e-9; psi += k_two_pi / places) {
     const SpiralPoint here = curve.at(psi), next = curve.at(psi + k_two_pi);
     const double around = next.sigma - here.sigma;
     const double step = mirror_sign(side) * (next.curve.h - here.curve.h);
@@ -79,11 +82,11 @@ struct SideRound {
 };
 
 SideRound look(const Mechanism& mechanism, const Transmission& transmission, Side side, const SmoothSeries* before,
-               const LeastLead& least_lead, const std::vector<double>& nodes) {
+               const LeastLead& least_lead, const std::vector<double>& nodes, HelixLook closely) {
   const TakeOffs take_offs(transmission, side);
   const PitchSpiral curve(mechanism, take_offs, before);
   SideRound round;
-  look_at_turns(round.climb, curve, side, least_lead, mechanism.body.lead);
+  look_at_turns(round.climb, curve, side, least_lead, mechanism.body.lead, closely);
   const auto place_of = [&](const TakeOff& take_off) {
     return Place{curve.free_path(take_off), curve.sigma(take_off)};
   };
@@ -116,16 +119,17 @@ HelixPoint helix_point(const Climb& climb, Side side, const FreePath& path, doub
   return point;
 }
 
-Windings wind(const Mechanism& mechanism, const LeastLead& least_lead) {
-  constexpr int k_rounds = 16;
+Windings wind(const Mechanism& mechanism, const LeastLead& least_lead, HelixLook closely) {
+  const int rounds = closely == HelixLook::brief ? 2 : 16;
   Windings windings;
   windings.transmission = std::make_unique<Transmission>(mechanism);
-  for (int i = 0; i < k_rounds; ++i) {
+  for (int i = 0; i < rounds; ++i) {
     const Transmission& law = *windings.transmission;
     const std::vector<double> nodes = SmoothSeries::nodes(law.alpha_min(), law.alpha_max(), k_nodes);
     const SlopedPaths* before = windings.paths.get();
-    const SideRound left = look(mechanism, law, Side::left, before ? &before->q1 : nullptr, least_lead, nodes);
-    const SideRound right = look(mechanism, law, Side::right, before ? &before->q2 : nullptr, least_lead, nodes);
+    const SideRound left = look(mechanism, law, Side::left, before ? &before->q1 : nullptr, least_lead, nodes, closely);
+    const SideRound right =
+        look(mechanism, law, Side::right, before ? &before->q2 : nullptr, least_lead, nodes, closely);
     const double closure = std::max(left.settled, right.settled);
     const bool no_better = i > 2 && closure > 0.5 * windings.closure;
     windings.climbs = {left.climb, right.climb};
@@ -137,6 +141,7 @@ Windings wind(const Mechanism& mechanism, const LeastLead& least_lead) {
                     SmoothSeries(law.alpha_min(), law.alpha_max(), right.q, k_least_coefficient)});
     windings.transmission = std::make_unique<Transmission>(mechanism, windings.paths);
   }
+  if (closely == HelixLook::brief) windings.closure = 0;
   return windings;
 }
 

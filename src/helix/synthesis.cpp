@@ -49,13 +49,13 @@ void append(std::vector<Condition>& conditions, std::vector<Condition> more) {
 }
 
 void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const HelixGroove& groove,
-                     const SynthesisOptions& options) {
+                     const SynthesisOptions& options, HelixLook closely) {
   const Transmission planar(mechanism);
   result.conditions = attempt(mechanism, planar, Turns::many).conditions;
   if (!all_hold(result.conditions)) return;
   append(result.conditions, turn_conditions(mechanism, planar));
   if (!all_hold(result.conditions)) return;
-  const Windings windings = wind(mechanism, groove.least_lead);
+  const Windings windings = wind(mechanism, groove.least_lead, closely);
   const Transmission& law = *windings.transmission;
   const Attempt tried = attempt(mechanism, law, Turns::many);
   result.conditions = tried.conditions;
@@ -63,7 +63,8 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
   if (!all_hold(result.conditions)) return;
   result.closure = windings.closure;
   result.stroke = stroke_over_range(law, options.stroke_steps);
-  const SpiralDrawing drawing{.tolerance = options.tolerance, .reach = groove.lip + mechanism.tendon.diameter};
+  SpiralDrawing drawing{.tolerance = options.tolerance, .reach = groove.lip + mechanism.tendon.diameter};
+  if (closely == HelixLook::brief) drawing.largest_turn = radians(5);
   for (const Side side : {Side::left, Side::right})
     result.sides[side == Side::left ? 0 : 1] = make_side(mechanism, windings, side, result.stroke, drawing);
   append(result.conditions, helix_conditions(mechanism, result, windings, groove.lip));
@@ -75,10 +76,10 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
 
 }  // namespace
 
-HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove,
-                                const SynthesisOptions& options) {
+HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove, const SynthesisOptions& options,
+                                HelixLook closely) {
   HelixSynthesis result;
-  synthesise_into(result, mechanism, groove, options);
+  synthesise_into(result, mechanism, groove, options, closely);
   return result;
 }
 

@@ -37,6 +37,6 @@ inline double rise(const Climb& climb, Side side, double sigma) {
 HelixPoint helix_point(const Climb& climb, Side side, const FreePath& path, double sigma);
 
 /// The law's planar curves must be possible.
-Windings wind(const Mechanism& mechanism, const LeastLead& least_lead);
+Windings wind(const Mechanism& mechanism, const LeastLead& least_lead, HelixLook closely);
 
 }  // namespace fusee

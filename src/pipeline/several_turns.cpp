@@ -203,7 +203,7 @@ std::vector<Condition> obstacles_of(const Mechanism& mechanism, double tolerance
   SynthesisOptions options;
   options.tolerance = tolerance;
   options.stroke_steps = 36;
-  const HelixSynthesis made = synthesise_helix(mechanism, groove_of(mechanism), options);
+  const HelixSynthesis made = synthesise_helix(mechanism, groove_of(mechanism), options, HelixLook::brief);
   if (!made.made()) return failed_of(made.conditions);
   return helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, tolerance);
 }

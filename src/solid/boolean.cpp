@@ -6,12 +6,14 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/corefinement.h"
 #include "solid/disjoint_sets.h"
+#include "solid/nearest_float.h"
 #include "solid/self_intersection.h"
 #include "solid/solid_angle.h"
 
@@ -212,10 +214,50 @@ std::optional<std::vector<OpenSide>> border_of(const TriangleMesh& welded) {
   return border;
 }
 
-// Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone.
-TriangleMesh without_short_edges(const TriangleMesh& rounded) {
-  TriangleMesh mesh = weld(rounded);
+bool has(const std::array<std::uint32_t, 3>& triangle, std::uint32_t vertex) {
+  return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
+}
+
+// Moves `from` onto `to`: a surface stays one where both have two neighbours in common, and no facet may turn over.
+void collapse(TriangleMesh& mesh, std::uint32_t from, std::uint32_t to) {
+  std::set<std::uint32_t> beside_from, beside_to;
+  for (const auto& triangle : mesh.triangles) {
+    if (has(triangle, from)) beside_from.insert(triangle.begin(), triangle.end());
+    if (has(triangle, to)) beside_to.insert(triangle.begin(), triangle.end());
+    if (!has(triangle, from) || has(triangle, to)) continue;
+    const auto corner = [&](std::size_t k) { return mesh.vertices[triangle[k]]; };
+    const auto moved = [&](std::size_t k) { return mesh.vertices[triangle[k] == from ? to : triangle[k]]; };
+    const Vec3 before = (corner(1) - corner(0)).cross(corner(2) - corner(0)),
+               after = (moved(1) - moved(0)).cross(moved(2) - moved(0));
+    if (!(before.dot(after) > 0)) return;
+  }
+  const auto in_common = std::count_if(beside_from.begin(), beside_from.end(),
+                                       [&beside_to](std::uint32_t vertex) { return beside_to.contains(vertex); });
+  if (in_common != 4) return;  // these two, and one on either side of the edge
+  for (auto& triangle : mesh.triangles) std::replace(triangle.begin(), triangle.end(), from, to);
+}
+
+void erase_collapsed(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+}
+
+// Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone. So are
+// those that are no longer than some grains of a float: the facets beside them have a normal that nobody can compute.
+TriangleMesh without_short_edges(const TriangleMesh& rounded) {
+  constexpr double k_short = 2.0 * k_float_grain;
+  TriangleMesh mesh = weld(rounded);
+  erase_collapsed(mesh);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
+      if (a < b && (mesh.vertices[a] - mesh.vertices[b]).squaredNorm() < k_short * k_short) edges.emplace_back(b, a);
+    }
+  }
+  for (const auto& [from, to] : edges) {
+    collapse(mesh, from, to);
+    erase_collapsed(mesh);
+  }
   return mesh;
 }
 

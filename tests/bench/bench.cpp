@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <string>
 
 #include "fusee/export/mesh_files.h"
 #include "fusee/export/report.h"
@@ -13,9 +14,12 @@ namespace {
 
 using namespace fusee;
 
+MechanismFile profile(const std::string& name) {
+  return read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles" / (name + ".toml"));
+}
+
 const MechanismFile& paper() {
-  static const MechanismFile file =
-      read_mechanism(std::filesystem::path(FUSEE_SOURCE_DIR) / "profiles/paper_optimum.toml");
+  static const MechanismFile file = profile("paper_optimum");
   return file;
 }
 
@@ -79,6 +83,28 @@ void whole_build(benchmark::State& state) {
   std::filesystem::remove_all(folder);
 }
 BENCHMARK(whole_build)->Unit(benchmark::kMillisecond);
+
+// Joints of the wider class: drums with and without lift-off, idlers, sheaths, a wanted torque.
+void synthesis_of(benchmark::State& state, const std::string& name) {
+  const MechanismFile file = profile(name);
+  for (auto _ : state) benchmark::DoNotOptimize(synthesise(file.mechanism));
+}
+void build_of(benchmark::State& state, const std::string& name) {
+  const MechanismFile file = profile(name);
+  BuildOptions options;
+  options.folder = std::filesystem::temp_directory_path() / "fusee-bench";
+  for (auto _ : state) benchmark::DoNotOptimize(build(file, options));
+  std::filesystem::remove_all(options.folder);
+}
+
+const bool wide_joints = [] {
+  for (const char* name : {"finger_mcp", "finger_pip", "ankle_exo", "elbow_idlers", "wrist_sheath", "gravity_arm"}) {
+    const auto of = [name](const char* what) { return std::string(what) + "/" + name; };
+    benchmark::RegisterBenchmark(of("synthesis").c_str(), synthesis_of, name)->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(of("whole_build").c_str(), build_of, name)->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
 
 /// The page beside a build, with the joint that moves in it.
 void page(benchmark::State& state) {

@@ -116,7 +116,8 @@ struct RoundCapstan {
 TEST(HelicalRewind, IsAHelixAndALine) {
   const RoundCapstan joint;
   ASSERT_TRUE(joint.pulley.made) << joint.pulley.brief();
-  // Tolerances are what the polygon does: the take-off goes from corner to corner, 0.9 mm and 0.07 mm of height apart.
+  // Tolerances are what the polygon does: the take-off goes from corner to corner, 0.9 mm and 0.07 mm of height apart. A
+  // judge that leaves out corners, or lets the tendon rise with the floor alone, is 0.003° and 0.005 mm off.
   for (const double aside : {0.0, 7.0}) {
     const double end1 = joint.take_off(joint.p1, 0) + aside, end2 = joint.take_off(joint.p2, 0) - aside;
     const TendonsLaid laid = tendons_laid(joint.pulley, joint.p1, joint.p2, end1, end2, false);
@@ -125,7 +126,7 @@ TEST(HelicalRewind, IsAHelixAndALine) {
     double fleet = 0;
     for (const RewindPoint& point : wound.result.points) {
       const double by_hand = joint.theta(point.alpha, -1.0, joint.free1, end1, joint.p1);
-      EXPECT_NEAR(degrees(point.theta), degrees(by_hand), 0.004) << degrees(point.alpha);
+      EXPECT_NEAR(degrees(point.theta), degrees(by_hand), 0.0015) << degrees(point.alpha);
       // What the slope of the path makes of the joint, and is not in the planar law.
       for (const double hand : {-1.0, 1.0}) {
         const double free = hand > 0 ? joint.free2 : joint.free1;
@@ -138,7 +139,7 @@ TEST(HelicalRewind, IsAHelixAndALine) {
         return RoundCapstan::radius * alpha * std::hypot(1.0, joint.slope) +
                std::hypot(planar, end2 - joint.take_off(joint.p2, alpha));
       };
-      EXPECT_NEAR(point.slack, length2(0, joint.free2) - length2(point.alpha, free2), 0.006) << degrees(point.alpha);
+      EXPECT_NEAR(point.slack, length2(0, joint.free2) - length2(point.alpha, free2), 0.002) << degrees(point.alpha);
     }
     EXPECT_NEAR(degrees(wound.max_fleet), degrees(fleet), 0.03);
     EXPECT_GT(degrees(wound.result.max_theta_error), aside > 0 ? 0.1 : 0.02);

@@ -2,7 +2,7 @@
 """Chromium judges pages on which a joint moves: what their scripts do, and what they show.
 
     judge_page.py build/forearm [page.html …]   a folder of `fusee build`, and other pages of the same joint
-    judge_page.py build/forearm --self-test     that this judge sees a broken page
+    judge_page.py build/forearm --self-test     that this judge sees a broken page (of several turns as well)
     judge_page.py --still page.html …           pages without scripts: nothing asked for, nothing too wide, pictures that show
 
 Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is not installed.
@@ -10,7 +10,9 @@ Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is
 The page is opened as it is, with a script before its own that notes errors and one after them that moves the slider and
 looks at the outcome. What must hold: the drawn lever stands where transmission.csv says; each drawn tendon keeps its
 length over the stroke; the 3-D view is neither blank nor inside out and turns with the pulley; without WebGL there is a
-still picture; nothing is asked of a network; nothing is wider than a phone; a frame takes at most 4 ms.
+still picture; nothing is asked of a network; nothing is wider than a phone; a frame takes at most 4 ms. Where a pulley has
+several turns the tendons' take-offs are drawn instead of a lever: they must stand on the spirals of profile.csv, turned,
+at the place whose normal looks across the line to the guide pin.
 """
 
 import csv
@@ -38,27 +40,45 @@ document.addEventListener("securitypolicyviolation", e => noted.push("asks for "
 for (const name of ["error", "warn"]) console[name] = (...words) => noted.push("console: " + words.join(" "));
 """
 
+# What is drawn at one α: of a joint seen along its axis …
+LEVER = """
+  const scene = document.querySelector(".moving .scene"), [scale, x, y] = scene.dataset.view.split(" ").map(Number);
+  const long = points => points.reduce((sum, p, k) => k ? sum + Math.hypot(p[0] - points[k - 1][0], p[1] - points[k - 1][1]) : 0, 0) / scale;
+  const drawn = () => {
+    const lever = path(scene.querySelector(".link")), c = lever.length === 3 ? lever[0] : lever[1];  // A1 O A2, or O C
+    return {
+      theta: Math.atan2(c[0] - x, y - c[1]) * 180 / Math.PI,
+      lever: Math.hypot(c[0] - x, y - c[1]) / scale,
+      lengths: [1, 2].map(k => [...scene.querySelectorAll(".tendon" + k + " path")].reduce((sum, p) => sum + long(path(p)), 0)),
+      turn: Number(scene.querySelector(".pulley").getAttribute("transform").match(/rotate\\(([-0-9.]+)/)[1]),
+    };
+  };
+"""
+# … and of a pulley of several turns seen from the side: right and up, in mm, by the lines at its lower and upper face.
+CLIMB = """
+  const scene = document.querySelector(".climbing-scene");
+  const [[low, high], [, top]] = scene.querySelector(".dimension").getAttribute("d").slice(1).split("M").map(part => part.split("L").map(p => p.split(" ").map(Number)));
+  const axis = (low[0] + high[0]) / 2, scale = (low[1] - top[1]) / HEIGHT;
+  const mm = (px, py) => [(px - axis) / scale, (low[1] - py) / scale];
+  const drawn = () => ({
+    scale,
+    offs: [...scene.querySelectorAll(".take-off")].map(off => mm(Number(off.getAttribute("cx")), Number(off.getAttribute("cy")))),
+    free: [1, 2].map(k => path([...scene.querySelectorAll(".whole.p" + k)].pop()).map(p => mm(...p))),
+  });
+"""
+
 AFTER = """
 (async () => {
   const found = { noted, places: [], times: [] };
   const slider = document.querySelector("#alpha"), canvas = document.querySelector(".stage canvas");
-  const scene = document.querySelector(".moving .scene"), [scale, x, y] = scene.dataset.view.split(" ").map(Number);
   const path = element => element.getAttribute("d").slice(1).split("L").map(p => p.split(" ").map(Number));
-  const long = points => points.reduce((sum, p, k) => k ? sum + Math.hypot(p[0] - points[k - 1][0], p[1] - points[k - 1][1]) : 0, 0) / scale;
+  DRAWN
   for (const alpha of ALPHAS) {
     slider.value = alpha;
     const start = performance.now();
     slider.dispatchEvent(new Event("input"));
     found.times.push(performance.now() - start);
-    const lever = path(scene.querySelector(".link")), c = lever.length === 3 ? lever[0] : lever[1];  // A1 O A2, or O C
-    found.places.push({
-      alpha: Number(slider.value),
-      theta: Math.atan2(c[0] - x, y - c[1]) * 180 / Math.PI,
-      lever: Math.hypot(c[0] - x, y - c[1]) / scale,
-      shown: document.querySelector("[data-show=theta]").textContent,
-      lengths: [1, 2].map(k => [...scene.querySelectorAll(".tendon" + k + " path")].reduce((sum, p) => sum + long(path(p)), 0)),
-      turn: Number(scene.querySelector(".pulley").getAttribute("transform").match(/rotate\\(([-0-9.]+)/)[1]),
-    });
+    found.places.push({ alpha: Number(slider.value), shown: document.querySelector("[data-show=theta]").textContent, ...drawn() });
   }
   const frame = () => new Promise(done => setTimeout(done, 100));
   const gl = canvas && canvas.getContext("webgl2");
@@ -130,7 +150,7 @@ def script(words):
     return f"<script>//<![CDATA[\n{words}\n//]]></script>"
 
 
-def seen_in(page, alphas, width, options=(), after=AFTER):
+def seen_in(page, alphas, width, options=(), after=AFTER.replace("DRAWN", LEVER)):
     """What `after` found on the page."""
     page = page.replace("<head>", "<head>" + script(BEFORE), 1)
     page = page.replace("</body>", script(after.replace("ALPHAS", json.dumps(alphas))) + "</body>", 1)
@@ -154,14 +174,19 @@ def number_of(words):
         return None
 
 
+def faults_of_words(place, row):
+    theta = float(row["theta_deg"])
+    if number_of(place["shown"]) is None or abs(number_of(place["shown"]) - theta) > 0.00501:
+        yield f"at alpha = {row['alpha_deg']} the page says {place['shown']}, not {theta}"
+
+
 def faults_of_motion(found, rows, lever):
     """The drawing against the table that another program wrote."""
     for place, row in zip(found["places"], rows):
         alpha, theta = float(row["alpha_deg"]), float(row["theta_deg"])
+        yield from faults_of_words(place, row)
         if abs(place["theta"] - theta - lever.angle) > 0.05:
             yield f"at alpha = {alpha} the lever is drawn at {place['theta']:.3f} deg, not {theta + lever.angle}"
-        if number_of(place["shown"]) is None or abs(number_of(place["shown"]) - theta) > 0.00501:
-            yield f"at alpha = {alpha} the page says {place['shown']}, not {theta}"
         if abs(place["lever"] - lever.length) > 0.003 * lever.length:
             yield f"the lever is drawn {place['lever']:.2f} mm long, not {lever.length}"
         if abs(place["turn"] - alpha) > 0.01:
@@ -170,6 +195,55 @@ def faults_of_motion(found, rows, lever):
         lengths = [place["lengths"][k] for place in found["places"]]
         if max(lengths) - min(lengths) > 0.004 * lever.length:
             yield f"tendon {k + 1} is drawn from {min(lengths):.2f} to {max(lengths):.2f} mm long over the stroke"
+
+
+@dataclasses.dataclass
+class Climb:
+    """A pulley of several turns: what profile.csv says of each groove, and where the tendons go."""
+    height: float   # mm, of the grooves' part
+    spirals: list   # of P1 and P2: turn_deg, x_mm, y_mm, z_mm, in order
+    pins: list      # in the pulley's plane, mm, joint above
+    pin_radius: float  # to the tendon's centre line
+
+    def drawn(self):
+        return CLIMB.replace("HEIGHT", repr(self.height))
+
+    def lead(self, k):
+        first, last = self.spirals[k][0], self.spirals[k][-1]
+        return abs((last[3] - first[3]) / (last[0] - first[0])) * 360.0
+
+    def take_off(self, k, z):
+        """The place at a height: turn_deg, x, y."""
+        spiral = self.spirals[k]
+        for a, b in zip(spiral, spiral[1:]):
+            if min(a[3], b[3]) <= z <= max(a[3], b[3]) and a[3] != b[3]:
+                share = (z - a[3]) / (b[3] - a[3])
+                return [p + share * (q - p) for p, q in zip(a[:3], b[:3])]
+        return None
+
+    def faults(self, found, rows):
+        # A tenth of a pixel is what a drawing's numbers hold: read from the height, that is some degrees of a turn.
+        for place, row in zip(found["places"], rows):
+            alpha = float(row["alpha_deg"])
+            yield from faults_of_words(place, row)
+            c, s = math.cos(math.radians(alpha)), math.sin(math.radians(alpha))
+            for k, (right, z) in enumerate(place["offs"]):
+                at = self.take_off(k, z)
+                if at is None:
+                    yield f"at alpha = {alpha} tendon {k + 1} leaves at the height {z:.2f} mm, where there is no groove"
+                    continue
+                turn, x, y = at
+                x, y = x * c + y * s, y * c - x * s  # the pulley turns clockwise
+                normal = math.radians(turn - alpha)
+                beside = (self.pins[k][0] - x) * math.cos(normal) + (self.pins[k][1] - y) * math.sin(normal)
+                if abs(right - y) > 0.02 * self.pins[k][1]:
+                    yield f"at alpha = {alpha} the take-off of tendon {k + 1} is drawn {right:.2f} mm to the right, not {y:.2f}"
+                if abs(abs(beside) - self.pin_radius) > self.pins[k][1] * 2.0 * math.pi * 0.1 / place["scale"] / self.lead(k):
+                    yield f"at alpha = {alpha} tendon {k + 1} would leave to {beside:.2f} mm beside its pin's centre, not {self.pin_radius}"
+                (u0, z0), (u1, z1) = place["free"][k]
+                rise, slope = math.atan2(z1 - z0, u1 - u0), math.radians(float(row[f"slope{k + 1}_deg"]))
+                if abs(rise - slope) > 0.02 + 0.05 * abs(slope):
+                    yield f"at alpha = {alpha} tendon {k + 1} is drawn rising by {math.degrees(rise):.2f} deg, not {math.degrees(slope):.2f}"
 
 
 def faults_of_view(found):
@@ -198,16 +272,19 @@ def faults_of_effects(found):
 
 def faults(page, rows, lever, ways=WAYS):
     alphas = [float(row["alpha_deg"]) for row in rows]
+    climbs = isinstance(lever, Climb)
+    after = AFTER.replace("DRAWN", lever.drawn() if climbs else LEVER)
     if len(page.encode()) > MOST_BYTES:
         yield f"{len(page.encode())} bytes"
     for name, width, options in ways:
-        found = seen_in(page, alphas, width, options)
+        found = seen_in(page, alphas, width, options, after)
         if found is None:
             yield f"{name}: the page's scripts did not end"
             continue
         if found["part"] and found["webgl"] == (name == "no WebGL"):
             yield f"{name}: WebGL {found['webgl']}"
-        looks = [*found["noted"], *faults_of_motion(found, rows, lever), *faults_of_view(found), *faults_of_effects(found)]
+        motion = lever.faults(found, rows) if climbs else faults_of_motion(found, rows, lever)
+        looks = [*found["noted"], *motion, *faults_of_view(found), *faults_of_effects(found)]
         if found["requests"]:
             looks.append(f"{found['requests']} requests")
         if found["wide"] > found["room"]:
@@ -260,13 +337,28 @@ def lever_of(mechanism):
     return Lever(length, math.degrees(math.atan2(across, along)))
 
 
+def table(file):
+    with open(file, encoding="utf-8") as lines:
+        return list(csv.DictReader(lines))
+
+
+def climb_of(folder, mechanism, page):
+    rows = table(folder / "profile.csv")
+    spirals = [[[float(row[name]) for name in ("turn_deg", "x_mm", "y_mm", "z_mm")] for row in rows if row["pulley"] == pulley] for pulley in ("P1", "P2")]
+    guides, pulley = mechanism["guides"], mechanism["pulley"]
+    pins = [(-guides["EB_mm"], pulley["EF_mm"]), (guides["ED_mm"], pulley["EF_mm"])]
+    radius = guides["radius_mm"] + (0.5 * mechanism["tendon"]["diameter_mm"] if guides["radius_mm"] > 0 else 0.0)
+    height = json.loads(page.split('id="climb">', 1)[1].split("</script>")[0])["top"]
+    return Climb(height, spirals, pins, radius)
+
+
 def read(folder):
     folder = pathlib.Path(folder)
-    with open(folder / "transmission.csv", encoding="utf-8") as lines:
-        rows = list(csv.DictReader(lines))
+    rows = table(folder / "transmission.csv")
     rows = rows[:: max(1, len(rows) // 24)]
     page = (folder / "report.html").read_text(encoding="utf-8")
-    return page, rows, lever_of(json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["mechanism"])
+    mechanism = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["mechanism"]
+    return page, rows, climb_of(folder, mechanism, page) if 'id="climb">' in page else lever_of(mechanism)
 
 
 # What breaks a page, and a word of what the judge must say then.
@@ -280,12 +372,20 @@ BREAKS = {
     "request": ("(() => {\n  const stage", "new Image().src = '//example.org/x.png';(() => {\n  const stage", "asks for"),
     "wide": ("<main>", "<main><div style=\"width:2500px\">x</div>", "px wide"),
 }
+LEVER_ALONE = ("angle", "tendon", "error")
+CLIMB_BREAKS = {
+    "turned back": ("px(row[1] * c - row[0] * s, row[2])", "px(row[1] * c + row[0] * s, row[2])", "to the right, not"),
+    "height": ("const z = between(side.z, place), {", "const z = between(side.z, place) + 2, {", "beside its pin"),
+    "slope": ("z + climb * (data.pin", "z - climb * (data.pin", "is drawn rising by"),
+    "angle": ("number(between(data.theta, place), 2)", "number(0.9 * between(data.theta, place), 2)", "the page says"),
+}
 
 
 def self_test(folder):
     page, rows, lever = read(folder)
     failed = 0
-    for name, (old, new, word) in BREAKS.items():
+    breaks = {name: fault for name, fault in BREAKS.items() if name not in LEVER_ALONE} | CLIMB_BREAKS if isinstance(lever, Climb) else BREAKS
+    for name, (old, new, word) in breaks.items():
         assert old in page, f"{name}: the page has no {old!r}"
         said = list(faults(page.replace(old, new, 1), rows[::6], lever, WAYS[:1]))
         if not any(word in fault for fault in said):

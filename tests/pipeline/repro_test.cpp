@@ -100,6 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
               0.01,
               BuildStatus::infeasible},
         Repro{"arc_16_km_out_was_advised", "tests/data/repro/arc_16_km_out.toml", {}, 0.01, BuildStatus::infeasible},
+        Repro{"floor_of_a_giant_helix", "tests/data/repro/floor_of_a_giant_helix.toml", {}, 0.00525628},
         Repro{"pocket_in_plates", "tests/data/repro/pocket_in_plates.toml", {}},
         Repro{
             "mouth_of_a_variant", "tests/data/repro/mouth_of_a_variant.toml", {{"joint.range_deg", "[-29.8, 29.8]"}}}),

@@ -55,7 +55,7 @@ TEST_P(SeveralTurns, AreMadeAndGiveTheDeclaredLaw) {
   ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
   ASSERT_TRUE(built.product.helix);
   EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 2.5);
-  EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.01);
+  EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.0005);
   EXPECT_LT(built.product.as_built.max_slack, 0.02);
   EXPECT_LT(degrees(built.product.helix->as_built.max_fleet), 2.0);
 }
@@ -130,7 +130,7 @@ TEST(TheFuseeOfAClock, StoresInTheSpringWhatTurnsIt) {
   ASSERT_GT(built.product.as_built.points.size(), 50U);
   for (const RewindPoint& point : built.product.as_built.points) {
     const double theta = (std::sqrt(400.0 * 400.0 + 2.0 * 50.93 * 66.6667 * point.alpha) - 400.0) / 50.93;
-    EXPECT_NEAR(degrees(point.theta), degrees(theta), 0.01) << degrees(point.alpha);
+    EXPECT_NEAR(degrees(point.theta), degrees(theta), 0.0005) << degrees(point.alpha);
   }
 }
 

@@ -71,6 +71,30 @@ TEST(Boolean, OfWhatLiesWithin) {
   expect_solid(unite(k_body, tool), 1000, 1);
 }
 
+/// mm
+double shortest_edge(const TriangleMesh& mesh) {
+  double least = 1e9;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}})
+      least = std::min(least, (mesh.vertices[from] - mesh.vertices[to]).norm());
+  }
+  return least;
+}
+
+// A corner of the tool stands a hair beside the line along which the body's face is divided into facets, whichever of
+// the two it is: admesh would find another normal for the facet of that length.
+TEST(Boolean, LeavesNoEdgesOfSomeGrainsOfAFloat) {
+  for (const double hair : {1.2e-5, -1.2e-5, 7e-6}) {
+    for (const double x : {0.0, 2.0}) {
+      const TriangleMesh tool = box({4 - x, 4 - x + hair, -1}, {6, 6 + hair, 11});
+      const double area = (2 + x) * (2 + x);
+      const auto result = subtract(k_body, tool);
+      expect_solid(result, 1000 - 10 * area, 10 * area);
+      EXPECT_GT(shortest_edge(result->mesh), 0.1) << hair;
+    }
+  }
+}
+
 // Faces that are one: the tool ends in a face of the body, from within and from without.
 TEST(Boolean, OfFacesThatLieOnOneAnother) {
   expect_solid(subtract(k_body, box({4, 4, 5}, {6, 7, 10})), 1000 - 30, 30);

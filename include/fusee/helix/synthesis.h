@@ -64,8 +64,12 @@ constexpr double k_most_turns = 12;
 constexpr double k_noted_fleet = radians(1.5);
 constexpr double k_warned_fleet = radians(2.0);
 
+/// How closely curves are looked at: as they will be made, or, some ten times faster, so far that the conditions are
+/// those of what will be made to within a thousandth; whether lengths settle is then not asked.
+enum class HelixLook { whole, brief };
+
 /// Looks for no advice.
 HelixSynthesis synthesise_helix(const Mechanism& mechanism, const HelixGroove& groove,
-                                const SynthesisOptions& options = {});
+                                const SynthesisOptions& options = {}, HelixLook closely = HelixLook::whole);
 
 }  // namespace fusee
