@@ -82,6 +82,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/golden_section.h"
 #include "export/step/step_part.h"
 
 namespace fusee {
@@ -891,7 +892,7 @@ class Nearest {
     constexpr int k_narrowings = 24;
     // No patch across a groove is wider.
     constexpr double k_far = 3;
-    constexpr double k_golden = 0.6180339887498949, k_level = 1e-5;
+    constexpr double k_level = 1e-5;
     double u1, u2, v1, v2;
     surface.Bounds(u1, u2, v1, v2);
     if (Precision::IsInfinite(v1) || Precision::IsInfinite(v2)) return std::nullopt;
@@ -905,14 +906,8 @@ class Nearest {
     if (!halfway || halfway->place.Distance(point) > k_far) return std::nullopt;
     const double first = radius_at(v1), last = radius_at(v2), level = radius_at(0.5 * (v1 + v2));
     const bool is_level = std::abs(first - level) < k_level && std::abs(last - level) < k_level;
-    for (int k = 0; k < k_narrowings && !is_level; ++k) {
-      const double a = v2 - k_golden * (v2 - v1), b = v1 + k_golden * (v2 - v1);
-      if (radius_at(a) < radius_at(b))
-        v2 = b;
-      else
-        v1 = a;
-    }
-    const auto lowest = at(0.5 * (v1 + v2));
+    const Bracket across_it{v1, v2};
+    const auto lowest = at(is_level ? across_it.middle() : golden_section(across_it, k_narrowings, radius_at).middle());
     if (!lowest || !lowest->inside) return std::nullopt;
     return std::pair(lowest->place, is_level);
   }
