@@ -88,27 +88,27 @@ std::vector<Break> first_breaks(double from, double to, const std::vector<double
 /// as smoothly as the curve.
 class SectorFit {
  public:
-  SectorFit(const SupportCurve& curve, double tolerance, double reach)
-      : curve_(curve), tolerance_(tolerance), reach_(reach) {}
+  explicit SectorFit(const SplineWish& wish) : wish_(wish) {}
 
-  NormalSpline on(const std::vector<Break>& breaks) const {
-    NormalSpline spline{flat_knots(breaks), {}, {}};
+  JointSpline on(const std::vector<Break>& breaks) const {
+    JointSpline spline{flat_knots(breaks), {}};
     const std::size_t count = spline.knots.size() - k_order;
     const std::size_t fixed = count >= 6 ? 2 : 1;
-    Eigen::MatrixXd poles = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), 4);
     const double from = breaks.front().psi, to = breaks.back().psi;
+    Eigen::MatrixXd& poles = spline.poles;
+    poles = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), wish_.at(from).size());
     set_end(poles, spline.knots, 0, from, fixed);
     set_end(poles, spline.knots, count - 1, to, fixed);
     const auto free = static_cast<Eigen::Index>(count - 2 * fixed);
     if (free > 0) {
-      Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(free, free), right = Eigen::MatrixXd::Zero(free, 4);
+      Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(free, free), right = Eigen::MatrixXd::Zero(free, poles.cols());
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         const double begin = breaks[i].psi, width = breaks[i + 1].psi - begin;
         for (int k = 0; k < k_samples_a_span; ++k) {
           const double psi = begin + width * (k + 0.5) / k_samples_a_span;
           const std::size_t span = span_of(spline.knots, psi);
           const auto basis = basis_at(spline.knots, span, psi);
-          Eigen::RowVector4d rest = wanted(psi);
+          Eigen::RowVectorXd rest = wish_.at(psi);
           const std::size_t first = span - k_step_degree;
           for (std::size_t a = 0; a < k_order; ++a) {
             if (is_fixed(first + a, count, fixed)) rest -= basis[a] * poles.row(static_cast<Eigen::Index>(first + a));
@@ -126,26 +126,20 @@ class SectorFit {
       }
       poles.middleRows(static_cast<Eigen::Index>(fixed), free) = normal.ldlt().solve(right);
     }
-    for (Eigen::Index i = 0; i < poles.rows(); ++i) {
-      spline.position.emplace_back(poles(i, 0), poles(i, 1));
-      spline.normal.emplace_back(poles(i, 2), poles(i, 3));
-    }
     return spline;
   }
 
   /// The spans within which the spline is too far off, the worst first: a place that is bent sharply makes its
   /// neighbours swing, which are well when it is.
-  std::vector<std::size_t> coarse_spans(const NormalSpline& spline, const std::vector<Break>& breaks) const {
+  std::vector<std::size_t> coarse_spans(const JointSpline& spline, const std::vector<Break>& breaks) const {
     constexpr int k_looks = 24;
-    const StepSpline positions{spline.knots, spline.position}, normals{spline.knots, spline.normal};
     std::vector<double> errors;
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
       const double begin = breaks[i].psi, width = breaks[i + 1].psi - begin;
       double worst = 0;
       for (int k = 0; k < k_looks; ++k) {
         const double psi = begin + width * (k + 0.31) / k_looks;
-        worst = std::max({worst, (point_on(positions, psi) - curve_.at(psi)).norm() / tolerance_,
-                          reach_ * (point_on(normals, psi) - unit(psi)).norm() / k_circle_tolerance});
+        worst = std::max(worst, wish_.off(spline.at(psi), psi));
       }
       errors.push_back(width > k_shortest_span ? worst : 0.0);
     }
@@ -160,29 +154,19 @@ class SectorFit {
  private:
   static bool is_fixed(std::size_t i, std::size_t count, std::size_t fixed) { return i < fixed || i + fixed >= count; }
 
-  Eigen::RowVector4d wanted(double psi) const {
-    const Vec2 point = curve_.at(psi), normal = unit(psi);
-    return {point.x(), point.y(), normal.x(), normal.y()};
-  }
-
   void set_end(Eigen::MatrixXd& poles, const std::vector<double>& knots, std::size_t end, double psi,
                std::size_t fixed) const {
     const auto row = static_cast<Eigen::Index>(end);
-    poles.row(row) = wanted(psi);
+    poles.row(row) = wish_.at(psi);
     if (fixed < 2) return;
     const bool first = end == 0;
     const double step =
         first ? knots[k_order] - knots[k_order - 1] : knots[knots.size() - k_order - 1] - knots[knots.size() - k_order];
-    const Vec2 tangent = turned_left(unit(psi));
-    const double radius = curve_.radius_at(psi), share = step / k_step_degree;
-    Eigen::RowVector4d slope;
-    slope << radius * tangent.x(), radius * tangent.y(), tangent.x(), tangent.y();
-    poles.row(first ? row + 1 : row - 1) = poles.row(row) + share * slope;
+    const double share = step / k_step_degree;
+    poles.row(first ? row + 1 : row - 1) = poles.row(row) + share * wish_.slope(psi);
   }
 
-  const SupportCurve& curve_;
-  double tolerance_;
-  double reach_;
+  const SplineWish& wish_;
 };
 
 /// Spans were halved where they were too long: of the breaks between, those that are not needed are left out.
@@ -310,14 +294,20 @@ Vec2 point_on(const StepSpline& spline, double psi) {
   return point;
 }
 
-std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double to, const std::vector<double>& kinks,
-                                double tolerance, double reach) {
-  const SectorFit sector(curve, tolerance, reach);
-  std::vector<double> known = kinks;
-  known.insert(known.end(), curve.kinks().begin(), curve.kinks().end());
-  std::vector<Break> breaks = first_breaks(from, to, known);
+Eigen::RowVectorXd JointSpline::at(double psi) const {
+  const std::size_t span = span_of(knots, psi);
+  const auto basis = basis_at(knots, span, psi);
+  Eigen::RowVectorXd values = Eigen::RowVectorXd::Zero(poles.cols());
+  for (std::size_t a = 0; a < k_order; ++a)
+    values += basis[a] * poles.row(static_cast<Eigen::Index>(span - k_step_degree + a));
+  return values;
+}
+
+std::optional<JointSpline> fit(const SplineWish& wish, double from, double to, const std::vector<double>& kinks) {
+  const SectorFit sector(wish);
+  std::vector<Break> breaks = first_breaks(from, to, kinks);
   while (true) {
-    const NormalSpline spline = sector.on(breaks);
+    const JointSpline spline = sector.on(breaks);
     const std::vector<std::size_t> coarse = sector.coarse_spans(spline, breaks);
     if (coarse.empty()) return sector.on(thinned(sector, breaks));
     if (breaks.size() + coarse.size() > k_most_spans) return std::nullopt;
@@ -331,6 +321,33 @@ std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double t
     }
     breaks = std::move(finer);
   }
+}
+
+std::optional<NormalSpline> fit(const SupportCurve& curve, double from, double to, const std::vector<double>& kinks,
+                                double tolerance, double reach) {
+  const auto beside = [](const Vec2& point, const Vec2& normal) {
+    return Eigen::RowVectorXd(Eigen::RowVector4d(point.x(), point.y(), normal.x(), normal.y()));
+  };
+  SplineWish wish;
+  wish.at = [&](double psi) { return beside(curve.at(psi), unit(psi)); };
+  wish.slope = [&](double psi) {
+    const Vec2 tangent = turned_left(unit(psi));
+    return beside(curve.radius_at(psi) * tangent, tangent);
+  };
+  wish.off = [&](const Eigen::RowVectorXd& found, double psi) {
+    return std::max((Vec2(found(0), found(1)) - curve.at(psi)).norm() / tolerance,
+                    reach * (Vec2(found(2), found(3)) - unit(psi)).norm() / k_circle_tolerance);
+  };
+  std::vector<double> known = kinks;
+  known.insert(known.end(), curve.kinks().begin(), curve.kinks().end());
+  const auto fitted = fit(wish, from, to, known);
+  if (!fitted) return std::nullopt;
+  NormalSpline spline{fitted->knots, {}, {}};
+  for (Eigen::Index i = 0; i < fitted->poles.rows(); ++i) {
+    spline.position.emplace_back(fitted->poles(i, 0), fitted->poles(i, 1));
+    spline.normal.emplace_back(fitted->poles(i, 2), fitted->poles(i, 3));
+  }
+  return spline;
 }
 
 }  // namespace fusee

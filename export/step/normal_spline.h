@@ -2,7 +2,9 @@
 /// Closed convex curves known at sampled normals, as B-splines over the normal's direction.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,6 +50,26 @@ class SupportCurve {
   std::vector<std::array<double, 6>> support_;  ///< h over u, by its powers, of each interval
   std::vector<double> kinks_;
 };
+
+/// Several curves on one knot vector, their coordinates side by side.
+struct JointSpline {
+  std::vector<double> knots;
+  Eigen::MatrixXd poles;  ///< a row each
+
+  Eigen::RowVectorXd at(double psi) const;
+};
+
+/// What such a spline is to follow over ψ.
+struct SplineWish {
+  std::function<Eigen::RowVectorXd(double psi)> at;
+  std::function<Eigen::RowVectorXd(double psi)> slope;  ///< asked at both ends, from inside
+  /// How far off what was found at ψ is, 1: as far as it may be.
+  std::function<double(const Eigen::RowVectorXd& found, double psi)> off;
+};
+
+/// Knots are added until nothing is too far off. `kinks`: directions at which no more than the tangent is continuous.
+/// Null where that takes too many.
+std::optional<JointSpline> fit(const SplineWish& wish, double from, double to, const std::vector<double>& kinks);
 
 /// The curve over one sector and its normals, on the same knots: a parallel curve's poles are position + distance ·
 /// normal.

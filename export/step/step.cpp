@@ -54,6 +54,21 @@ double floor_error(const Outline& outline, double tendon_diameter, double scale,
   return worst;
 }
 
+/// On the floors of grooves that climb, where the tendons lie: half a tendon inside of every row of the spirals.
+std::vector<Vec3> floor_places(const HelixProduct& helix, double tendon_diameter, double scale) {
+  std::vector<Vec3> places;
+  const SpiralPlace* const lies[] = {&helix.pulley.p1, &helix.pulley.p2};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Spiral& spiral = helix.synthesis.sides[k].spiral;
+    for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
+      const SpiralRow& row = spiral.rows[i];
+      const Vec2 floor = Vec2(row.x, row.y) - 0.5 * tendon_diameter * unit(row.turn);
+      places.push_back(scale * Vec3(floor.x(), floor.y(), lies[k]->height(row.z)));
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 std::optional<std::string> step_missing() {
@@ -70,20 +85,45 @@ StepFile step_file(const Product& product) {
 
 StepLook look_at_step(const fs::path& path, const Product& product, double tolerance) {
   const BodyLayout& layout = product.pulley.layout;
-  const StepReading found = maker().read(path.string(), layout.scale * layout.z_p1, layout.scale * layout.z_p2);
   const double d = product.joint.mechanism.tendon.diameter, scale = layout.scale;
-  const double expected = product.pulley.expected_volume + std::pow(scale, 3) * round_holes_leave(product.pulley);
+  StepQuestion question;
   StepLook look;
+  if (product.helix) {
+    question.places = floor_places(*product.helix, d, scale);
+    question.grounds = [&look, scale](const TriangleMesh& mesh) {
+      look.climbing = helical_floors(mesh, scale);
+      std::vector<Vec3> places;
+      for (const FloorLine& line : look.climbing) {
+        for (const Vec3& place : line) places.push_back(scale * place);
+      }
+      return places;
+    };
+  } else {
+    question.planes = {scale * layout.z_p1, scale * layout.z_p2};
+  }
+  const StepReading found = maker().read(path.string(), question);
+  const double expected = product.pulley.expected_volume + std::pow(scale, 3) * round_holes_leave(product.pulley);
   look.checks.push_back(exactly("solids", found.solids, 1, "1"));
   look.checks.push_back(exactly("unpaired_edges", found.unpaired_edges, 0, "1"));
   look.checks.push_back(exactly("invalid_shapes", found.is_valid ? 0 : 1, 0, "1"));
   look.checks.push_back(exactly("open_faces", found.open_faces, 0, "1"));
   look.checks.push_back(at_most("volume_difference", std::abs(found.volume - expected), tolerance * found.area, "mm3"));
-  const double error = std::max(floor_error(product.synthesis.p1, d, scale, found.floor1),
-                                floor_error(product.synthesis.p2, d, scale, found.floor2));
+  double error = std::numeric_limits<double>::infinity();
+  if (product.helix && found.distances.size() == question.places.size()) {
+    error = *std::max_element(found.distances.begin(), found.distances.end());
+  } else if (found.sections.size() == 2) {
+    error = std::max(floor_error(product.synthesis.p1, d, scale, found.sections[0]),
+                     floor_error(product.synthesis.p2, d, scale, found.sections[1]));
+    look.floor1 = found.sections[0];
+    look.floor2 = found.sections[1];
+  }
   look.checks.push_back(at_most("floor_error", error, k_floor_limit, "mm"));
-  look.floor1 = found.floor1;
-  look.floor2 = found.floor2;
+  auto ground = found.grounds.begin();
+  for (FloorLine& line : look.climbing) {
+    for (Vec3& place : line) {
+      if (ground != found.grounds.end()) place = *ground++ / scale;
+    }
+  }
   return look;
 }
 

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/step/grain.h"
+#include "export/step/groove_section.h"
 #include "export/step/normal_spline.h"
+#include "export/step/skin.h"
 #include "export/step/step_shapes.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
@@ -18,12 +21,8 @@ namespace {
 // A groove's floor is promised within 1e-4 mm; rims carry nothing.
 constexpr double k_groove_tolerance = 6e-5;
 constexpr double k_rim_tolerance = 1e-3;
-// Poles are written to this, mm: a tenth of what a file says of its accuracy, and a fifth fewer bytes.
-constexpr double k_grain = 1e-6;
 // Rows are recognised in the body's rings, which were made by the same sums.
 constexpr double k_same = 1e-7;
-// An arc of one span has a weight that is well away from 0 up to here.
-constexpr double k_widest_seat = radians(150);
 // Sectors are cut this far apart at least, rad.
 constexpr double k_narrowest_sector = radians(75);
 // The kernel's time for a cut grows with the part's size over its smallest feature: a radius of 0.4 m takes a minute.
@@ -59,34 +58,17 @@ Base base_of(const Outline& outline) {
   throw InputError("", "too large for STEP: " + why, "build it without --step: the meshes have it");
 }
 
-Vec2 rounded_to_grain(const Vec2& point) {
-  // + 0.0: no negative zero is written.
-  return {std::round(point.x() / k_grain) * k_grain + 0.0, std::round(point.y() / k_grain) * k_grain + 0.0};
+void refuse_beyond(double reach) {
+  if (reach > k_largest_radius)
+    refuse_as_too_large(fmt::format("it reaches {} mm from its axis, and at most {} mm do", rounded(reach, 4),
+                                    rounded(k_largest_radius)));
 }
 
-/// The arc of a groove's seat in its section; null: the groove is drawn straight from corner to corner.
-struct Seat {
-  double radius = 0;
-  double below = 0, above = 0;  ///< how far the arc turns to both sides of the floor, rad
-};
-
-/// How far one wall's arc turns before it runs on straight; null where the lip cuts it off before.
-std::optional<double> seat_turn(const std::vector<GroovePoint>& wall, double radius) {
-  const GroovePoint &lip = wall.back(), &last = wall[wall.size() - 2];
-  const double lean = std::atan2(lip.dz - last.dz, lip.offset - last.offset);
-  // The straight touches the arc: it stands as far from its middle.
-  const double apart = std::abs((radius - last.offset) * std::sin(lean) + last.dz * std::cos(lean));
-  const double end = radius * (1 - std::sin(lean));
-  if (std::abs(apart - radius) > k_same || end > lip.offset - 1e-3) return std::nullopt;
-  return 0.5 * k_pi - lean;
-}
-
-std::optional<Seat> seat_of(const GrooveWalls& walls, const Mechanism& mechanism) {
-  if (mechanism.body.groove != Groove::u) return std::nullopt;
-  const double radius = std::max(0.5, mechanism.body.seat_ratio) * mechanism.tendon.diameter;
-  const auto below = seat_turn(walls.below, radius), above = seat_turn(walls.above, radius);
-  if (!below || !above) return std::nullopt;
-  return Seat{radius, *below, *above};
+void name_zones(StepPart& part, const Product& product) {
+  const BodyLayout& layout = product.pulley.layout;
+  part.name = product.joint.mechanism.name;
+  part.z_mate = layout.scale * layout.z_mate;
+  part.z_top = layout.scale * layout.z_top;
 }
 
 class StepBuilder {
@@ -102,16 +84,12 @@ class StepBuilder {
                                         layout_.groove_depth, mechanism_.body.flange);
     middle_.points = rims.middle;
     middle_.tolerance = k_rim_tolerance;
-    part_.name = mechanism_.name;
-    part_.z_mate = layout_.scale * layout_.z_mate;
-    part_.z_top = layout_.scale * layout_.z_top;
+    name_zones(part_, product);
   }
 
   StepPart build() {
     for (const Vec2& point : middle_.points) reach_ = std::max(reach_, point.norm());
-    if (reach_ > k_largest_radius)
-      refuse_as_too_large(fmt::format("it reaches {} mm from its axis, and at most {} mm do", rounded(reach_, 4),
-                                      rounded(k_largest_radius)));
+    refuse_beyond(reach_);
     choose_sectors();
     const RingStack stack = body_stack(product_.synthesis.p1, product_.synthesis.p2, mechanism_.tendon.diameter,
                                        mechanism_.body.flange, layout_);
@@ -233,12 +211,8 @@ class StepBuilder {
       band.weight = std::cos(half);
       if (lip.base) band.corner = pieces_of(corner);
     };
-    if (seat.below + seat.above <= k_widest_seat) {
-      add_arc(-seat.below, seat.above);
-    } else {
-      add_arc(-seat.below, 0);
-      add_arc(0, seat.above);
-    }
+    const std::vector<double> angles = seat.angles();
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i) add_arc(angles[i], angles[i + 1]);
   }
 
   std::vector<StepSpline> pieces_of(const Parallel& row) {
@@ -289,6 +263,18 @@ class StepBuilder {
   StepPart part_;
 };
 
+StepPart climbing_part(const Product& product) {
+  double reach = 0;
+  for (const HelixSide& side : product.helix->synthesis.sides) {
+    for (const SpiralRow& row : side.spiral.rows) reach = std::max(reach, std::hypot(row.x, row.y));
+  }
+  refuse_beyond(reach);
+  StepPart part;
+  name_zones(part, product);
+  part.skin = helical_skin(product);
+  return part;
+}
+
 // ---- to the size in which it is printed ----
 
 void scale(StepContour& contour, double by) {
@@ -319,6 +305,13 @@ void scale(StepTurned& turned_section, double by) {
   for (Vec2& corner : turned_section.section) corner *= by;
 }
 
+void scale(StepChannel& channel, double by) {
+  for (StepRing& ring : channel.rings) {
+    ring.middle *= by;
+    ring.radius *= by;
+  }
+}
+
 void scale(TriangleMesh& mesh, double by) {
   for (Vec3& vertex : mesh.vertices) vertex *= by;
 }
@@ -333,11 +326,13 @@ std::vector<StepTool> scaled(std::vector<StepTool> tools, double by) {
 }  // namespace
 
 StepPart step_part(const Product& product) {
-  StepPart part = StepBuilder(product).build();
+  StepPart part = product.helix ? climbing_part(product) : StepBuilder(product).build();
   const Mechanism& mechanism = product.joint.mechanism;
   const double by = product.pulley.layout.scale;
   part.cuts = scaled(step_cuts(mechanism, product.pulley), by);
   part.raised = scaled(step_raised(mechanism, product.pulley), by);
+  if (!product.helix) return part;
+  for (StepTool& tool : scaled(run_out_cuts(product), by)) part.cuts.push_back(std::move(tool));
   return part;
 }
 

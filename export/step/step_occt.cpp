@@ -30,12 +30,14 @@
 #include <GCPnts_TangentialDeflection.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom2d_BSplineCurve.hxx>
 #include <GeomConvert_ApproxCurve.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
+#include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
@@ -70,12 +72,17 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
+#include "base/golden_section.h"
 #include "export/step/step_part.h"
 
 namespace fusee {
@@ -125,6 +132,13 @@ Handle(Geom_BSplineCurve) curve_of(const StepSpline& spline, double z) {
   TColgp_Array1OfPnt poles(1, static_cast<int>(spline.poles.size()));
   for (std::size_t i = 0; i < spline.poles.size(); ++i) poles(static_cast<int>(i) + 1) = point_at(spline.poles[i], z);
   const Knots knots = knots_of(spline.knots);
+  return new Geom_BSplineCurve(poles, knots.values, knots.times, k_step_degree);
+}
+
+Handle(Geom_BSplineCurve) curve_of(const std::vector<double>& flat_knots, const std::vector<Vec3>& points) {
+  TColgp_Array1OfPnt poles(1, static_cast<int>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) poles(static_cast<int>(i) + 1) = point_at(points[i]);
+  const Knots knots = knots_of(flat_knots);
   return new Geom_BSplineCurve(poles, knots.values, knots.times, k_step_degree);
 }
 
@@ -282,6 +296,123 @@ class BodyMaker {
   std::vector<TopoDS_Face> faces_;
 };
 
+// ---- the body: a skin of faces ----
+
+class SkinMaker {
+ public:
+  explicit SkinMaker(const StepSkin& skin) : skin_(skin) {}
+
+  TopoDS_Solid solid() {
+    for (const Vec3& corner : skin_.corners) {
+      TopoDS_Vertex vertex;
+      builder_.MakeVertex(vertex, point_at(corner), k_joined);
+      corners_.push_back(vertex);
+    }
+    for (const StepSkin::Edge& edge : skin_.edges) edges_.push_back(edge_of(edge));
+    TopoDS_Shell shell;
+    builder_.MakeShell(shell);
+    for (const StepSkin::Face& face : skin_.faces) builder_.Add(shell, face_of(face));
+    shell.Closed(true);
+    TopoDS_Solid solid;
+    builder_.MakeSolid(solid);
+    builder_.Add(solid, shell);
+    return outward(solid);
+  }
+
+ private:
+  // What rounding to the grain leaves between faces that meet.
+  static constexpr double k_joined = 5e-6;
+
+  TopoDS_Edge edge_of(const StepSkin::Edge& edge) {
+    double from = 0, to = 1;
+    const Vec3 &first = skin_.corners[edge.first], &last = skin_.corners[edge.last];
+    Handle(Geom_Curve) curve;
+    if (const auto* spline = std::get_if<StepSkin::Curve>(&edge.along)) {
+      curve = curve_of(spline->knots, spline->poles);
+      from = spline->knots.front();
+      to = spline->knots.back();
+    } else if (const auto* arc = std::get_if<StepSkin::Arc>(&edge.along)) {
+      TColgp_Array1OfPnt poles(1, 3);
+      poles(1) = point_at(first);
+      poles(2) = point_at(arc->corner);
+      poles(3) = point_at(last);
+      TColStd_Array1OfReal weights(1, 3), knots(1, 2);
+      weights(1) = weights(3) = 1;
+      weights(2) = arc->weight;
+      knots(1) = 0;
+      knots(2) = 1;
+      TColStd_Array1OfInteger times(1, 2);
+      times(1) = times(2) = 3;
+      curve = new Geom_BSplineCurve(poles, weights, knots, times, 2);
+    } else if (const auto* round = std::get_if<StepSkin::Round>(&edge.along)) {
+      curve = new Geom_Circle(about_axis(first.z()).Ax2(), round->radius);
+      from = round->from;
+      to = round->to;
+    } else {
+      curve = new Geom_Line(point_at(first), vector_along(last - first));
+      to = (last - first).norm();
+    }
+    TopoDS_Edge made;
+    builder_.MakeEdge(made, curve, k_joined);
+    builder_.Add(made, corners_[edge.first].Oriented(TopAbs_FORWARD));
+    builder_.Add(made, corners_[edge.last].Oriented(TopAbs_REVERSED));
+    builder_.Range(made, from, to);
+    return made;
+  }
+
+  Handle(Geom_Surface) surface_of(const StepSkin::Face& face) const {
+    if (const auto* plane = std::get_if<StepSkin::Plane>(&face.surface))
+      return new Geom_Plane(point_at(plane->point), gp_Dir(vector_along(plane->outward)));
+    if (const auto* cylinder = std::get_if<StepSkin::Cylinder>(&face.surface))
+      return new Geom_CylindricalSurface(about_axis(0), cylinder->radius);
+    const auto& patch = std::get<StepSkin::Patch>(face.surface);
+    std::vector<Handle(Geom_BSplineCurve)> rows;
+    for (const std::vector<Vec3>& row : patch.rows) rows.push_back(curve_of(patch.knots, row));
+    std::vector<double> weights(rows.size(), 1.0);
+    if (rows.size() == 3) weights[1] = patch.weight;
+    return surface_through(rows, weights);
+  }
+
+  TopoDS_Face face_of(const StepSkin::Face& face) {
+    const Handle(Geom_Surface) surface = surface_of(face);
+    TopoDS_Face made;
+    builder_.MakeFace(made, surface, k_joined);
+    const bool is_flat = std::holds_alternative<StepSkin::Plane>(face.surface);
+    for (const std::vector<StepSkin::Use>& loop : face.loops) {
+      TopoDS_Wire wire;
+      builder_.MakeWire(wire);
+      for (const StepSkin::Use& use : loop) {
+        const TopoDS_Edge& edge = edges_[use.edge];
+        if (!is_flat) place_on(made, edge, use);
+        builder_.Add(wire, edge.Oriented(use.backwards ? TopAbs_REVERSED : TopAbs_FORWARD));
+      }
+      wire.Closed(true);
+      builder_.Add(made, wire);
+    }
+    return made;
+  }
+
+  // Straight among the face's parameters, as fast as the edge.
+  void place_on(const TopoDS_Face& face, const TopoDS_Edge& edge, const StepSkin::Use& use) {
+    double from = 0, to = 0;
+    BRep_Tool::Range(edge, from, to);
+    TColgp_Array1OfPnt2d poles(1, 2);
+    poles(1) = gp_Pnt2d(use.from.x(), use.from.y());
+    poles(2) = gp_Pnt2d(use.to.x(), use.to.y());
+    TColStd_Array1OfReal knots(1, 2);
+    knots(1) = from;
+    knots(2) = to;
+    TColStd_Array1OfInteger times(1, 2);
+    times(1) = times(2) = 2;
+    builder_.UpdateEdge(edge, new Geom2d_BSplineCurve(poles, knots, times, 1), face, k_joined);
+  }
+
+  const StepSkin& skin_;
+  BRep_Builder builder_;
+  std::vector<TopoDS_Vertex> corners_;
+  std::vector<TopoDS_Edge> edges_;
+};
+
 // ---- what is cut out of it ----
 
 class ToolMaker {
@@ -326,6 +457,27 @@ class ToolMaker {
     const gp_Ax1 axis(point_at(turned.centre, 0), gp_Dir(0, 0, 1));
     const TopoDS_Face face = BRepBuilderAPI_MakeFace(section.Wire(), true);
     return BRepPrimAPI_MakeRevol(face, axis, turned.turn).Shape();
+  }
+
+  TopoDS_Shape operator()(const StepChannel& channel) const {
+    BRepOffsetAPI_ThruSections loft(true, true);
+    loft.CheckCompatibility(false);
+    for (const StepRing& ring : channel.rings) {
+      const auto at = [&](double angle, double radius) {
+        return point_at(Vec3(ring.middle + radius * (std::cos(angle) * ring.level + std::sin(angle) * ring.up)));
+      };
+      const double left = M_PI_2 + channel.roof_slope, right = M_PI_2 - channel.roof_slope;
+      const gp_Pnt top = at(M_PI_2, ring.radius / std::cos(channel.roof_slope));
+      BRepBuilderAPI_MakeWire wire;
+      wire.Add(BRepBuilderAPI_MakeEdge(
+          GC_MakeArcOfCircle(at(left, ring.radius), at(-M_PI_2, ring.radius), at(right, ring.radius)).Value()));
+      if (channel.roof_slope > 0) {
+        wire.Add(BRepBuilderAPI_MakeEdge(at(right, ring.radius), top));
+        wire.Add(BRepBuilderAPI_MakeEdge(top, at(left, ring.radius)));
+      }
+      loft.AddWire(wire.Wire());
+    }
+    return loft.Shape();
   }
 
   TopoDS_Shape operator()(const TriangleMesh& mesh) const {
@@ -505,7 +657,7 @@ void be_silent() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Mes
 std::string write(const StepPart& part, std::string& complaint) {
   be_silent();
   try {
-    TopoDS_Shape shape = BodyMaker(part).solid();
+    TopoDS_Shape shape = part.skin ? SkinMaker(*part.skin).solid() : BodyMaker(part).solid();
     shape = combined<BRepAlgoAPI_Cut>(shape, part.cuts);
     shape = combined<BRepAlgoAPI_Fuse>(shape, part.raised);
     const TopoDS_Solid solid = only_solid(shape);
@@ -564,9 +716,10 @@ bool mesh_closes(const TopoDS_Face& face) {
   return boundary == along_edges;
 }
 
-int open_faces(const TopoDS_Shape& shape) {
-  constexpr double k_sagitta = 0.05, k_turn = 0.3;
-  BRepMesh_IncrementalMesh(shape, k_sagitta, false, k_turn, false);
+/// `finely`: enough to find grooves in it, and for the wall that a channel leaves of a groove's end, 0.02 mm thin.
+int open_faces(const TopoDS_Shape& shape, bool finely) {
+  const double sagitta = finely ? 0.01 : 0.05, turn = finely ? 0.2 : 0.3;
+  BRepMesh_IncrementalMesh(shape, sagitta, false, turn, false);
   int open = 0;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
     open += mesh_closes(TopoDS::Face(faces.Current())) ? 0 : 1;
@@ -622,7 +775,196 @@ Polygon floor_at(const TopoDS_Shape& shape, double z) {
   return floor.empty() ? floor_at(shape, z, false) : floor;
 }
 
-StepReading read(const std::string& path, double z1, double z2) {
+/// Nodes of the faces' meshes, each once, and triangles that look outwards.
+TriangleMesh mesh_of(const TopoDS_Shape& shape) {
+  TriangleMesh mesh;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Face face = TopoDS::Face(faces.Current());
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) of_face = BRep_Tool::Triangulation(face, place);
+    if (of_face.IsNull()) continue;
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 1; i <= of_face->NbNodes(); ++i) {
+      const gp_Pnt node = of_face->Node(i).Transformed(place.Transformation());
+      mesh.vertices.emplace_back(node.X(), node.Y(), node.Z());
+    }
+    const bool turned = face.Orientation() == TopAbs_REVERSED;
+    for (int i = 1; i <= of_face->NbTriangles(); ++i) {
+      int a, b, c;
+      of_face->Triangle(i).Get(a, b, c);
+      if (turned) std::swap(b, c);
+      mesh.triangles.push_back({first + static_cast<std::uint32_t>(a) - 1, first + static_cast<std::uint32_t>(b) - 1,
+                                first + static_cast<std::uint32_t>(c) - 1});
+    }
+  }
+  return mesh;
+}
+
+/// Nodes of faces' meshes by the cells of a lattice: where to begin to look for the place next to a point.
+class Nearest {
+ public:
+  explicit Nearest(const TopoDS_Shape& shape) {
+    for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+      const TopoDS_Face face = TopoDS::Face(faces.Current());
+      TopLoc_Location place;
+      const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+      if (mesh.IsNull() || !mesh->HasUVNodes()) continue;
+      surfaces_.push_back(BRep_Tool::Surface(face));
+      for (int i = 1; i <= mesh->NbNodes(); ++i) {
+        const gp_Pnt node = mesh->Node(i);
+        const gp_Pnt2d uv = mesh->UVNode(i);
+        cells_[cell_of(node)].push_back({node, uv.X(), uv.Y(), surfaces_.size() - 1});
+      }
+    }
+  }
+
+  /// From the surfaces that have a node nearby; infinite where none has.
+  double distance(const gp_Pnt& point) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& [surface, start] : beside(point)) best = std::min(best, descended(point, *start.second));
+    return best;
+  }
+
+  /// The point of a surface nearby that is in the same half-plane that ends in the axis, and in it nearest to the axis:
+  /// of a level ground its middle. The point itself where there is none.
+  gp_Pnt ground(const gp_Pnt& point) const {
+    // Ends of walls lie as low as the level ground between them.
+    constexpr double k_level = 1e-5;
+    // Further away another turn lies.
+    constexpr double k_near = 0.25;
+    gp_Pnt best = point;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [surface, start] : beside(point)) {
+      const auto found = lowest_on(*surfaces_[surface], point, *start.second);
+      if (!found || found->first.Distance(point) > k_near) continue;
+      const double radius = radius_of(found->first) - (found->second ? k_level : 0.0);
+      if (radius >= least) continue;
+      least = radius;
+      best = found->first;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double k_cell = 1.5;
+  using Cell = std::array<int, 3>;
+  struct Node {
+    gp_Pnt place;
+    double u, v;
+    std::size_t surface;
+  };
+
+  static Cell cell_of(const gp_Pnt& point) {
+    return {static_cast<int>(std::floor(point.X() / k_cell)), static_cast<int>(std::floor(point.Y() / k_cell)),
+            static_cast<int>(std::floor(point.Z() / k_cell))};
+  }
+
+  /// Of every surface with nodes nearby the nearest one.
+  std::map<std::size_t, std::pair<double, const Node*>> beside(const gp_Pnt& point) const {
+    std::map<std::size_t, std::pair<double, const Node*>> of_surface;
+    const Cell middle = cell_of(point);
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {
+        for (int k = -1; k <= 1; ++k) {
+          const auto found = cells_.find({middle[0] + i, middle[1] + j, middle[2] + k});
+          if (found == cells_.end()) continue;
+          for (const Node& node : found->second) {
+            const double away = node.place.SquareDistance(point);
+            const auto [known, is_new] = of_surface.emplace(node.surface, std::pair(away, &node));
+            if (!is_new && away < known->second.first) known->second = {away, &node};
+          }
+        }
+      }
+    }
+    return of_surface;
+  }
+
+  static double radius_of(const gp_Pnt& point) { return std::hypot(point.X(), point.Y()); }
+
+  struct Crossing {
+    gp_Pnt place;
+    bool inside = false;  ///< of the patch
+  };
+
+  /// On a patch along u, its lowest place in the point's half-plane, and whether it is level all across.
+  static std::optional<std::pair<gp_Pnt, bool>> lowest_on(const Geom_Surface& surface, const gp_Pnt& point,
+                                                          const Node& start) {
+    constexpr int k_narrowings = 24;
+    // No patch across a groove is wider.
+    constexpr double k_far = 3;
+    constexpr double k_level = 1e-5;
+    double u1, u2, v1, v2;
+    surface.Bounds(u1, u2, v1, v2);
+    if (Precision::IsInfinite(v1) || Precision::IsInfinite(v2)) return std::nullopt;
+    double u = start.u;
+    const auto at = [&](double v) { return across(surface, point, u, v); };
+    const auto radius_at = [&](double v) {
+      const auto crossing = at(v);
+      return crossing ? radius_of(crossing->place) : std::numeric_limits<double>::quiet_NaN();
+    };
+    const auto halfway = at(0.5 * (v1 + v2));
+    if (!halfway || halfway->place.Distance(point) > k_far) return std::nullopt;
+    const double first = radius_at(v1), last = radius_at(v2), level = radius_at(0.5 * (v1 + v2));
+    const bool is_level = std::abs(first - level) < k_level && std::abs(last - level) < k_level;
+    const Bracket across_it{v1, v2};
+    const auto lowest = at(is_level ? across_it.middle() : golden_section(across_it, k_narrowings, radius_at).middle());
+    if (!lowest || !lowest->inside) return std::nullopt;
+    return std::pair(lowest->place, is_level);
+  }
+
+  /// Where the row v crosses the point's half-plane, by Newton's steps from u on. A half-plane may cross some rows just
+  /// past the end of a patch: it goes on a little.
+  static std::optional<Crossing> across(const Geom_Surface& surface, const gp_Pnt& point, double& u, double v) {
+    constexpr int k_steps = 20;
+    constexpr double k_near = 1e-10;
+    constexpr double k_past_end = 0.1, k_most_past = 0.05, k_at_end = 1e-6;
+    double u1, u2, v1, v2;
+    surface.Bounds(u1, u2, v1, v2);
+    const double past = std::min(k_past_end * (u2 - u1), k_most_past);
+    for (int i = 0; i < k_steps; ++i) {
+      gp_Pnt here;
+      gp_Vec along, up;
+      surface.D1(u, v, here, along, up);
+      const double off = (point.X() * here.Y() - point.Y() * here.X()) / radius_of(point);
+      const double slope = (point.X() * along.Y() - point.Y() * along.X()) / radius_of(point);
+      if (std::abs(off) < k_near) {
+        const bool is_ahead = point.X() * here.X() + point.Y() * here.Y() > 0;
+        if (!is_ahead) return std::nullopt;
+        return Crossing{here, u > u1 - k_at_end && u < u2 + k_at_end};
+      }
+      if (slope == 0) break;
+      u = std::clamp(u - off / slope, u1 - past, u2 + past);
+    }
+    return std::nullopt;
+  }
+
+  /// Gauss and Newton's steps to where the way to the point stands across the surface.
+  double descended(const gp_Pnt& point, const Node& start) const {
+    constexpr int k_steps = 12;
+    const Geom_Surface& surface = *surfaces_[start.surface];
+    double u1, u2, v1, v2, u = start.u, v = start.v, best = std::numeric_limits<double>::infinity();
+    surface.Bounds(u1, u2, v1, v2);
+    for (int i = 0; i < k_steps; ++i) {
+      gp_Pnt at;
+      gp_Vec along, across;
+      surface.D1(u, v, at, along, across);
+      const gp_Vec left(at, point);
+      best = std::min(best, left.Magnitude());
+      const double aa = along.SquareMagnitude(), ab = along.Dot(across), bb = across.SquareMagnitude();
+      const double determinant = aa * bb - ab * ab;
+      if (!(determinant > 0)) break;
+      const double a = along.Dot(left), b = across.Dot(left);
+      u = std::clamp(u + (bb * a - ab * b) / determinant, u1, u2);
+      v = std::clamp(v + (aa * b - ab * a) / determinant, v1, v2);
+    }
+    return best;
+  }
+
+  std::vector<Handle(Geom_Surface)> surfaces_;
+  std::map<Cell, std::vector<Node>> cells_;
+};
+
+StepReading read(const std::string& path, const StepQuestion& question) {
   be_silent();
   StepReading reading;
   try {
@@ -650,9 +992,16 @@ StepReading read(const std::string& path, double z1, double z2) {
     BRepGProp::SurfaceProperties(shape, area);
     reading.volume = volume.Mass();
     reading.area = area.Mass();
-    reading.floor1 = floor_at(shape, z1);
-    reading.floor2 = floor_at(shape, z2);
-    reading.open_faces = open_faces(shape);
+    for (const double z : question.planes) reading.sections.push_back(floor_at(shape, z));
+    reading.open_faces = open_faces(shape, question.grounds != nullptr);
+    if (question.grounds) {
+      const Nearest nearest(shape);
+      for (const Vec3& place : question.places) reading.distances.push_back(nearest.distance(point_at(place)));
+      for (const Vec3& place : question.grounds(mesh_of(shape))) {
+        const gp_Pnt found = nearest.ground(point_at(place));
+        reading.grounds.emplace_back(found.X(), found.Y(), found.Z());
+      }
+    }
   } catch (const Standard_Failure&) {
     reading.is_valid = false;
   }
@@ -662,4 +1011,4 @@ StepReading read(const std::string& path, double z1, double z2) {
 }  // namespace
 }  // namespace fusee
 
-extern "C" __attribute__((visibility("default"))) const fusee::StepMaker fusee_step_maker_1{fusee::write, fusee::read};
+extern "C" __attribute__((visibility("default"))) const fusee::StepMaker fusee_step_maker_2{fusee::write, fusee::read};

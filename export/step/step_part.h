@@ -7,6 +7,8 @@
 /// constant parameters of its surface.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -88,8 +90,19 @@ struct StepTurned {
   double turn = 0;
 };
 
+/// A section of a channel: a circle under a gable that rises by `roof_slope` to both sides of its top.
+struct StepRing {
+  Vec3 middle, level, up;
+  double radius = 0;
+};
+/// Through rings; the part up to the second is straight.
+struct StepChannel {
+  std::vector<StepRing> rings = {};
+  double roof_slope = 0;
+};
+
 /// What all of these have in common.
-using StepSolid = std::variant<StepPrism, StepFrustum, StepTurned, TriangleMesh>;
+using StepSolid = std::variant<StepPrism, StepFrustum, StepTurned, StepChannel, TriangleMesh>;
 struct StepTool {
   std::vector<StepSolid> common;
 };
@@ -99,16 +112,76 @@ struct StepHub {
   double high = 0;
 };
 
+/// A body whose rows climb: faces with their corners and edges, each edge between two faces.
+struct StepSkin {
+  /// What an edge runs along from its first corner to its last.
+  struct Straight {};
+  struct Curve {
+    std::vector<double> knots;
+    std::vector<Vec3> poles;
+  };
+  /// Through the corner of its two tangents, with that one's weight.
+  struct Arc {
+    Vec3 corner;
+    double weight = 1;
+  };
+  /// About the axis, counter-clockwise.
+  struct Round {
+    double radius = 0;
+    double from = 0, to = 0;
+  };
+  struct Edge {
+    std::size_t first = 0, last = 0;
+    std::variant<Straight, Curve, Arc, Round> along = {};
+  };
+
+  struct Plane {
+    Vec3 point, outward;
+  };
+  struct Cylinder {
+    double radius = 0;
+  };
+  /// Rows of poles over one knot vector, from below; the middle one of three with a weight.
+  struct Patch {
+    std::vector<double> knots;
+    std::vector<std::vector<Vec3>> rows;
+    double weight = 1;
+  };
+  /// An edge of a face, and where it runs among the parameters of a patch, as the edge does.
+  struct Use {
+    std::size_t edge = 0;
+    bool backwards = false;
+    Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  };
+  struct Face {
+    std::variant<Plane, Cylinder, Patch> surface;
+    std::vector<std::vector<Use>> loops;  ///< seen from outside the first counter-clockwise, others clockwise
+  };
+
+  std::vector<Vec3> corners = {};
+  std::vector<Edge> edges = {};
+  std::vector<Face> faces = {};
+};
+
 struct StepPart {
   std::string name;
   std::vector<double> sectors;  ///< directions at which the rows are cut, and the first a turn on
   std::vector<StepRow> rows;    ///< from the bottom up
   std::vector<StepBand> bands;  ///< one less
   std::optional<StepHub> hub = {};
+  std::optional<StepSkin> skin = {};  ///< in place of rows, bands and hub
   std::vector<StepTool> cuts = {};
   std::vector<StepTool> raised = {};
   double z_mate = 0;  ///< between P1 and P2
   double z_top = 0;   ///< of P2
+};
+
+/// What is asked of a written file beside.
+struct StepQuestion {
+  std::vector<double> planes = {};  ///< heights of sections
+  std::vector<Vec3> places = {};    ///< how far they are from its surface
+  /// Where in its mesh grooves have their grounds, more or less; null: nowhere.
+  std::function<std::vector<Vec3>(const TriangleMesh& mesh)> grounds = {};
 };
 
 /// What a written file is, read again.
@@ -121,15 +194,18 @@ struct StepReading {
   bool is_valid = false;  ///< to the kernel's own check
   double volume = 0;
   double area = 0;
-  Polygon floor1, floor2;  ///< sections at the grooves' planes, within some 1e-5 mm; empty: there is none
+  std::vector<Polygon> sections;  ///< the outermost loops at the planes, within some 1e-5 mm; empty: there is none
+  std::vector<double> distances;  ///< of the places from the surface
+  /// The surface itself in the half-planes of the grounds: its lowest places, and of a level ground the middle.
+  std::vector<Vec3> grounds;
 };
 
 /// What the module `fusee-step` exports under this name.
 struct StepMaker {
   /// The file's bytes; empty: `complaint` says what did not go.
   std::string (*write)(const StepPart& part, std::string& complaint);
-  StepReading (*read)(const std::string& path, double z1, double z2);
+  StepReading (*read)(const std::string& path, const StepQuestion& question);
 };
-inline constexpr const char* k_step_maker = "fusee_step_maker_1";
+inline constexpr const char* k_step_maker = "fusee_step_maker_2";
 
 }  // namespace fusee

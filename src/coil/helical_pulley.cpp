@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "coil/helical_blank.h"
+#include "coil/helical_plan.h"
 #include "coil/run_out.h"
 #include "coil/winding.h"
 #include "fusee/base/text.h"
@@ -400,6 +402,7 @@ class Planner {
     pulley_.mesh_checks = std::move(checks);
     pulley_.expected_volume = volume;
     for (std::size_t i = 0; i < ends_.size(); ++i) pulley_.anchors.push_back(anchor_at(ends_[i], run_outs_[i]));
+    pulley_.plan = std::make_shared<const HelicalPlan>(HelicalPlan{fan_, section_, heights_, ends_, run_outs_});
     pulley_.made = true;
     return true;
   }

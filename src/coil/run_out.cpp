@@ -77,29 +77,14 @@ std::vector<Vec2> channel_section(double radius, double roof_slope, int facets) 
   return points;
 }
 
-// However a channel dives, its section stands across it with a level x: its roof is then no flatter than the section's.
 TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
-  const auto [along, towards] = directions_of(end);
   const std::vector<Vec2> section = channel_section(1.0, sizes.roof_slope, k_channel_facets + variant);
-  const auto ring_at = [&](const Vec3& centre, const Vec3& ahead, double radius) {
-    const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized(), up = level.cross(ahead);
-    std::vector<Vec3> ring;
-    for (const Vec2& point : section) ring.push_back(centre + radius * (point.x() * level + point.y() * up));
-    return ring;
-  };
-  // The groove's end wall stands between the first two, in the plane of neither.
   std::vector<std::vector<Vec3>> sections;
-  const Vec3 mouth = start_of(end) + sizes.mouth_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);
-  for (const double place : {-k_before_end - 0.017 * variant, k_past_end + 0.005 * variant})
-    sections.push_back(ring_at(mouth + place * along, along, sizes.mouth_radius));
-  for (int k = 1; k <= k_arc_steps; ++k) {
-    const double turn = arc_turn(k);
-    sections.push_back(ring_at(arc_place(end, sizes, k), std::cos(turn) * along + std::sin(turn) * towards,
-                               sizes.channel_radii[static_cast<std::size_t>(k - 1)]));
+  for (const ChannelRing& ring : channel_rings(end, sizes, variant)) {
+    std::vector<Vec3>& points = sections.emplace_back();
+    for (const Vec2& point : section)
+      points.push_back(ring.middle + ring.radius * (point.x() * ring.level + point.y() * ring.up));
   }
-  // Straight on, into the cone.
-  sections.push_back(
-      ring_at(way_end(end, sizes) + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius));
   return strip(sections);
 }
 
@@ -209,6 +194,28 @@ HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes) {
   anchor.pocket_depth = pocket_depth(end, sizes);
   anchor.bend_radius = sizes.bend_radius;
   return anchor;
+}
+
+// However a channel dives, its section stands across it with a level x: its roof is then no flatter than the section's.
+std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
+  const auto [along, towards] = directions_of(end);
+  std::vector<ChannelRing> rings;
+  const auto add = [&rings](const Vec3& middle, const Vec3& ahead, double radius) {
+    const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized();
+    rings.push_back({middle, level, level.cross(ahead), radius});
+  };
+  // The groove's end wall stands between the first two, in the plane of neither.
+  const Vec3 mouth = start_of(end) + sizes.mouth_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);
+  for (const double place : {-k_before_end - 0.017 * variant, k_past_end + 0.005 * variant})
+    add(mouth + place * along, along, sizes.mouth_radius);
+  for (int k = 1; k <= k_arc_steps; ++k) {
+    const double turn = arc_turn(k);
+    add(arc_place(end, sizes, k), std::cos(turn) * along + std::sin(turn) * towards,
+        sizes.channel_radii[static_cast<std::size_t>(k - 1)]);
+  }
+  // Straight on, into the cone.
+  add(way_end(end, sizes) + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius);
+  return rings;
 }
 
 std::optional<TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {

@@ -61,6 +61,14 @@ std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, cons
 /// Middle of the pocket in plan.
 Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes);
 HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes);
+/// A channel's section in its own plane, `level` and `up` in it: a circle under a gable.
+struct ChannelRing {
+  Vec3 middle = Vec3::Zero();
+  Vec3 level = Vec3::UnitX(), up = Vec3::UnitZ();
+  double radius = 0;
+};
+/// Along the channel, from the open groove into the pocket's cone; the first two stand in the mouth.
+std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
 /// What is cut out, a closed mesh, or none where channel and pocket do not join; another `variant` has other facets.
 std::optional<TriangleMesh> run_out_tool(const GrooveEnd& end, const RunOutSizes& sizes, int variant);
 

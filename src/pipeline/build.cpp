@@ -116,11 +116,13 @@ DracoFile write_climbing(Workshop& shop) {
   auto threemf = beside([&] { return threemf_bytes(mesh, name); });
   auto obj = beside([&] { return obj_text(mesh, name); });
   auto scad = beside([&] { return scad_text(product); });
+  auto step = beside([&] { return shop.options.step ? step_file(product) : StepFile(); }, shop.options.step);
   shop.stage("pulley.stl", stl_bytes(mesh, name));
   shop.stage("pulley.obj", shop.take(obj));
   shop.stage("pulley.3mf", shop.take(threemf));
   DracoFile file = shop.take(draco);
   shop.stage("pulley.drc", file.bytes);
+  if (shop.options.step) stage_step(shop, shop.take(step));
   shop.stage("pulley.scad", shop.take(scad));
   shop.stage("profile.dxf", shop.take(profile));
   return file;
@@ -148,7 +150,9 @@ std::vector<Check> step_checks(const Workshop& shop) {
   StepLook look = look_at_step(shop.folder.staged_path(k_step), product, shop.options.tolerance);
   std::vector<Check> checks = std::move(look.checks);
   if (!all_ok(checks)) return checks;
-  const RewindResult wound = rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
+  const RewindResult wound = product.helix
+                                 ? rewind_several_turns(product, look.climbing).result
+                                 : rewind_floors(product.joint, product.pulley.layout, look.floor1, look.floor2);
   for (Check& check : as_built_checks(product.joint.mechanism, wound, shop.options.limits))
     checks.push_back(std::move(check));
   return checks;
@@ -261,6 +265,7 @@ void check_climbing(Workshop& shop, const DracoFile& draco) {
   auto of_pulley = beside([&] { return check_several_turns(product, mesh); });
   auto of_printing = beside([&] { return print_checks(mechanism.print, mesh); });
   auto as_built = beside([&] { return rewind_several_turns(product, mesh); });
+  auto of_step = beside([&] { return has_step(shop) ? step_checks(shop) : std::vector<Check>(); }, shop.options.step);
   shop.add(shop.take(of_pulley));
   shop.step("winding tendons on it");
   product.helix->as_built = shop.take(as_built);
@@ -271,6 +276,7 @@ void check_climbing(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_obj), "obj_");
   shop.add(shop.take(of_3mf), "3mf_");
   shop.add(shop.take(of_draco), "drc_");
+  shop.add(shop.take(of_step), "step_");
   shop.add(shop.take(of_profile), "profile_dxf_");
 }
 
@@ -509,8 +515,6 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
     result.advice = advice_for(result.product, options);
     return result;
   }
-  if (options.step && result.product.helix)
-    throw InputError("", "no pulley.step: of a pulley of several turns none is made yet", "build without --step");
   if (options.dry_run) {
     write_and_forget(result, options);
     return result;

@@ -183,6 +183,14 @@ HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& m
                        with_inset(joint), product.synthesis.stroke, product.helix->laid(joint.mechanism.guides.collar));
 }
 
+HelicalRewind rewind_several_turns(const Product& product, const std::vector<FloorLine>& floors) {
+  if (floors.size() != 2)
+    throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns, and should have 2");
+  const Mechanism& mechanism = product.joint.mechanism;
+  return rewind_floors(floors[0], floors[1], mechanism, product.synthesis.stroke,
+                       product.helix->laid(mechanism.guides.collar));
+}
+
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh) {
   return check_helical_pulley(mesh, product.helix->pulley, helical_section(product.joint.mechanism));
 }

@@ -23,6 +23,8 @@ bool design_several_turns(Product& product, double tolerance,
 
 /// Tendons wound in space on the grooves of a mesh of it.
 HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh);
+/// On floors that were found elsewhere. InputError: other than two.
+HelicalRewind rewind_several_turns(const Product& product, const std::vector<FloorLine>& floors);
 /// Of a mesh that was read back.
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh);
 

@@ -15,6 +15,7 @@ import tempfile
 SKIPPED = 77
 PLACES = ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
 SAGITTA = 0.004  # mm, of the triangles that are made of its faces here
+SAGITTA_OF_TURNS = 0.012  # of a part of several turns: its seats take FreeCAD minutes otherwise
 NEAR = 0.02  # mm: two tolerances of the mesh
 COLOURS = 3
 
@@ -27,8 +28,8 @@ def triangles_of_stl(path):
         yield numbers[0:3], numbers[3:6], numbers[6:9]
 
 
-def triangles_of_shape(shape):
-    points, facets = shape.tessellate(SAGITTA)
+def triangles_of_shape(shape, sagitta):
+    points, facets = shape.tessellate(sagitta)
     points = [(p.x, p.y, p.z) for p in points]
     for a, b, c in facets:
         yield points[a], points[b], points[c]
@@ -84,7 +85,8 @@ def faults_of(step, folder, part_module):
         yield "FreeCAD finds it invalid"
     if not shape.isClosed():
         yield "it is not closed"
-    mine = list(triangles_of_shape(shape))
+    climbs = not (folder / "plates.dxf").exists()
+    mine = list(triangles_of_shape(shape, SAGITTA_OF_TURNS if climbs else SAGITTA))
     surface = area_of(mesh)
     difference = abs(volume_of(mine) - volume_of(mesh))
     # A print's holes have facets around the circle, where a shape has the circle.

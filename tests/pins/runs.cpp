@@ -99,9 +99,9 @@ void add_builds(std::vector<PinnedRun>& all) {
   }
 }
 
-// One in one piece, one in two with dowels, one with a horn.
+// One in one piece, one in two with dowels, one with a horn, one of several turns.
 void add_steps(std::vector<PinnedRun>& all) {
-  for (const std::string name : {"paper_optimum", "forearm", "wrist_exo"})
+  for (const std::string name : {"paper_optimum", "forearm", "wrist_exo", "elbow_capstan"})
     all.push_back({k_step_runs + name, [name] { return built_for_cad(k_root / "profiles" / (name + ".toml")); }});
 }
 

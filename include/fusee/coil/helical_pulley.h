@@ -8,6 +8,7 @@
 /// inside of the part; no tendon is tied there.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,8 @@ struct HelicalAnchor {
   double bend_radius = 0;   ///< of the arc between the two, to the tendon's centre line
 };
 
+struct HelicalPlan;  // coil/helical_plan.h
+
 struct HelicalPulley {
   bool made = false;
   BodyLayout layout;   ///< of hub, bore, screw, walls; z_p1 and z_p2: heights of the anchors' ends of the grooves
@@ -64,6 +67,7 @@ struct HelicalPulley {
   double expected_volume = 0;         ///< of the grid, less what was cut out of it, mm³
   int expected_euler = 0;
   std::vector<Check> mesh_checks;  ///< check_mesh() of `mesh`
+  std::shared_ptr<const HelicalPlan> plan;  ///< of one that is made
 
   std::string brief() const;
 };

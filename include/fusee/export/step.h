@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "fusee/base/check.h"
+#include "fusee/base/plane.h"
+#include "fusee/coil/helical_rewind.h"
 #include "fusee/export/product.h"
 
 namespace fusee {
@@ -24,10 +26,12 @@ struct StepFile {
 /// have ("too large for STEP: …"). The same part gives the same bytes.
 StepFile step_file(const Product& product);
 
-/// A file of ours, read again: what it is, and its groove floors at the heights that the part has them, as printed.
+/// A file of ours, read again: what it is, and its groove floors: at the heights that the part has them, as printed, or
+/// of several turns all that climb, as finished.
 struct StepLook {
   std::vector<Check> checks;
   Polygon floor1, floor2;
+  std::vector<FloorLine> climbing;
 };
 /// `tolerance`: of the mesh that its volume is held against, mm.
 StepLook look_at_step(const std::filesystem::path& path, const Product& product, double tolerance);

@@ -16,45 +16,10 @@ from typing import Any, Dict, List, Optional, Tuple, Type, TypeVar, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _core
+from . import _core, _values
 from ._errors import diagnostics_from, input_error
 from ._mechanism import Mechanism, _made
 from ._run import PathLike, choice, flag, heard, number, path_bytes, text_bytes, whole
-from ._values import (
-    Analysis,
-    Built,
-    Calibration,
-    Change,
-    Check,
-    Condition,
-    Effect,
-    ErrorFigures,
-    ErrorSource,
-    Extreme,
-    Forces,
-    FrontPoint,
-    Kit,
-    Knot,
-    LargestTension,
-    Mesh,
-    Optimum,
-    Outline,
-    PaperForces,
-    Parameter,
-    Placement,
-    Plan,
-    PlanStep,
-    Residual,
-    Rewound,
-    Simulation,
-    Strength,
-    Stroke,
-    Synthesis,
-    Table,
-    ToleranceEffect,
-    Value,
-    Winding,
-)
 
 __all__ = ["Log", "analyze", "build", "calibrate", "check", "kit", "optimize", "plan", "rewind", "simulate", "synthesise"]
 
@@ -74,9 +39,10 @@ def _each(kind: Type[T], rows: abc.Iterable[Row]) -> Tuple[T, ...]:
 
 def _with_values(made: Row) -> Row:
     """What answers hold under the same names, made values of rows."""
-    kinds: Dict[str, Type[Value]] = {
-        "conditions": Condition, "advice": Change, "advice_together": Change, "checks": Check, "knots": Knot, "sources": ErrorSource,
-        "tolerances": ToleranceEffect, "placements": Placement, "steps": PlanStep, "beyond": PlanStep, "residuals": Residual,
+    kinds: Dict[str, Type[_values.Value]] = {
+        "conditions": _values.Condition, "advice": _values.Change, "advice_together": _values.Change, "checks": _values.Check,
+        "knots": _values.Knot, "sources": _values.ErrorSource, "tolerances": _values.ToleranceEffect, "placements": _values.Placement,
+        "steps": _values.PlanStep, "beyond": _values.PlanStep, "residuals": _values.Residual,
     }  # fmt: skip
     for name, kind in kinds.items():
         if name in made:
@@ -84,13 +50,17 @@ def _with_values(made: Row) -> Row:
     if any(isinstance(row, dict) for row in made.get("warnings", ())):
         made["warnings"] = diagnostics_from(made["warnings"])
     if "files" in made:
-        made["files"] = Table(made["files"])
+        made["files"] = _values.Table(made["files"])
     return made
 
 
-def _synthesis(made: Row) -> Synthesis:
-    curves: Row = {"p1": Outline(**made.pop("p1")), "p2": Outline(**made.pop("p2")), "stroke": Stroke(**made.pop("stroke"))}
-    return Synthesis(**curves, **_with_values(made))
+def _synthesis(made: Row) -> _values.Synthesis:
+    curves: Row = {
+        "p1": _values.Outline(**made.pop("p1")),
+        "p2": _values.Outline(**made.pop("p2")),
+        "stroke": _values.Stroke(**made.pop("stroke")),
+    }
+    return _values.Synthesis(**curves, **_with_values(made))
 
 
 def _of(mechanism: Mechanism) -> _core.CarriedMechanism:
@@ -110,7 +80,7 @@ def _target(folder: Optional[PathLike], force: bool) -> _core.Target:
     return _core.Target(path, bool(force), False)
 
 
-def synthesise(mechanism: Mechanism, *, tolerance_mm: float = 0.01, advice: bool = True, steps: int = 180) -> Synthesis:
+def synthesise(mechanism: Mechanism, *, tolerance_mm: float = 0.01, advice: bool = True, steps: int = 180) -> _values.Synthesis:
     """θ(α) and both pitch curves of the joint as it is, without a body. Milliseconds.
 
     >>> import fusee
@@ -132,12 +102,12 @@ def synthesise(mechanism: Mechanism, *, tolerance_mm: float = 0.01, advice: bool
 
 def rewind(
     mechanism: Mechanism,
-    part: Union[PathLike, Synthesis],
+    part: Union[PathLike, _values.Synthesis],
     *,
     as_is: bool = False,
     max_theta_error_deg: float = 0.05,
     max_slack_mm: float = 0.05,
-) -> Rewound:
+) -> _values.Rewound:
     """The joint angle that tendons wound on a part give: a mesh, a drawing with floors, or the curves of ``synthesise``.
 
     A mesh that was moved or turned is found, unless `as_is`. InputError where no groove is.
@@ -153,7 +123,7 @@ def rewind(
         number("max_theta_error_deg", max_theta_error_deg, 0, 180, "deg"),
         number("max_slack_mm", max_slack_mm, 0, 1000, "mm"),
     )
-    if isinstance(part, Synthesis):
+    if isinstance(part, _values.Synthesis):
         if not part.made:
             raise input_error("part", "there are no curves: the synthesis was not made", "look at its conditions and advice")
         inset = -0.5 * mechanism.number("tendon.diameter_mm")
@@ -162,13 +132,13 @@ def rewind(
     else:
         path = path_bytes("part", part)
         made = heard(lambda stop: _core.rewind_file(joint, path, bool(as_is), *limits))
-    return Rewound(**_with_values(made))
+    return _values.Rewound(**_with_values(made))
 
 
-def check(part: PathLike) -> Tuple[Check, ...]:
+def check(part: PathLike) -> Tuple[_values.Check, ...]:
     """A mesh or a drawing: valid, or what is wrong and where. InputError for what cannot be read."""
     path = path_bytes("part", part)
-    return _each(Check, heard(lambda stop: _core.check(path))["checks"])
+    return _each(_values.Check, heard(lambda stop: _core.check(path))["checks"])
 
 
 def build(
@@ -181,7 +151,7 @@ def build(
     step: bool = False,
     max_theta_error_deg: float = 0.05,
     max_slack_mm: float = 0.05,
-) -> Built:
+) -> _values.Built:
     """The pulley in every format, checked as it was written. OutputError where `folder` holds what fusee did not write.
 
     `step`: the part for CAD too, pulley.step, which takes some seconds. InputError where it is too large for one, or where fusee was built
@@ -204,13 +174,13 @@ def build(
     made = heard(lambda stop: _core.build(joint, target, tolerance, version, cad, theta, slack, stop))
     parts: Row = {
         "synthesis": _synthesis(made.pop("synthesis")),
-        "mesh": Mesh(**made.pop("mesh")),
-        "as_built": Winding(**made.pop("as_built")),
+        "mesh": _values.Mesh(**made.pop("mesh")),
+        "as_built": _values.Winding(**made.pop("as_built")),
     }
-    return Built(**parts, **_with_values(made))
+    return _values.Built(**parts, **_with_values(made))
 
 
-def analyze(mechanism: Mechanism, *, steps: int = 60, tolerance_mm: float = 0.1, samples: int = 1000, seed: int = 1) -> Analysis:
+def analyze(mechanism: Mechanism, *, steps: int = 60, tolerance_mm: float = 0.1, samples: int = 1000, seed: int = 1) -> _values.Analysis:
     """Radii, tensions, stretch, error and stiffness over the stroke, and what limits the joint.
 
     >>> import fusee
@@ -228,13 +198,13 @@ def analyze(mechanism: Mechanism, *, steps: int = 60, tolerance_mm: float = 0.1,
     )
     made = heard(lambda stop: _core.analyze(joint, *numbers, stop))
     strength = made.pop("strength")
-    parts: Row = {"declared": Stroke(**made.pop("declared")), "paper": PaperForces(**made.pop("paper"))}
+    parts: Row = {"declared": _values.Stroke(**made.pop("declared")), "paper": _values.PaperForces(**made.pop("paper"))}
     for name in ("rising", "falling"):
-        parts[name] = Forces(**made.pop(name))
+        parts[name] = _values.Forces(**made.pop(name))
     for name in ("largest_at_joint_N", "largest_paper_tension_N", "largest_torque_Nmm", "hysteresis_rad"):
-        parts[name] = Extreme(**made.pop(name))
-    parts["largest_tension"] = LargestTension(**made.pop("largest_tension"))
-    return Analysis(strength=Strength(**strength) if strength else None, **parts, **_with_values(made))
+        parts[name] = _values.Extreme(**made.pop(name))
+    parts["largest_tension"] = _values.LargestTension(**made.pop("largest_tension"))
+    return _values.Analysis(strength=_values.Strength(**strength) if strength else None, **parts, **_with_values(made))
 
 
 def optimize(
@@ -246,7 +216,7 @@ def optimize(
     generations: int = 100,
     seed: int = 1,
     threads: int = 0,
-) -> Optimum:
+) -> _values.Optimum:
     """Better numbers within the bounds of the file's [optimize]: by proof ("certified"), by evolution ("genetic"), or a front ("pareto").
 
     `then`: of the designs that tie in a proof, the best by another objective. The answer is the same on any number of threads (0: as many as
@@ -278,9 +248,9 @@ def optimize(
     made = heard(lambda stop: _core.optimize(joint, way, second, *numbers, stop))
     text = made.pop("text")
     better = _better(mechanism, text, made["numbers"]) if text else None
-    made["front"] = tuple(FrontPoint(Table(point["numbers"]), point["values"]) for point in made["front"])
-    made["numbers"] = Table(made["numbers"])
-    return Optimum(mechanism=better, **_with_values(made))
+    made["front"] = tuple(_values.FrontPoint(_values.Table(point["numbers"]), point["values"]) for point in made["front"])
+    made["numbers"] = _values.Table(made["numbers"])
+    return _values.Optimum(mechanism=better, **_with_values(made))
 
 
 def _reread(mechanism: Mechanism, text: str, settings: Settings = ()) -> Mechanism:
@@ -350,7 +320,7 @@ def calibrate(
     columns: Optional[abc.Mapping[str, str]] = None,
     force: bool = False,
     audit: bool = True,
-) -> Calibration:
+) -> _values.Calibration:
     """Measured runs held against the mechanism: what is off, why, and a better file.
 
     A run is a CSV file or its columns (``alpha_deg``, ``theta_deg``, and if logged ``time_s``, ``load_N``, ``temperature_C`` …). `columns`
@@ -381,21 +351,21 @@ def calibrate(
     made["unexplained_rms_deg"] = _known(said.get("unexplained_rms_deg"))
     made["next_runs"] = tuple(str(run) for run in said.get("next_runs", ()))
     corrected = _reread(mechanism, made["files"]["corrected.toml"].decode())
-    return Calibration(json=document, corrected=corrected, **_with_values(made))
+    return _values.Calibration(json=document, corrected=corrected, **_with_values(made))
 
 
 def _known(value: Optional[float]) -> float:
     return math.nan if value is None else float(value)
 
 
-def _figures(said: Row) -> ErrorFigures:
-    return ErrorFigures(*(_known(said.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
+def _figures(said: Row) -> _values.ErrorFigures:
+    return _values.ErrorFigures(*(_known(said.get(name)) for name in ("rms_deg", "max_deg", "held_out_rms_deg")))
 
 
-def _effect(said: Row) -> Effect:
-    parameters = {name: Parameter(_known(value["value"]), (_known(value["ci95"][0]), _known(value["ci95"][1])))
+def _effect(said: Row) -> _values.Effect:
+    parameters = {name: _values.Parameter(_known(value["value"]), (_known(value["ci95"][0]), _known(value["ci95"][1])))
                   for name, value in said["parameters"].items()}  # fmt: skip
-    return Effect(said["name"], tuple(said["group"]), said["place"], Table(parameters), _known(said["rms_drop_deg"]))
+    return _values.Effect(said["name"], tuple(said["group"]), said["place"], _values.Table(parameters), _known(said["rms_drop_deg"]))
 
 
 def plan(
@@ -409,7 +379,7 @@ def plan(
     speeds_deg_per_s: abc.Sequence[float] = (),
     range_deg: Optional[Tuple[float, float]] = None,
     seed: int = 1,
-) -> Plan:
+) -> _values.Plan:
     """Which runs to measure in so many minutes, and what they can show; run files without θ, as ``simulate`` and ``calibrate`` read them.
 
     >>> import fusee
@@ -426,7 +396,7 @@ def plan(
     span = None if range_deg is None else _span(range_deg)
     start = whole("seed", seed, 0, _MOST_SEED)
     made = heard(lambda stop: _core.plan(joint, target, noise, time, loads, speeds, span, start, stop))
-    return Plan(json=made.pop("document"), **_with_values(made))
+    return _values.Plan(json=made.pop("document"), **_with_values(made))
 
 
 def _levels(name: str, values: abc.Sequence[float]) -> List[Any]:
@@ -453,7 +423,7 @@ def simulate(
     corrected: bool = False,
     noise_deg: float = 0,
     seed: int = 1,
-) -> Simulation:
+) -> _values.Simulation:
     """The joint moved through logged motor angles and loads: its angle, its tendons' tensions, the motor's torque.
 
     >>> import fusee, numpy
@@ -468,16 +438,16 @@ def simulate(
     start = whole("seed", seed, 0, _MOST_SEED)
     roles = _roles(columns)
     made = heard(lambda stop: _core.simulate(joint, names[0], held, roles, bool(corrected), noise, start))
-    made["columns"] = Table(made["columns"])
-    return Simulation(**_with_values(made))
+    made["columns"] = _values.Table(made["columns"])
+    return _values.Simulation(**_with_values(made))
 
 
 def kit(
     mechanism: Mechanism, folder: Optional[PathLike] = None, *, force: bool = False, tolerance_mm: float = 0.01, dxf: str = "ac1015"
-) -> Kit:
+) -> _values.Kit:
     """The rest of the test model: plate, link, pins, encoder mount, coupon, and a page that says how they go together."""
     joint = _of(mechanism)
     target = _target(folder, force)
     tolerance = number("tolerance_mm", tolerance_mm, 0.0005, _MOST_TOLERANCE_MM, "mm")
     version = choice("dxf", dxf, ["ac1015", "r12"])
-    return Kit(**_with_values(heard(lambda stop: _core.kit(joint, target, tolerance, version, stop))))
+    return _values.Kit(**_with_values(heard(lambda stop: _core.kit(joint, target, tolerance, version, stop))))

@@ -11,6 +11,7 @@
 #include "fusee/base/units.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design.h"
+#include "pipeline/several_turns.h"
 
 namespace fusee {
 namespace {
@@ -86,6 +87,57 @@ TEST_F(Step, OtherUnitsAreSeen) {
 TEST_F(Step, NoStepIsNoSolid) {
   EXPECT_THAT(checks_of("ISO-10303-21;\n"),
               Contains(::testing::AllOf(Field(&Check::name, "solids"), Field(&Check::ok, false))));
+}
+
+/// Of several turns.
+const Product& climbing() {
+  static const Product product = [] {
+    Product made;
+    made.file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "wrist_turns.toml",
+                               {{"pulley.ratio", "5.5"}, {"body.spare_turns", "0.5"}});
+    made.joint = as_it_is(made.file.mechanism);
+    design_several_turns(made, 0.02, nullptr);
+    return made;
+  }();
+  return product;
+}
+
+class ClimbingStep : public Step {
+ protected:
+  static const StepFile& file() {
+    static const StepFile made = step_file(climbing());
+    return made;
+  }
+  StepLook look_at(const std::string& bytes) {
+    write_file(path_, bytes, true);
+    return look_at_step(path_, climbing(), 0.02);
+  }
+};
+
+TEST_F(ClimbingStep, IsOneSolidThatPassesItsChecksAndWindsAsItShould) {
+  ASSERT_TRUE(climbing().pulley.made());
+  ASSERT_EQ(file().complaint, "");
+  const StepLook look = look_at(file().bytes);
+  for (const Check& check : look.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
+  const HelicalRewind wound = rewind_several_turns(climbing(), look.climbing);
+  // Found in the surfaces themselves: far below what facets leave.
+  EXPECT_LT(degrees(wound.result.max_theta_error), 0.002);
+  EXPECT_LT(wound.result.max_slack, 0.001);
+}
+
+TEST_F(ClimbingStep, FloorsOfAnotherTendonAreSeen) {
+  write_file(path_, file().bytes, true);
+  Product other = climbing();
+  other.joint.mechanism.tendon.diameter += 0.001;
+  EXPECT_THAT(look_at_step(path_, other, 0.02).checks,
+              Contains(::testing::AllOf(Field(&Check::name, "floor_error"), Field(&Check::ok, false))));
+}
+
+TEST_F(ClimbingStep, AFaceThatIsMissingIsSeen) {
+  std::string broken = file().bytes;
+  const std::size_t shell = broken.find("CLOSED_SHELL('',(") + 17, end = broken.find(',', shell);
+  broken.erase(shell, end - shell + 1);
+  EXPECT_FALSE(all_ok(look_at(broken).checks));
 }
 
 /// P1 of the paper's law is round about the axis: its rows are circles. P2's are splines.

@@ -1,0 +1,105 @@
+#include "export/step/climbing_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/units.h"
+
+namespace fusee {
+namespace {
+
+// Over this much of its way a lip grows to its bulge: a column of the grid.
+constexpr double k_bulge_turn = radians(5);
+
+double polynomial(const std::array<double, 6>& powers, double u) {
+  double value = 0;
+  for (auto c = powers.rbegin(); c != powers.rend(); ++c) value = value * u + *c;
+  return value;
+}
+
+double slope_of(const std::array<double, 6>& powers, double u) {
+  double value = 0;
+  for (std::size_t k = 5; k > 0; --k) value = value * u + static_cast<double>(k) * powers[k];
+  return value;
+}
+
+/// On the second half of the way.
+double late_step(double share) { return smooth_step(2.0 * share - 1.0); }
+
+/// From 0.
+double integral_of(const std::array<double, 6>& powers, double u) {
+  double value = 0;
+  for (std::size_t k = 6; k > 0; --k) value = value * u + powers[k - 1] / static_cast<double>(k);
+  return value * u;
+}
+
+}  // namespace
+
+// Hermite's polynomial of degree 5 has h, h' and h'' = ρ − h of both rows.
+ClimbingCurve::ClimbingCurve(const Spiral& spiral, const SpiralPlace& place) : climb_(place.direction * spiral.slope) {
+  for (std::size_t i = 0; i + 1 < spiral.rows.size(); ++i) {
+    const SpiralRow &a = spiral.rows[i], &b = spiral.rows[i + 1];
+    const double width = b.turn - a.turn;
+    const Vec2 from(a.x, a.y), to(b.x, b.y);
+    const double h0 = from.dot(unit(a.turn)), h1 = to.dot(unit(b.turn));
+    const double d0 = width * from.dot(turned_left(unit(a.turn))), d1 = width * to.dot(turned_left(unit(b.turn)));
+    const double e0 = 0.5 * width * width * (a.rho - h0), e1 = 0.5 * width * width * (b.rho - h1);
+    const double rise = h1 - h0 - d0 - e0, steeper = d1 - d0 - 2 * e0, bent = e1 - e0;
+    pieces_.push_back({a.turn,
+                       width,
+                       {h0, d0, e0, 10 * rise - 4 * steeper + bent, -15 * rise + 7 * steeper - 2 * bent,
+                        6 * rise - 3 * steeper + bent},
+                       place.height(a.z)});
+  }
+}
+
+Vec3 ClimbingCurve::at(double turn) const {
+  const auto above = std::upper_bound(pieces_.begin() + 1, pieces_.end(), turn,
+                                      [](double value, const Piece& piece) { return value < piece.turn; });
+  const Piece& piece = *(above - 1);
+  const double u = (turn - piece.turn) / piece.width;
+  const double slope = slope_of(piece.support, u) / piece.width;
+  const Vec2 point = polynomial(piece.support, u) * unit(turn) + slope * turned_left(unit(turn));
+  const double length = slope - piece.support[1] / piece.width + piece.width * integral_of(piece.support, u);
+  return {point.x(), point.y(), piece.height + climb_ * length};
+}
+
+double smooth_step(double share) {
+  const double t = std::clamp(share, 0.0, 1.0);
+  return t * t * t * (10.0 - t * (15.0 - 6.0 * t));
+}
+
+ClimbingGroove::ClimbingGroove(const Spiral& spiral, const SpiralPlace& place, const Winding& winding)
+    : curve_(spiral, place),
+      begin_(winding.groove_front().turn),
+      end_(winding.groove_back().turn),
+      filled_from_(winding.rows.front().turn),
+      filled_to_(winding.rows.back().turn),
+      bulge_low_(winding.bulge_low),
+      bulge_high_(winding.bulge_high) {}
+
+Vec3 ClimbingGroove::at(double turn) const {
+  if (turn > end_) return curve_.at(turn - k_two_pi) + curve_.at(end_) - curve_.at(end_ - k_two_pi);
+  if (turn < begin_) return curve_.at(turn + k_two_pi) + curve_.at(begin_) - curve_.at(begin_ + k_two_pi);
+  return curve_.at(turn);
+}
+
+double ClimbingGroove::bulge(double turn, bool low) const {
+  const double most = low ? bulge_low_ : bulge_high_;
+  const double past = turn > end_ ? turn - end_ : begin_ - turn;
+  const double whole = turn > end_ ? filled_to_ - end_ : begin_ - filled_from_;
+  if (!(past > 0 && past < whole)) return 0;
+  return most * smooth_step(past / std::min(k_bulge_turn, 0.25 * whole)) * (1.0 - late_step(past / whole));
+}
+
+// As the grid's (coil/helical_blank.cpp): on the half where there is most room it leaves the turn for where that began.
+Vec2 ClimbingGroove::ring(double direction, bool lowest, double outward) const {
+  const double first = lowest ? filled_to_ : filled_from_, inwards = lowest ? -1.0 : 1.0;
+  const double away = inwards * (direction - first);
+  const double turned = away - k_two_pi * std::floor(away / k_two_pi);
+  const double turn = first + inwards * turned;
+  const Vec2 gap = (at(first) - at(first + inwards * k_two_pi)).head<2>();
+  return at(turn).head<2>() + outward * unit(turn) + late_step(turned / k_two_pi) * gap;
+}
+
+}  // namespace fusee

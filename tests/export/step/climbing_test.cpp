@@ -1,0 +1,201 @@
+// The curves and the skin that pulley.step of several turns is made of.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "coil/helical_plan.h"
+#include "coil/spirals.h"
+#include "export/step/climbing_curve.h"
+#include "export/step/normal_spline.h"
+#include "export/step/skin.h"
+#include "fusee/base/units.h"
+#include "support/mechanisms.h"
+#include "support/shapes.h"
+
+namespace fusee {
+namespace {
+
+using testing::growing;
+using testing::oval;
+using testing::spiral_of;
+
+/// Five turns of an oval that grows, its height by Simpson's rule.
+struct Known {
+  testing::SupportCurve shape = oval(8.0, 0.9, 0.35, 1.0);
+  double begin = 1.0;
+  double slope = 0.04;
+
+  Vec2 place(double turn) const { return shape.p(turn) * unit(turn) + shape.dp(turn) * turned_left(unit(turn)); }
+  double length(double turn) const {
+    constexpr int k_steps = 2000;
+    const auto rho = [this](double at) { return shape.p(at) + shape.d2p(at); };
+    double sum = rho(begin) + rho(turn);
+    for (int i = 1; i < k_steps; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * rho(begin + (turn - begin) * i / k_steps);
+    return sum * (turn - begin) / (3.0 * k_steps);
+  }
+};
+
+TEST(ClimbingCurve, FollowsAKnownCurveBetweenItsRows) {
+  const Known known;
+  // Rows as far apart as of no pulley.
+  const Spiral spiral = spiral_of(known.shape, known.begin, 5.0, known.slope, 0.1);
+  const SpiralPlace place{60.0, -1.0};
+  const ClimbingCurve curve(spiral, place);
+  for (int i = 0; i < 1000; ++i) {
+    const double turn = known.begin + 5.0 * k_two_pi * (i + 0.37) / 1000;
+    const Vec3 found = curve.at(turn);
+    EXPECT_LT((found.head<2>() - known.place(turn)).norm(), 1e-6) << turn;
+    EXPECT_NEAR(found.z(), 60.0 - known.slope * known.length(turn), 1e-6) << turn;
+  }
+}
+
+/// A pulley of two ovals that grow, with its skin.
+class Skin : public ::testing::Test {
+ protected:
+  static const Product& product() {
+    static const Product made = [] {
+      Product product;
+      DeclaredMechanism declared = testing::forearm();
+      declared.body = testing::plain_mechanism().body;
+      declared.material = testing::plain_mechanism().material;
+      declared.print = testing::plain_mechanism().print;
+      product.joint.mechanism = declared;
+      const Mechanism& mechanism = product.joint.mechanism;
+      HelixProduct& helix = product.helix.emplace();
+      const HelicalSection section = helical_section(mechanism);
+      const auto p1 = oval(9.0, 0.6, 0.3, 0.4), p2 = growing(13.0, -0.8, 2.0);
+      helix.synthesis.sides[0].spiral = spiral_of(p1, 0.4, 4.3, 1.02 * testing::slope_for(p1, 0.4, 4.3, section));
+      helix.synthesis.sides[1].spiral = spiral_of(p2, 2.0, 3.6, 1.02 * testing::slope_for(p2, 2.0, 3.6, section));
+      helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral);
+      product.pulley.layout = helix.pulley.layout;
+      return product;
+    }();
+    return made;
+  }
+  static const StepSkin& skin() {
+    static const StepSkin made = helical_skin(product());
+    return made;
+  }
+
+  void SetUp() override { ASSERT_TRUE(product().helix->pulley.made) << product().helix->pulley.brief(); }
+};
+
+TEST_F(Skin, EveryEdgeIsUsedOnceEachWay) {
+  std::vector<int> forwards(skin().edges.size(), 0), backwards(skin().edges.size(), 0);
+  for (const StepSkin::Face& face : skin().faces) {
+    for (const auto& loop : face.loops) {
+      for (const StepSkin::Use& use : loop) ++(use.backwards ? backwards : forwards)[use.edge];
+    }
+  }
+  EXPECT_EQ(std::count(forwards.begin(), forwards.end(), 1), std::ssize(forwards));
+  EXPECT_EQ(std::count(backwards.begin(), backwards.end(), 1), std::ssize(backwards));
+}
+
+TEST_F(Skin, LoopsCloseAndEdgesEndAtTheirCorners) {
+  for (const StepSkin::Edge& edge : skin().edges) {
+    const auto* curve = std::get_if<StepSkin::Curve>(&edge.along);
+    if (curve == nullptr) continue;
+    EXPECT_EQ(curve->poles.size() + k_step_degree + 1, curve->knots.size());
+    EXPECT_EQ((curve->poles.front() - skin().corners[edge.first]).norm(), 0);
+    EXPECT_EQ((curve->poles.back() - skin().corners[edge.last]).norm(), 0);
+  }
+  for (const StepSkin::Face& face : skin().faces) {
+    for (const auto& loop : face.loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const StepSkin::Use &use = loop[k], &next = loop[(k + 1) % loop.size()];
+        const StepSkin::Edge &here = skin().edges[use.edge], &there = skin().edges[next.edge];
+        EXPECT_EQ(use.backwards ? here.first : here.last, next.backwards ? there.last : there.first);
+      }
+    }
+  }
+}
+
+/// A solid without handles: corners − edges + faces, less one for each hole in a face, are two.
+TEST_F(Skin, IsAClosedSurfaceWithoutHandles) {
+  std::ptrdiff_t holes = 0;
+  for (const StepSkin::Face& face : skin().faces) holes += std::ssize(face.loops) - 1;
+  EXPECT_EQ(std::ssize(skin().corners) - std::ssize(skin().edges) + std::ssize(skin().faces) - holes, 2);
+}
+
+Vec3 point_of(const StepSkin::Patch& patch, const std::vector<Vec3>& row, double psi) {
+  JointSpline spline{patch.knots, Eigen::MatrixXd(static_cast<Eigen::Index>(row.size()), 3)};
+  for (std::size_t i = 0; i < row.size(); ++i) spline.poles.row(static_cast<Eigen::Index>(i)) = row[i].transpose();
+  return spline.at(psi).transpose();
+}
+
+double polygon_part(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)) / 6.0; }
+
+/// By the divergence theorem over patches cut into triangles and flat faces, against the mesh before it is cut.
+TEST_F(Skin, HoldsWhatTheGridHolds) {
+  constexpr int k_along = 160, k_across = 12;
+  double volume = 0;
+  for (const StepSkin::Face& face : skin().faces) {
+    if (const auto* patch = std::get_if<StepSkin::Patch>(&face.surface)) {
+      const auto at = [&](int i, int j) -> Vec3 {
+        const double psi = patch->knots.front() + (patch->knots.back() - patch->knots.front()) * i / k_along;
+        const double v = static_cast<double>(j) / k_across;
+        const Vec3 low = point_of(*patch, patch->rows.front(), psi), high = point_of(*patch, patch->rows.back(), psi);
+        if (patch->rows.size() == 2) return (1 - v) * low + v * high;
+        const double a = (1 - v) * (1 - v), b = 2 * v * (1 - v) * patch->weight, c = v * v;
+        return (a * low + b * point_of(*patch, patch->rows[1], psi) + c * high) / (a + b + c);
+      };
+      for (int i = 0; i < k_along; ++i) {
+        for (int j = 0; j < k_across; ++j) {
+          volume += polygon_part(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+          volume += polygon_part(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+      }
+      continue;
+    }
+    if (const auto* hub = std::get_if<StepSkin::Cylinder>(&face.surface)) {
+      // Half of it.
+      const StepSkin::Use& up = face.loops.front()[1];
+      volume += k_pi * hub->radius * hub->radius * std::abs(up.to.y() - up.from.y()) / 3.0;
+      continue;
+    }
+    const auto* plane = std::get_if<StepSkin::Plane>(&face.surface);
+    for (const auto& loop : face.loops) {
+      for (const StepSkin::Use& use : loop) {
+        const StepSkin::Edge& edge = skin().edges[use.edge];
+        std::vector<Vec3> points{skin().corners[edge.first]};
+        if (const auto* curve = std::get_if<StepSkin::Curve>(&edge.along)) {
+          const StepSkin::Patch alone{curve->knots, {curve->poles}, 1};
+          for (int i = 1; i < k_along; ++i)
+            points.push_back(
+                point_of(alone, curve->poles,
+                         curve->knots.front() + (curve->knots.back() - curve->knots.front()) * i / k_along));
+        } else if (const auto* arc = std::get_if<StepSkin::Arc>(&edge.along)) {
+          for (int i = 1; i < k_along; ++i) {
+            const double v = static_cast<double>(i) / k_along;
+            const double a = (1 - v) * (1 - v), b = 2 * v * (1 - v) * arc->weight, c = v * v;
+            points.push_back((a * skin().corners[edge.first] + b * arc->corner + c * skin().corners[edge.last]) /
+                             (a + b + c));
+          }
+        }
+        if (const auto* round = std::get_if<StepSkin::Round>(&edge.along)) {
+          for (int i = 1; i < k_along; ++i) {
+            const Vec2 place = round->radius * unit(round->from + (round->to - round->from) * i / k_along);
+            points.emplace_back(place.x(), place.y(), points.front().z());
+          }
+        }
+        points.push_back(skin().corners[edge.last]);
+        if (use.backwards) std::reverse(points.begin(), points.end());
+        for (std::size_t i = 0; i + 1 < points.size(); ++i)
+          volume += polygon_part(plane->point, points[i], points[i + 1]);
+      }
+    }
+  }
+  const HelicalPlan& plan = *product().helix->pulley.plan;
+  const BodyLayout& layout = product().helix->pulley.layout;
+  const TriangleMesh blank = helical_blank(plan.fan, plan.section, layout, plan.heights);
+  const double bore = std::abs(signed_area(layout.bore.outline)) * plan.heights.hub_top;
+  const double expected = std::pow(layout.scale, 3) * (enclosed_volume(blank) + bore);
+  EXPECT_NEAR(volume, expected, 0.002 * expected);
+}
+
+}  // namespace
+}  // namespace fusee
