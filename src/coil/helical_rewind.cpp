@@ -302,20 +302,15 @@ HelicalRewind rewind_floors(const FloorLine& floor1, const FloorLine& floor2, co
       .wind(stroke);
 }
 
-std::array<FloorLine, 2> both_helical_floors(const TriangleMesh& mesh, double scale) {
-  std::vector<FloorLine> floors = helical_floors(mesh, scale);
+HelicalRewind rewind_helical(const TriangleMesh& mesh, const Mechanism& mechanism,
+                             const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid, double scale) {
+  const std::vector<FloorLine> floors = helical_floors(mesh, scale);
   if (floors.size() != 2)
     throw InputError(
         "",
         "the mesh has " + std::to_string(floors.size()) + " grooves of more than half a turn, a helical pulley has 2",
         "is it whole, in mm, its axis along z at the origin?");
-  return {std::move(floors[0]), std::move(floors[1])};
-}
-
-HelicalRewind rewind_helical(const TriangleMesh& mesh, const Mechanism& mechanism,
-                             const std::vector<TransmissionPoint>& stroke, const TendonsLaid& laid, double scale) {
-  const auto [floor1, floor2] = both_helical_floors(mesh, scale);
-  return rewind_floors(floor1, floor2, mechanism, stroke, laid);
+  return rewind_floors(floors[0], floors[1], mechanism, stroke, laid);
 }
 
 }  // namespace fusee

@@ -177,18 +177,15 @@ bool design_several_turns(Product& product, double tolerance,
 }
 
 HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh) {
-  const JointAsItIs& joint = product.joint;
-  auto [floor1, floor2] = both_helical_floors(mesh, product.pulley.layout.scale);
-  return rewind_floors(as_made(std::move(floor1), joint.outline), as_made(std::move(floor2), joint.outline),
-                       with_inset(joint), product.synthesis.stroke, product.helix->laid(joint.mechanism.guides.collar));
+  return rewind_several_turns(product, helical_floors(mesh, product.pulley.layout.scale));
 }
 
 HelicalRewind rewind_several_turns(const Product& product, const std::vector<FloorLine>& floors) {
   if (floors.size() != 2)
     throw InputError("", "it has " + std::to_string(floors.size()) + " grooves of several turns, and should have 2");
-  const Mechanism& mechanism = product.joint.mechanism;
-  return rewind_floors(floors[0], floors[1], mechanism, product.synthesis.stroke,
-                       product.helix->laid(mechanism.guides.collar));
+  const JointAsItIs& joint = product.joint;
+  return rewind_floors(as_made(floors[0], joint.outline), as_made(floors[1], joint.outline), with_inset(joint),
+                       product.synthesis.stroke, product.helix->laid(joint.mechanism.guides.collar));
 }
 
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh) {

@@ -69,9 +69,9 @@ INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurns, ::testing::Values("wrist_turns"
 /// What a joint with this pulley does when its pins, lengths and grooves are otherwise, and the pulley does not know.
 double uncorrected(const std::string& profile, const JointAsItIs& joint) {
   const Product product = made(read_profile(profile)).product;
-  const auto [floor1, floor2] = both_helical_floors(product.pulley.mesh, product.pulley.layout.scale);
-  const HelicalRewind wound =
-      rewind_floors(floor1, floor2, with_inset(joint), product.synthesis.stroke, product.helix->laid(false));
+  const std::vector<FloorLine> floors = helical_floors(product.pulley.mesh, product.pulley.layout.scale);
+  const HelicalRewind wound = rewind_floors(floors.at(0), floors.at(1), with_inset(joint), product.synthesis.stroke,
+                                            product.helix->laid(false));
   return degrees(wound.result.max_theta_error);
 }
 

@@ -4,7 +4,6 @@
 /// cut the mesh, lengths are added up piece by piece, the joint angle is found by bisection. mm, rad.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "fusee/base/plane.h"
@@ -22,8 +21,6 @@ using FloorLine = std::vector<Vec3>;
 /// All grooves in a mesh that go round the axis for at least half a turn, from below. `scale`: of the mesh over the
 /// finished part. Facets without place for it are passed over: the mesh should be a solid.
 std::vector<FloorLine> helical_floors(const TriangleMesh& mesh, double scale = 1.0, int half_planes = 720);
-/// P1's and P2's. Throws InputError when the mesh has other than two.
-std::array<FloorLine, 2> both_helical_floors(const TriangleMesh& mesh, double scale = 1.0);
 
 /// How the tendons lie on the part. Heights are above its lower face.
 struct TendonsLaid {
