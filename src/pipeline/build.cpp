@@ -478,6 +478,9 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
     result.advice = advice_for(result.product, options);
     return result;
   }
+  if (!result.product.helix) {
+    for (Diagnostic& unused : unused_turn_keys(file)) result.product.file.warnings.push_back(std::move(unused));
+  }
   if (options.step && result.product.helix)
     throw InputError("", "no pulley.step: of a pulley of several turns none is made yet", "build without --step");
   if (options.dry_run) {

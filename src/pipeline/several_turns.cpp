@@ -132,6 +132,18 @@ std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
   return Diagnostic{Severity::note, file.place_of("pulley.winding"), words_on_slopes(mechanism), {}};
 }
 
+std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
+  std::vector<Diagnostic> warnings;
+  for (const char* key : {"guides.collar", "body.lead_mm", "body.spare_turns"}) {
+    if (!find_field(key)->is_set(file.mechanism)) continue;
+    warnings.push_back({Severity::warning,
+                        file.place_of(key),
+                        std::string(key) + " is not used: it is for pulleys of several turns, and these are of one",
+                        {}});
+  }
+  return warnings;
+}
+
 MechanismFile with_doubts_and_turns(MechanismFile file) {
   const auto turns = note_on_turns(file);
   file = with_doubts(std::move(file));

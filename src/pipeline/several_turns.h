@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fusee/export/product.h"
 #include "fusee/profile/advice.h"
@@ -16,6 +17,9 @@ namespace fusee {
 bool need_several_turns(const SynthesisResult& synthesis);
 /// Why this file's pulley is not wound several times; null where it is.
 std::optional<std::string> kept_to_one_turn(const DeclaredMechanism& mechanism);
+
+/// Of pulleys that turn less than once: warnings of what the file says of helical grooves.
+std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file);
 
 /// What a joint of level tendons leaves out of one whose tendons are wound several times; null where they are not.
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file);

@@ -42,6 +42,14 @@ std::string failures_of(const BuildResult& built) {
   return text;
 }
 
+/// All that is said of a build that ends well.
+std::string words_of(const BuildResult& built) {
+  std::string text;
+  for (const std::string& warning : built.product.synthesis.warnings) text += "warning: " + warning + "\n";
+  for (const std::string& note : built.product.pulley.layout.notes) text += "note: " + note + "\n";
+  return text;
+}
+
 std::string text_of(const BuildResult& built, const std::string& name) {
   for (const OutputFile& output : built.outputs)
     if (output.name == name) return output.bytes;
@@ -205,6 +213,50 @@ TEST(SeveralTurnsWords, SayWhatKeepsToOneTurn) {
               HasSubstr("of a joint with [identified] none is made yet"));
 }
 
+TEST(SeveralTurnsWords, OfPulleysThatTurnLessAreNotUsed) {
+  const auto words_with = [](const char* profile, const std::vector<Setting>& settings) {
+    std::string text;
+    for (const Diagnostic& one : made(read_profile(profile, settings)).product.file.warnings)
+      text += one.message + "\n";
+    return text;
+  };
+  const std::vector<Setting> all{{"guides.collar", "true"}, {"body.lead_mm", "3"}, {"body.spare_turns", "2"}};
+  const std::string of_one = words_with("paper_optimum", all), silent = words_with("paper_optimum", {}),
+                    of_many = words_with("wrist_turns", all);
+  for (const char* key : {"guides.collar", "body.lead_mm", "body.spare_turns"}) {
+    EXPECT_THAT(of_one, HasSubstr(std::string(key) + " is not used"));
+    EXPECT_THAT(silent, Not(HasSubstr(key)));
+    EXPECT_THAT(of_many, Not(HasSubstr(key)));
+  }
+}
+
+/// With how many turns there would be a pulley stands in the message, and a number that builds after it.
+TEST(SeveralTurnsWords, MoreTurnsThanAreMadeSayHowMany) {
+  const std::vector<Setting> many{{"pulley.r1_mm", "1.2"}};
+  const BuildResult built = made(read_profile("elbow_capstan", many));
+  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  EXPECT_THAT(failures_of(built),
+              HasSubstr("P1 would wind 23 turns over the range: at most 12 are made, 52 % of this"));
+  ASSERT_FALSE(built.advice.alone.empty());
+  const Change& change = built.advice.alone.front();
+  EXPECT_EQ(change.key, "pulley.r1_mm");
+  EXPECT_EQ(made(read_profile("elbow_capstan", {{"pulley.r1_mm", std::to_string(change.to)}})).status,
+            BuildStatus::done);
+}
+
+/// There are no marks on a helix and no plates.dxf; both are said, whatever was asked for.
+TEST(SeveralTurnsWords, SayWhatIsLeftOut) {
+  for (const char* marks : {"engraved", "raised"}) {
+    const BuildResult built = made(read_profile("wrist_turns", {{"body.marks", marks}}));
+    ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+    for (const std::string& text : {words_of(built), text_of(built, "manifest.json")}) {
+      EXPECT_THAT(text, HasSubstr("no marks, no slots for the tails: a pulley of several turns is made without"));
+      EXPECT_THAT(text, HasSubstr("of several turns there is no plates.dxf: plates have no grooves that climb"));
+    }
+    EXPECT_EQ(text_of(built, "plates.dxf"), "");
+  }
+}
+
 TEST(SeveralTurnsWords, RefuseWithAdviceThatBuilds) {
   const BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
@@ -214,14 +266,6 @@ TEST(SeveralTurnsWords, RefuseWithAdviceThatBuilds) {
 
 std::vector<Setting> with_collars(double ef, double lead) {
   return {{"guides.collar", "true"}, {"pulley.EF_mm", std::to_string(ef)}, {"body.lead_mm", std::to_string(lead)}};
-}
-
-/// All that is said of a build that ends well.
-std::string words_of(const BuildResult& built) {
-  std::string text;
-  for (const std::string& warning : built.product.synthesis.warnings) text += "warning: " + warning + "\n";
-  for (const std::string& note : built.product.pulley.layout.notes) text += "note: " + note + "\n";
-  return text;
 }
 
 /// Without collars there is none; with them the pulley's distance and the lead decide.
