@@ -40,15 +40,19 @@ Condition number_of_turns(const Transmission& planar, Side side) {
   return condition;
 }
 
-/// Where the tendon's end stands too far up or down the lip of the groove that it leaves is where it lies.
-Condition fleet(const HelixSide& side, Side which, double lip, double largest_radius) {
-  const double limit = std::atan(std::sqrt(lip / (2.0 * largest_radius)));
+/// Where the tendon's end stands too far up or down the lip of the groove that it leaves is where it lies: a straight
+/// tendon has risen by a groove's depth h after √(2ρh), and gone aside by as much times tan δ.
+Condition fleet(const HelixSide& side, Side which, const HelixGroove& groove, double largest_radius) {
+  constexpr double k_none = 1e-9;  // what rounding makes of none
+  const double limit = std::max(k_none, std::atan(groove.room_at_lip / std::sqrt(2.0 * largest_radius * groove.lip)));
   const std::string number = which == Side::left ? "1" : "2";
   Condition condition = at_most("fleet_angle_" + number, side.fleet_at, degrees(side.fleet), degrees(limit), "deg");
   if (!condition.ok) {
     condition.message = "tendon " + number + " leaves its groove at " + rounded(degrees(side.fleet), 3) +
                         "° to it at " + at_alpha_text(side.fleet_at) + " and lies on the groove's lip from " +
-                        rounded(degrees(limit), 3) + "° on: a longer EF, a smaller lead or fewer turns make it less";
+                        rounded(degrees(limit), 3) +
+                        "° on: a longer EF, a smaller lead or fewer turns make it less, a wider groove "
+                        "(body.groove_angle_deg) takes more";
   }
   return condition;
 }
@@ -120,7 +124,7 @@ std::vector<Condition> turn_conditions(const Mechanism& mechanism, const Transmi
 }
 
 std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixSynthesis& made,
-                                        const Windings& windings, double lip) {
+                                        const Windings& windings, const HelixGroove& groove) {
   std::vector<Condition> conditions = {closure(windings)};
   for (const Side side : k_sides) {
     const std::size_t i = side == Side::left ? 0 : 1;
@@ -130,7 +134,7 @@ std::vector<Condition> helix_conditions(const Mechanism& mechanism, const HelixS
       largest = std::max(largest, helix.spiral.rows[k].rho);
     conditions.push_back(spare_turns(mechanism, helix.spiral, side));
     conditions.push_back(room_for_turns(mechanism, windings.climbs[i], side));
-    conditions.push_back(fleet(helix, side, lip, largest));
+    conditions.push_back(fleet(helix, side, groove, largest));
   }
   return conditions;
 }

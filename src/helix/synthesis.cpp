@@ -68,7 +68,7 @@ void synthesise_into(HelixSynthesis& result, const Mechanism& mechanism, const H
   if (closely == HelixLook::brief) drawing.largest_turn = radians(5);
   for (const Side side : {Side::left, Side::right})
     result.sides[side == Side::left ? 0 : 1] = make_side(mechanism, windings, side, result.stroke, drawing);
-  append(result.conditions, helix_conditions(mechanism, result, windings, groove.lip));
+  append(result.conditions, helix_conditions(mechanism, result, windings, groove));
   if (!all_hold(result.conditions)) return;
   result.warnings = bend_warnings(mechanism, tried);
   for (std::string& warning : helix_warnings(result)) result.warnings.push_back(std::move(warning));

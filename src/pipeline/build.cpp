@@ -515,6 +515,9 @@ BuildResult build(const MechanismFile& file, const BuildOptions& options) {
     result.advice = advice_for(result.product, options);
     return result;
   }
+  if (!result.product.helix) {
+    for (Diagnostic& unused : unused_turn_keys(file)) result.product.file.warnings.push_back(std::move(unused));
+  }
   if (options.dry_run) {
     write_and_forget(result, options);
     return result;

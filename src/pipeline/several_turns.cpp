@@ -12,14 +12,17 @@
 #include "fusee/joint/as_it_is.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/print.h"
+#include "solid/groove.h"
 
 namespace fusee {
 namespace {
 
 HelixGroove groove_of(const Mechanism& mechanism) {
   const HelicalSection section = helical_section(mechanism);
+  const double d = mechanism.tendon.diameter;
   // In the part a later turn lies below the one before.
-  return {section.depth, [section](double step) { return least_lead(section, -step); }};
+  return {section.depth, std::min(room_at_lip(section.walls.below, d), room_at_lip(section.walls.above, d)),
+          [section](double step) { return least_lead(section, -step); }};
 }
 
 /// What the tables of a body do not say of several turns.
@@ -135,6 +138,18 @@ std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
   return Diagnostic{Severity::note, file.place_of("pulley.winding"), words_on_slopes(mechanism), {}};
 }
 
+std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
+  std::vector<Diagnostic> warnings;
+  for (const char* key : {"guides.collar", "body.lead_mm", "body.spare_turns"}) {
+    if (!find_field(key)->is_set(file.mechanism)) continue;
+    warnings.push_back({Severity::warning,
+                        file.place_of(key),
+                        std::string(key) + " is not used: it is for pulleys of several turns, and these are of one",
+                        {}});
+  }
+  return warnings;
+}
+
 MechanismFile with_doubts_and_turns(MechanismFile file) {
   const auto turns = note_on_turns(file);
   file = with_doubts(std::move(file));
@@ -196,7 +211,7 @@ namespace {
 
 /// Numbers of the body that were written: what is automatic is fitted already.
 std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
-  std::vector<std::string> keys{"body.lead_mm", "body.spare_turns", "body.groove_depth_mm"};
+  std::vector<std::string> keys{"body.lead_mm", "body.spare_turns", "body.groove_depth_mm", "body.groove_angle_deg"};
   for (const char* key : {"body.bore_diameter_mm", "body.knot_pocket_mm", "body.anchor_hole_mm", "body.min_wall_mm",
                           "body.hub_diameter_mm"}) {
     if (number_of(mechanism, *find_field(key)) > 0) keys.emplace_back(key);

@@ -6,11 +6,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fusee/export/product.h"
 #include "fusee/profile/advice.h"
 
 namespace fusee {
+
+/// Of pulleys that turn less than once: warnings of what the file says of helical grooves.
+std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file);
 
 /// What a joint of level tendons leaves out of one whose tendons are wound several times; null where they are not.
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file);

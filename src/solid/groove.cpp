@@ -62,4 +62,12 @@ std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendo
   return points;
 }
 
+// The circle's centre lies d/2 over the lip, where the wall, of lean λ, is d/2 tan λ further out, and d/2 / cos λ
+// inside of the wall: together d/2 (1 − sin λ)/cos λ nearer than the lip.
+double room_at_lip(const std::vector<GroovePoint>& half, double tendon_diameter) {
+  const GroovePoint &low = half[half.size() - 2], &lip = half.back();
+  const double lean = std::atan2(lip.dz - low.dz, lip.offset - low.offset);
+  return std::max(0.0, lip.dz - 0.5 * tendon_diameter * std::tan(0.25 * k_pi - 0.5 * lean));
+}
+
 }  // namespace fusee

@@ -13,4 +13,8 @@ namespace fusee {
 /// that band in every kind of groove. `lean`: of the wall, from the direction outward to that of the axis, rad.
 std::vector<GroovePoint> groove_half(const Body& body, double lean, double tendon_diameter, double depth);
 
+/// Of such a half: how far aside of the groove's middle a tendon that has risen by the groove's depth touches the wall,
+/// gone on as it ends at the lip. mm
+double room_at_lip(const std::vector<GroovePoint>& half, double tendon_diameter);
+
 }  // namespace fusee

@@ -14,7 +14,7 @@ namespace {
 
 /// A shallow groove, and 45° wherever a turn stands out over its neighbour.
 HelixGroove groove() {
-  return {0.6, [](double step) { return 2.0 + std::abs(step); }};
+  return {0.6, 0.6, [](double step) { return 2.0 + std::abs(step); }};
 }
 
 Mechanism wrist() {

@@ -45,6 +45,14 @@ std::string failures_of(const BuildResult& built) {
   return text;
 }
 
+/// All that is said of a build that ends well.
+std::string words_of(const BuildResult& built) {
+  std::string text;
+  for (const std::string& warning : built.product.synthesis.warnings) text += "warning: " + warning + "\n";
+  for (const std::string& note : built.product.pulley.layout.notes) text += "note: " + note + "\n";
+  return text;
+}
+
 std::string text_of(const BuildResult& built, const std::string& name) {
   for (const OutputFile& output : built.outputs)
     if (output.name == name) return output.bytes;
@@ -254,11 +262,101 @@ TEST(SeveralTurnsWords, SayWhatKeepsToOneTurn) {
               HasSubstr("more than one turn (pulley.winding = \"one_turn\")"));
 }
 
+TEST(SeveralTurnsWords, OfPulleysThatTurnLessAreNotUsed) {
+  const auto words_with = [](const char* profile, const std::vector<Setting>& settings) {
+    std::string text;
+    for (const Diagnostic& one : made(read_profile(profile, settings)).product.file.warnings)
+      text += one.message + "\n";
+    return text;
+  };
+  const std::vector<Setting> all{{"guides.collar", "true"}, {"body.lead_mm", "3"}, {"body.spare_turns", "2"}};
+  const std::string of_one = words_with("paper_optimum", all), silent = words_with("paper_optimum", {}),
+                    of_many = words_with("wrist_turns", all);
+  for (const char* key : {"guides.collar", "body.lead_mm", "body.spare_turns"}) {
+    EXPECT_THAT(of_one, HasSubstr(std::string(key) + " is not used"));
+    EXPECT_THAT(silent, Not(HasSubstr(key)));
+    EXPECT_THAT(of_many, Not(HasSubstr(key)));
+  }
+}
+
+/// With how many turns there would be a pulley stands in the message, and a number that builds after it.
+TEST(SeveralTurnsWords, MoreTurnsThanAreMadeSayHowMany) {
+  const std::vector<Setting> many{{"pulley.r1_mm", "1.2"}};
+  const BuildResult built = made(read_profile("elbow_capstan", many));
+  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  EXPECT_THAT(failures_of(built),
+              HasSubstr("P1 would wind 23 turns over the range: at most 12 are made, 52 % of this"));
+  ASSERT_FALSE(built.advice.alone.empty());
+  const Change& change = built.advice.alone.front();
+  EXPECT_EQ(change.key, "pulley.r1_mm");
+  EXPECT_EQ(made(read_profile("elbow_capstan", {{"pulley.r1_mm", std::to_string(change.to)}})).status,
+            BuildStatus::done);
+}
+
+/// There are no marks on a helix and no plates.dxf; both are said, whatever was asked for.
+TEST(SeveralTurnsWords, SayWhatIsLeftOut) {
+  for (const char* marks : {"engraved", "raised"}) {
+    const BuildResult built = made(read_profile("wrist_turns", {{"body.marks", marks}}));
+    ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+    for (const std::string& text : {words_of(built), text_of(built, "manifest.json")}) {
+      EXPECT_THAT(text, HasSubstr("no marks, no slots for the tails: a pulley of several turns is made without"));
+      EXPECT_THAT(text, HasSubstr("of several turns there is no plates.dxf: plates have no grooves that climb"));
+    }
+    EXPECT_EQ(text_of(built, "plates.dxf"), "");
+  }
+}
+
 TEST(SeveralTurnsWords, RefuseWithAdviceThatBuilds) {
   const BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
   EXPECT_THAT(failures_of(built), HasSubstr("is too small"));
   EXPECT_FALSE(built.advice.empty());
+}
+
+std::vector<Setting> with_collars(double ef, double lead) {
+  return {{"guides.collar", "true"}, {"pulley.EF_mm", std::to_string(ef)}, {"body.lead_mm", std::to_string(lead)}};
+}
+
+/// Without collars there is none; with them the pulley's distance and the lead decide.
+TEST(FleetAngles, AreSilentThenNotedThenWarnedOf) {
+  const BuildResult none = made(read_profile("wrist_turns"));
+  EXPECT_THAT(words_of(none), Not(HasSubstr("fleet angle of")));
+  const BuildResult small = made(read_profile("wrist_turns", with_collars(300, 0)));
+  ASSERT_EQ(small.status, BuildStatus::done) << failures_of(small);
+  EXPECT_THAT(words_of(small), Not(HasSubstr("fleet angle of")));
+  EXPECT_THAT(words_of(small), Not(HasSubstr("leaves its groove")));
+  const BuildResult noted = made(read_profile("wrist_turns", with_collars(160, 0)));
+  ASSERT_EQ(noted.status, BuildStatus::done) << failures_of(noted);
+  EXPECT_THAT(words_of(noted), HasSubstr("note: a fleet angle of 1.94° is more than the 1.5° of smooth drums"));
+  EXPECT_THAT(words_of(noted), Not(HasSubstr("leaves its groove")));
+  const BuildResult warned = made(read_profile("wrist_turns", with_collars(60, 7)));
+  ASSERT_EQ(warned.status, BuildStatus::done) << failures_of(warned);
+  EXPECT_THAT(words_of(warned), HasSubstr("warning: tendon 1 leaves its groove at up to 5.57° to it"));
+  EXPECT_THAT(words_of(warned), Not(HasSubstr("fleet angle of")));
+}
+
+/// The default's lower wall leans by 25°, on the largest radius of 10.2 mm and 1 mm deep: tan 25° √(1/20.4) is 5.9°,
+/// and the seat, a little wider than the tendon, has room for the rest.
+TEST(FleetAngles, AtWhichTheTendonLiesOnTheLipAreRefusedWithNumbersThatBuild) {
+  const BuildResult built = made(read_profile("wrist_turns", with_collars(60, 8)));
+  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  EXPECT_THAT(failures_of(built), HasSubstr("tendon 1 leaves its groove at 6.29° to it at α = "));
+  EXPECT_THAT(failures_of(built), HasSubstr("lies on the groove's lip from 6.14° on"));
+  ASSERT_FALSE(built.advice.alone.empty());
+  for (const Change& change : built.advice.alone) {
+    std::vector<Setting> mended = with_collars(60, 8);
+    mended.push_back({change.key, std::to_string(change.to)});
+    EXPECT_EQ(made(read_profile("wrist_turns", mended)).status, BuildStatus::done) << change.text;
+  }
+}
+
+/// The same tendons in the same place: steep walls hold them less than those that lean.
+TEST(FleetAngles, AreTakenBetterByGroovesThatLean) {
+  std::vector<Setting> steep = with_collars(60, 0), leaning = with_collars(60, 8);
+  steep.push_back({"body.groove_angle_deg", "5"});
+  leaning.push_back({"body.groove_angle_deg", "80"});
+  EXPECT_THAT(failures_of(made(read_profile("wrist_turns", steep))), HasSubstr("lies on the groove's lip from 0.921°"));
+  EXPECT_EQ(made(read_profile("wrist_turns", leaning)).status, BuildStatus::done);
 }
 
 /// Of what a body of several turns refuses: the number that is named builds.

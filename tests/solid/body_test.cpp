@@ -176,6 +176,31 @@ TEST(Groove, ShallowSeatEndsAtTheLip) {
   for (std::size_t k = 2; k < section.size(); ++k) EXPECT_GT(section[k].offset, section[k - 1].offset);
 }
 
+/// A circle, lifted by the depth and pushed aside until it meets the wall's line: found by steps.
+TEST(Groove, RoomAtTheLipIsWhereARisenTendonTouches) {
+  for (const Groove kind : {Groove::u, Groove::v, Groove::flat}) {
+    for (const double angle : {0.0, 30.0, 50.0, 90.0}) {
+      Body body = plain_mechanism().body;
+      body.groove = kind;
+      const double d = 0.8, depth = 2.0 * d;
+      const auto section = groove_half(body, radians(0.5 * angle), d, depth);
+      const GroovePoint &low = section[section.size() - 2], &lip = section.back();
+      const Vec2 along = Vec2(lip.offset - low.offset, lip.dz - low.dz).normalized();
+      const auto gap = [&](double aside) {
+        const Vec2 seen = Vec2(depth + 0.5 * d, aside) - Vec2(lip.offset, lip.dz);
+        return along.x() * -seen.y() + along.y() * seen.x() - 0.5 * d;
+      };
+      double touches = 0;
+      while (gap(touches) > 0) touches += 1e-5;
+      EXPECT_NEAR(room_at_lip(section, d), touches, 2e-5) << static_cast<int>(kind) << " " << angle;
+      // Of a v it is what the wall leans over the depth.
+      if (kind == Groove::v) {
+        EXPECT_NEAR(room_at_lip(section, d), depth * std::tan(radians(0.5 * angle)), 1e-12);
+      }
+    }
+  }
+}
+
 TEST(Bore, EveryShapePassesItsShaft) {
   Mechanism mechanism = plain_mechanism();
   for (const Bore kind : {Bore::round, Bore::d, Bore::hex, Bore::square, Bore::keyway}) {

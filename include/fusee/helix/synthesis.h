@@ -53,7 +53,8 @@ using LeastLead = std::function<double(double step)>;
 
 /// What a mechanism's helical grooves are like across: the solid's to say.
 struct HelixGroove {
-  double lip = 0;  ///< over the floor, walls at 45°, mm
+  double lip = 0;          ///< over the floor, mm
+  double room_at_lip = 0;  ///< how far aside a tendon lies as it touches the nearer wall on the lip's height, mm
   LeastLead least_lead;
 };
 using GrooveOf = std::function<HelixGroove(const Mechanism&)>;
