@@ -217,12 +217,12 @@ Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<Take
   condition.unit = "deg";
   condition.ok = condition.value > 0;
   if (!condition.ok) {
-    condition.message =
-        "P" + number(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
-        rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
-        (mechanism.pulley.winding == WindingChoice::automatic && mechanism.pulley.method == Method::exact
-             ? ", and only 'fusee build' winds several"
-             : "");
+    condition.message = "P" + number(side) + " would need " + rounded(degrees(active), 4) + "° of active arc and " +
+                        rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
+                        (mechanism.pulley.winding == WindingChoice::automatic &&
+                                 mechanism.pulley.method == Method::exact && !mechanism.sheath.is_there()
+                             ? ", and only 'fusee build' winds several"
+                             : "");
   }
   return condition;
 }

@@ -306,6 +306,16 @@ TEST(SeveralTurnsWords, SayWhatIsLeftOut) {
   }
 }
 
+/// Nothing else stands against this joint: the ratio that is advised builds.
+TEST(SeveralTurnsWords, SheathsKeepToOneTurnAndSayWhichRatioBuilds) {
+  const BuildResult built = made(read_profile("wrist_sheath", {{"pulley.ratio", "13"}}));
+  ASSERT_EQ(built.status, BuildStatus::infeasible);
+  EXPECT_THAT(failures_of(built),
+              HasSubstr("more than one turn (a tendon out of a sheath is not wound several times yet)"));
+  EXPECT_FALSE(built.advice.empty());
+  EXPECT_EQ(made(read_profile("wrist_sheath", {{"pulley.ratio", "4.55"}})).status, BuildStatus::done);
+}
+
 TEST(SeveralTurnsWords, RefuseWithAdviceThatBuilds) {
   const BuildResult built = made(read_profile("wrist_turns", {{"body.lead_mm", "1.2"}}));
   ASSERT_EQ(built.status, BuildStatus::infeasible);
