@@ -48,6 +48,14 @@ bool holds_truth(const std::vector<std::string>& group, const Case& made, const 
   });
 }
 
+/// How large a fault must be to show, rad at the joint, as the answer has it; 0 where it does not say.
+double detectable_size(const Calibration& found, const std::string& fault) {
+  for (const Detectable& one : found.detectable) {
+    if (one.name == fault) return one.smallest;
+  }
+  return 0;
+}
+
 /// The numbers of `fault` that `effect` reports.
 void add_covered(const std::string& fault, const FoundEffect& effect, const Case& made, std::vector<Covered>& all) {
   const auto numbers = find_fault(fault).numbers;
@@ -123,6 +131,7 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
   one.truth = made.truth;
   one.verdict = found.verdict;
   one.nothing = made.faults.empty();
+  std::string lost;
   for (std::size_t i = 0; i < made.faults.size(); ++i) {
     const std::string& fault = made.faults[i];
     if (is_outside(fault, without)) {
@@ -133,7 +142,14 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
     if (i < made.seen.size() && made.seen[i] < k_well_seen) continue;
     ++one.named;
     const auto in = [&](const FoundEffect& effect) { return holds(effect.group, fault); };
-    one.held += std::any_of(found.effects.begin(), found.effects.end(), in) ? 1 : 0;
+    const bool is_held = std::any_of(found.effects.begin(), found.effects.end(), in);
+    one.held += is_held ? 1 : 0;
+    if (!is_held) {
+      const double size = i < made.seen.size() ? made.seen[i] * made.sensors.noise : 0;
+      const double least = detectable_size(found, fault);
+      one.beyond += size >= least ? 1 : 0;
+      lost += "  (" + fault + " " + (least > 0 ? rounded(size / least, 2) : "?") + ")";
+    }
     one.held_by_names += std::any_of(found.effects.begin(), found.effects.end(),
                                      [&](const FoundEffect& e) { return in(e) && !holds(e.group, k_nameless); })
                              ? 1
@@ -159,6 +175,7 @@ Judgement judge(const Case& made, const Calibration& found, const std::vector<st
   one.words = made.truth + " #" + std::to_string(made.seed) + " (" + (seen.empty() ? "-" : seen) +
               " x noise): " + std::string(word(one.verdict)) + groups;
   for (const Covered& number : one.numbers) one.words += "  <" + number.name + " " + rounded(number.away, 2) + ">";
+  one.words += lost;
   if (found.unexplained_rms > 0) one.words += "  left " + rounded(found.unexplained_rms / found.noise.rms, 2);
   return one;
 }
@@ -218,6 +235,7 @@ Rates rates(const std::vector<Judgement>& judgements) {
     } else {
       all.miss.part += one.named - one.held;
       all.miss.all += one.named;
+      all.beyond += one.beyond;
     }
     if (one.nothing) {
       count(all.false_blame_nothing, blamed);
@@ -253,6 +271,8 @@ std::string rate_table(const std::vector<Judgement>& judgements) {
   row("in a reported group that does not say that it may be something without a name, the same", found.held_by_names);
   row("held: in a reported group, per fault with a name, where all have one",
       {found.miss.all - found.miss.part, found.miss.all});
+  row("the same, of those that are held or larger than what `detectable` says would have shown",
+      {found.miss.all - found.miss.part, found.miss.all - found.miss.part + found.beyond});
   row("kept: in a reported group, per fault with a name beside one without", found.kept);
   row("unexplained or not repeatable, per joint with a fault without a name", found.unexplained_outside);
   row("no effect, per joint as declared", found.quiet);

@@ -26,6 +26,7 @@ struct Judgement {
   std::size_t named = 0;             ///< faults that have a name and are well seen
   std::size_t held = 0;              ///< of these, in a reported group
   std::size_t held_by_names = 0;     ///< of these, in a group that does not say that it may be nothing with a name
+  std::size_t beyond = 0;            ///< of `named`, not held though more than `detectable` says would have shown
   std::size_t alone = 0;             ///< of these, named alone
   std::size_t false_groups = 0;  ///< reported groups whose names are neither a fault nor the kin of one without a name
   std::size_t false_names = 0;   ///< of these, that do not say that it may be nothing with a name
@@ -64,6 +65,7 @@ Bounds wilson(const Rate& rate);
 struct Rates {
   Rate miss;                 ///< faults with a name that stand in no reported group, where all faults have names
   Rate kept;                 ///< faults with a name that stand in a reported group, beside one without
+  std::size_t beyond = 0;    ///< of `miss`, more than `detectable` says would have shown
   Rate held_by_names;        ///< faults with a name that stand in a group of names alone, on all joints
   Rate alone;                ///< … and of these alone
   Rate false_blame;          ///< joints with a false group, all faults named or nothing there

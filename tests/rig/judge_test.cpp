@@ -64,6 +64,22 @@ TEST(Judge, a_group_that_may_be_nothing_with_a_name_blames_nobody) {
   EXPECT_EQ(found.alone.all, 2u);
 }
 
+// What the answer itself calls too small to show is counted apart: of the others it has to answer for each.
+TEST(Judge, tells_what_should_have_shown_from_what_could_not) {
+  Case made = with({"tendon_stretch", "backlash", "creep"});
+  made.seen = {5, 5, 5};
+  const double size = 5 * made.sensors.noise;
+  Calibration found = answer(CalibrationVerdict::confounded, {{"creep"}});
+  found.detectable = {{"tendon_stretch", 1.1 * size}, {"backlash", 0.9 * size}};
+  const Judgement one = judge(made, found);
+  EXPECT_EQ(one.named, 3u);
+  EXPECT_EQ(one.held, 1u);
+  EXPECT_EQ(one.beyond, 1u);
+  EXPECT_EQ(judge(made, answer(CalibrationVerdict::not_testable, {})).beyond, 3u)
+      << "what says nothing answers for all";
+  EXPECT_THAT(matrix({one}), HasSubstr("would have shown | 50.0 % | 2 |"));
+}
+
 // A sensor's interpolation error of eight waves a turn was named motor_sensor_harmonic, in whose catalogue are four.
 TEST(Judge, a_wave_without_a_name_is_not_given_one) {
   const Case made = make_case(random_truth(Kind::beside, "tuning", 31042), 31042, {Protocol::random, true});
