@@ -1,4 +1,5 @@
-// What a joint of the wider class is drilled by: plates with every axis where the file has it, and its drum.
+// What a joint of the wider class, or of tendons that climb, is drilled by: plates with every axis where the file has
+// it, and its drum.
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +62,10 @@ SlabBody plate_of(const std::vector<NamedHole>& holes, std::vector<Disc> more) {
 
 class TemplateMaker {
  public:
-  TemplateMaker(const Mechanism& mechanism, const BodyLayout& layout)
-      : mechanism_(mechanism), layout_(layout), axle_(thread_within(0.5 * smallest_lever())) {}
+  TemplateMaker(const Mechanism& mechanism, const BodyLayout& layout, const std::optional<TendonHeights>& heights)
+      : mechanism_(mechanism), layout_(layout), axle_(thread_within(0.5 * smallest_lever())) {
+    plan_.heights = heights;
+  }
 
   KitPlan made() {
     plan_.drilled = true;
@@ -84,9 +87,11 @@ class TemplateMaker {
     }
     plan_.parts.push_back({"fit_coupon", "the fit coupon: print it first", coupon_body(mechanism_), {}, 1, false});
     plan_.tendons[1].side = Side::right;
-    plan_.notes.push_back(
-        "of a joint with a drum, ends of its own, idlers or sheaths the kit has plates to drill by, true to size, and "
-        "the drum: no bearings, motor's holes, scale or encoder mount");
+    plan_.notes.push_back(std::string(plan_.heights ? "of a pulley wound several times"
+                                                    : "of a joint with a drum, ends of its own, idlers or sheaths") +
+                          " the kit has plates to drill by, true to size" +
+                          (plan_.heights && mechanism_.joint.drum_radius <= 0 ? "" : ", and the drum") +
+                          ": no bearings, motor's holes, scale or encoder mount");
     return plan_;
   }
 
@@ -133,14 +138,31 @@ class TemplateMaker {
 
   double ferrule() const { return std::max(1.5, mechanism_.tendon.diameter); }
 
+  /// Of a guide whose tendon climbs, or stands between collars.
+  std::string climb_words() const {
+    if (!plan_.heights) return "";
+    const auto of = [this](std::size_t i, const std::string& name) {
+      const TendonHeights::Span& on = plan_.heights->guides.at(i);
+      return name + (mechanism_.guides.collar ? " between collars at " + rounded(on.low, 4)
+                                              : " smooth from " + rounded(std::floor(on.low - margin()), 4) + " to " +
+                                                    rounded(std::ceil(on.high + margin()), 4));
+    };
+    return "; " + of(0, "B") + " mm, " + of(1, "D") + " mm above the pulley's lower face";
+  }
+  /// Above and below a tendon's centre line.
+  double margin() const { return mechanism_.tendon.diameter + 1; }
+
   void buy_guides() {
     const Guides& guides = mechanism_.guides;
     if (idlers())
-      plan_.items.push_back({2,
-                             "idler on a ball bearing, ⌀ " + rounded(2 * guides.radius, 4) + " at its groove's floor",
-                             "B and D, on " + std::string(thread_within(guides.bearing_radius).name) + " bolts"});
+      plan_.items.push_back(
+          {2,
+           std::string(plan_.heights && !guides.collar ? "roller" : "idler") + " on a ball bearing, ⌀ " +
+               rounded(2 * guides.radius, 4) + (plan_.heights && !guides.collar ? "" : " at its groove's floor"),
+           "B and D, on " + std::string(thread_within(guides.bearing_radius).name) + " bolts" + climb_words()});
     else
-      plan_.items.push_back({2, "steel rod ⌀ " + rounded(2 * guides.radius, 4), "pins B and D, pressed into the base"});
+      plan_.items.push_back(
+          {2, "steel rod ⌀ " + rounded(2 * guides.radius, 4), "pins B and D, pressed into the base" + climb_words()});
     if (mechanism_.sheath.is_there())
       plan_.items.push_back({2, "Bowden sheath, " + rounded(mechanism_.sheath.length, 4) + " mm, with ferrules",
                              "from pin to mouth; the pulley's part of the base may be cut off and stand elsewhere"});
@@ -166,7 +188,9 @@ class TemplateMaker {
                            true});
     if (!(drum > 0)) return;
     look_between(plan_, {{"drum", {2 * drum, 0}, drum}, {"axle", {0, 0}, 0.5 * axle_.clearance}});
-    const double high = layout_.z_p2 - layout_.z_p1 + 2 * (mechanism_.tendon.diameter + 1);
+    const double high =
+        (plan_.heights ? plan_.heights->drum.high - plan_.heights->drum.low : layout_.z_p2 - layout_.z_p1) +
+        2 * margin();
     plan_.parts.push_back(
         {"drum",
          "drum of the joint, as wide as both tendons: fixed to the link",
@@ -184,8 +208,9 @@ class TemplateMaker {
 
 }  // namespace
 
-KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout) {
-  return TemplateMaker(mechanism, layout).made();
+KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout,
+                      const std::optional<TendonHeights>& heights) {
+  return TemplateMaker(mechanism, layout, heights).made();
 }
 
 }  // namespace fusee
