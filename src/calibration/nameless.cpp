@@ -8,6 +8,7 @@
 #include <set>
 
 #include "calibration/marginal.h"
+#include "calibration/other_loads.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
@@ -17,7 +18,8 @@
 // bends at about the same place is cheaper though it is not there. So shapes with few numbers stand here beside the
 // catalogue, each as rare as an effect whose number is searched for. The joint is read twice, once with the effect and
 // once without, and either reading may take what has no name as long as that pays for itself. What the effect is ahead
-// by then is what the data say for its name, and not merely for something of its kind.
+// by then is what the data say for its name, and not merely for something of its kind. A load that is not as logged is
+// no shape, and is held against each name by fits of its own (other_loads.h).
 
 namespace fusee {
 namespace {
@@ -346,10 +348,17 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
     const Fit& base = i == 0 ? best : selection.without[i - 1];
     if (base.usable) readings[i] = reader.read(base, best.explained.amplitudes);
   });
+  const std::vector<UnderOtherLoads> loads = under_other_loads(evidence, workers, selection);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!selection.without[i].usable) continue;
     const Reading& instead = readings[i + 1];
     rivals[i].behind = readings.front().score - instead.score;
+    if (loads[i].score > instead.score) {
+      rivals[i].behind = readings.front().score - loads[i].score;
+      rivals[i].words = "loads of " + rounded(loads[i].times, 2) + " times what was logged";
+      rivals[i].separating_run = "hang a known weight where the load acts and compare it with what is logged";
+      continue;
+    }
     for (const std::size_t taken : instead.taken) {
       if (std::count(readings.front().taken.begin(), readings.front().taken.end(), taken)) continue;
       rivals[i].words = reader.shape(taken).words;

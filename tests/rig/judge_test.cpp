@@ -89,6 +89,20 @@ TEST(Judge, a_wave_without_a_name_is_not_given_one) {
   EXPECT_EQ(one.false_names, 0u) << one.words;
 }
 
+// A load cell that shows too little was named slack, alone and by 76 nats: a tendon goes slack where the load is larger
+// than logged. Slack that is there keeps its name.
+TEST(Judge, a_load_that_is_not_as_logged_is_no_slack) {
+  const Case wrong = make_case(random_truth(Kind::unknown, "tuning", 51005), 51005, {Protocol::random, true});
+  ASSERT_THAT(wrong.faults, ::testing::ElementsAre("wrong_load_cell"));
+  const Judgement one = calibrate_case(wrong, std::filesystem::path(::testing::TempDir()) / "cell");
+  EXPECT_EQ(one.false_names, 0u) << one.words;
+  EXPECT_THAT(one.words, HasSubstr("times what was logged"));
+  const Case slack = make_case(random_truth(Kind::beside, "tuning", 21022), 21022, {Protocol::random, true});
+  ASSERT_THAT(slack.faults, ::testing::ElementsAre("slack", "encoder_interpolation"));
+  const Judgement other = calibrate_case(slack, std::filesystem::path(::testing::TempDir()) / "slack");
+  EXPECT_EQ(other.held_by_names, 1u) << other.words;
+}
+
 TEST(Judge, kin_of_a_fault_without_a_name_is_no_false_blame) {
   const Judgement kin = judge(with({"grease"}), answer(CalibrationVerdict::explained, {{"sensor_lag"}}));
   EXPECT_FALSE(kin.outside.empty());
