@@ -82,9 +82,9 @@ std::string climbing_parameters(const Product& product) {
   const BodyLayout& layout = product.pulley.layout;
   return fmt::format(
              R"(// {} - a compound pulley for two tendons that are wound several times, in mm.
-// Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is z, the joint
-// lies towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the joint follow its law
-// and stay as they are.
+// Made by fusee. Bottom to top: flange, helical groove P1, middle flange, helical groove P2, flange, hub. The axis is z,
+// the joint lies towards +y. Change the numbers here or in the Customizer; the groove floors (P1, P2 below) make the
+// joint follow its law and stay as they are.
 
 /* [Bore] */
 )",
