@@ -395,6 +395,8 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
     return "joint.drum_radius_mm from 0 on has no interval form: a drum of hardly any radius is not the joint without "
            "one";
   if (problem.base.sheath.is_there()) return "a [sheath] has no interval form: its optimum cannot be certified";
+  if (objective == Objective::max_error && problem.base.joint.drum_mu > 0)
+    return "max_error with joint.drum_friction has no interval form: its optimum cannot be certified";
   if (problem.as_it_is)
     return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
   return "";
