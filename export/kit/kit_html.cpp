@@ -233,19 +233,26 @@ std::string key_section(const KitProduct& product) {
 }
 
 // ---- plates to drill by
-// ----------------------------------------------------------------------------------------------
 
-std::vector<std::string> template_words(const Mechanism& mechanism) {
+std::vector<std::string> template_words(const KitProduct& product) {
+  const Mechanism& mechanism = product.pulley.joint.mechanism;
   const bool idlers = mechanism.guides.kind == GuideKind::idler;
+  const bool climbs = product.plan.heights.has_value();
   std::vector<std::string> words{
       "Drill base and link by their plates, or cut them (kit.dxf): every hole stands where the file has its axis.",
-      idlers ? "Idlers onto bolts at B and D, their grooves at the heights of both tendons."
+      idlers ? climbs && !mechanism.guides.collar
+                   ? "Smooth rollers onto bolts at B and D, over all heights between which the tendons climb there."
+                   : "Idlers onto bolts at B and D, their grooves at the heights of both tendons."
              : "Rods into B and D, upright: the tendons run on their outer sides.",
       "The motor with the pulley at the large hole, P1 towards the base."};
   if (mechanism.joint.drum_radius > 0)
     words.push_back(
         "The drum under the link, both on the axle: glue or screw them to each other, so that the tendons " +
-        std::string("lie on the drum at the heights of P1 and P2."));
+        std::string("lie on the drum at the heights of ") + (climbs ? "the table." : "P1 and P2."));
+  if (climbs)
+    words.push_back(
+        "Tie the tendons to the link at their heights: a wrong one is a fleet angle, and the tendon climbs the rib "
+        "between two turns.");
   if (mechanism.sheath.is_there())
     words.push_back(
         "Sheaths from beside the pins, straight down there, to the mouths over the pulley. Their length and "
@@ -254,25 +261,55 @@ std::vector<std::string> template_words(const Mechanism& mechanism) {
   return words;
 }
 
+/// Of tendons that climb.
+std::string heights_section(const KitProduct& product) {
+  const TendonHeights& heights = *product.plan.heights;
+  const bool drum = product.pulley.joint.mechanism.joint.drum_radius > 0;
+  const auto between = [](const TendonHeights::Span& span) {
+    return span.high - span.low < 0.05 ? mm(span.low) : readable(span.low, 1) + " … " + mm(span.high);
+  };
+  std::string rows;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
+    rows += "<tr>" + html_cell(i == 0 ? "Tendon 1" : "Tendon 2") + html_number_cell(mm(heights.ends.at(i))) +
+            html_number_cell(between(heights.guides.at(i))) +
+            (drum ? html_number_cell(between(heights.drum)) : std::string()) + "</tr>";
+  std::vector<std::string> heads{"", "# its end on the link", "# on its guide"};
+  if (drum) heads.emplace_back("# both on the drum");
+  return html_section("heights", "How high the tendons run",
+                      "<p class=\"lead\">Above the pulley’s lower face, of the tendon’s centre line, over the whole "
+                      "range.</p>" +
+                          html_table(heads, rows));
+}
+
 std::string template_sections(const KitProduct& product) {
   const Mechanism& mechanism = product.pulley.joint.mechanism;
+  const bool climbs = product.plan.heights.has_value();
+  const std::vector<TendonLength> lengths = tendon_lengths(product.pulley);
   std::string rows, cuts;
-  for (const KitCut& cut : kit_cuts(product))
+  for (const KitCut& cut : kit_cuts(product)) {
+    const auto own =
+        std::find_if(lengths.begin(), lengths.end(), [&](const TendonLength& one) { return one.side == cut.side; });
     cuts += "<tr>" + html_cell(cut.side == Side::left ? "Tendon 1" : "Tendon 2") +
             html_number_cell(mm(cut.between_knots)) + html_number_cell(mm(cut.cut, 0)) +
+            (climbs ? html_number_cell(readable(own->lap_at_home / k_two_pi, 2)) : std::string()) +
             html_cell(winding_words(cut.side)) + "</tr>";
+  }
+  std::vector<std::string> heads{"", "# taut, at home", "# cut at"};
+  if (climbs) heads.emplace_back("# turns on the pulley at home");
+  heads.emplace_back("which way it is wound");
   for (const Condition& condition : product.plan.conditions)
     rows += "<tr>" + html_cell(plain_name(condition.name)) + html_number_cell(mm(condition.value, 2)) +
             html_number_cell(mm(condition.limit, 2)) + "</tr>";
   return html_section("assembly", "Where everything stands",
                       "<div class=\"pictures\"><div>" + inline_svg(kit_template_view(product)) + "</div><div>" +
-                          html_list(template_words(mechanism), "ol") + "</div></div>") +
+                          html_list(template_words(product), "ol") + "</div></div>") +
          html_section(
              "tendons", "Tendons",
-             html_table({"", "# taut, at home", "# cut at", "which way it is wound"}, cuts) +
+             html_table(heads, cuts) +
                  "<p class=\"hint\">Taut: from the knot on the pulley to that at its end on the link, with " +
                  std::string(mechanism.sheath.is_there() ? "what lies in its sheath" : "all that it runs over") +
                  ".</p>") +
+         (climbs ? heights_section(product) : std::string()) +
          html_section("fit", "Between holes", html_table({"", "# distance", "# at least"}, rows));
 }
 

@@ -259,6 +259,42 @@ Figure kit_plan_view(const KitProduct& product) {
   return figure;
 }
 
+namespace {
+
+/// Its pitch curve, or of several turns the one that its tendon leaves at home.
+Outline at_home(const Product& product, Side side) {
+  if (!product.helix) return side == Side::left ? product.synthesis.p1 : product.synthesis.p2;
+  const HelixSide& helix = product.helix->synthesis.sides.at(side == Side::left ? 0 : 1);
+  const auto home =
+      std::min_element(helix.stroke.begin(), helix.stroke.end(),
+                       [](const HelixPoint& a, const HelixPoint& b) { return std::abs(a.wound) < std::abs(b.wound); });
+  const double turn = helix.spiral.row_at(home->z).turn;
+  Outline outline;
+  outline.side = side;
+  for (const SpiralRow& row : helix.spiral.rows) {
+    if (std::abs(row.turn - turn) < k_pi)
+      outline.points.push_back({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho});
+  }
+  outline.active_last = outline.points.size() - 1;
+  return outline;
+}
+
+/// In the mechanism's frame.
+std::vector<Vec2> pitch_curve(const Product& product, Side side) {
+  const Vec2 axis = pulley_axis(product.joint.mechanism);
+  std::vector<Vec2> points;
+  if (product.helix) {
+    for (const SpiralRow& row : product.helix->synthesis.sides.at(side == Side::left ? 0 : 1).spiral.rows)
+      points.emplace_back(axis + Vec2(row.x, row.y));
+  } else {
+    for (const OutlinePoint& point : (side == Side::left ? product.synthesis.p1 : product.synthesis.p2).points)
+      points.emplace_back(axis + point.position);
+  }
+  return points;
+}
+
+}  // namespace
+
 Figure kit_template_view(const KitProduct& product) {
   const Product& made = product.pulley;
   const Mechanism& mechanism = made.joint.mechanism;
@@ -294,10 +330,8 @@ Figure kit_template_view(const KitProduct& product) {
     if (mechanism.guides.kind == GuideKind::idler) circle("kit-bought-top", pin.place, mechanism.guides.bearing_radius);
   }
   for (const Side side : {Side::left, Side::right}) {
-    const Outline& outline = side == Side::left ? made.synthesis.p1 : made.synthesis.p2;
-    Polygon pitch;
-    for (const OutlinePoint& point : outline.points) pitch.push_back(pulley_axis(mechanism) + point.position);
-    figure.body += svg_path("main", paper(shown(pitch)), true);
+    const Outline outline = at_home(made, side);
+    figure.body += svg_path("main", paper(shown(pitch_curve(made, side))), !made.helix);
     if (mechanism.sheath.is_there())
       figure.body += "<g class=\"kit-sheath\" style=\"fill:none;stroke:#c9b48a;stroke-width:7\"><path d=\"" +
                      path_data(paper(shown(sheath_curve(mechanism, side))), false) + "\"/></g>";

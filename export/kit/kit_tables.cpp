@@ -47,9 +47,20 @@ KitJson parts_json(const KitProduct& product) {
   return list;
 }
 
+KitJson heights_json(const TendonHeights& heights) {
+  const auto span = [](const TendonHeights::Span& of) { return KitJson{to_hand(of.low), to_hand(of.high)}; };
+  return {{"ends", {to_hand(heights.ends[0]), to_hand(heights.ends[1])}},
+          {"guides", {span(heights.guides[0]), span(heights.guides[1])}},
+          {"drum", span(heights.drum)}};
+}
+
 KitJson places_json(const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
-  if (plan.drilled) return {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}}};
+  if (plan.drilled) {
+    KitJson places = {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}}};
+    if (plan.heights) places["tendon_heights_mm"] = heights_json(*plan.heights);
+    return places;
+  }
   KitJson feet = KitJson::array();
   for (const Vec2& foot : plan.feet) feet.push_back(point_json(foot));
   return {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}},

@@ -40,9 +40,11 @@ TendonLength length_to(const Product& product, const Anchor& anchor) {
   result.joint_knot = attachment(mechanism, anchor.side, 0.0);
   const double groove = left ? layout.z_p1 : layout.z_p2, z = anchor.seat ? anchor.seat->z : groove;
   result.pulley_knot = layout.scale * Vec3(anchor.pocket.x(), anchor.pocket.y(), z);
+  const WoundArc wound = wound_arc(outline, contact, exit);
   result.between_knots =
-      above_pulley + lower_span + wound_arc(outline, contact, exit).length + (anchor.pocket - anchor.exit).norm() + std::abs(z - groove);
+      above_pulley + lower_span + wound.length + (anchor.pocket - anchor.exit).norm() + std::abs(z - groove);
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(mechanism.tendon));
+  result.lap_at_home = wound.turn;
   result.spare_lap = wound_arc(outline, outline.anchor_end(), exit).turn;
   return result;
 }
@@ -65,6 +67,7 @@ TendonLength length_on_helix(const Product& product, const HelicalAnchor& anchor
   result.between_knots =
       home->free + std::hypot(climb, climb / side.spiral.slope) + (anchor.pocket - anchor.exit).norm();
   result.cut = cut_length(result.between_knots + 2.0 * tendon_end(product.joint.mechanism.tendon));
+  result.lap_at_home = std::abs(end.turn - side.spiral.row_at(home->z).turn);
   const SpiralRow& used = rows.at(left ? side.spiral.last_used : side.spiral.first_used);
   result.spare_lap = std::abs(end.turn - used.turn);
   return result;

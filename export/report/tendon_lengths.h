@@ -17,6 +17,7 @@ struct TendonLength {
   Vec3 pulley_knot;          ///< middle of the knot pocket, in the frame of the mesh, mm
   double between_knots = 0;  ///< along the tendon's centre line, mm
   double cut = 0;            ///< between the knots, both knots, and a tail of 50 mm at each end to pull with; whole 5 mm
+  double lap_at_home = 0;    ///< on the groove between the anchor and where it leaves at home, rad
   double spare_lap = 0;      ///< on the groove between the anchor and the last point of contact at full pay-out, rad
 };
 

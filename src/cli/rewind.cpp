@@ -185,7 +185,8 @@ Command rewind_command() {
           "by hand, and compares the joint angle that they give with that of the mechanism\n"
           "file SPEC. A mesh that a slicer moved, dropped onto the bed, turned about its\n"
           "axis or turned over is found from its grooves and brought back, and what was\n"
-          "assumed is said; one that is mirrored or of another size is refused.",
+          "assumed is said; one that is mirrored or of another size is refused. Of a\n"
+          "pulley of several turns a mesh is wound where it lies.",
           options,
           {{"fusee rewind arm.toml out/arm/pulley.stl", "is the printed part right?"},
            {"fusee rewind arm.toml out/arm/profile.dxf", "is the drawing right?"},

@@ -2,6 +2,8 @@
 /// Internal: from places and sizes to bodies. mm
 #pragma once
 
+#include <optional>
+
 #include "fusee/kit/kit.h"
 
 namespace fusee {
@@ -28,8 +30,9 @@ double post_steepness(const Mechanism& mechanism);
 /// Fills parts, items and tendons of a plan whose conditions hold.
 void make_parts(KitPlan& plan, const Mechanism& mechanism, const BodyLayout& layout);
 
-/// Of a joint that is not the paper's: plates to drill by, and its drum.
-KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout);
+/// Of a joint that is not the paper's, or whose tendons climb: plates to drill by, and its drum.
+KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout,
+                      const std::optional<TendonHeights>& heights);
 
 /// "-20" in strokes that do not touch, to be engraved: `up` is the digits' height.
 std::vector<DiscHull> number_strokes(int number, const Vec2& middle, const Vec2& up);

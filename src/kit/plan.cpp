@@ -461,7 +461,7 @@ double shaft_of(const Mechanism& mechanism, const BodyLayout& layout) {
 }
 
 KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout) {
-  if (!mechanism.is_papers()) return plan_template(mechanism, layout);
+  if (!mechanism.is_papers()) return plan_template(mechanism, layout, std::nullopt);
   const Scene scene(mechanism);
   const std::vector<BearingType>& all = bearing_types();
   KitPlan plan;
@@ -475,6 +475,15 @@ KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, c
   add_notes(plan, mechanism, layout);
   make_parts(plan, mechanism, layout);
   return plan;
+}
+
+KitPlan plan_kit_of_turns(const Mechanism& mechanism, const BodyLayout& layout, const TendonHeights& heights) {
+  return plan_template(mechanism, layout, heights);
+}
+
+void TendonHeights::Span::see(double height) {
+  low = std::min(low, height);
+  high = std::max(high, height);
 }
 
 }  // namespace fusee

@@ -1,4 +1,5 @@
-// What a joint of the wider class is drilled by: plates with every axis where the file has it, and its drum.
+// What a joint of the wider class, or of tendons that climb, is drilled by: plates with every axis where the file has
+// it, and its drum.
 
 #include <algorithm>
 #include <cmath>
@@ -66,11 +67,13 @@ SlabBody plate_of(const std::vector<NamedHole>& holes, std::vector<Disc> more) {
 
 class TemplateMaker {
  public:
-  TemplateMaker(const Mechanism& mechanism, const BodyLayout& layout)
+  TemplateMaker(const Mechanism& mechanism, const BodyLayout& layout, const std::optional<TendonHeights>& heights)
       : mechanism_(mechanism),
         layout_(layout),
         bearing_(largest_bearing()),
-        axle_(thread_within(bearing_ ? bearing_->bore : 0.5 * smallest_lever())) {}
+        axle_(thread_within(bearing_ ? bearing_->bore : 0.5 * smallest_lever())) {
+    plan_.heights = heights;
+  }
 
   KitPlan made() {
     plan_.drilled = true;
@@ -92,9 +95,12 @@ class TemplateMaker {
     }
     plan_.parts.push_back({"fit_coupon", "the fit coupon: print it first", coupon_body(mechanism_), {}, 1, false});
     plan_.tendons[1].side = Side::right;
-    plan_.notes.push_back(
-        "of a joint with a drum, ends of its own, idlers or sheaths the kit has plates to drill by, true to size, with "
-        "the seats of its bearings and its motor's holes, and the drum: no scale, tensioner or encoder mount");
+    plan_.notes.push_back(std::string(plan_.heights ? "of a pulley wound several times"
+                                                    : "of a joint with a drum, ends of its own, idlers or sheaths") +
+                          " the kit has plates to drill by, true to size, with the seats of its bearings and its "
+                          "motor's holes" +
+                          (plan_.heights && !has_drum() ? "" : ", and the drum") +
+                          ": no scale, tensioner or encoder mount");
     return plan_;
   }
 
@@ -190,7 +196,10 @@ class TemplateMaker {
     return motor;
   }
 
-  double drum_height() const { return layout_.z_p2 - layout_.z_p1 + 2 * (mechanism_.tendon.diameter + 1); }
+  double drum_height() const {
+    const auto& heights = plan_.heights;
+    return (heights ? heights->drum.high - heights->drum.low : layout_.z_p2 - layout_.z_p1) + 2 * margin();
+  }
   bool has_drum() const { return mechanism_.joint.drum_radius > 0; }
 
   void buy_axle() {
@@ -219,14 +228,31 @@ class TemplateMaker {
 
   double ferrule() const { return std::max(1.5, mechanism_.tendon.diameter); }
 
+  /// Of a guide whose tendon climbs, or stands between collars.
+  std::string climb_words() const {
+    if (!plan_.heights) return "";
+    const auto of = [this](std::size_t i, const std::string& name) {
+      const TendonHeights::Span& on = plan_.heights->guides.at(i);
+      return name + (mechanism_.guides.collar ? " between collars at " + rounded(on.low, 4)
+                                              : " smooth from " + rounded(std::floor(on.low - margin()), 4) + " to " +
+                                                    rounded(std::ceil(on.high + margin()), 4));
+    };
+    return "; " + of(0, "B") + " mm, " + of(1, "D") + " mm above the pulley's lower face";
+  }
+  /// Above and below a tendon's centre line.
+  double margin() const { return mechanism_.tendon.diameter + 1; }
+
   void buy_guides() {
     const Guides& guides = mechanism_.guides;
     if (idlers())
-      plan_.items.push_back({2,
-                             "idler on a ball bearing, ⌀ " + rounded(2 * guides.radius, 4) + " at its groove's floor",
-                             "B and D, on " + std::string(thread_within(guides.bearing_radius).name) + " bolts"});
+      plan_.items.push_back(
+          {2,
+           std::string(plan_.heights && !guides.collar ? "roller" : "idler") + " on a ball bearing, ⌀ " +
+               rounded(2 * guides.radius, 4) + (plan_.heights && !guides.collar ? "" : " at its groove's floor"),
+           "B and D, on " + std::string(thread_within(guides.bearing_radius).name) + " bolts" + climb_words()});
     else
-      plan_.items.push_back({2, "steel rod ⌀ " + rounded(2 * guides.radius, 4), "pins B and D, pressed into the base"});
+      plan_.items.push_back(
+          {2, "steel rod ⌀ " + rounded(2 * guides.radius, 4), "pins B and D, pressed into the base" + climb_words()});
     if (mechanism_.sheath.is_there())
       plan_.items.push_back({2, "Bowden sheath, " + rounded(mechanism_.sheath.length, 4) + " mm, with ferrules",
                              "from pin to mouth; the pulley's part of the base may be cut off and stand elsewhere"});
@@ -283,8 +309,9 @@ class TemplateMaker {
 
 }  // namespace
 
-KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout) {
-  return TemplateMaker(mechanism, layout).made();
+KitPlan plan_template(const Mechanism& mechanism, const BodyLayout& layout,
+                      const std::optional<TendonHeights>& heights) {
+  return TemplateMaker(mechanism, layout, heights).made();
 }
 
 }  // namespace fusee

@@ -313,35 +313,6 @@ void write_texts(Workshop& shop) {
   shop.stage("manifest.json", shop.take(manifest));
 }
 
-/// Of several turns. A string on a polygon whose corners lie on its curve is short by a share of the tolerance for each
-/// radian that it is wound: where that is too much over the range, the curves are drawn once more, as finely as the
-/// limit asks for (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
-bool design_turns_within(Product& product, double tolerance, const AsBuiltLimits& limits,
-                         const std::function<void(std::string_view step)>& before_step) {
-  if (!design_several_turns(product, tolerance, before_step)) return false;
-  double furthest = 0;  // rad
-  for (const TransmissionPoint& place : product.synthesis.stroke) furthest = std::max(furthest, std::abs(place.alpha));
-  if (furthest * tolerance <= limits.slack) return true;
-  const RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
-  if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
-  return design_several_turns(product, 0.5 * limits.slack / furthest, before_step);
-}
-
-/// One turn where it suffices, else several: false when neither can be made. Where several are not for this file, what
-/// keeps it to one is said.
-bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits,
-                const std::function<void(std::string_view step)>& before_step,
-                TieOffSearch search = TieOffSearch::thorough) {
-  if (design(product, tolerance, before_step, search)) return true;
-  if (!need_several_turns(product.synthesis)) return false;
-  const auto kept = kept_to_one_turn(product.file.mechanism);
-  if (!kept) return design_turns_within(product, tolerance, limits, before_step);
-  for (Condition& condition : product.synthesis.conditions) {
-    if (!condition.ok) condition.message += " (" + *kept + ")";
-  }
-  return false;
-}
-
 bool passes_checks_of_several_turns(const Product& product, const BuildOptions& options) {
   const Mechanism& mechanism = product.joint.mechanism;
   const TriangleMesh& mesh = product.pulley.mesh;

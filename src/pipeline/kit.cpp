@@ -99,6 +99,7 @@ std::vector<Condition> obstacles_to_kit(const DeclaredMechanism& declared) {
 }
 
 KitPlan plan_of(const Product& pulley) {
+  if (pulley.helix) return plan_kit_of_turns(pulley.joint.mechanism, pulley.pulley.layout, tendon_heights(pulley));
   return plan_kit(pulley.joint.mechanism, pulley.synthesis, pulley.pulley.layout);
 }
 
@@ -108,16 +109,21 @@ bool has_kit(const MechanismFile& file, double tolerance) {
     Product pulley;
     pulley.file = file;
     pulley.joint = as_it_is(file.mechanism);
-    return design(pulley, tolerance, {}, TieOffSearch::brief) && plan_of(pulley).made();
+    return design_any(pulley, tolerance, {}, {}, TieOffSearch::brief) && plan_of(pulley).made();
   } catch (const InputError&) {
     return false;
   }
 }
 
 /// What would make room for a model whose pulley can be made.
-Advice advice_for_kit(const MechanismFile& file, const KitOptions& options) {
+Advice advice_for_kit(const MechanismFile& file, const KitProduct& product, const KitOptions& options) {
+  const KitPlan& plan = product.plan;
   const Judge judge{
-      .obstacles = [&](const Mechanism& changed) { return obstacles_to_kit(with_declared(file, changed).mechanism); },
+      .obstacles =
+          [&](const Mechanism& changed) {
+            if (!plan.heights) return obstacles_to_kit(with_declared(file, changed).mechanism);
+            return failed_of(plan_kit_of_turns(changed, product.pulley.pulley.layout, *plan.heights).conditions);
+          },
       .made = [&](const Mechanism& changed) { return has_kit(with_declared(file, changed), options.tolerance); }};
   Advice advice = find_advice(file.mechanism, judge, {"body.flange_thickness_mm"});
   // No step leads away from a pin that is a point.
@@ -156,11 +162,6 @@ std::vector<Check> kit_fit_checks(const KitPlan& plan) {
 }
 
 KitResult kit(const MechanismFile& file, const KitOptions& options) {
-  if (note_on_turns(file)) {
-    throw InputError(Diagnostic{Severity::error, file.place_of("pulley.winding"),
-                                "the test model is of one turn, and this pulley takes several",
-                                "fusee build makes it; for a kit: a larger pulley.r1_mm, or a smaller joint.range_deg"});
-  }
   KitResult result;
   KitProduct& product = result.product;
   product.pulley.file = with_doubts(file);
@@ -168,7 +169,7 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
   OutputFolder target(options.folder, options.force);
   target.claim(
       {"kit.dxf", "bom.csv", "kit.html", "manifest.json"});  // before the work: a refusal should not cost a wait
-  if (!design(product.pulley, options.tolerance, options.before_step)) {
+  if (!design_any(product.pulley, options.tolerance, {}, options.before_step)) {
     result.ending = KitEnding::no_pulley;
     return result;
   }
@@ -178,13 +179,14 @@ KitResult kit(const MechanismFile& file, const KitOptions& options) {
   if (!product.plan.made()) {
     result.ending = KitEnding::no_kit;
     say(options, "looking for what would make room");
-    result.advice = advice_for_kit(file, options);
+    result.advice = advice_for_kit(file, product, options);
     return result;
   }
   const PlanOptions bench;
   auto planned = beside([&] { return plan_runs(file.mechanism, bench); });
   target.claim(kit_names(product.plan));
-  product.pulley.holding = tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);
+  if (!product.pulley.helix)
+    product.pulley.holding = tendon_holding(mechanism, product.pulley.synthesis, product.pulley.pulley);
   product.bench = {product.pulley.file, bench.noise, bench.minutes, planned.get()};
   make_files(result, options);
   result.ending = all_ok(product.checks) ? KitEnding::done : KitEnding::check_failed;

@@ -9,6 +9,7 @@
 #include "fusee/pipeline.h"
 #include "fusee/profile/rewind.h"
 #include "fusee/solid/layout.h"
+#include "pipeline/several_turns.h"
 
 namespace fusee {
 namespace {
@@ -81,8 +82,10 @@ struct RightPart {
   GrooveFloors floors;
 };
 
+SynthesisResult declared_curves(const JointAsItIs& joint) { return synthesise(joint.mechanism, {.advice = false}); }
+
 RightPart right_part(const JointAsItIs& joint) {
-  SynthesisResult synthesis = synthesise(joint.mechanism, {.advice = false});
+  SynthesisResult synthesis = declared_curves(joint);
   if (!synthesis.made()) throw InputError("", "no pulley of this mechanism can be made: " + synthesis.brief());
   draw_for_making(synthesis, joint.outline);
   const BodyLayout layout = resolve_layout(joint.mechanism, synthesis);
@@ -186,6 +189,36 @@ RewoundPart rewind_placed(const JointAsItIs& joint, std::vector<Placement> place
   return result;
 }
 
+// ---- a part whose grooves climb ------------------------------------------------------------------
+
+bool climbs(const JointAsItIs& joint) {
+  return need_several_turns(declared_curves(joint)) && !kept_to_one_turn(joint.mechanism);
+}
+
+RewindResult rewind_climbing(const JointAsItIs& joint, const Part& part) {
+  const auto* mesh = std::get_if<TriangleMesh>(&part);
+  if (mesh == nullptr)
+    throw InputError("", "the grooves of this mechanism's pulley climb: nothing can be wound on a drawing of them",
+                     "wind it on the mesh: pulley.stl");
+  Product right;
+  right.joint = joint;
+  if (!design_several_turns(right, BuildOptions().tolerance, {})) {
+    std::string why = right.synthesis.made() ? "" : right.synthesis.brief();
+    for (const Condition& condition : right.pulley.conditions)
+      if (!condition.ok && why.empty()) why = condition.message;
+    throw InputError("", "no pulley of this mechanism can be made: " + why);
+  }
+  return rewind_several_turns(right, *mesh).result;
+}
+
+/// Where it lies, axis along z: a move would be looked for in grooves of one height each.
+RewoundPart rewind_climbing_as_it_lies(const JointAsItIs& joint, const Part& part) {
+  constexpr double k_another = radians(0.5);
+  RewoundPart result{rewind_climbing(joint, part), PartPlace::as_made, {}};
+  if (!(result.as_built.max_theta_error < k_another)) result.place = PartPlace::not_recognised;
+  return result;
+}
+
 bool is_finite(const TriangleMesh& mesh) {
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& vertex) { return vertex.allFinite(); });
 }
@@ -223,6 +256,7 @@ RewoundPart rewind_moved_mesh(const JointAsItIs& joint, const TriangleMesh& mesh
 }  // namespace
 
 RewindResult rewind_part(const JointAsItIs& joint, const Part& part) {
+  if (climbs(joint)) return rewind_climbing(joint, part);
   if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_mesh(joint, right_part(joint).layout, *mesh);
   return rewind_drawing(joint, std::get<Drawing>(part));
 }
@@ -237,6 +271,7 @@ RewindResult rewind_floors(const JointAsItIs& joint, const BodyLayout& layout, c
 }
 
 RewoundPart rewind_moved_part(const JointAsItIs& joint, const Part& part) {
+  if (climbs(joint)) return rewind_climbing_as_it_lies(joint, part);
   if (const auto* mesh = std::get_if<TriangleMesh>(&part)) return rewind_moved_mesh(joint, *mesh);
   return {rewind_drawing(joint, std::get<Drawing>(part)), PartPlace::as_made, {}};
 }

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "fusee/export/product.h"
+#include "fusee/kit/kit.h"
+#include "fusee/pipeline.h"
 #include "fusee/profile/advice.h"
 
 namespace fusee {
@@ -24,6 +26,15 @@ MechanismFile with_doubts_and_turns(MechanismFile file);
 /// Spirals and body of product.joint in place of what one turn could not be; as design() otherwise.
 bool design_several_turns(Product& product, double tolerance,
                           const std::function<void(std::string_view step)>& before_step);
+
+/// One turn where it suffices, else several: false when neither can be made. Where several are not for this file, what
+/// keeps it to one is said.
+bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits,
+                const std::function<void(std::string_view step)>& before_step,
+                TieOffSearch search = TieOffSearch::thorough);
+
+/// Where its tendons lie above the pulley's lower face, on guides and drum.
+TendonHeights tendon_heights(const Product& product);
 
 /// Tendons wound in space on the grooves of a mesh of it.
 HelicalRewind rewind_several_turns(const Product& product, const TriangleMesh& mesh);

@@ -325,9 +325,9 @@ void erase_collapsed(TriangleMesh& mesh) {
 }
 
 // Rounding may make the ends of a very short edge one: the edge is collapsed, the facets beside it are gone. So are
-// those that are no longer than some grains of a float: the facets beside them have a normal that nobody can compute.
+// those of edges of some grains of a float: nobody can compute their normals.
 TriangleMesh without_short_edges(const TriangleMesh& rounded) {
-  constexpr double k_short = 2.0 * k_float_grain;
+  constexpr double k_short = 5.0 * k_float_grain;
   TriangleMesh mesh = without_collapsed_facets(rounded);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const auto& triangle : mesh.triangles) {
@@ -343,25 +343,63 @@ TriangleMesh without_short_edges(const TriangleMesh& rounded) {
   return mesh;
 }
 
-// Rounding may put a facet's three corners on a line. It lies along its longest edge: the two facets on that edge are
-// divided the other way.
+struct FacetSide {
+  std::uint32_t from, to, opposite;
+};
+
+FacetSide longest_side(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  const auto length = [&](std::size_t k) {
+    return (mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]]).squaredNorm();
+  };
+  const std::size_t k = length(0) >= length(1) ? (length(0) >= length(2) ? 0 : 2) : (length(1) >= length(2) ? 1 : 2);
+  return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]};
+}
+
+Vec3 area_vector(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+}
+
+// From the longest side to the corner across.
+double height(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  const FacetSide along = longest_side(mesh, t);
+  return area_vector(mesh, t).norm() / (mesh.vertices[along.to] - mesh.vertices[along.from]).norm();
+}
+
+constexpr double k_flat = 0.1 * k_float_grain;
+
+// A flat facet and the one beyond its longest side are divided the other way: not where one of the two that come of it
+// would be hardly better (as when that one is as flat: it goes first), or look elsewhere, or stand beside itself.
+bool flipped(TriangleMesh& mesh, std::array<std::uint32_t, 3>& flat) {
+  constexpr double k_better = 10.0;
+  const auto [p, q, r] = longest_side(mesh, flat);
+  const auto runs_back = [p = p, q = q](const auto& t) {
+    return (t[0] == q && t[1] == p) || (t[1] == q && t[2] == p) || (t[2] == q && t[0] == p);
+  };
+  const auto beside = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), runs_back);
+  if (beside == mesh.triangles.end()) return false;
+  const std::uint32_t s = (*beside)[0] + (*beside)[1] + (*beside)[2] - p - q;
+  const auto spans = [r = r, s](const auto& t) { return has(t, r) && has(t, s); };
+  if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), spans)) return false;
+  const std::array<std::uint32_t, 3> one{p, s, r}, other{s, q, r};
+  const Vec3 outward = area_vector(mesh, *beside);
+  const double needed = std::max(k_flat, k_better * height(mesh, flat));
+  for (const auto& made : {one, other})
+    if (height(mesh, made) < needed || !(area_vector(mesh, made).dot(outward) > 0)) return false;
+  flat = one;
+  *beside = other;
+  return true;
+}
+
+// Rounding may put a facet's three corners on a line, or nearly (no higher than this, a flip moves nothing into its
+// neighbours). Each flip lets the next one of a fan follow.
 void flip_flat_facets(TriangleMesh& mesh) {
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (!is_degenerate(mesh, f)) continue;
-    auto& flat = mesh.triangles[f];
-    const auto length = [&](std::size_t k) {
-      return (mesh.vertices[flat[(k + 1) % 3]] - mesh.vertices[flat[k]]).squaredNorm();
-    };
-    const std::size_t k = length(0) >= length(1) ? (length(0) >= length(2) ? 0 : 2) : (length(1) >= length(2) ? 1 : 2);
-    const std::uint32_t p = flat[k], q = flat[(k + 1) % 3], r = flat[(k + 2) % 3];
-    const auto runs_back = [p, q](const auto& t) {
-      return (t[0] == q && t[1] == p) || (t[1] == q && t[2] == p) || (t[2] == q && t[0] == p);
-    };
-    const auto beside = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), runs_back);
-    if (beside == mesh.triangles.end()) continue;
-    const std::uint32_t s = (*beside)[0] + (*beside)[1] + (*beside)[2] - p - q;
-    flat = {p, s, r};
-    *beside = {s, q, r};
+  std::vector<std::size_t> flat;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    if (height(mesh, mesh.triangles[f]) < k_flat) flat.push_back(f);
+  const auto mend = [&mesh](std::size_t f) { return flipped(mesh, mesh.triangles[f]); };
+  for (std::size_t left = flat.size() + 1; left > flat.size();) {
+    left = flat.size();
+    std::erase_if(flat, mend);
   }
 }
 

@@ -165,9 +165,6 @@ void add_plans(std::vector<PinnedRun>& all) {
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml"))
     all.push_back({"plan/" + spec.stem().string(), [spec] { return planned(spec); }});
   for (const fs::path& spec : files_in(k_root / "profiles", "", ".toml")) {
-    // Of pulleys of several turns there is no test model.
-    const fs::path name = spec.stem();
-    if (name == "wrist_turns" || name == "elbow_capstan" || name == "fusee_proper") continue;
     // One drawing for an old cutter stands for all.
     const DxfVersion dxf = spec.stem() == "unsymmetric" ? DxfVersion::r12 : DxfVersion::ac1015;
     all.push_back({"kit/" + spec.stem().string(), [spec, dxf] { return kits(spec, dxf); }});

@@ -8,9 +8,11 @@
 #include <sstream>
 #include <vector>
 
+#include "export/report/tendon_trace.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/coil/helical_rewind.h"
 #include "fusee/export/drawings.h"
+#include "fusee/export/mesh_files.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 #include "fusee/pipeline/kit.h"
@@ -403,16 +405,173 @@ TEST(SeveralTurnsBodies, ThatOnceWentWrong) {
   EXPECT_EQ(aside.status, BuildStatus::done) << failures_of(aside);
 }
 
-TEST(SeveralTurnsWords, AKitIsNotMade) {
+// ---- wound on a file of it
+
+/// As the build found it, on any of its meshes; what shrinks is printed larger.
+TEST_P(SeveralTurns, AreWoundOnTheirFiles) {
+  const MechanismFile file = read_profile(GetParam(), {{"material.shrinkage_percent", "0.8"}});
+  const BuildResult built = made(file);
+  ASSERT_EQ(built.status, BuildStatus::done) << failures_of(built);
+  for (const char* name : {"pulley.stl", "pulley.3mf", "pulley.drc"}) {
+    const TriangleMesh mesh = read_mesh(text_of(built, name), name);
+    const RewoundPart wound = rewind_moved_part(as_it_is(file.mechanism), mesh);
+    EXPECT_EQ(wound.place, PartPlace::as_made) << name;
+    EXPECT_LT(degrees(wound.as_built.max_theta_error), 0.0005) << name;
+    EXPECT_EQ(wound.as_built.points.size(), built.product.as_built.points.size());
+    TriangleMesh moved = mesh;
+    for (Vec3& vertex : moved.vertices) vertex.x() += 0.2;
+    EXPECT_GT(degrees(rewind_part(as_it_is(file.mechanism), moved).max_theta_error), 0.01) << name;
+  }
+}
+
+TEST(SeveralTurnsWords, ADrawingOfThemIsNotWound) {
+  try {
+    rewind_part(as_it_is(read_profile("wrist_turns").mechanism), Drawing{});
+    FAIL() << "wound on a drawing";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("pulley.stl"));
+  }
+}
+
+// ---- the kit
+
+/// A turn of the spiral about the row `turn`, as a curve of its own in plan.
+Outline turn_about(const Spiral& spiral, Side side, double turn) {
+  Outline outline;
+  outline.side = side;
+  for (const SpiralRow& row : spiral.rows) {
+    if (std::abs(row.turn - turn) < k_pi)
+      outline.points.push_back({row.turn, Vec2(row.x, row.y), unit(row.turn), row.rho});
+  }
+  outline.active_last = outline.points.size() - 1;
+  return outline;
+}
+
+/// A tendon at one place of the stroke, by tangents to what is drawn: from its end on the joint to the row it leaves.
+struct Strung {
+  TendonTrace trace;
+  std::size_t row = 0;
+};
+Strung strung(const Product& product, Side side, std::size_t place) {
+  const HelixSide& helix = product.helix->synthesis.sides.at(side == Side::left ? 0 : 1);
+  const double z = helix.stroke.at(place).z;
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < helix.spiral.rows.size(); ++i)
+    if (std::abs(helix.spiral.rows[i].z - z) < std::abs(helix.spiral.rows[near].z - z)) near = i;
+  const TransmissionPoint& at = product.synthesis.stroke.at(place);
+  const auto trace = trace_tendon(product.joint.mechanism, turn_about(helix.spiral, side, helix.spiral.rows[near].turn),
+                                  at.alpha, at.theta);
+  EXPECT_TRUE(trace.has_value());
+  const Vec2 left = turned(trace->take_off - pulley_axis(product.joint.mechanism), at.alpha);
+  std::size_t row = near;
+  double nearest = 1e9;
+  for (std::size_t i = 0; i < helix.spiral.rows.size(); ++i) {
+    const SpiralRow& own = helix.spiral.rows[i];
+    const double off = std::hypot(own.x - left.x(), own.y - left.y());
+    if (std::abs(own.turn - helix.spiral.rows[near].turn) > 3.0 || off >= nearest) continue;
+    nearest = off;
+    row = i;
+  }
+  return {*trace, row};
+}
+
+double planar(const std::vector<Vec2>& path, std::size_t last) {
+  double length = 0;
+  for (std::size_t i = 0; i < last; ++i) length += (path[i + 1] - path[i]).norm();
+  return length;
+}
+
+class SeveralTurnsKit : public ::testing::TestWithParam<std::string> {
+ protected:
+  static KitResult made_kit() {
+    KitOptions options;
+    options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
+    options.dry_run = true;
+    return kit(read_profile(GetParam()), options);
+  }
+};
+
+/// The cut from knot to knot: over the drawn path in plan with its rise, along the rows in space, and to the pocket.
+TEST_P(SeveralTurnsKit, CutsTendonsAsLongAsTheyAreWound) {
+  const KitResult made = made_kit();
+  ASSERT_EQ(made.ending, KitEnding::done);
+  const Product& product = made.product.pulley;
+  const auto& stroke = product.synthesis.stroke;
+  std::size_t home = 0;
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    if (std::abs(stroke[i].alpha) < std::abs(stroke[home].alpha)) home = i;
+  const std::vector<KitCut> cuts = kit_cuts(made.product);
+  ASSERT_EQ(cuts.size(), 2u);
+  for (const KitCut& cut : cuts) {
+    const HelixSide& side = product.helix->synthesis.sides.at(cut.side == Side::left ? 0 : 1);
+    const std::vector<SpiralRow>& rows = side.spiral.rows;
+    const auto [trace, row] = strung(product, cut.side, home);
+    double length = std::hypot(trace.free_length, rows[row].z - side.attachment_z);
+    const std::size_t end = cut.side == Side::left ? rows.size() - 1 : 0;
+    for (std::size_t i = std::min(row, end); i < std::max(row, end); ++i)
+      length += Vec3(rows[i + 1].x - rows[i].x, rows[i + 1].y - rows[i].y, rows[i + 1].z - rows[i].z).norm();
+    for (const HelicalAnchor& anchor : product.helix->pulley.anchors)
+      if (anchor.side == cut.side) length += (anchor.pocket - anchor.exit).norm();
+    EXPECT_NEAR(cut.between_knots, length, 0.05) << GetParam();
+    EXPECT_GT(cut.cut, cut.between_knots + 100);
+  }
+}
+
+/// Over drum and pins a tendon rises evenly: between the heights that are given, and once to each of them.
+TEST_P(SeveralTurnsKit, SaysHowHighTheTendonsRun) {
+  const KitResult made = made_kit();
+  ASSERT_TRUE(made.product.plan.heights);
+  const TendonHeights& heights = *made.product.plan.heights;
+  const Product& product = made.product.pulley;
+  TendonHeights::Span on_drum;
+  for (const Side side : {Side::left, Side::right}) {
+    const std::size_t i = side == Side::left ? 0 : 1;
+    const HelixSide& helix = product.helix->synthesis.sides.at(i);
+    const SpiralPlace& lies = i == 0 ? product.helix->pulley.p1 : product.helix->pulley.p2;
+    const double end = lies.height(helix.attachment_z);
+    EXPECT_NEAR(heights.ends.at(i), end, 1e-9);
+    on_drum.see(end);
+    TendonHeights::Span on_guide;
+    for (std::size_t k = 0; k < product.synthesis.stroke.size(); k += 5) {
+      const auto [trace, row] = strung(product, side, k);
+      const double off = lies.height(helix.spiral.rows[row].z);
+      const auto height = [&](std::size_t point) {
+        return end + (off - end) * planar(trace.free_path, point) / planar(trace.free_path, trace.free_path.size() - 1);
+      };
+      for (std::size_t point = 0; point < trace.free_path.size(); ++point) {
+        const Vec2 at = trace.free_path[point];
+        if ((at - pin_centre(product.joint.mechanism, side)).norm() <
+            product.joint.mechanism.guide_pitch_radius() + 1e-6)
+          on_guide.see(height(point));
+        if (at.norm() < product.joint.mechanism.joint.drum_radius + product.joint.mechanism.tendon.diameter)
+          on_drum.see(height(point));
+      }
+    }
+    EXPECT_NEAR(on_guide.low, heights.guides.at(i).low, 0.1) << GetParam();
+    EXPECT_NEAR(on_guide.high, heights.guides.at(i).high, 0.1) << GetParam();
+  }
+  EXPECT_NEAR(on_drum.low, heights.drum.low, 0.1) << GetParam();
+  EXPECT_NEAR(on_drum.high, heights.drum.high, 0.1) << GetParam();
+  for (const KitPart& part : made.product.plan.parts) {
+    if (part.name != "drum") continue;
+    const Bounds box = bounds(mesh_of(part.body));
+    EXPECT_NEAR(box.high.z() - box.low.z(),
+                heights.drum.high - heights.drum.low + 2 * (product.joint.mechanism.tendon.diameter + 1), 1e-5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurnsKit, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
+                         [](const auto& which) { return which.param; });
+
+/// What stands in the way is said, with what was seen to make room.
+TEST(SeveralTurnsKitWords, SaysWhatWouldMakeRoom) {
   KitOptions options;
   options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
   options.dry_run = true;
-  try {
-    kit(read_profile("wrist_turns"), options);
-    FAIL() << "a kit was made";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the test model is of one turn"));
-  }
+  const KitResult refused = kit(read_profile("wrist_turns", {{"guides.radius_mm", "0.2"}}), options);
+  EXPECT_EQ(refused.ending, KitEnding::no_kit);
+  ASSERT_FALSE(refused.advice.alone.empty());
+  EXPECT_EQ(refused.advice.alone.front().key, "guides.radius_mm");
 }
 
 }  // namespace

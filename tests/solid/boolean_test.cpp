@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -93,6 +94,39 @@ TEST(Boolean, LeavesNoEdgesOfSomeGrainsOfAFloat) {
       EXPECT_GT(shortest_edge(result->mesh), 0.1) << hair;
     }
   }
+}
+
+/// Of the facet whose corners are nearest to a line: from its longest side to the corner across, mm.
+double flattest(const TriangleMesh& mesh) {
+  double least = 1e9;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+    const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
+    least = std::min(least, (q - p).cross(r - p).norm() / longest);
+  }
+  return least;
+}
+
+/// The body with three corners on its edge at x = y = 0, as far beside it as 1e-17 mm: only one of the two faces there
+/// is divided at them, and between the faces stand three facets of next to no height, a fan about the upper end. A
+/// hexagonal bore that runs through a pocket for a knot leaves them.
+TriangleMesh body_with_a_fan_of_flat_facets() {
+  TriangleMesh mesh;
+  for (const double z : {0.0, 10.0})
+    mesh.vertices.insert(mesh.vertices.end(), {{0, 0, z}, {10, 0, z}, {10, 10, z}, {0, 10, z}});
+  for (const double k : {1.0, 2.0, 3.0}) mesh.vertices.emplace_back(1e-17 * k, 0, 2.5 * k);
+  mesh.triangles = {{0, 2, 1},  {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {2, 3, 7}, {2, 7, 6},
+                    {1, 2, 6},  {1, 6, 5}, {0, 4, 7}, {0, 7, 3}, {0, 1, 5}, {5, 4, 10},
+                    {5, 10, 9}, {5, 9, 8}, {5, 8, 0}, {4, 0, 8}, {4, 8, 9}, {4, 9, 10}};
+  return mesh;
+}
+
+TEST(Boolean, LeavesNoFlatFacets) {
+  const TriangleMesh body = body_with_a_fan_of_flat_facets();
+  ASSERT_LT(flattest(body), 1e-16);
+  const auto result = subtract(body, box({8, 8, -1}, {9, 9, 11}));
+  expect_solid(result, 1000 - 10, 10);
+  EXPECT_GT(flattest(result->mesh), 0.01);
 }
 
 // Faces that are one: the tool ends in a face of the body, from within and from without.

@@ -2,6 +2,8 @@
 /// The pitch curve of a helical groove: what a tendon's centre line lies on over several turns.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +24,13 @@ struct Spiral {
   std::vector<SpiralRow> rows;                ///< in growing `turn`, spare turns at both ends included
   double slope = 0;                           ///< tan λ = dz/ds
   std::size_t first_used = 0, last_used = 0;  ///< rows of the working arc, without the spare turns
+
+  /// The row nearest to a height.
+  const SpiralRow& row_at(double z) const {
+    return *std::min_element(rows.begin(), rows.end(), [z](const SpiralRow& a, const SpiralRow& b) {
+      return std::abs(a.z - z) < std::abs(b.z - z);
+    });
+  }
 };
 
 }  // namespace fusee

@@ -8,6 +8,8 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -105,6 +107,17 @@ struct KitTendon {
   double at_joint = 0;  ///< what its fastening there takes, mm
 };
 
+/// Of tendons that climb on a pulley of several turns: over the whole range, above the pulley's lower face, mm.
+struct TendonHeights {
+  struct Span {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void see(double height);
+  };
+  std::array<double, 2> ends{};  ///< of each at the joint; with collars also where it comes onto its guide
+  std::array<Span, 2> guides;    ///< of each on its guide
+  Span drum;                     ///< of both on the joint's drum; `ends` where there is none
+};
+
 enum class KitStatus { made, impossible };
 
 struct KitPlan {
@@ -118,9 +131,10 @@ struct KitPlan {
   std::vector<KitItem> items;
   std::array<KitTendon, 2> tendons;
   std::vector<std::string> notes;
-  /// Of a joint with a drum, ends of its own, idlers or sheaths: plates to drill by, no model that stands by itself;
-  /// `sizes`, `feet` and `legs` are then empty.
+  /// Of a joint with a drum, ends of its own, idlers or sheaths, or a pulley of several turns: plates to drill by, no
+  /// model that stands by itself; `sizes`, `feet` and `legs` are then empty.
   bool drilled = false;
+  std::optional<TendonHeights> heights;  ///< of several turns
 
   bool made() const { return status == KitStatus::made; }
 };
@@ -128,8 +142,10 @@ struct KitPlan {
 /// The radius of the thinnest pin that a kit has, mm: no rod is sold as one below 1 mm.
 inline constexpr double k_least_pin = 0.5;
 
-/// Of a joint whose pulley can be made.
+/// Of a joint whose pulley can be made, of one turn.
 KitPlan plan_kit(const Mechanism& mechanism, const SynthesisResult& synthesis, const BodyLayout& layout);
+/// Of several turns.
+KitPlan plan_kit_of_turns(const Mechanism& mechanism, const BodyLayout& layout, const TendonHeights& heights);
 
 /// Where the link's outline is at a joint angle, in the kit's frame.
 Polygon link_outline(const KitPlan& plan, const Mechanism& mechanism, double theta);
