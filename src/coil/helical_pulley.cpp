@@ -194,9 +194,7 @@ class Planner {
     ends_[1].face = layout.z_top;
     cover_channels();
     choose_bore();
-    double room = std::numeric_limits<double>::infinity();
-    for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + lip);
-    choose_hub(layout, mechanism_, std::min(room, pocket_inside(1)));
+    choose_hub(layout, mechanism_, std::min(upper_rim(), pocket_inside(1)));
     heights_.hub_top = layout.z_hub;
   }
 
@@ -250,6 +248,13 @@ class Planner {
     for (WindingRow& row : winding.rows) row.height += by;
   }
 
+  // Within which every turn of P2 reaches.
+  double upper_rim() const {
+    double room = std::numeric_limits<double>::infinity();
+    for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + section_.depth - 0.5 * d_);
+    return room;
+  }
+
   // How near to the axis a pocket comes.
   double pocket_inside(std::size_t i) const {
     return pocket_place(ends_[i], run_outs_[i]).norm() - run_outs_[i].pocket_radius;
@@ -287,6 +292,8 @@ class Planner {
     add("bore_wall", least_floor() - reach(), layout.min_wall,
         fmt::format("the bore leaves {} to a groove's floor, it takes {} (body.min_wall_mm)",
                     mm(least_floor() - reach()), mm(layout.min_wall)));
+    for (Condition& condition : hub_conditions(mechanism_, layout, upper_rim()))
+      pulley_.conditions.push_back(std::move(condition));
     for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
     add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
         fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, it takes two thirds of "
@@ -390,7 +397,10 @@ class Planner {
   bool cut_with(const TriangleMesh& blank, double volume, const std::vector<TriangleMesh>& tools) {
     TriangleMesh mesh = blank;
     for (const TriangleMesh& tool : tools) {
-      const auto outcome = subtract(mesh, scaled(tool));
+      const TriangleMesh cutter = scaled(tool);
+      // What crosses itself cannot be cut with: it may never end.
+      if (find_crossing(cutter).facets) return false;
+      const auto outcome = subtract(mesh, cutter);
       if (!outcome) return false;
       mesh = outcome->mesh;
       volume -= outcome->common_volume;

@@ -7,6 +7,7 @@
 
 #include "fusee/base/units.h"
 #include "solid/boolean.h"
+#include "solid/nearest_float.h"
 #include "solid/tools.h"
 
 namespace fusee {
@@ -100,8 +101,10 @@ TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int varia
                    k_pocket_facets + variant, 0.23);
   };
   const double depth = pocket_depth(end, sizes);
-  return strip({ring_at(-k_overshoot, sizes.pocket_radius), ring_at(depth, sizes.pocket_radius),
-                ring_at(depth + sizes.cone, sizes.channel_radius)});
+  std::vector sections{ring_at(-k_overshoot, sizes.pocket_radius), ring_at(depth, sizes.pocket_radius)};
+  // A pocket no wider than its channel has no cone.
+  if (sizes.cone > k_float_grain) sections.push_back(ring_at(depth + sizes.cone, sizes.channel_radius));
+  return strip(sections);
 }
 
 // The mouth stays a little inside of the groove's section: the channel then cuts the groove's end wall alone, and no

@@ -178,13 +178,13 @@ SlabBody trimmed(const SlabBody& body, const PrintTrim& trim) {
       loop.grow_low += more;
       loop.grow_high += more;
     }
-    double foot = std::min(trim.elephant_foot, 0.5 * (slab.high - slab.low));
+    double foot = std::min(trim.elephant_foot, 0.5 * (slab.high - slab.low) / trim.foot_slope);
     // A thin wall gets a small one.
     if (result.slabs.empty() && foot > 0) foot = std::min(foot, 0.25 * least_gap(outlines(changed, false)));
     for (const SlabLoop& loop : slab.loops) foot = std::min(foot, loop.hole ? foot : 0.9 * least_radius(loop.hull));
     if (result.slabs.empty() && foot > 0) {
       Slab chamfer = changed;
-      chamfer.high = changed.low = slab.low + foot;
+      chamfer.high = changed.low = slab.low + foot * trim.foot_slope;
       for (std::size_t i = 0; i < chamfer.loops.size(); ++i) {
         SlabLoop &below = chamfer.loops[i], &above = changed.loops[i];
         below.grow_high = above.grow_low;

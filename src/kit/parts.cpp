@@ -450,17 +450,25 @@ Polygon scale_outline(const KitPlan& plan, const Mechanism& mechanism) {
   return outline_of(scale_hull(plan, mechanism.joint));
 }
 
+namespace {
+
+PrintTrim trim_of(const Mechanism& mechanism, const BodyLayout& layout) {
+  const double overhang = mechanism.print.supports ? 0.0 : mechanism.print.overhang;
+  return {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot,
+          overhang > radians(45) ? std::tan(overhang) : 1.0};
+}
+
+}  // namespace
+
 TriangleMesh printed_mesh(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
   // What the coupon shows is what the printer does by itself.
   if (part.places.empty()) return mesh_of(part.body);
-  return mesh_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}),
-                 layout.scale);
+  return mesh_of(trimmed(part.body, trim_of(mechanism, layout)), layout.scale);
 }
 
 double printed_volume(const KitPart& part, const Mechanism& mechanism, const BodyLayout& layout) {
   if (part.places.empty()) return volume_of(part.body);
-  return volume_of(trimmed(part.body, {layout.scale, mechanism.material.hole_compensation, layout.elephant_foot}),
-                   layout.scale);
+  return volume_of(trimmed(part.body, trim_of(mechanism, layout)), layout.scale);
 }
 
 TriangleMesh standing(const KitPart& part, const KitPlace& place, double theta) {

@@ -8,9 +8,9 @@
 
 #include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
+#include "solid/condition_list.h"
 #include "solid/hub.h"
 #include "solid/plane_distance.h"
-#include "solid/set_screw.h"
 
 namespace fusee {
 namespace {
@@ -20,16 +20,6 @@ constexpr double k_pin_gap = 0.5;
 
 // Between the holes of a horn: half a line of a nozzle of 0.4 mm. Less is no web, and the holes run into one another.
 constexpr double k_least_web = 0.2;
-
-// Numbers that people write down are rounded.
-constexpr double k_grain = 1e-9;
-
-// What holes leave between them, or by how much they overlap.
-std::string wall_words(double wall) {
-  return wall > 0 ? "a wall of " + rounded(wall, 3) + " mm" : "no wall (they overlap by " + rounded(-wall, 3) + " mm)";
-}
-
-double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
 
 class Conditions {
  public:
@@ -48,51 +38,35 @@ class Conditions {
     add_bore_wall(synthesis_.p1);
     add_bore_wall(synthesis_.p2);
     add_horn();
-    add_hub();
-    add_set_screw();
+    for (Condition& condition : hub_conditions(mechanism_, layout_, inradius(rims_.upper)))
+      list_.take(std::move(condition));
     for (const AnchorRoom& room : rooms) add_anchor(room);
     add_channel();
     if (mechanism_.sheath.is_there()) {
       // The pulley stands at the motor, and nothing but the mouths near it.
       add_mouth(Side::left);
       add_mouth(Side::right);
-      return std::move(result_);
+      return list_.taken();
     }
     add_pin("pin_clear_B", "B", {-mechanism_.guides.EB, mechanism_.pulley.EF}, "guides.EB_mm");
     add_pin("pin_clear_D", "D", {mechanism_.guides.ED, mechanism_.pulley.EF - mechanism_.guides.D_below_B}, "guides.ED_mm");
     add_drum();
-    return std::move(result_);
+    return list_.taken();
   }
 
  private:
-  void add(std::string name, double value, double limit, bool ok, std::string message) {
-    Condition condition;
-    condition.name = std::move(name);
-    condition.ok = ok;
-    condition.value = value;
-    condition.limit = limit;
-    condition.unit = "mm";
-    condition.message = std::move(message);
-    result_.push_back(std::move(condition));
-  }
-  void add_least(std::string name, double value, double least, std::string message) {
-    add(std::move(name), value, least, value >= least - k_grain, std::move(message));
-  }
-  void add_most(std::string name, double value, double most, std::string message) {
-    add(std::move(name), value, most, value <= most + k_grain, std::move(message));
-  }
-
   // What has rims says nothing about them.
   void add_rims() {
     if (rims_.outside) return;
-    add("flange_rims", 0, 0, false,
-        "the outlines are sampled too coarsely (--tolerance-mm) for a flange that stands out over the lips of both grooves");
+    list_.add("flange_rims", 0, 0, false,
+              "the outlines are sampled too coarsely (--tolerance-mm) for a flange that stands out over the lips of "
+              "both grooves");
   }
 
   void add_groove() {
-    add_least("groove_depth", layout_.groove_depth, d_,
-              fmt::format("the groove is {} mm deep (body.groove_depth_mm) for a tendon of {} mm",
-                          rounded(layout_.groove_depth), rounded(d_)));
+    list_.add_least("groove_depth", layout_.groove_depth, d_,
+                    fmt::format("the groove is {} mm deep (body.groove_depth_mm) for a tendon of {} mm",
+                                rounded(layout_.groove_depth), rounded(d_)));
   }
 
   Polygon floor(const Outline& outline) const { return parallel(outline, -0.5 * d_); }
@@ -108,10 +82,10 @@ class Conditions {
 
   void add_bore_wall(const Outline& outline) {
     const Wall wall = wall_to(floor(outline), layout_.bore);
-    add_least(fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
-              fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
-                          wall_words(wall.thickness), pulley_name(outline.side), degrees(wall.angle),
-                          rounded(layout_.min_wall, 3)));
+    list_.add_least(fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
+                    fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
+                                wall_words(wall.thickness), pulley_name(outline.side), degrees(wall.angle),
+                                rounded(layout_.min_wall, 3)));
   }
 
   std::string horn_name() const { return body_.horn == k_own_horn ? "of [horn]" : body_.horn; }
@@ -121,15 +95,16 @@ class Conditions {
     const bool apart = layout_.parts == Parts::two;
     const double depth = layout_.bore.horn_recess > 0 ? layout_.bore.horn_recess + layout_.bore.horn_roof : 0.0;
     const double height = apart ? layout_.z_mate : layout_.z_hub;
-    add_most("horn_recess", depth, height - layout_.min_wall,
-             fmt::format(
-                 "horn {}: {} takes a recess {} mm deep with its roof, {} {} mm high", horn_name(),
-                 layout_.bore.spline_teeth > 0 ? "the shaft (horn.spline_length_mm)" : "the boss (horn.boss_height_mm)",
-                 rounded(depth, 3), apart ? "P1 (print.parts) is" : "the pulley is", rounded(height, 3)));
+    list_.add_most("horn_recess", depth, height - layout_.min_wall,
+                   fmt::format("horn {}: {} takes a recess {} mm deep with its roof, {} {} mm high", horn_name(),
+                               layout_.bore.spline_teeth > 0 ? "the shaft (horn.spline_length_mm)"
+                                                             : "the boss (horn.boss_height_mm)",
+                               rounded(depth, 3), apart ? "P1 (print.parts) is" : "the pulley is", rounded(height, 3)));
     const Web web = thinnest_web();
-    add_least("horn_holes", web.thickness, k_least_web,
-              fmt::format("horn {}: {} is left between {} (with material.hole_compensation_mm), it takes {} mm: {}",
-                          horn_name(), wall_words(web.thickness), web.between, k_least_web, web.change));
+    list_.add_least(
+        "horn_holes", web.thickness, k_least_web,
+        fmt::format("horn {}: {} is left between {} (with material.hole_compensation_mm), it takes {} mm: {}",
+                    horn_name(), wall_words(web.thickness), web.between, k_least_web, web.change));
   }
 
   /// What is left between two holes of a horn, and what would leave more.
@@ -176,78 +151,33 @@ class Conditions {
     return least;
   }
 
-  void add_hub() {
-    if (layout_.hub_radius <= 0) return;
-    // A horn's screws go through the hub as the bore does.
-    double reach = layout_.bore.radius;
-    for (const Polygon& hole : layout_.bore.screw_holes) reach = std::max(reach, circumradius(hole));
-    const double diameter = 2.0 * layout_.hub_radius, wall = layout_.hub_radius - reach;
-    add_least("hub_wall", wall, layout_.min_wall,
-              fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves {} about {}, it takes {} mm (body.min_wall_mm)",
-                          rounded(diameter), wall_words(wall),
-                          reach > layout_.bore.radius ? "the horn's holes" : "the bore", rounded(layout_.min_wall, 3)));
-    const double limit = 2.0 * (inradius(rims_.upper) - k_hub_margin);
-    add_most("hub_on_flange", diameter, limit,
-             fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",
-                         rounded(limit), rounded(diameter)));
-  }
-
-  // Only a set screw that was asked for by name can be impossible.
-  void add_set_screw() {
-    if (body_.set_screw == "auto" || body_.set_screw == "none" || body_.bore == Bore::horn) return;
-    const double diameter = 2.0 * layout_.hub_radius, needed = 2.0 * hub_radius_for_named_screw();
-    if (!layout_.set_screw.present) {
-      add("set_screw_wall", diameter, needed, false,
-          fmt::format("there is no place for set screw {} (body.set_screw), which needs a hub of {:.1f} mm and a side "
-                      "of it without a knot pocket",
-                      body_.set_screw, rounded_up(needed)));
-      return;
-    }
-    add_least("set_screw_wall", diameter, needed,
-              fmt::format("set screw {} (body.set_screw{}) needs a hub of {:.1f} mm, this one has {} mm "
-                          "(body.hub_diameter_mm)",
-                          body_.set_screw, body_.nut_trap ? ", with body.nut_trap" : "", rounded_up(needed),
-                          rounded(diameter)));
-    const double spare = height_to_spare(layout_.set_screw, layout_, layout_.min_wall);
-    add_least("set_screw_height", spare, 0.0,
-              fmt::format("a hub {} mm high (body.hub_height_mm) is {} mm too low for set screw {}",
-                          rounded(body_.hub_height), rounded(-spare, 3), body_.set_screw));
-  }
-
-  double hub_radius_for_named_screw() const {
-    const Screw* screw = find_screw(body_.set_screw);
-    if (screw == nullptr) return 0;
-    return hub_radius_for(
-        set_screw_layout(*screw, body_.nut_trap, mechanism_.material.hole_compensation, layout_.min_wall, layout_),
-        layout_.bore.radius, layout_.min_wall);
-  }
-
   void add_anchor(const AnchorRoom& room) {
     const std::string past = body_.wrap > 0 ? fmt::format(", {} deg or more past the arc that the tendon leaves from (body.wrap_deg)",
                                                           rounded(degrees(body_.wrap)))
                                             : "";
-    add_least(fmt::format("anchor_{}", pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
-              fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed "
-                          "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm){}",
-                          pulley_name(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
-                          rounded(layout_.min_wall, 3), past));
+    list_.add_least(fmt::format("anchor_{}", pulley_name(room.side)), 2.0 * room.room, 2.0 * room.least,
+                    fmt::format("{}'s tie-off has room for a knot pocket of {} mm, at least {} mm are needed "
+                                "(body.knot_pocket_mm) behind walls of {} mm (body.min_wall_mm){}",
+                                pulley_name(room.side), rounded(2.0 * room.room, 3), rounded(2.0 * room.least, 3),
+                                rounded(layout_.min_wall, 3), past));
   }
 
   void add_channel() {
     const double width = layout_.channel_width;
-    add_least("channel_width", width, d_,
-              fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
-                          rounded(width), rounded(d_)));
+    list_.add_least("channel_width", width, d_,
+                    fmt::format("the tie-off channels are {} mm wide (body.anchor_hole_mm) for a tendon of {} mm",
+                                rounded(width), rounded(d_)));
     // On the side of the roof the flange is made as thick as it needs.
     const bool apart = layout_.parts == Parts::two;
     const double left = (apart ? std::min(layout_.z_mate - layout_.z_p1, layout_.z_p2 - layout_.z_mate)
                                : std::min(layout_.z_p1, layout_.z_p2 - layout_.z_middle)) -
                         0.5 * width;
-    add_least("channel_floor", left, 0.4,
-              left > 0 ? fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
-                                   rounded(width), rounded(left, 3))
-                       : fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), cut through a flange",
-                                   rounded(width)));
+    list_.add_least("channel_floor", left, 0.4,
+                    left > 0
+                        ? fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), leave {} mm of a flange",
+                                      rounded(width), rounded(left, 3))
+                        : fmt::format("the tie-off channels, {} mm wide (body.anchor_hole_mm), cut through a flange",
+                                      rounded(width)));
   }
 
   /// Of all that comes past a thing as wide as it is seen from the axis.
@@ -277,10 +207,10 @@ class Conditions {
 
   void add_pin(const char* condition_name, const char* pin_name, const Vec2& pin, const char* key) {
     const double clear = pin.norm() - mechanism_.guides.radius - reach_towards(pin);
-    add_least(condition_name, clear, k_pin_gap,
-              fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges, it takes {} mm beside them", pin_name, key,
-                          (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
-                          clear > 0 ? "of" : "inside", k_pin_gap));
+    list_.add_least(condition_name, clear, k_pin_gap,
+                    fmt::format("pin {} ({}, pulley.EF_mm) {} mm {} the flanges, it takes {} mm beside them", pin_name,
+                                key, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
+                                clear > 0 ? "of" : "inside", k_pin_gap));
   }
 
   /// Of the mouth the file says where the tendon comes out of it: as much as the tendon itself is counted, and whatever
@@ -290,11 +220,12 @@ class Conditions {
     const Vec2 mouth(mirror_sign(side) * sheath.exit_across, sheath.exit_above);
     const double clear = mouth.norm() - 0.5 * d_ - reach_towards(mouth);
     const char* number = side == Side::left ? "1" : "2";
-    add_least(fmt::format("mouth_clear_{}", number), clear, k_pin_gap,
-              fmt::format("the mouth of sheath {} (sheath.exit_across_mm, sheath.exit_above_mm) {} mm {} the flanges, "
-                          "it takes {} mm beside them",
-                          number, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
-                          clear > 0 ? "of" : "inside", k_pin_gap));
+    list_.add_least(
+        fmt::format("mouth_clear_{}", number), clear, k_pin_gap,
+        fmt::format("the mouth of sheath {} (sheath.exit_across_mm, sheath.exit_above_mm) {} mm {} the flanges, "
+                    "it takes {} mm beside them",
+                    number, (clear > 0 ? "comes within " : "stands ") + rounded(std::abs(clear), 3),
+                    clear > 0 ? "of" : "inside", k_pin_gap));
   }
 
   /// The drum stands over the pulley as a pin does.
@@ -302,7 +233,7 @@ class Conditions {
     if (!(mechanism_.joint.drum_radius > 0)) return;
     const Vec2 drum(0, mechanism_.guides.OE + mechanism_.pulley.EF);
     const double clear = drum.norm() - mechanism_.joint.drum_radius - reach_within(drum, mechanism_.joint.drum_radius);
-    add_least(
+    list_.add_least(
         "drum_clear", clear, k_pin_gap,
         fmt::format("the drum (joint.drum_radius_mm, guides.OE_mm, pulley.EF_mm) {} mm {} the flanges, it takes {} mm "
                     "beside them",
@@ -315,7 +246,7 @@ class Conditions {
   const BodyLayout& layout_;
   const FlangeRims& rims_;
   double d_;
-  std::vector<Condition> result_;
+  ConditionList list_;
 };
 
 }  // namespace

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
+#include "fusee/base/text.h"
+#include "solid/condition_list.h"
 #include "solid/set_screw.h"
 
 namespace fusee {
@@ -70,10 +74,73 @@ class HubChooser {
   double limit_;
 };
 
+double rounded_up(double value) { return 0.1 * std::ceil(value / 0.1 - 1e-9); }
+
+void look_at_hub(ConditionList& list, const BodyLayout& layout, double rim_radius) {
+  if (layout.hub_radius <= 0) return;
+  // A horn's screws go through the hub as the bore does.
+  double reach = layout.bore.radius;
+  for (const Polygon& hole : layout.bore.screw_holes) reach = std::max(reach, circumradius(hole));
+  const double diameter = 2.0 * layout.hub_radius, wall = layout.hub_radius - reach;
+  list.add_least(
+      "hub_wall", wall, layout.min_wall,
+      fmt::format("a hub of {} mm (body.hub_diameter_mm) leaves {} about {}, it takes {} mm (body.min_wall_mm)",
+                  rounded(diameter), wall_words(wall), reach > layout.bore.radius ? "the horn's holes" : "the bore",
+                  rounded(layout.min_wall, 3)));
+  const double limit = 2.0 * (rim_radius - k_hub_margin);
+  list.add_most("hub_on_flange", diameter, limit,
+                fmt::format("the upper flange has room for a hub of {} mm, this one has {} mm (body.hub_diameter_mm)",
+                            rounded(limit), rounded(diameter)));
+}
+
+double hub_radius_for_named_screw(const Mechanism& mechanism, const BodyLayout& layout) {
+  const Body& body = mechanism.body;
+  const Screw* screw = find_screw(body.set_screw);
+  if (screw == nullptr) return 0;
+  return hub_radius_for(
+      set_screw_layout(*screw, body.nut_trap, mechanism.material.hole_compensation, layout.min_wall, layout),
+      layout.bore.radius, layout.min_wall);
+}
+
+// Only a set screw that was asked for by name can be impossible.
+void look_at_set_screw(ConditionList& list, const Mechanism& mechanism, const BodyLayout& layout) {
+  const Body& body = mechanism.body;
+  if (body.set_screw == "auto" || body.set_screw == "none" || body.bore == Bore::horn) return;
+  const double diameter = 2.0 * layout.hub_radius, needed = 2.0 * hub_radius_for_named_screw(mechanism, layout);
+  if (!layout.set_screw.present) {
+    list.add(
+        "set_screw_wall", diameter, needed, false,
+        fmt::format("there is no place for set screw {} (body.set_screw), which needs a hub of {:.1f} mm and a side "
+                    "of it without a knot pocket",
+                    body.set_screw, rounded_up(needed)));
+    return;
+  }
+  list.add_least(
+      "set_screw_wall", diameter, needed,
+      fmt::format("set screw {} (body.set_screw{}) needs a hub of {:.1f} mm, this one has {} mm "
+                  "(body.hub_diameter_mm)",
+                  body.set_screw, body.nut_trap ? ", with body.nut_trap" : "", rounded_up(needed), rounded(diameter)));
+  const double spare = height_to_spare(layout.set_screw, layout, layout.min_wall);
+  list.add_least("set_screw_height", spare, 0.0,
+                 fmt::format("a hub {} mm high (body.hub_height_mm) is {} mm too low for set screw {}",
+                             rounded(body.hub_height), rounded(-spare, 3), body.set_screw));
+}
+
 }  // namespace
+
+std::string wall_words(double wall) {
+  return wall > 0 ? "a wall of " + rounded(wall, 3) + " mm" : "no wall (they overlap by " + rounded(-wall, 3) + " mm)";
+}
 
 void choose_hub(BodyLayout& layout, const Mechanism& mechanism, double rim_radius) {
   HubChooser(layout, mechanism, rim_radius).choose();
+}
+
+std::vector<Condition> hub_conditions(const Mechanism& mechanism, const BodyLayout& layout, double rim_radius) {
+  ConditionList list;
+  look_at_hub(list, layout, rim_radius);
+  look_at_set_screw(list, mechanism, layout);
+  return list.taken();
 }
 
 }  // namespace fusee

@@ -405,6 +405,15 @@ TEST(SeveralTurnsBodies, ThatOnceWentWrong) {
   EXPECT_EQ(aside.status, BuildStatus::done) << failures_of(aside);
 }
 
+TEST(SeveralTurnsWords, AHubHasToStandOnItsFlange) {
+  const BuildResult wide = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "90"}}));
+  EXPECT_EQ(wide.status, BuildStatus::infeasible);
+  EXPECT_THAT(failures_of(wide), HasSubstr("the upper flange has room for a hub of"));
+  const BuildResult thin = made(read_profile("wrist_turns", {{"body.hub_diameter_mm", "2"}}));
+  EXPECT_EQ(thin.status, BuildStatus::infeasible);
+  EXPECT_THAT(failures_of(thin), HasSubstr("body.hub_diameter_mm) leaves"));
+}
+
 // ---- wound on a file of it
 
 /// As the build found it, on any of its meshes; what shrinks is printed larger.
@@ -562,6 +571,16 @@ TEST_P(SeveralTurnsKit, SaysHowHighTheTendonsRun) {
 
 INSTANTIATE_TEST_SUITE_P(Profiles, SeveralTurnsKit, ::testing::Values("wrist_turns", "elbow_capstan", "fusee_proper"),
                          [](const auto& which) { return which.param; });
+
+/// A printer that bears no slope below 55° gets steeper chamfers at the bed.
+TEST(SeveralTurnsKitWords, PartsPrintAsSteeplyAsAsked) {
+  KitOptions options;
+  options.folder = std::filesystem::temp_directory_path() / "fusee-several-turns-kit";
+  options.dry_run = true;
+  const KitResult made = kit(read_profile("elbow_capstan", {{"print.overhang_deg", "55"}}), options);
+  for (const Check& check : made.product.checks) EXPECT_TRUE(check.ok) << check.name << " " << check.value;
+  EXPECT_EQ(made.ending, KitEnding::done);
+}
 
 /// What stands in the way is said, with what was seen to make room.
 TEST(SeveralTurnsKitWords, SaysWhatWouldMakeRoom) {

@@ -49,6 +49,7 @@ struct PrintTrim {
   double scale = 1;          ///< of all coordinates
   double hole = 0;           ///< added to the diameter of holes
   double elephant_foot = 0;  ///< chamfer at the bed
+  double foot_slope = 1;     ///< height of that chamfer over its width
 };
 /// As it is to be printed: holes widened so that a polygon's sides touch the circle that is wanted.
 SlabBody trimmed(const SlabBody& body, const PrintTrim& trim);

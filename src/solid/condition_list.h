@@ -1,0 +1,45 @@
+/// \file
+/// Internal: conditions as they are looked at one after the other. mm
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fusee/profile/synthesis.h"
+
+namespace fusee {
+
+class ConditionList {
+ public:
+  void add(std::string name, double value, double limit, bool ok, std::string message) {
+    Condition condition;
+    condition.name = std::move(name);
+    condition.ok = ok;
+    condition.value = value;
+    condition.limit = limit;
+    condition.unit = "mm";
+    condition.message = std::move(message);
+    take(std::move(condition));
+  }
+  void add_least(std::string name, double value, double least, std::string message) {
+    add(std::move(name), value, least, value >= least - k_grain, std::move(message));
+  }
+  void add_most(std::string name, double value, double most, std::string message) {
+    add(std::move(name), value, most, value <= most + k_grain, std::move(message));
+  }
+  void take(Condition condition) { conditions_.push_back(std::move(condition)); }
+
+  std::vector<Condition> taken() { return std::move(conditions_); }
+
+ private:
+  // Numbers that people write down are rounded.
+  static constexpr double k_grain = 1e-9;
+
+  std::vector<Condition> conditions_;
+};
+
+/// What holes leave between them, or by how much they overlap.
+std::string wall_words(double wall);
+
+}  // namespace fusee
