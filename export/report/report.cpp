@@ -177,7 +177,9 @@ std::string key_numbers(const Product& product) {
   const Guides& guides = mechanism.guides;
   KeyNumbers numbers;
   numbers.add("R = OC", with_unit(mechanism.joint.R, "mm", 6));
-  if (mechanism.joint.drum_radius > 0) numbers.add("Drum radius", with_unit(mechanism.joint.drum_radius, "mm", 6));
+  if (const Joint& joint = mechanism.joint; joint.drum_radius > 0)
+    numbers.add("Drum radius", with_unit(joint.drum_radius, "mm", 6),
+                joint.drum_mu > 0 ? "μ " + readable_rounded(joint.drum_mu, 3) : "");
   const auto add_end = [&numbers](const char* name, const std::optional<Attachment>& end) {
     if (end)
       numbers.add(name, readable_rounded(end->across, 6) + ", " + readable_rounded(end->along, 6) + " mm",

@@ -53,7 +53,7 @@ void enlarge(Extreme& extreme, double value, double alpha) {
 
 void look_for_tensions(LargestTensions& largest, const EquilibriumPoint& point, bool rising) {
   if (!held(point)) return;
-  enlarge(largest.at_joint, std::max(point.t1.upper, point.t2.upper), point.alpha);
+  enlarge(largest.at_joint, std::max(point.t1.end, point.t2.end), point.alpha);
   for (const Side side : {Side::left, Side::right}) {
     const TendonState& tendon = side == Side::left ? point.t1 : point.t2;
     for (const bool below : {false, true}) {
@@ -100,6 +100,24 @@ void summarise(AnalysisResult& result) {
   result.untensioned = ranges_where(result.rows, [](const AnalysisRow& row) {
     return held(row.rising) && is_slack(row.rising.t1) && is_slack(row.rising.t2);
   });
+}
+
+std::vector<DrumHold> held_by_drum(const Mechanism& mechanism, const std::vector<AnalysisRow>& rows) {
+  std::vector<DrumHold> all;
+  if (!(mechanism.joint.drum_mu > 0)) return all;
+  for (const Side side : {Side::left, Side::right}) {
+    const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+    DrumHold hold{side, 0, 1, {}};
+    for (const AnalysisRow& row : rows) {
+      const double theta = mirror_sign(side) * row.declared.theta;
+      hold.wrap = std::max(hold.wrap, upper_span(place, theta).on_drum);
+      for (const EquilibriumPoint* point : {&row.rising, &row.falling})
+        if (held(*point)) enlarge(hold.at_end, (side == Side::left ? point->t1 : point->t2).end, row.declared.alpha);
+    }
+    hold.ratio = std::exp(mechanism.joint.drum_mu * hold.wrap);
+    if (hold.wrap > 0) all.push_back(hold);
+  }
+  return all;
 }
 
 bool stays_taut(Mechanism mechanism, double pretension, const std::vector<double>& alphas) {
@@ -219,6 +237,7 @@ AnalysisResult analyse(const Mechanism& mechanism, const AnalysisOptions& option
   }
   result.rows = rows_of(mechanism, synthesis.stroke);
   summarise(result);
+  result.on_drum = held_by_drum(mechanism, result.rows);
   if (!result.slack1.empty() || !result.slack2.empty()) result.taut_pretension = taut_pretension(mechanism);
   result.strength = tendon_strength(mechanism.tendon);
   result.breaks_at = breaking_place(result);

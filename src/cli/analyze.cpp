@@ -51,6 +51,18 @@ std::string strength_line(const AnalysisResult& result, const Mechanism& mechani
                       rounded(result.largest_at_joint.value) + " N");
 }
 
+std::string drum_lines(const AnalysisResult& result) {
+  std::string text;
+  for (const DrumHold& hold : result.on_drum)
+    text += line(
+        text.empty() ? "rubs on the drum" : "",
+        "tendon " + std::string(hold.tendon == Side::left ? "1" : "2") + " over up to " + rounded(degrees(hold.wrap)) +
+            " deg: at its end within a factor of " + rounded(hold.ratio) + " of its span" +
+            (hold.at_end.value > 0 ? ", up to " + rounded(hold.at_end.value) + " N, " + alpha_text(hold.at_end.alpha)
+                                   : ", slack"));
+  return text;
+}
+
 std::string slack_lines(const AnalysisResult& result) {
   if (result.slack1.empty() && result.slack2.empty()) return line("slack", "none: both tendons stay taut");
   std::string text;
@@ -84,8 +96,8 @@ std::string tolerances_table(const std::vector<ToleranceEffect>& effects) {
 }
 
 std::string summary(const AnalysisResult& result, const AnalysisOptions& options, const Mechanism& mechanism) {
-  std::string text =
-      "Summary\n" + tension_line(result, mechanism) + strength_line(result, mechanism) + slack_lines(result);
+  std::string text = "Summary\n" + tension_line(result, mechanism) + strength_line(result, mechanism) +
+                     drum_lines(result) + slack_lines(result);
   text += line("motor torque", "up to " + rounded(result.largest_torque.value) + " Nmm, " + alpha_text(result.largest_torque.alpha));
   text += line("loop", "up to " + rounded(degrees(result.hysteresis.value), 3) + " deg between directions, " + alpha_text(result.hysteresis.alpha));
   text += "\nError budget\n" + sources_table(result.sources);
@@ -115,6 +127,12 @@ Json summary_json(const AnalysisResult& result) {
   json["largest_paper_Tb"] = {{"value_N", result.largest_paper_tension.value}, {"alpha_deg", degrees(result.largest_paper_tension.alpha)}};
   json["strength"] = result.strength ? Json{{"value_N", result.strength->tension}, {"at_knot_N", result.strength->at_knot}, {"source", result.strength->source}} : Json();
   json["largest_at_joint_knot"] = {{"value_N", result.largest_at_joint.value}, {"alpha_deg", degrees(result.largest_at_joint.alpha)}};
+  for (const DrumHold& hold : result.on_drum)
+    json["on_drum"].push_back({{"tendon", hold.tendon == Side::left ? 1 : 2},
+                               {"wrap_deg", degrees(hold.wrap)},
+                               {"ratio", hold.ratio},
+                               {"largest_at_end_N", hold.at_end.value},
+                               {"alpha_deg", degrees(hold.at_end.alpha)}});
   json["slack1_alpha_deg"] = ranges_json(result.slack1);
   json["slack2_alpha_deg"] = ranges_json(result.slack2);
   json["taut_pretension_N"] = optional_json(result.taut_pretension);

@@ -47,6 +47,8 @@ constexpr int k_newton_rounds = 6;
 constexpr double k_glide = 0.02;  // rad
 /// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
 constexpr double k_least_hold = 1e-4;
+/// Before the place where a tendon leaves its drum. rad
+constexpr double k_hair = 1e-9;
 /// A joint that moves is pulled by its friction, but for this share.
 constexpr double k_rounding = 1e-6;
 
@@ -84,6 +86,9 @@ struct TendonHistory {
   double lower_material = 0;
   InSheath sheath;
   WoundProfile wound;
+  /// What lies on the joint's drum, seen from the link, where it rubs there; else that is a part of the upper span.
+  std::optional<WoundProfile> on_drum;
+  double behind_drum = 0;  ///< straight, from the drum to the tendon's end
   double upper = 0;  ///< tensions at the last step
   double lower = 0;
   double home = 0;       ///< tension at home, N
@@ -132,6 +137,12 @@ struct AtAlpha {
   Slide slide;       ///< what slides on the pulley, at a strain near the one that will be found
   double moved = 0;  ///< by how much the search last moved that strain
 };
+
+/// The drum as a groove that turns with the link: from the tendon's end to where the span takes off. A tendon that is
+/// free of it has nothing there.
+GroovePlace place_on_drum(const PinPlace& place, double on_drum, double behind) {
+  return {on_drum, on_drum > 0 ? place.drum * on_drum : -behind};
+}
 
 GroovePlace place_of(Side side, const LowerPath& path, double alpha) {
   return {path.normal + mirror_sign(side) * alpha, path.wound};
@@ -208,6 +219,8 @@ struct Trial {
   ThreadedSpans threaded;  ///< the same with what lies in a sheath of friction
   ThreadedBalance slid;
   TendonBalance balance;
+  Turned drum_turned;  ///< where the tendon rubs on the drum
+  Slide drum_slide;
   double wrap = 0;
   double pull = 0;         ///< on the joint, towards the tendon's own side: T_up m
   double slope = 0;        ///< of pull with respect to the image's θ
@@ -236,6 +249,31 @@ TendonBalance from_ends(const ThreadedBalance& slid) {
           slid.contact,         slid.per_length,     slid.per_hold};
 }
 
+/// What rubs on the drum is to the upper span what slides on the pulley is to the lower one; `balanced` gives the
+/// strain that the span then has. Newton's steps, halved where a kink throws them back.
+template <typename Balanced>
+void rub_on_drum(Trial& trial, const TendonHistory& tendon, const AtAlpha& at, const JointModel& model,
+                 Balanced balanced) {
+  const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
+  const GroovePlace takes_off = place_on_drum(pin, trial.span.on_drum, tendon.behind_drum);
+  trial.upper_length -= takes_off.arc + tendon.behind_drum;
+  const double length = trial.spans.upper_length - takes_off.arc - tendon.behind_drum;
+  const double material = trial.spans.upper_material;
+  trial.drum_turned = tendon.on_drum->turned_to(takes_off, at.swelling);
+  double strain = tendon.on_drum->strain(at.swelling), moved = 0;
+  for (int i = 0; i < k_rounds; ++i) {
+    const Slide slide = tendon.on_drum->slide(trial.drum_turned, strain, at.swelling);
+    trial.drum_slide = slide;
+    trial.spans.upper_length = length + slide.length;
+    trial.spans.upper_material = material + at.swelling * slide.freed + slide.length / (1.0 + strain);
+    double by = balanced() - strain;
+    if (std::abs(by) <= near_strain(model)) return;
+    if (by * moved < 0 && std::abs(by) > 0.5 * std::abs(moved)) by *= 0.5;
+    moved = by;
+    strain += by;
+  }
+}
+
 Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable& upper, const JointModel& model,
             double theta) {
   const PinPlace& pin = model.pins[tendon.side == Side::left ? 0 : 1];
@@ -251,15 +289,22 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   trial.wrap = trial.span.normal - off_pin;
   const double on_pin = model.guide.log_ratio(trial.wrap);
   const bool is_threaded = bends_of(model.sheath) > 1;
-  if (is_threaded) {
-    trial.threaded = threaded(trial.spans, tendon, model, at.swelling);
-    trial.threaded.holds.front() += on_pin;
-    trial.slid = balance(trial.threaded, tendon.sheath.slides);
-    trial.balance = from_ends(trial.slid);
-  } else {
-    trial.spans.capstan = std::exp(on_pin);
-    trial.balance = balance(trial.spans);
-  }
+  const auto balanced = [&] {
+    if (is_threaded) {
+      trial.threaded = threaded(trial.spans, tendon, model, at.swelling);
+      trial.threaded.holds.front() += on_pin;
+      trial.slid = balance(trial.threaded, tendon.sheath.slides);
+      trial.balance = from_ends(trial.slid);
+    } else {
+      trial.spans.capstan = std::exp(on_pin);
+      trial.balance = balance(trial.spans);
+    }
+    return trial.balance.upper / at.spans.EA;
+  };
+  if (tendon.on_drum)
+    rub_on_drum(trial, tendon, at, model, balanced);
+  else
+    balanced();
   const double m = trial.span.m;
   trial.pull = trial.balance.upper * m;
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
@@ -311,6 +356,12 @@ std::optional<double> fallen_to_zero(double start, double least, double most, do
   return x;
 }
 
+/// Between a drum and the tendon's end there is as much at every angle at which the tendon lies on the drum.
+double straight_behind(const PinPlace& place) {
+  const auto leaves = lift_off(place);
+  return leaves ? upper_span(place, *leaves - k_hair).behind_drum : 0.0;
+}
+
 /// Samples of the groove over the range: its radius changes little from one to the next.
 constexpr int k_groove_places = 64;
 
@@ -345,8 +396,16 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   const double off_pin = place.off_pin(path.normal), in_sheath = end_share(model.sheath) * model.sheath.length;
   tendon.rim_reference = 0.5 * (span.normal + off_pin);
   const double density = 1.0 / (1.0 + tension / model.EA);
+  double free = span.free;
+  if (model.drum_friction > 0 && place.drum > 0) {
+    tendon.behind_drum = straight_behind(place);
+    const GroovePlace takes_off = place_on_drum(place, span.on_drum, tendon.behind_drum);
+    const auto drum = std::make_shared<const GrooveArc>(GrooveArc::round(place.drum, tendon.behind_drum));
+    tendon.on_drum = WoundProfile(drum, model.drum_friction, takes_off, density);
+    free -= takes_off.arc + tendon.behind_drum;
+  }
   tendon.upper_material =
-      density * (span.free + place.rho * (span.normal - tendon.rim_reference) + in_sheath) + 0.5 * model.slack;
+      density * (free + place.rho * (span.normal - tendon.rim_reference) + in_sheath) + 0.5 * model.slack;
   tendon.lower_material =
       density * (path.reach + place.rho * (tendon.rim_reference - off_pin) + in_sheath) + 0.5 * model.slack;
   tendon.sheath.material.fill(density * 2.0 * in_sheath);
@@ -357,29 +416,24 @@ TendonHistory at_home(Side side, const JointModel& model, const LowerPath& path,
   return tendon;
 }
 
-/// What a tendon's step did with energy.
-struct Spent {
-  double wound = 0;  ///< energy that went onto the pulley (negative: came off)
-  double friction = 0;
-  double groove_friction = 0;
-};
-
 /// What the pulley takes in with the tendon that is wound and what it gives with the material that slides out, at the
 /// take-off's strain of the step's beginning and end, less what it holds more. What slides out by dM at strain ε takes
 /// EA (ε + ε²/2) dM of work.
-Spent wind(WoundProfile& wound, const AtAlpha& at) {
-  const double EA = at.spans.EA;
-  const double before = wound.strain(at.swelling);
-  const double now = at.slide.strain;
-  const double arc = at.turned.take_off.arc - wound.take_off().arc;
+struct Wound {
+  double energy = 0;  ///< that it holds more
+  double friction = 0;
+};
+
+Wound wind(WoundProfile& wound, const Turned& turned, const Slide& slide, double swelling, double EA) {
+  const double before = wound.strain(swelling);
+  const double now = slide.strain;
+  const double arc = turned.take_off.arc - wound.take_off().arc;
   const auto mean = [&](auto of) { return 0.5 * (of(before) + of(now)); };
   const double laid = arc * mean([](double strain) { return 1.0 / (1.0 + strain); });
   const double energy = arc * mean([](double strain) { return 0.5 * strain * strain / (1.0 + strain); });
   const double work = mean([](double strain) { return strain * (1.0 + 0.5 * strain); });
-  Spent spent;
-  spent.wound = EA * wound.accept(at.turned, at.slide, at.swelling).energy;
-  spent.groove_friction = EA * (work * (at.swelling * at.slide.freed + laid) + energy) - spent.wound;
-  return spent;
+  const double more = EA * wound.accept(turned, slide, swelling).energy;
+  return {more, EA * (work * (swelling * slide.freed + laid) + energy) - more};
 }
 
 /// Work that a tendon at the tension `t` brings with material that crosses to it.
@@ -407,6 +461,13 @@ double pull_through(TendonHistory& tendon, const Trial& trial, double swelling) 
   return lost;
 }
 
+/// What a tendon's step did with energy.
+struct Spent {
+  double wound = 0;  ///< energy that went onto pulley and drum (negative: came off)
+  double friction = 0;
+  double groove_friction = 0;
+};
+
 /// Takes a trial as what happened; what slides, but for `near`.
 Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial, double near) {
   const double EA = at.spans.EA;
@@ -415,12 +476,19 @@ Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial, double near
   const double to_joint = is_threaded ? trial.slid.crossed.back() : now.crossed;  // out of the lower span
   if (std::abs(at.slide.strain - now.lower / EA) > near)
     at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
-  Spent spent = wind(tendon.wound, at);
+  const Wound on_pulley = wind(tendon.wound, at.turned, at.slide, at.swelling, EA);
+  Spent spent{on_pulley.energy, 0, on_pulley.friction};
   const auto dropped = [EA](double upper, double lower) { return head(upper, EA) - head(lower, EA); };
   spent.friction = is_threaded
                        ? pull_through(tendon, trial, at.swelling)
                        : 0.5 * (dropped(tendon.upper, tendon.lower) + dropped(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
+  if (tendon.on_drum) {
+    const Wound on_drum = wind(*tendon.on_drum, trial.drum_turned, trial.drum_slide, at.swelling, EA);
+    tendon.upper_material += trial.drum_slide.freed;
+    spent.wound += on_drum.energy;
+    spent.friction += on_drum.friction;
+  }
   tendon.lower_material = (at.spans.lower_material - to_joint) / at.swelling + at.slide.freed;
   tendon.strained = (now.lower - tendon.lower) / EA;
   tendon.upper = now.upper;
@@ -432,6 +500,7 @@ TendonState state_of(const TendonHistory& tendon, const AtAlpha& at, const Trial
   TendonState state;
   state.upper = trial.balance.upper;
   state.lower = trial.balance.lower;
+  state.end = tendon.on_drum ? at.spans.EA * tendon.on_drum->strain_at_knot(at.swelling) : state.upper;
   state.wrap = trial.wrap;
   state.contact = trial.balance.contact;
   for (const double stretch : {trial.upper_length - at.swelling * tendon.upper_material,

@@ -146,6 +146,7 @@ void set_statics(JointModel& model, const MountedMechanism& in) {
   model.EA = section_stiffness(mounted.tendon);
   model.guide = guide_friction(mounted);
   model.sheath = sheath_load(mounted);
+  model.drum_friction = mounted.joint.drum_mu;
   model.groove_friction = mounted.pulley.mu;
   model.pretension = mounted.tendon.pretension;
   model.weight = weight_moment(mounted.load);

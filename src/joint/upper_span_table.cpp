@@ -57,6 +57,7 @@ UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most)
     on_drum_until_ = std::min(*leaves, most);
     on_drum_ = upper_span(place, least);
     on_drum_from_ = least;
+    wound_up_ = on_drum_.on_drum + on_drum_.normal + least;
     if (place.drum_off != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair);
     least = *leaves + k_hair;
     if (least >= most) return;
@@ -82,15 +83,21 @@ UpperSpanTable::Look UpperSpanTable::at(double theta) const {
   const bool on_drum = theta <= on_drum_until_ || free_.curves.empty();
   if (on_drum && over_drum_.curves.empty()) {
     const double turned = std::clamp(theta, on_drum_from_, on_drum_until_) - on_drum_from_;
-    return {on_drum_.length - on_drum_.m * turned, on_drum_.m, 0, on_drum_.normal, 0};
+    return {on_drum_.length - on_drum_.m * turned, on_drum_.m, 0, on_drum_.normal, 0, on_drum_.on_drum - turned};
   }
   const Pieces& pieces = on_drum ? over_drum_ : free_;
   const double place = std::clamp((theta - pieces.least) / pieces.step, 0.0, static_cast<double>(k_pieces));
   const std::size_t i = std::min(static_cast<std::size_t>(place), k_pieces - 1);
   const double u = place - static_cast<double>(i);
   const Piece& piece = pieces.curves[i];
-  return {value_at(piece.length, u), value_at(piece.m, u), slope_at(piece.m, u) / pieces.step,
-          value_at(piece.normal, u), slope_at(piece.normal, u) / pieces.step};
+  const double normal = value_at(piece.normal, u);
+  const double within = pieces.least + pieces.step * (static_cast<double>(i) + u);
+  return {value_at(piece.length, u),
+          value_at(piece.m, u),
+          slope_at(piece.m, u) / pieces.step,
+          normal,
+          slope_at(piece.normal, u) / pieces.step,
+          on_drum ? std::max(0.0, wound_up_ - within - normal) : 0.0};
 }
 
 }  // namespace fusee

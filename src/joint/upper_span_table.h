@@ -24,6 +24,7 @@ class UpperSpanTable {
     double dm = 0;       ///< dm/dθ
     double normal = 0;   ///< rad
     double dnormal = 0;  ///< d normal / dθ
+    double on_drum = 0;  ///< UpperSpan::on_drum, rad
   };
   Look at(double theta) const;
 
@@ -43,6 +44,7 @@ class UpperSpanTable {
   double on_drum_until_ = -std::numeric_limits<double>::infinity();  ///< rad; from there on it is looked up
   double on_drum_from_ = 0;
   UpperSpan on_drum_;  ///< at on_drum_from_
+  double wound_up_ = 0;  ///< what lies on the drum, normal and θ add up to, rad
   Pieces over_drum_;   ///< of a drum off the axis; about it: none
   Pieces free_;
 };

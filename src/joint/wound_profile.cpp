@@ -174,6 +174,14 @@ GrooveArc::GrooveArc(std::vector<GroovePlace> along, double knot_beyond) {
   knot_ = {knots_.front().turn - knot_beyond / knots_.front().slope, knots_.front().arc - knot_beyond};
 }
 
+// What lies straight between drum and knot has the strain of the drum's end: for sliding(), whose sums are by parts
+// from the knot's arc on, it is as good as more arc at the same turn.
+GrooveArc GrooveArc::round(double radius, double behind) {
+  GrooveArc drum({{0.0, 0.0}, {1.0, radius}}, 0.0);
+  drum.knot_.arc -= behind;
+  return drum;
+}
+
 double GrooveArc::arc(double turn) const {
   const Knot& first = knots_.front();
   const Knot& last = knots_.back();
@@ -198,6 +206,10 @@ WoundProfile::WoundProfile(std::shared_ptr<const GrooveArc> groove, double frict
 }
 
 double WoundProfile::strain(double swelling) const { return strain_of(density_, swelling); }
+
+double WoundProfile::strain_at_knot(double swelling) const {
+  return pieces_.empty() ? strain(swelling) : strain_of(pieces_.front().density_from, swelling);
+}
 
 Turned WoundProfile::turned_to(const GroovePlace& take_off, double swelling) const {
   Turned turned;

@@ -23,6 +23,8 @@ class GrooveArc {
   /// `along`: from the unwound end of the range to the wound one, strictly growing, at least two. Beyond both ends the
   /// groove is taken as round, of the radius that it has there.
   GrooveArc(std::vector<GroovePlace> along, double knot_beyond);
+  /// A round drum of `radius`, from the turn 0 on; `behind` it, straight, there is so much more tendon to the knot.
+  static GrooveArc round(double radius, double behind);
 
   double arc(double turn) const;
   const GroovePlace& knot() const { return knot_; }
@@ -101,6 +103,7 @@ class WoundProfile {
   const GroovePlace& take_off() const { return take_off_; }
   /// At the take-off.
   double strain(double swelling) const;
+  double strain_at_knot(double swelling) const;
 
   Turned turned_to(const GroovePlace& take_off, double swelling) const;
   Slide slide(const Turned& turned, double strain, double swelling) const;

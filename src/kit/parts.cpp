@@ -6,6 +6,7 @@
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
 #include "kit/hardware.h"
+#include "kit/motor_mount.h"
 
 namespace fusee {
 namespace {
@@ -99,7 +100,7 @@ class PartMaker {
     for (const Vec2& foot : plan_.feet) plate.loops.push_back(round_hole(foot, sizes_.foot->clearance));
     for (const KitPin& pin : plan_.pins)
       plate.loops.push_back(round_hole(pin.place, pin.screw ? pin.screw->clearance : 2 * pin.radius));
-    for (SlabLoop& loop : motor_holes()) plate.loops.push_back(std::move(loop));
+    for (SlabLoop& loop : holes_of_motor()) plate.loops.push_back(std::move(loop));
     add({"base_plate",
          "base plate: joint axis, pins, motor",
          {{plate}},
@@ -110,46 +111,16 @@ class PartMaker {
     for (const Vec2& leg : plan_.legs) legs.push_back({leg, -sizes_.base - sizes_.leg, false, false});
     add({"leg", "leg under the base plate", tube(k_leg_radius, leg_screw().tapping, sizes_.leg), legs, 4, false});
     buy(4, screw_words(leg_screw(), sizes_.base + 10) + " with low head", "legs, from above");
-    if (sizes_.motor) {
-      const MotorType& motor = *sizes_.motor;
-      buy(1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source);
-      if (motor.shaft > 0)
-        buy(motor.two_holes ? 2 : 4, motor_screw(motor, sizes_.base + 4) + " with low head",
-            "motor, from above");
-      else
-        buy(4, motor_screw(motor, sizes_.base + 8) + " with nuts", "motor, from above");
-    }
-  }
-
-  static std::string motor_screw(const MotorType& motor, double length) {
-    if (motor.hole < k_threads.front().diameter) return "M1.6 × " + rounded(stock_length(length));
-    return screw_words(thread_within(motor.hole), length);
+    if (sizes_.motor) buy_motor(plan_, *sizes_.motor, sizes_.base);
   }
 
   const Thread& leg_screw() const { return thread_within(3); }
 
-  std::vector<SlabLoop> motor_holes() const {
-    std::vector<SlabLoop> holes;
-    const Vec2 front = sizes_.motor_front;
-    if (!sizes_.motor) {
-      const bool horn = mechanism_.body.bore == Bore::horn;
-      const double opening = horn ? horn_of(mechanism_).bolt_circle + 10 : shaft_of(mechanism_, layout_) + 1;
-      holes.push_back(round_hole(pulley_, opening));
-      return holes;
-    }
-    const MotorType& motor = *sizes_.motor;
-    if (motor.pilot > 0) {
-      holes.push_back(round_hole(pulley_, motor.pilot + 0.5));
-    } else {
-      const Vec2 a = pulley_ + (motor.front + 0.3) * front, b = pulley_ - (motor.back + 0.3) * front;
-      const double side = motor.side + 0.3;
-      holes.push_back(hole(box({-side, std::min(a.y(), b.y())}, {side, std::max(a.y(), b.y())})));
-    }
-    for (const double x : {-motor.hole_x, motor.hole_x}) {
-      holes.push_back(round_hole(pulley_ + Vec2(x, 0) + motor.hole_front * front, motor.hole));
-      if (!motor.two_holes) holes.push_back(round_hole(pulley_ + Vec2(x, 0) - motor.hole_back * front, motor.hole));
-    }
-    return holes;
+  std::vector<SlabLoop> holes_of_motor() const {
+    if (sizes_.motor) return motor_holes(*sizes_.motor, pulley_, sizes_.motor_front);
+    const bool horn = mechanism_.body.bore == Bore::horn;
+    const double opening = horn ? horn_of(mechanism_).bolt_circle + 10 : shaft_of(mechanism_, layout_) + 1;
+    return {round_hole(pulley_, opening)};
   }
 
   void pins() {

@@ -8,6 +8,7 @@
 #include "fusee/kit/kit.h"
 #include "fusee/transmission/transmission.h"
 #include "kit/hardware.h"
+#include "kit/motor_mount.h"
 #include "kit/parts.h"
 
 namespace fusee {
@@ -91,24 +92,6 @@ struct Least {
 
 // Sizes ---------------------------------------------------------------------------------------------------------------
 
-const MotorType* motor_for(const Mechanism& mechanism, const BodyLayout& layout) {
-  const Body& body = mechanism.body;
-  const bool horn = body.bore == Bore::horn;
-  const std::string& name = horn ? body.horn : body.shaft;
-  const auto named = [&](const MotorType& motor) {
-    return std::find(motor.fits.begin(), motor.fits.end(), name) != motor.fits.end();
-  };
-  for (const MotorType& motor : motor_types()) {
-    if (named(motor)) return &motor;
-  }
-  if (horn || body.bore == Bore::hex || body.bore == Bore::square) return nullptr;
-  const double shaft = shaft_of(mechanism, layout);
-  for (const MotorType& motor : motor_types()) {
-    if (motor.shaft > 0 && std::abs(motor.shaft - shaft) < 0.05) return &motor;
-  }
-  return nullptr;
-}
-
 void size_axle(KitSizes& sizes, const BearingType& bearing) {
   sizes.bearing = &bearing;
   sizes.axle = &thread_within(bearing.bore);
@@ -188,7 +171,7 @@ void size_link(KitSizes& sizes, const Scene& scene, double pins_top) {
   sizes.bracket_low = magnet + board.gap + board.chip + board.thickness + 3;
   sizes.bracket = 4;
   sizes.leg = (sizes.motor ? sizes.motor->depth : 20) + 5;
-  sizes.motor_front = {0, scene.pulley.y() > 0 ? -1.0 : 1.0};
+  sizes.motor_front = motor_front(scene.pulley);
 }
 
 // Distances -----------------------------------------------------------------------------------------------------------
@@ -238,15 +221,6 @@ Least post_past(const Scene& scene, const KitSizes& sizes, const Vec2& place, do
   return least;
 }
 
-/// From the motor's body and its screws to a place, in the plane: below 0 within.
-double beside_motor(const MotorType& motor, const Scene& scene, const KitSizes& sizes, const Vec2& place) {
-  const Vec2 off = place - scene.pulley;
-  const double along = off.dot(sizes.motor_front);
-  return std::max({std::abs(off.x()) - std::max(motor.side, motor.hole_x + motor.hole),
-                   along - std::max(motor.front, motor.hole_front + motor.hole),
-                   -along - std::max(motor.back, motor.hole_back + motor.hole)});
-}
-
 void look_at_axle(Conditions& look, const Scene& scene, const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   const Vec2 axis(0, 0);
@@ -266,7 +240,7 @@ void look_at_axle(Conditions& look, const Scene& scene, const KitPlan& plan) {
                   std::string(tendon == 0 ? "guides.EB_mm" : "guides.ED_mm") + " larger by {}");
   }
   if (sizes.motor) {
-    const double beside = beside_motor(*sizes.motor, scene, sizes, axis);
+    const double beside = beside_motor(*sizes.motor, axis - scene.pulley, sizes.motor_front);
     look.at_least("axle_beside_motor", fixed(beside - sizes.axle->head_radius), k_clear,
                   "the screw of the joint's axle stands in the motor (" + sizes.motor->name + ")",
                   "pulley.EF_mm " + std::string(scene.pulley.y() < 0 ? "larger" : "smaller") +
@@ -292,9 +266,9 @@ void look_at_pins(Conditions& look, const Scene& scene, const KitPlan& plan) {
                   "body.flange_thickness_mm larger by {}");
     if (sizes.motor) {
       const double radius = own.screw ? own.screw->head_radius : own.radius + k_wall;
-      look.at_least("pin_" + name + "_beside_motor", {beside_motor(*sizes.motor, scene, sizes, own.place) - radius, 0},
-                    k_clear, "pin " + name + " stands in the motor (" + sizes.motor->name + ")",
-                    "pulley.EF_mm larger by {}");
+      look.at_least("pin_" + name + "_beside_motor",
+                    {beside_motor(*sizes.motor, own.place - scene.pulley, sizes.motor_front) - radius, 0}, k_clear,
+                    "pin " + name + " stands in the motor (" + sizes.motor->name + ")", "pulley.EF_mm larger by {}");
     }
   }
   look.at_least("pins_apart", {(scene.pins[0] - scene.pins[1]).norm() - plan.pins[0].collar - plan.pins[1].collar, 0},
@@ -357,7 +331,8 @@ class FootRoom {
     for (const KitPin& pin : plan_.pins) {
       if ((place - pin.place).norm() < pin.collar + 1 + own) return false;
     }
-    if (sizes.motor && beside_motor(*sizes.motor, scene_, sizes, place) < nut_corner_radius(*sizes.foot) + 1)
+    if (sizes.motor &&
+        beside_motor(*sizes.motor, place - scene_.pulley, sizes.motor_front) < nut_corner_radius(*sizes.foot) + 1)
       return false;
     for (const auto& paths : scene_.paths) {
       for (const auto& path : paths) {
@@ -403,12 +378,7 @@ std::vector<Disc> on_base(const Scene& scene, const KitPlan& plan) {
   for (const KitPin& pin : plan.pins) all.push_back({pin.place, pin.collar});
   for (const Vec2& foot : plan.feet) all.push_back({foot, nut_corner_radius(*sizes.foot) + 1});
   if (sizes.motor) {
-    const MotorType& motor = *sizes.motor;
-    for (const double x : {-1.0, 1.0}) {
-      for (const double along :
-           {std::max(motor.front, motor.hole_front + 4), -std::max(motor.back, motor.hole_back + 4)})
-        all.push_back({scene.pulley + Vec2(x * motor.side, 0) + along * sizes.motor_front, 0});
-    }
+    for (const Disc& corner : motor_corners(*sizes.motor, scene.pulley, sizes.motor_front)) all.push_back(corner);
   }
   return all;
 }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fusee/base/text.h"
 #include "fusee/kit/kit.h"
 #include "fusee/transmission/tendon_path.h"
 #include "kit/hardware.h"
+#include "kit/motor_mount.h"
 #include "kit/parts.h"
 
 namespace fusee {
@@ -18,7 +20,10 @@ namespace {
 
 constexpr double k_between_holes = 1.2;  // three lines of a 0.4 mm nozzle
 constexpr double k_plate = 4;
+constexpr double k_lip = 1.2;       // below the bearings, and round a spacer
+constexpr double k_beside = 0.5;    // of what moves past it
 constexpr double k_round_hole = 5;  // of a plate, beside its holes
+constexpr double k_hole_at_C = 1.6;
 
 struct NamedHole {
   std::string name;
@@ -63,7 +68,10 @@ SlabBody plate_of(const std::vector<NamedHole>& holes, std::vector<Disc> more) {
 class TemplateMaker {
  public:
   TemplateMaker(const Mechanism& mechanism, const BodyLayout& layout, const std::optional<TendonHeights>& heights)
-      : mechanism_(mechanism), layout_(layout), axle_(thread_within(0.5 * smallest_lever())) {
+      : mechanism_(mechanism),
+        layout_(layout),
+        bearing_(largest_bearing()),
+        axle_(thread_within(bearing_ ? bearing_->bore : 0.5 * smallest_lever())) {
     plan_.heights = heights;
   }
 
@@ -89,13 +97,35 @@ class TemplateMaker {
     plan_.tendons[1].side = Side::right;
     plan_.notes.push_back(std::string(plan_.heights ? "of a pulley wound several times"
                                                     : "of a joint with a drum, ends of its own, idlers or sheaths") +
-                          " the kit has plates to drill by, true to size" +
-                          (plan_.heights && mechanism_.joint.drum_radius <= 0 ? "" : ", and the drum") +
-                          ": no bearings, motor's holes, scale or encoder mount");
+                          " the kit has plates to drill by, true to size, with the seats of its bearings and its "
+                          "motor's holes" +
+                          (plan_.heights && !has_drum() ? "" : ", and the drum") +
+                          ": no scale, tensioner or encoder mount");
     return plan_;
   }
 
  private:
+  static double tie(const Mechanism& mechanism) { return std::max(0.5, 0.75 * mechanism.tendon.diameter); }
+  Vec2 end_of(const std::optional<Attachment>& own) const {
+    return own ? Vec2(own->across, own->along) : Vec2(0, mechanism_.joint.R);
+  }
+
+  /// Two of them lie in the link, beside the tendons' ends, and the ring on which they stand goes through the drum.
+  const BearingType* largest_bearing() const {
+    const Joint& joint = mechanism_.joint;
+    double room = joint.R - k_hole_at_C;
+    for (const auto& end : {joint.attachment1, joint.attachment2})
+      room = std::min(room, end_of(end).norm() - tie(mechanism_));
+    for (const BearingType& bearing : bearing_types()) {
+      const bool drum_holds = joint.drum_radius == 0 || ring_hole(bearing) + k_lip <= joint.drum_radius;
+      if (0.5 * bearing.outer + k_between_holes <= room && drum_holds) return &bearing;
+    }
+    return nullptr;
+  }
+  /// Radius of the room for that ring, which stands still.
+  static double ring_hole(const BearingType& bearing) { return 0.5 * bearing.spacer + k_beside; }
+  double hole_in_drum() const { return bearing_ ? ring_hole(*bearing_) : 0.5 * axle_.clearance; }
+
   bool idlers() const { return mechanism_.guides.kind == GuideKind::idler; }
 
   double smallest_lever() const {
@@ -122,18 +152,78 @@ class TemplateMaker {
       const Vec2 mouth = place.pulley_axis() + Vec2(sign * place.mouth->across, place.mouth->above);
       holes.push_back({side == Side::left ? "mouth_1" : "mouth_2", mouth, ferrule()});
     }
+    const Vec2 pulley = pin_place(mechanism_, Side::left, 0).pulley_axis();
+    const MotorType* motor = motor_that_fits(holes, pulley);
+    std::vector<Disc> more;
+    if (motor) more = motor_corners(*motor, pulley, motor_front(pulley));
+    for (Disc& corner : more) corner.radius = 1;
     const double shaft = mechanism_.body.bore == Bore::horn ? 0.5 * horn_of(mechanism_).bolt_circle + 5
                                                             : 0.5 * shaft_of(mechanism_, layout_) + 0.5;
-    holes.push_back({"pulley_axis", pin_place(mechanism_, Side::left, 0).pulley_axis(), shaft});
+    if (!motor) holes.push_back({"pulley_axis", pulley, shaft});
     look_between(plan_, holes);
+    SlabBody plate = plate_of(holes, more);
+    if (motor) {
+      for (SlabLoop& loop : motor_holes(*motor, pulley, motor_front(pulley)))
+        plate.slabs.front().loops.push_back(std::move(loop));
+      buy_motor(plan_, *motor, k_plate);
+    }
     plan_.parts.push_back({"base_template",
                            "base: axis, guides and pulley, where the file has them",
-                           plate_of(holes, {}),
+                           std::move(plate),
                            {{{0, 0}, -k_plate, false, false}},
                            1,
                            true});
-    plan_.items.push_back({1, "axle of the joint, " + std::string(axle_.name), "through base, drum and link"});
+    buy_axle();
     buy_guides();
+  }
+
+  /// Null where there is none of the catalogue, or it would stand where another axis does: then the plate has a hole
+  /// for the pulley's axis alone.
+  const MotorType* motor_that_fits(const std::vector<NamedHole>& holes, const Vec2& pulley) {
+    const MotorType* motor = motor_for(mechanism_, layout_);
+    if (!motor) {
+      plan_.notes.push_back("no motor of the catalogue has this shaft or horn: the base has only a hole for its axis");
+      return nullptr;
+    }
+    for (const NamedHole& hole : holes) {
+      const double beside = beside_motor(*motor, hole.place - pulley, motor_front(pulley));
+      if (beside - hole.radius >= k_between_holes) continue;
+      plan_.notes.push_back("the motor " + motor->name + " would stand in the hole of " + hole.name +
+                            ": the base has only a hole for its axis; a longer pulley.EF_mm or a smaller motor "
+                            "(body.shaft, body.horn) has room");
+      return nullptr;
+    }
+    return motor;
+  }
+
+  double drum_height() const {
+    const auto& heights = plan_.heights;
+    return (heights ? heights->drum.high - heights->drum.low : layout_.z_p2 - layout_.z_p1) + 2 * margin();
+  }
+  bool has_drum() const { return mechanism_.joint.drum_radius > 0; }
+
+  void buy_axle() {
+    if (!bearing_) {
+      plan_.items.push_back({1, "axle of the joint, " + std::string(axle_.name), "through base, drum and link"});
+      plan_.notes.push_back(
+          "no ball bearing of the catalogue has room beside the tendons' ends: the link turns on the axle");
+      return;
+    }
+    const double ring = (has_drum() ? drum_height() : 0.0) + k_beside + k_lip;
+    plan_.parts.push_back(
+        {"bearing_ring",
+         has_drum() ? "ring under the inner ring of the lower bearing, through the drum"
+                    : "ring under the inner ring of the lower bearing",
+         {{{0,
+            ring,
+            {{disc({0, 0}, 0.5 * bearing_->spacer), false, 0, 0}, {disc({0, 0}, 0.5 * axle_.clearance), true, 0, 0}}}}},
+         {{{0, 0}, 0, false, false}},
+         1,
+         false});
+    plan_.items.push_back(
+        {2, "ball bearing " + bearing_->name + " (" + bearing_->description + ")", "joint, in the link"});
+    const double stack = k_plate + ring + 2 * bearing_->width + axle_.nut_height + 1;
+    plan_.items.push_back({1, screw_words(axle_, stack) + " with nut", "the joint's axle, from below"});
   }
 
   double ferrule() const { return std::max(1.5, mechanism_.tendon.diameter); }
@@ -170,38 +260,49 @@ class TemplateMaker {
 
   void link() {
     const Joint& joint = mechanism_.joint;
-    std::vector<NamedHole> holes{{"axle", {0, 0}, 0.5 * axle_.clearance}};
-    const double tie = std::max(0.5, 0.75 * mechanism_.tendon.diameter);
-    const auto end = [&](const std::optional<Attachment>& own) {
-      return own ? Vec2(own->across, own->along) : Vec2(0, joint.R);
-    };
-    add_hole(holes, {"end_1", end(joint.attachment1), tie});
-    add_hole(holes, {"end_2", end(joint.attachment2), tie});
-    add_hole(holes, {"C", {0, joint.R}, 1.6});
+    std::vector<NamedHole> holes{{"axle", {0, 0}, bearing_ ? 0.5 * bearing_->outer : 0.5 * axle_.clearance}};
+    add_hole(holes, {"end_1", end_of(joint.attachment1), tie(mechanism_)});
+    add_hole(holes, {"end_2", end_of(joint.attachment2), tie(mechanism_)});
+    add_hole(holes, {"C", {0, joint.R}, k_hole_at_C});
     look_between(plan_, holes);
-    const double drum = joint.drum_radius;
+    const double drum = joint.drum_radius, ring = bearing_ ? k_beside : 0.0;
+    const double on_axle = bearing_ ? holes.front().radius + k_lip : axle_.head_radius + 2;
+    SlabBody plate = plate_of(holes, {{{0, 0}, std::max(drum, on_axle)}});
+    if (bearing_) seat_bearings(plate);
     plan_.parts.push_back({"link_template",
                            "link: axis, the tendons' ends, and C for the load",
-                           plate_of(holes, {{{0, 0}, std::max(drum, axle_.head_radius + 2)}}),
-                           {{{0, 0}, 0, false, true}},
+                           std::move(plate),
+                           {{{0, 0}, has_drum() ? drum_height() + ring : ring, false, true}},
                            1,
                            true});
-    if (!(drum > 0)) return;
-    look_between(plan_, {{"drum", {2 * drum, 0}, drum}, {"axle", {0, 0}, 0.5 * axle_.clearance}});
-    const double high =
-        (plan_.heights ? plan_.heights->drum.high - plan_.heights->drum.low : layout_.z_p2 - layout_.z_p1) +
-        2 * margin();
+    if (!has_drum()) return;
+    look_between(plan_, {{"drum", {2 * drum, 0}, drum}, {"axle", {0, 0}, hole_in_drum()}});
     plan_.parts.push_back(
         {"drum",
          "drum of the joint, as wide as both tendons: fixed to the link",
-         {{{0, high, {{disc({0, 0}, drum), false, 0, 0}, {disc({0, 0}, 0.5 * axle_.clearance), true, 0, 0}}}}},
-         {{{0, 0}, -high, false, true}},
+         {{{0, drum_height(), {{disc({0, 0}, drum), false, 0, 0}, {disc({0, 0}, hole_in_drum()), true, 0, 0}}}}},
+         {{{0, 0}, ring, false, true}},
          1,
          false});
   }
 
+  /// The plate as high as both bearings, on a lip that leaves their inner rings free.
+  void seat_bearings(SlabBody& plate) const {
+    Slab& seat = plate.slabs.front();
+    Slab lip = seat;
+    for (SlabLoop& loop : lip.loops) {
+      if (loop.hole && loop.hull.discs.front().centre == Vec2(0, 0))
+        loop.hull = disc({0, 0}, 0.5 * bearing_->outer - 0.25 * (bearing_->outer - bearing_->spacer));
+    }
+    lip.high = k_lip;
+    seat.low = k_lip;
+    seat.high = k_lip + 2 * bearing_->width;
+    plate.slabs.insert(plate.slabs.begin(), std::move(lip));
+  }
+
   const Mechanism& mechanism_;
   const BodyLayout& layout_;
+  const BearingType* bearing_;  ///< null: the link turns on the axle itself
   const Thread& axle_;
   KitPlan plan_;
 };

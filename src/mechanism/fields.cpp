@@ -341,6 +341,12 @@ void add_mechanism(std::vector<Field>& table) {
        "thickness further out; 0: none"},
       "mm", 0, 5000));
   table.back().is_set = [](const DeclaredMechanism& m) { return m.joint.drum_radius > 0; };
+  table.push_back(number<joint, &Joint::drum_mu>(
+      {"joint.drum_friction", "", "0",
+       "capstan coefficient between tendon and drum: what lies on the drum slides as far as this lets it, up to the "
+       "tendon's end; 0: freely"},
+      "", 0, 1));
+  table.back().is_set = [](const DeclaredMechanism& m) { return m.joint.drum_mu > 0; };
   table.push_back(attachment_field<&Joint::attachment1>("joint.attachment1_mm",
                                                         "where tendon 1 ends, in the link at home: [to the right, "
                                                         "along OC]; nearer to O than the drum's pitch circle, and "

@@ -96,6 +96,7 @@ class MechanismReader {
   void check_unused();
   void check_method();
   void check_torque_law();
+  void check_drum();
   void check_idlers();
   void check_sheath();
   void check_bore();
@@ -497,6 +498,13 @@ void MechanismReader::check_unused() {
   }
 }
 
+void MechanismReader::check_drum() {
+  const char* key = "joint.drum_friction";
+  if (!(mechanism_.joint.drum_mu > 0 && mechanism_.joint.drum_radius == 0) || !has(key)) return;
+  if (!has("joint.drum_radius_mm") || good_["joint.drum_radius_mm"])
+    warn(entries_[key].place, "joint.drum_friction is not used: there is no joint.drum_radius_mm");
+}
+
 void MechanismReader::check_idlers() {
   const Guides& guides = mechanism_.guides;
   if (guides.kind != GuideKind::idler) return;
@@ -718,6 +726,7 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   check_unused();
   check_method();
   check_torque_law();
+  check_drum();
   check_idlers();
   check_sheath();
   check_bore();

@@ -41,7 +41,7 @@ struct NumberSlot {
 };
 
 /// In the order of FileNumbers, then of WideFileNumbers.
-constexpr std::array<NumberSlot, 20> k_slots{{{"joint.length_mm"},
+constexpr std::array<NumberSlot, 26> k_slots{{{"joint.length_mm"},
                                               {"guides.EB_mm"},
                                               {"guides.ED_mm"},
                                               {"guides.OE_mm"},
@@ -60,7 +60,13 @@ constexpr std::array<NumberSlot, 20> k_slots{{{"joint.length_mm"},
                                               {"joint.attachment2_mm[0]"},
                                               {"joint.attachment2_mm[1]"},
                                               {"guides.bearing_radius_mm"},
-                                              {"guides.bearing_friction"}}};
+                                              {"guides.bearing_friction"},
+                                              {"sheath.length_mm"},
+                                              {"sheath.bend_deg", true},
+                                              {"sheath.friction"},
+                                              {"sheath.stiffness_N_per_mm"},
+                                              {"sheath.exit_across_mm"},
+                                              {"sheath.exit_above_mm"}}};
 
 double radians_of(double value) { return radians(value); }
 Jet radians_of(const Jet& value) { return value * Jet(pi_interval() / 180.0); }
@@ -141,7 +147,7 @@ template <typename S>
 DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
   const FileNumbers<double>& b = base_;
   const WideFileNumbers<double>& w = wide_base_;
-  std::array<S, 20> n{b.R,
+  std::array<S, 26> n{b.R,
                       b.EB,
                       b.ED,
                       b.OE,
@@ -160,7 +166,13 @@ DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
                       w.across2,
                       w.along2,
                       w.bearing_radius,
-                      w.bearing_friction};
+                      w.bearing_friction,
+                      w.sheath_length,
+                      w.sheath_bend,
+                      w.sheath_mu,
+                      w.sheath_stiffness,
+                      w.exit_across,
+                      w.exit_above};
   for (const Number& number : numbers_) {
     const MovingKey& moving = *number.moving;
     S value(moving.constant);
@@ -177,8 +189,9 @@ DesignNumbers<S> Bounder::numbers_of(const std::vector<S>& variables) const {
       design_numbers<S>({n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12]},
                         problem_.base.pulley.law, problem_.base.has_point_pins());
   if (!wide_kind_.is_papers())
-    d.wide =
-        wide_numbers<S>(wide_kind_, {n[13], n[14], n[15], n[16], n[17], n[18], n[19]}, d.R, S(2.0 * d.half), d.rho);
+    d.wide = wide_numbers<S>(
+        wide_kind_, {n[13], n[14], n[15], n[16], n[17], n[18], n[19], n[20], n[21], n[22], n[23], n[24], n[25]}, d.R,
+        S(2.0 * d.half), d.rho);
   return d;
 }
 

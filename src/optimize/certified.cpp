@@ -394,7 +394,14 @@ std::string cannot_certify(const Problem& problem, Objective objective) {
   if (begins_without_drum)
     return "joint.drum_radius_mm from 0 on has no interval form: a drum of hardly any radius is not the joint without "
            "one";
-  if (problem.base.sheath.is_there()) return "a [sheath] has no interval form: its optimum cannot be certified";
+  const bool begins_rigid = std::any_of(problem.moving.begin(), problem.moving.end(), [&](const MovingKey& key) {
+    return key.key == "sheath.stiffness_N_per_mm" && !(least_of(key, problem.variables) > 0);
+  });
+  if (begins_rigid)
+    return "sheath.stiffness_N_per_mm from 0 on has no interval form: 0 is a rigid sheath, and hardly any stiffness a "
+           "soft one";
+  if (objective == Objective::max_error && problem.base.joint.drum_mu > 0)
+    return "max_error with joint.drum_friction has no interval form: its optimum cannot be certified";
   if (problem.as_it_is)
     return "[identified] has no interval form: the optimum of the joint as it is cannot be certified";
   return "";

@@ -87,12 +87,12 @@ bool needed_at(const DesignNumbers<S>& d, const S& place, std::size_t count, Nee
   const auto set = [&values](Needed which, const S& value, const Domain& domain) {
     values[static_cast<std::size_t>(which)] = {value, domain};
   };
-  set(Needed::clear_of_B, d.to_B - (n.r1 - d.rho), arms);
-  set(Needed::clear_of_D, d.to_D - (n.r2 - d.rho), arms);
+  set(Needed::clear_of_B, clear_of_guide(d, n.r1, true), arms);
+  set(Needed::clear_of_D, clear_of_guide(d, n.r2, false), arms);
   Domain of_B = arms, of_D = arms;
   const S wrap_B = wrap_over_B(d, n, of_B);
   set(Needed::wrap_B, wrap_B, of_B);
-  const S wrap_D = n.upper2.gamma - n.theta.angle - lower_line_of(d, n.r2, false, of_D).normal;
+  const S wrap_D = n.upper2.gamma - n.theta.angle - off_pin(d, lower_line_of(d, n.r2, false, of_D).normal);
   set(Needed::wrap_D, wrap_D, of_D);
   if (count <= k_needed_always) return true;
   set(Needed::radius_1, n.r1 - d.half, arms);

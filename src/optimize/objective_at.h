@@ -85,13 +85,35 @@ inline UpperLine<Jet> upper_line_of(const DesignNumbers<Jet>& d, const Jet& e, c
   const SharpLine line = sharp_upper_line(d.R, e, d.OE, d.rho, theta, domain);
   return {line.normal, line.reach};
 }
+/// Of a joint's sheaths, if there are any.
+template <typename S>
+const SheathNumbers<S>* sheath_of(const DesignNumbers<S>& d) {
+  return d.wide && d.wide->sheath ? &*d.wide->sheath : nullptr;
+}
+
 template <typename S>
 LowerLine<S> lower_line_of(const DesignNumbers<S>& d, const S& p, bool of_B, Domain& domain) {
+  if (const auto* sheath = sheath_of(d)) return lower_line(p, S(0.0), sheath->to_mouth, sheath->angle, domain);
   return lower_line(p, d.rho, of_B ? d.to_B : d.to_D, of_B ? d.angle_B : d.angle_D, domain);
 }
 inline LowerLine<Jet> lower_line_of(const DesignNumbers<Jet>& d, const Jet& p, bool of_B, Domain& domain) {
-  const SharpLine line = sharp_lower_line(p, d.rho, of_B ? d.EB : d.ED, d.EF, domain);
+  const SheathNumbers<Jet>* sheath = sheath_of(d);
+  const SharpLine line = sheath != nullptr ? sharp_lower_line(p, Jet(0.0), sheath->across, sheath->above, domain)
+                                           : sharp_lower_line(p, d.rho, of_B ? d.EB : d.ED, d.EF, domain);
   return {line.normal, line.reach};
+}
+
+/// Outward normal where a tendon leaves its pin: its line's to the pulley, or straight down into a sheath.
+template <typename S>
+S off_pin(const DesignNumbers<S>& d, const S& lower_normal) {
+  return sheath_of(d) != nullptr ? S(0.0) : lower_normal;
+}
+
+/// By how much a pulley's radius stays below what its tendon's pin or mouth allows.
+template <typename S>
+S clear_of_guide(const DesignNumbers<S>& d, const S& radius, bool of_B) {
+  if (const auto* sheath = sheath_of(d)) return sheath->to_mouth - radius;
+  return (of_B ? d.to_B : d.to_D) - (radius - d.rho);
 }
 
 /// Of a tendon that has a moment arm, of a joint that is not the paper's.
@@ -144,14 +166,14 @@ StrokeNumbers<S> stroke_numbers(const DesignNumbers<S>& d, const S& place, Domai
   StrokeNumbers<S> n = upper_stroke(d, place, domain);
   const LowerLine<S> lower = lower_line_of(d, n.r2, false, domain);
   n.reach = lower.reach;
-  n.phi = n.upper2.gamma - n.theta.angle - lower.normal;
+  n.phi = n.upper2.gamma - n.theta.angle - off_pin(d, lower.normal);
   return n;
 }
 
 /// Of tendon 1 over pin B.
 template <typename S>
 S wrap_over_B(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, Domain& domain) {
-  return S(n.upper1.gamma + n.theta.angle) - lower_line_of(d, n.r1, true, domain).normal;
+  return S(n.upper1.gamma + n.theta.angle) - off_pin(d, lower_line_of(d, n.r1, true, domain).normal);
 }
 
 /// The rectangle around link, pins and pulley in this pose. mm²
@@ -172,6 +194,19 @@ S below_guide(const DesignNumbers<S>& d, const S& above, const S& wrap) {
   return tension_below_pin(above, d.mu, wrap);
 }
 
+/// [9] with what lies in a sheath, which gives way to the mean of its ends.
+template <typename S>
+S elongation_at(const DesignNumbers<S>& d, const StrokeNumbers<S>& n, const S& above, const S& off_pin) {
+  const S on_pin = d.rho * n.phi;
+  if (const auto* sheath = sheath_of(d)) {
+    const S below = tension_below_pin(off_pin, sheath->mu, sheath->bend);
+    const S sheathed = sheath->length + d.stiffness * sheath->give;
+    return elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, S(0.0), d.stiffness) +
+           elongation_of_tendon(off_pin, below, S(0.0), sheathed, n.reach, d.stiffness);
+  }
+  return elongation_of_tendon(above, off_pin, n.upper2.free, on_pin, n.reach, d.stiffness);
+}
+
 /// What of the objective this place of the stroke alone would give: the objective is the largest over the range. Per
 /// newton of tip force.
 template <typename S>
@@ -179,10 +214,12 @@ S objective_of(Objective objective, const DesignNumbers<S>& d, const StrokeNumbe
   if (objective == Objective::footprint) return footprint_at(d, n);
   // A newton across OC turns by R, and the arm is R sin γ: R cancels here too.
   const S above = tension_above_pin(S(1.0), n.upper2.sine);
-  const S below = below_guide(d, above, n.phi);
+  const S off_pin = below_guide(d, above, n.phi);
+  const auto* sheath = sheath_of(d);
+  const S below = sheath != nullptr ? tension_below_pin(off_pin, sheath->mu, sheath->bend) : off_pin;
   if (objective == Objective::max_tension) return below;
   if (objective == Objective::motor_torque) return below * n.r2;
-  const S elongation = elongation_of_tendon(above, below, n.upper2.free, S(d.rho * n.phi), n.reach, d.stiffness);
+  const S elongation = elongation_at(d, n, above, off_pin);
   return (180.0 / k_pi) * angle_of_elongation(elongation, S(d.R * n.upper2.sine));  // max_error, in degrees
 }
 

@@ -6,8 +6,12 @@
 namespace fusee {
 
 WideKind wide_kind(const Mechanism& mechanism) {
-  return {mechanism.joint.drum_radius > 0, mechanism.joint.attachment1.has_value(),
-          mechanism.joint.attachment2.has_value(), mechanism.guides.kind == GuideKind::idler};
+  return {mechanism.joint.drum_radius > 0,
+          mechanism.joint.attachment1.has_value(),
+          mechanism.joint.attachment2.has_value(),
+          mechanism.guides.kind == GuideKind::idler,
+          mechanism.sheath.is_there(),
+          mechanism.sheath.stiffness > 0};
 }
 
 WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism) {
@@ -19,7 +23,13 @@ WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism) {
           end2.across,
           end2.along,
           mechanism.guides.bearing_radius,
-          mechanism.guides.bearing_friction};
+          mechanism.guides.bearing_friction,
+          mechanism.sheath.length,
+          mechanism.sheath.bend,
+          mechanism.sheath.mu,
+          mechanism.sheath.stiffness,
+          mechanism.sheath.exit_across,
+          mechanism.sheath.exit_above};
 }
 
 double twist_of(double across, double along, Domain&) {

@@ -23,17 +23,19 @@ constexpr bool k_may_be_wide = std::is_same_v<S, double> || std::is_same_v<S, Je
 
 /// Which numbers a mechanism has that the paper's has not.
 struct WideKind {
-  bool drum = false, own1 = false, own2 = false, idlers = false;
+  bool drum = false, own1 = false, own2 = false, idlers = false, sheath = false;
+  bool sheath_gives = false;
 
-  bool is_papers() const { return !drum && !own1 && !own2 && !idlers; }
+  bool is_papers() const { return !drum && !own1 && !own2 && !idlers && !sheath; }
 };
 
 WideKind wide_kind(const Mechanism& mechanism);
 
-/// Those numbers as they stand in the file. mm.
+/// Those numbers as they stand in the file, but for angles, which are rad. mm.
 template <typename S>
 struct WideFileNumbers {
   S drum_radius, across1, along1, across2, along2, bearing_radius, bearing_friction;
+  S sheath_length, sheath_bend, sheath_mu, sheath_stiffness, exit_across, exit_above;
 };
 
 WideFileNumbers<double> wide_file_numbers(const Mechanism& mechanism);
@@ -46,11 +48,22 @@ struct TendonEnd {
   bool is_on_drum = false;  ///< on its pitch circle, in the whole box
 };
 
+/// The sheath of either tendon: between its pin, which it leaves straight down, and its mouth at the motor, a point.
+template <typename S>
+struct SheathNumbers {
+  S length, bend, mu;
+  S give;           ///< mm per N
+  S across, above;  ///< the mouth, from the pulley's axis
+  S to_mouth;       ///< c, mm
+  S angle;          ///< φ, rad
+};
+
 template <typename S>
 struct WideNumbers {
   TendonEnd<S> end1, end2;
   std::optional<S> drum;     ///< ρ0, to the centre line of a tendon that lies on it
   std::optional<S> turning;  ///< of idlers: friction of the bearing times its radius per the idler's, to the centre line
+  std::optional<SheathNumbers<S>> sheath;
   Domain domain;             ///< of the ends
 };
 
@@ -70,6 +83,21 @@ TendonEnd<S> tendon_end(const S& away, const S& twist, const std::optional<S>& d
 }
 
 template <typename S>
+SheathNumbers<S> sheath_numbers(const WideKind& kind, const WideFileNumbers<S>& file) {
+  const S& across = file.exit_across;
+  const S& above = file.exit_above;
+  Domain whole;  // above > 0
+  return {file.sheath_length,
+          file.sheath_bend,
+          file.sheath_mu,
+          kind.sheath_gives ? S(1.0 / file.sheath_stiffness) : S(0.0),
+          across,
+          above,
+          hypot(across, above),
+          direction(across, above, whole)};
+}
+
+template <typename S>
 WideNumbers<S> wide_numbers(const WideKind& kind, const WideFileNumbers<S>& file, const S& R, const S& diameter,
                             const S& rho) {
   WideNumbers<S> wide;
@@ -82,6 +110,7 @@ WideNumbers<S> wide_numbers(const WideKind& kind, const WideFileNumbers<S>& file
   wide.end1 = kind.own1 ? own(-file.across1, file.along1) : C;
   wide.end2 = kind.own2 ? own(file.across2, file.along2) : C;
   if (kind.idlers) wide.turning = S(file.bearing_friction * file.bearing_radius / rho);
+  if (kind.sheath) wide.sheath = sheath_numbers(kind, file);
   return wide;
 }
 

@@ -43,7 +43,7 @@ SheathLoad sheath_load(const Mechanism& mechanism) {
 }
 
 Mechanism without_friction(Mechanism mechanism) {
-  mechanism.guides.mu = mechanism.guides.bearing_friction = mechanism.sheath.mu = 0;
+  mechanism.guides.mu = mechanism.guides.bearing_friction = mechanism.joint.drum_mu = mechanism.sheath.mu = 0;
   return mechanism;
 }
 

@@ -70,7 +70,8 @@ UpperSpan span_on_drum(const PinPlace& place, const FromDrum& end, const DrumLin
   span.normal = line.normal;
   span.on_drum = wound;
   span.end_normal = line.normal + wound;
-  span.free = std::sqrt((end.away - place.drum) * (end.away + place.drum)) + place.drum * wound + line.length;
+  span.behind_drum = std::sqrt((end.away - place.drum) * (end.away + place.drum));
+  span.free = span.behind_drum + place.drum * wound + line.length;
   span.length = span.free + place.rho * span.normal;
   if (place.drum_off == 0) return span;
   const double direction = theta + place.drum_twist + line.normal;

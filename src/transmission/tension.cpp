@@ -21,6 +21,16 @@ double turned_by_law_of_cosines(const PinPlace& place, double span, double elong
   return angle_at_joint(span + elongation) - angle_at_joint(span);
 }
 
+/// [d2] Of what lies on a drum and slides towards the span as a load comes on, the tension falls by e^{−μψ}: it
+/// stretches as so much less of tendon, mm.
+double spared_by_drum(const Mechanism& mechanism, const PinPlace& place, double image_theta) {
+  const double mu = mechanism.joint.drum_mu;
+  if (!(mu > 0 && place.drum > 0)) return 0;
+  const UpperSpan span = upper_span(place, image_theta);
+  const double left = std::exp(-mu * span.on_drum);
+  return place.drum * (span.on_drum - (1.0 - left) / mu) + span.behind_drum * (1.0 - left);
+}
+
 }  // namespace
 
 // [6] the tip force acts across OC, tendon 2 at γ2 to it: F_c R = T2 m2 with m2 = R sin γ2.
@@ -63,12 +73,15 @@ PaperForces paper_forces(const Mechanism& mechanism, const TransmissionPoint& po
   } else {
     forces.elongation = elongation_of_tendon(T, forces.Tb, tendon.free_upper, on_pin, tendon.lower_reach, stiffness);
   }
+  const PinPlace place = pin_place(mechanism, side, mechanism.seen_pitch_radius());
+  const double spared = spared_by_drum(mechanism, place, mirror_sign(side) * point.theta);
+  forces.elongation -= T * spared / stiffness;
   const double turned = mechanism.has_point_pins() ? turned_by_law_of_cosines(pin_place(mechanism, side, 0.0),
                                                                               tendon.free_upper, forces.elongation)
                                                    : angle_of_elongation(forces.elongation, tendon.m);
   forces.theta_error = by_first ? -turned : turned;
   forces.motor_torque = (by_first ? -1.0 : 1.0) * forces.Tb * tendon.p;
-  forces.stiffness = stiffness * tendon.m * tendon.m / (tendon.length + stiffness * sheath.give);
+  forces.stiffness = stiffness * tendon.m * tendon.m / (tendon.length - spared + stiffness * sheath.give);
   return forces;
 }
 

@@ -92,6 +92,23 @@ TEST(Analysis, SaysWhereNothingHoldsTheJoint) {
   EXPECT_FALSE(result.lost_at.has_value());
 }
 
+TEST(Analysis, SaysWhatADrumHolds) {
+  Mechanism mechanism = testing::finger();
+  mechanism.load.tip_force = 20.0;
+  const AnalysisResult smooth = analyse(mechanism, quick());
+  EXPECT_TRUE(smooth.on_drum.empty());
+  mechanism.joint.drum_mu = 0.2;
+  const AnalysisResult rough = analyse(mechanism, quick());
+  ASSERT_EQ(rough.on_drum.size(), 2u);
+  const PinPlace place = pin_place(mechanism, Side::right, mechanism.seen_pitch_radius());
+  const DrumHold& hold = rough.on_drum[1];
+  EXPECT_EQ(hold.tendon, Side::right);
+  EXPECT_NEAR(hold.wrap, upper_span(place, mechanism.joint.theta_min).on_drum, 1e-9);
+  EXPECT_NEAR(hold.ratio, std::exp(0.2 * hold.wrap), 1e-12);
+  EXPECT_LT(hold.at_end.value, 0.99 * smooth.largest_at_joint.value);
+  EXPECT_GT(hold.at_end.value, smooth.largest_at_joint.value / hold.ratio);
+}
+
 TEST(Analysis, SaysWhereTheTendonBreaks) {
   Mechanism mechanism = forearm();
   mechanism.load.tip_force = 100.0;

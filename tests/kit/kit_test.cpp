@@ -304,6 +304,38 @@ TEST(KitOfOne, ATendonIsCutForAllItsWay) {
 // ---- plates to drill by
 // ----------------------------------------------------------------------------------------------
 
+/// Two bearings of the list lie in the link, on a lip that touches the outer rings alone; the ring that carries the
+/// inner ones goes through the drum.
+void expect_bearings_seated(const KitPlan& plan, const Joint& joint) {
+  const auto part = [&](const std::string& name) {
+    return std::find_if(plan.parts.begin(), plan.parts.end(), [&](const KitPart& one) { return one.name == name; });
+  };
+  const auto ring = part("bearing_ring"), link = part("link_template"), drum = part("drum");
+  const auto bearing = std::find_if(bearing_types().begin(), bearing_types().end(), [&](const BearingType& one) {
+    return std::any_of(plan.items.begin(), plan.items.end(),
+                       [&](const KitItem& item) { return item.what.starts_with("ball bearing " + one.name + " "); });
+  });
+  ASSERT_EQ(ring == plan.parts.end(), bearing == bearing_types().end());
+  if (ring == plan.parts.end()) return;
+  const auto radius_at = [](const KitPart& one, double z) {
+    double least = 1e9;
+    for (const Polygon& loop : section(standing(one, one.places.front(), 0), one.places.front().z + z)) {
+      if (is_inside({loop}, {0, 0})) least = std::min(least, distance_to_edges(loop, {0, 0}));
+    }
+    return least;
+  };
+  const auto top = [](const KitPart& one) { return one.body.slabs.back().high; };
+  EXPECT_NEAR(radius_at(*link, top(*link) - 0.1), 0.5 * bearing->outer, 0.02);
+  EXPECT_NEAR(top(*link) - link->body.slabs.front().high, 2 * bearing->width, 1e-9);
+  EXPECT_LT(radius_at(*link, 0.5), 0.5 * bearing->outer - 0.2);
+  EXPECT_GT(radius_at(*link, 0.5), 0.5 * bearing->spacer + 0.2);
+  // The bearing's inner ring stands on it, the lip stays clear of what is below.
+  EXPECT_NEAR(top(*ring), link->places.front().z + link->body.slabs.front().high, 1e-9);
+  if (joint.drum_radius > 0) {
+    EXPECT_GT(radius_at(*drum, 0.5), 0.5 * bearing->spacer + 0.4);
+  }
+}
+
 class Template : public ::testing::TestWithParam<std::string> {};
 
 /// In the meshes: through the plates at every axis of the file, and nowhere between two of them.
@@ -329,7 +361,13 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
       bored.push_back(G + Vec2(x * mechanism.sheath.exit_across, mechanism.sheath.exit_above));
   }
   for (const Vec2& at : bored) EXPECT_FALSE(is_inside(base, at)) << at.transpose();
-  EXPECT_EQ(base.size(), bored.size() + 1);
+  // All of them, and those of the motor's screws where it has room.
+  const auto mounted = std::find_if(motor_types().begin(), motor_types().end(), [&](const MotorType& motor) {
+    return std::any_of(model.plan.items.begin(), model.plan.items.end(),
+                       [&](const KitItem& item) { return item.what.starts_with(motor.name + ":"); });
+  });
+  const std::size_t screws = mounted == motor_types().end() ? 0 : mounted->two_holes ? 2 : 4;
+  EXPECT_EQ(base.size(), bored.size() + 1 + screws);
   EXPECT_TRUE(is_inside(base, 0.5 * (bored[1] + bored[0])));
   for (const auto& end : {mechanism.joint.attachment1, mechanism.joint.attachment2}) {
     const Vec2 at = end ? Vec2(end->across, end->along) : Vec2(0, mechanism.joint.R);
@@ -337,6 +375,7 @@ TEST_P(Template, HasAHoleAtEveryAxis) {
     EXPECT_GT(distance_to_edges(link.front(), at), 0.4);
   }
   EXPECT_FALSE(is_inside(link, {0, 0}));
+  expect_bearings_seated(model.plan, mechanism.joint);
   EXPECT_EQ(drum.empty(), mechanism.joint.drum_radius == 0);
   if (drum.empty()) return;
   double most = 0;

@@ -98,6 +98,7 @@ bool loses_no_energy(Mechanism mechanism) {
   mechanism.tendon.modulus = *between(5000.0, 50000.0);
   mechanism.guides.mu = *between(0.0, 0.3);
   mechanism.pulley.mu = *between(0.0, 0.3);
+  if (mechanism.joint.drum_radius > 0) mechanism.joint.drum_mu = *between(0.0, 0.4);
   if (*rc::gen::element(true, false) && mechanism.guides.radius > 0) {
     mechanism.guides.kind = GuideKind::idler;
     mechanism.guides.bearing_radius = 0.4 * mechanism.guides.radius;

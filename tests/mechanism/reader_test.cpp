@@ -104,6 +104,8 @@ TEST(Reader, AttachmentsAndDrum) {
       only_error(wide,
                  {{"pulley.method", "paper"}, {"joint.attachment2_mm", "[0, 100]"}, {"joint.drum_radius_mm", "0"}}),
       HasSubstr("joint.attachment2_mm does not go with pulley.method = \"paper\""));
+  const std::string rubbing = with("length_mm = 100\n", "length_mm = 100\ndrum_radius_mm = 20\ndrum_friction = 0.2\n");
+  EXPECT_EQ(parse_mechanism(rubbing, "f.toml").joint.drum_mu, 0.2);
   // One of two by --set, on top of the file or of C.
   EXPECT_EQ(parse_mechanism(wide, "f.toml", ".", {{"joint.attachment2_mm[0]", "7"}}).joint.attachment2,
             (Attachment{7, 40.5}));
@@ -242,6 +244,9 @@ TEST(Reader, WarnsOfKeysWithoutUse) {
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(to_text(warnings[0]),
             "f.toml:12:9: warning: pulley.r1_mm is not used: it is for law = \"compensate\" only");
+  parse_mechanism(with("length_mm = 100\n", "length_mm = 100\ndrum_friction = 0.2\n"), "f.toml", ".", {}, &warnings);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_THAT(warnings[0].message, HasSubstr("joint.drum_friction is not used"));
   parse_mechanism(k_good_file, "f.toml", ".", {}, &warnings);
   EXPECT_THAT(warnings, IsEmpty());
 }

@@ -46,6 +46,14 @@ struct TensionExtreme {
   bool rising = false;  ///< α growing
 };
 
+/// One tendon that rubs on the joint's drum: its end is at what the span has, but for a factor within 1/ratio … ratio.
+struct DrumHold {
+  Side tendon = Side::right;
+  double wrap = 0;   ///< the largest angle that it lies on the drum with, rad
+  double ratio = 1;  ///< there: e^{μφ}
+  Extreme at_end;    ///< the largest tension at its end, N
+};
+
 /// A part of the range, by the table's rows. rad.
 struct AlphaRange {
   double from = 0;
@@ -88,7 +96,8 @@ struct AnalysisResult {
   std::vector<AnalysisRow> rows;
   SynthesisResult synthesis;         ///< the curves, where they can be drawn; its stroke has the rows' places
   TensionExtreme largest_tension;    ///< full model
-  Extreme largest_at_joint;          ///< of both tendons above their pins, full model: what a knot at C bears, N
+  Extreme largest_at_joint;          ///< of both tendons at their ends, full model: what a knot at C bears, N
+  std::vector<DrumHold> on_drum;     ///< of the tendons that rub on a drum; empty where nothing does
   Extreme largest_paper_tension;     ///< T_b
   Extreme largest_torque;            ///< of the motor, |.|, full model, N·mm
   Extreme hysteresis;                ///< largest |θ rising − θ falling| at one α, rad
@@ -117,7 +126,7 @@ std::string place_words(const TensionExtreme& extreme, const Mechanism& mechanis
 /// What the tendons bear at most.
 struct LargestTensions {
   TensionExtreme anywhere;
-  Extreme at_joint;  ///< of both tendons above their pins: at the knots at C, N
+  Extreme at_joint;  ///< of both tendons: at the knots at C, N
 };
 /// Of the full model on the way up and down through `alphas` (increasing, both ends of the range among them).
 LargestTensions largest_tensions(const Mechanism& mechanism, const std::vector<double>& alphas);

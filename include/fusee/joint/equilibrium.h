@@ -3,7 +3,8 @@
 ///
 /// Two elastic tendons, each in two spans with stick-slip capstan friction at the pin between them, and through a
 /// sheath in more, with friction at each of its bends; what is wound on a pulley slides in its groove as far as
-/// friction lets it (JointModel::groove_friction); a tendon cannot push. Source of the limits: the paper's [6]-[11]
+/// friction lets it (JointModel::groove_friction), and so does what lies on the joint's drum (drum_friction); a tendon
+/// cannot push. Source of the limits: the paper's [6]-[11]
 /// (tension.h).
 #pragma once
 
@@ -40,6 +41,7 @@ enum class PinContact {
 struct TendonState {
   double upper = 0;    ///< tension between pin and C, N
   double lower = 0;    ///< tension between pulley and pin, N
+  double end = 0;      ///< tension at the tendon's end: `upper`, but for what rubs on a drum, N
   double slack = 0;    ///< material beyond the path's length, both spans, mm
   double stretch = 0;  ///< path beyond the material's length, both spans, mm
   double wrap = 0;     ///< φ on the pin, rad; negative: the tendon would leave the pin, and the model ends there
@@ -71,7 +73,7 @@ struct EquilibriumPoint {
   /// … and with pins and groove that let it pass at the present ratio of tensions (large ones, whole tendons).
   double stiffness = 0;
   double stored = 0;           ///< elastic energy, above that of home unloaded, N·mm
-  double friction = 0;         ///< lost at pins, in sheaths and in the joint's bearing since home, N·mm
+  double friction = 0;         ///< lost at pins, on the drum, in sheaths and in the joint's bearing since home, N·mm
   double groove_friction = 0;  ///< lost in the grooves since home, N·mm
 };
 

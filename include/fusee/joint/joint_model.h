@@ -72,6 +72,7 @@ struct JointModel {
   GuideFriction guide;                           ///< of the pins or idlers
   SheathLoad sheath;                             ///< of each tendon's sheath
   double pretension = 0;                         ///< of tendon 1 at home, unloaded, N
+  double drum_friction = 0;                      ///< between tendon and drum, as groove_friction
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
   double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm
   double pin_give = 0;                           ///< a pin moves by this along what its tendon pushes it with, mm/N

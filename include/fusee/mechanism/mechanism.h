@@ -35,6 +35,7 @@ struct Joint {
   /// Of the drum itself about O, fixed to the link; 0: none. A tendon that would cut it lies on it, its centre line
   /// half its thickness further out, as on a pin.
   double drum_radius = 0;
+  double drum_mu = 0;                                    ///< between tendon and drum
   std::optional<Attachment> attachment1 = std::nullopt;  ///< of tendon 1 where it is not C
   std::optional<Attachment> attachment2 = std::nullopt;
   /// The drum's centre off O, fixed to the link. No key has it: joints are found to be so (mounted()).

@@ -83,6 +83,7 @@ struct UpperSpan {
   double d2normal = 0;    ///< d² normal/dθ²
   double end_normal = 0;  ///< of the line at the tendon's end, rad: `normal` but for what lies on the drum
   double on_drum = 0;     ///< angle over which the tendon lies on the drum, rad
+  double behind_drum = 0;  ///< of `free`: straight, from there to the tendon's end
 };
 
 /// NaN throughout where the tendon's end lies within the pin's circle, or the pin in the drum.

@@ -1,0 +1,85 @@
+#include "kit/motor_mount.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "fusee/base/text.h"
+#include "fusee/mechanism/catalogue.h"
+#include "kit/hardware.h"
+#include "kit/parts.h"
+
+namespace fusee {
+namespace {
+
+std::string motor_screw(const MotorType& motor, double length) {
+  if (motor.hole < k_threads.front().diameter) return "M1.6 × " + rounded(stock_length(length));
+  return screw_words(thread_within(motor.hole), length);
+}
+
+}  // namespace
+
+const MotorType* motor_for(const Mechanism& mechanism, const BodyLayout& layout) {
+  const Body& body = mechanism.body;
+  const bool horn = body.bore == Bore::horn;
+  const std::string& name = horn ? body.horn : body.shaft;
+  const auto named = [&](const MotorType& motor) {
+    return std::find(motor.fits.begin(), motor.fits.end(), name) != motor.fits.end();
+  };
+  for (const MotorType& motor : motor_types()) {
+    if (named(motor)) return &motor;
+  }
+  if (horn || body.bore == Bore::hex || body.bore == Bore::square) return nullptr;
+  const double shaft = shaft_of(mechanism, layout);
+  for (const MotorType& motor : motor_types()) {
+    if (motor.shaft > 0 && std::abs(motor.shaft - shaft) < 0.05) return &motor;
+  }
+  return nullptr;
+}
+
+Vec2 motor_front(const Vec2& pulley) { return {0, pulley.y() > 0 ? -1.0 : 1.0}; }
+
+std::vector<SlabLoop> motor_holes(const MotorType& motor, const Vec2& pulley, const Vec2& front) {
+  std::vector<SlabLoop> holes;
+  const auto through = [&holes](DiscHull hull) { holes.push_back({std::move(hull), true, 0, 0}); };
+  if (motor.pilot > 0) {
+    through(disc(pulley, 0.5 * (motor.pilot + 0.5)));
+  } else {
+    const Vec2 a = pulley + (motor.front + 0.3) * front, b = pulley - (motor.back + 0.3) * front;
+    const double side = motor.side + 0.3;
+    through(box({-side, std::min(a.y(), b.y())}, {side, std::max(a.y(), b.y())}));
+  }
+  for (const double x : {-motor.hole_x, motor.hole_x}) {
+    through(disc(pulley + Vec2(x, 0) + motor.hole_front * front, 0.5 * motor.hole));
+    if (!motor.two_holes) through(disc(pulley + Vec2(x, 0) - motor.hole_back * front, 0.5 * motor.hole));
+  }
+  return holes;
+}
+
+double beside_motor(const MotorType& motor, const Vec2& off, const Vec2& front) {
+  const double along = off.dot(front);
+  return std::max({std::abs(off.x()) - std::max(motor.side, motor.hole_x + motor.hole),
+                   along - std::max(motor.front, motor.hole_front + motor.hole),
+                   -along - std::max(motor.back, motor.hole_back + motor.hole)});
+}
+
+std::vector<Disc> motor_corners(const MotorType& motor, const Vec2& pulley, const Vec2& front) {
+  std::vector<Disc> corners;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double along : {std::max(motor.front, motor.hole_front + 4), -std::max(motor.back, motor.hole_back + 4)})
+      corners.push_back({pulley + Vec2(x * motor.side, 0) + along * front, 0});
+  }
+  return corners;
+}
+
+void buy_motor(KitPlan& plan, const MotorType& motor, double plate) {
+  plan.items.push_back({1, motor.name + ": " + motor.description, "drives the pulley; as assumed: " + motor.source});
+  if (motor.shaft > 0)
+    plan.items.push_back(
+        {motor.two_holes ? 2 : 4, motor_screw(motor, plate + 4) + " with low head", "motor, from above"});
+  else
+    plan.items.push_back({4, motor_screw(motor, plate + 8) + " with nuts", "motor, from above"});
+}
+
+}  // namespace fusee

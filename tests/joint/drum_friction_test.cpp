@@ -1,0 +1,260 @@
+// What rubs on a joint's drum, [d1] to [d3] of profiles/physics.md: against a string in links that shares no equation
+// with it, energy over closed loops, and its limits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "fusee/joint/equilibrium.h"
+#include "fusee/transmission/tendon_path.h"
+#include "fusee/transmission/tension.h"
+#include "fusee/transmission/transmission.h"
+#include "support/mechanisms.h"
+
+namespace fusee {
+namespace {
+
+/// A string from its end over a drum to where tension pulls it, in links of unstretched length h that keep their
+/// material. A knot between two links slips where their tensions part by more than its share of the wrap lets them, and
+/// only so far. Found by relaxation; no profile, no bounds of what slides, no pieces.
+class StringInLinks {
+ public:
+  StringInLinks(double drum, double behind, double friction, double EA, double link, double home)
+      : drum_(drum), behind_(behind), friction_(friction), EA_(EA), link_(link), knots_{0.0} {
+    const double long_enough = behind + 1.2 * k_two_pi * drum;
+    while (knots_.back() < long_enough) knots_.push_back(knots_.back() + link * (1.0 + home / EA));
+  }
+
+  /// `wrap` of it lies on the drum, and beyond that it is at `tension`.
+  void to(double wrap, double tension) {
+    const double taut = link_ * (1.0 + tension / EA_);
+    const double takes_off = wrap > 0 ? behind_ + drum_ * wrap : 0.0;
+    for (int sweep = 0; sweep < 40000; ++sweep) {
+      double moved = 0;
+      std::size_t i = 1;
+      for (; i + 1 < knots_.size() && knots_[i] < takes_off; ++i) moved = std::max(moved, relax(i, takes_off));
+      // From the first knot off the drum on it hangs free.
+      for (; i < knots_.size(); ++i) {
+        const double beyond = std::max(0.0, takes_off - knots_[i - 1]);
+        const double at = knots_[i - 1] + taut;
+        if (beyond == 0 || at > knots_[i - 1]) moved = std::max(moved, std::abs(at - knots_[i]));
+        knots_[i] = at;
+      }
+      if (moved < 1e-13) return;
+    }
+  }
+
+  /// From the end to where it leaves the drum.
+  double material(double wrap) const {
+    const double takes_off = wrap > 0 ? behind_ + drum_ * wrap : 0.0;
+    const auto next = std::upper_bound(knots_.begin(), knots_.end(), takes_off);
+    const auto i = next - knots_.begin();
+    return link_ * (static_cast<double>(i - 1) + (takes_off - *(next - 1)) / (*next - *(next - 1)));
+  }
+  double at_end() const { return EA_ * ((knots_[1] - knots_[0]) / link_ - 1.0); }
+
+ private:
+  double relax(std::size_t i, double takes_off) {
+    const double low = knots_[i - 1], here = knots_[i], high = knots_[i + 1];
+    const double from = std::max(behind_, 0.5 * (low + here)), to = std::min(takes_off, 0.5 * (here + high));
+    const double holds = std::exp(friction_ * std::max(0.0, to - from) / drum_);
+    const double below = here - low - link_, above = high - here - link_;
+    double ratio = 0;  // of above to below
+    if (above > below * holds)
+      ratio = holds;
+    else if (below > above * holds)
+      ratio = 1.0 / holds;
+    else
+      return 0;
+    knots_[i] = (high - link_ + ratio * (low + link_)) / (1.0 + ratio);
+    return std::abs(knots_[i] - here);
+  }
+
+  double drum_, behind_, friction_, EA_, link_;
+  std::vector<double> knots_;  ///< places along the string's way, seen from the link, mm
+};
+
+Mechanism rubbing(Mechanism mechanism, double friction, double modulus) {
+  mechanism.joint.drum_mu = friction;
+  mechanism.tendon.modulus = modulus;
+  mechanism.tendon.pretension = 12.0;
+  return mechanism;
+}
+
+/// Held in its grooves as it was wound, and free on its pins, all of a tendon is known but for what lies on the drum:
+/// span and what is wound have the span's tension. So the string's links must hold the rest at every place.
+struct Compared {
+  double slides = 0;  ///< by how much the drum at most holds less or more than at the span's tension, mm
+  double apart = 0;   ///< of the tendon's material, mm
+  double at_end = 0;  ///< of the tension at the end, as a fraction of the span's
+};
+
+Compared with_links(Mechanism mechanism, double force, int links_per_rad) {
+  Compared compared;
+  mechanism.guides.mu = 0;
+  mechanism.pulley.mu = 1e6;
+  const JointModel model = joint_model(mechanism);
+  const Transmission law(mechanism);
+  std::vector<JointStep> steps;
+  constexpr int winding = 200, loading = 60;
+  for (int i = 0; i <= winding; ++i) steps.push_back({law.alpha_max() * i / winding, 0.2 * force, 0.0});
+  for (const auto& [from, to] : {std::pair{0.2, 1.0}, std::pair{1.0, -0.1}, std::pair{-0.1, 0.6}}) {
+    for (int i = 1; i <= loading; ++i)
+      steps.push_back({law.alpha_max(), force * std::lerp(from, to, double(i) / loading), 0.0});
+  }
+  const std::vector<EquilibriumPoint> points = follow(model, steps);
+  const PinPlace& place = model.pins[1];
+  const double EA = model.EA,
+               home = mechanism.tendon.pretension * upper_span(model.pins[0], 0).m / upper_span(place, 0).m;
+  const UpperSpan at_home = upper_span(place, 0.0);
+  StringInLinks string(place.drum, at_home.behind_drum, mechanism.joint.drum_mu, EA, place.drum / links_per_rad, home);
+  const LowerPath lower_home = model.lower(0.0)[1];
+  double wound = 0;
+  LowerPath before = lower_home;
+  double tension = home;
+  const auto held_beside = [&](const UpperSpan& span, const LowerPath& lower, double now) {
+    const double on_drum = span.on_drum > 0 ? place.drum * span.on_drum + span.behind_drum : 0.0;
+    return (span.free - on_drum + place.rho * (span.normal - lower.normal) + lower.reach) / (1.0 + now / EA);
+  };
+  string.to(at_home.on_drum, home);
+  const double all = held_beside(at_home, lower_home, home) + string.material(at_home.on_drum);
+  for (const EquilibriumPoint& point : points) {
+    EXPECT_EQ(point.status, EquilibriumStatus::held);
+    const UpperSpan span = upper_span(place, point.theta);
+    const LowerPath lower = model.lower(point.alpha)[1];
+    wound += 0.5 * (lower.wound - before.wound) * (1.0 / (1.0 + tension / EA) + 1.0 / (1.0 + point.t2.upper / EA));
+    before = lower;
+    tension = point.t2.upper;
+    string.to(span.on_drum, tension);
+    const double on_drum = string.material(span.on_drum);
+    const double length = span.on_drum > 0 ? place.drum * span.on_drum + span.behind_drum : 0.0;
+    const double as_span = length / (1.0 + tension / EA);
+    compared.slides = std::max(compared.slides, std::abs(on_drum - as_span));
+    compared.apart = std::max(compared.apart, std::abs(held_beside(span, lower, tension) + on_drum + wound - all));
+    if (span.on_drum > 0)
+      compared.at_end = std::max(compared.at_end, std::abs(point.t2.end - string.at_end()) / tension);
+  }
+  return compared;
+}
+
+// Links take friction in steps: what they part by halves with them, and to nothing else.
+TEST(DrumFriction, IsThatOfAStringInLinks) {
+  Mechanism ankle = rubbing(testing::ankle(), 0.25, 3000.0);
+  ankle.joint.attachment2 = Attachment{20.0, 45.0};  // off the drum, on which tendon 2 lies up to some angle
+  const auto expect_near = [](const Mechanism& mechanism, double force) {
+    const Compared coarse = with_links(mechanism, force, 15), fine = with_links(mechanism, force, 30);
+    EXPECT_GT(fine.slides, 0.02);
+    EXPECT_LT(fine.apart, 0.04 * fine.slides);
+    EXPECT_NEAR(fine.apart / coarse.apart, 0.5, 0.05);
+    EXPECT_LT(fine.at_end, 0.01);
+  };
+  expect_near(rubbing(testing::finger(), 0.25, 3000.0), 30.0);
+  expect_near(ankle, 20.0);
+}
+
+TEST(DrumFriction, BindsTheTensionAtTheEndAndTurnsTheJointNoOtherWay) {
+  const Mechanism mechanism = rubbing(testing::finger(), 0.3, 3000.0);
+  const JointModel model = joint_model(mechanism);
+  JointMotion motion(model);
+  double apart = 0;
+  const auto look = [&](const JointStep& step) {
+    const EquilibriumPoint point = motion.to(step);
+    const double rho = mechanism.drum_pitch_radius();
+    EXPECT_NEAR((point.t2.upper - point.t1.upper) * rho, point.load_torque, 1e-8);
+    for (const auto& [tendon, side] : {std::pair{point.t1, Side::left}, std::pair{point.t2, Side::right}}) {
+      const double wrap = upper_span(model.pins[side == Side::right], mirror_sign(side) * point.theta).on_drum;
+      const double most = std::exp(0.3 * wrap) * (1 + 1e-9);
+      EXPECT_LE(tendon.end, tendon.upper * most);
+      EXPECT_LE(tendon.upper, tendon.end * most);
+      apart = std::max(apart, std::abs(std::log(tendon.end / tendon.upper)) / std::log(most));
+    }
+    return point;
+  };
+  for (int i = 0; i <= 100; ++i) look({0.0, 0.3 * i, 0.0});
+  for (int i = 0; i <= 300; ++i) look({1.2 * std::sin(0.04 * i), 30.0, 0.0});
+  EXPECT_GT(apart, 0.999);  // sliding all the way to the end, here and there
+}
+
+TEST(DrumFriction, OfNoneAtAllIsTheLimit) {
+  for (const Mechanism& joint : {testing::finger(), testing::ankle()}) {
+    std::vector<JointStep> steps;
+    for (int i = 0; i <= 4000; ++i) steps.push_back({0.5 * std::sin(0.003 * i), 10.0 * std::sin(0.002 * i), 0.0});
+    const auto none = follow(joint_model(rubbing(joint, 0.0, 3000.0)), steps);
+    const auto hardly = follow(joint_model(rubbing(joint, 1e-7, 3000.0)), steps);
+    const auto some = follow(joint_model(rubbing(joint, 0.2, 3000.0)), steps);
+    double apart = 0;
+    for (std::size_t i = 0; i < none.size(); ++i) {
+      // What is laid in a step is free to slide from the next one on.
+      EXPECT_NEAR(none[i].theta, hardly[i].theta, 1e-6);
+      EXPECT_NEAR(none[i].t2.lower, hardly[i].t2.lower, 1e-3);
+      apart = std::max(apart, std::abs(none[i].theta - some[i].theta));
+    }
+    EXPECT_GT(degrees(apart), 1e-3);
+  }
+}
+
+// A weight comes on: from one step of the joint without a load to the next with it, by the model, and [d3] by the
+// paper's chain.
+TEST(DrumFriction, ThePapersChainKnowsIt) {
+  double spared = 0;
+  for (const double friction : {0.0, 0.3}) {
+    Mechanism mechanism = rubbing(testing::finger(), friction, 1e6);
+    mechanism.tendon.pretension = 0;
+    mechanism.guides.mu = 0;
+    mechanism.pulley.mu = 1e6;
+    JointMotion motion(joint_model(mechanism));
+    const double unloaded = motion.to({0.4, 0.0, 0.0}).theta;
+    EquilibriumPoint loaded;
+    for (int i = 1; i <= 50; ++i) loaded = motion.to({0.4, 0.4 * i, 0.0});
+    mechanism.load.tip_force = 20.0;
+    const TransmissionPoint at = Transmission(mechanism).at_alpha(0.4);
+    const PaperForces forces = paper_forces(mechanism, at);
+    // What is free ends where the pulley is touched, not at the foot of the axis' perpendicular: on a round one the
+    // same.
+    EXPECT_NEAR(unloaded - loaded.theta, forces.theta_error, 2e-3 * forces.theta_error) << friction;
+    const double wrap = upper_span(pin_place(mechanism, Side::right, 1.3), at.theta).on_drum;
+    EXPECT_NEAR(loaded.t2.end, forces.T2 * std::exp(-friction * wrap), 1e-3 * forces.T2);
+    spared = friction == 0 ? forces.theta_error : spared - forces.theta_error;
+    if (friction > 0) {
+      EXPECT_GT(spared, 0.01 * forces.theta_error);
+    }
+  }
+}
+
+TEST(DrumFriction, LosesNoEnergy) {
+  for (const Mechanism& joint : {testing::finger(), testing::ankle()}) {
+    const Mechanism mechanism = rubbing(joint, 0.25, 3000.0);
+    const Transmission law(mechanism);
+    const auto missing = [&](int steps, double* lost) {
+      std::vector<JointStep> way;
+      const auto run = [&](double from, double to) {
+        for (int i = 0; i <= steps; ++i) {
+          const double part = double(i) / steps;
+          way.push_back({std::lerp(from, to, part), 6.0 + 4.0 * std::sin(9.0 * part), 0.0});
+        }
+      };
+      run(0.0, law.alpha_max());
+      run(law.alpha_max(), law.alpha_min());
+      run(law.alpha_min(), law.alpha_max());
+      const auto points = follow(joint_model(mechanism), way);
+      double motor = 0, load = 0;
+      for (std::size_t i = 1; i < points.size(); ++i) {
+        const EquilibriumPoint &a = points[i - 1], &b = points[i];
+        motor += 0.5 * (a.motor_torque + b.motor_torque) * (b.alpha - a.alpha);
+        load += 0.5 * (a.load_torque + b.load_torque) * (b.theta - a.theta);
+      }
+      // From the first point on: it comes to its load in one step.
+      const EquilibriumPoint &first = points.front(), &end = points.back();
+      *lost = end.friction - first.friction;
+      return motor - load - (end.stored - first.stored) - *lost - (end.groove_friction - first.groove_friction);
+    };
+    double lost = 0;
+    const double coarse = missing(300, &lost), fine = missing(3000, &lost);
+    EXPECT_GT(lost, 1.0);
+    EXPECT_LT(std::abs(fine), 1e-6 * lost) << coarse << " " << lost;
+  }
+}
+
+}  // namespace
+}  // namespace fusee
