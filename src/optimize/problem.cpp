@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
@@ -175,6 +178,19 @@ double constraint_violation(const Problem& problem, const Design& design) {
   return violation;
 }
 
+namespace {
+
+/// To pulleys of one turn or, where the mechanism may have them, of several.
+std::optional<std::string> obstacle_to_pulleys(const Problem& problem, const Mechanism& mechanism) {
+  const auto obstacle = obstacle_to(mechanism);
+  if (!obstacle) return std::nullopt;
+  if (!is_of_one_turn(*obstacle) || !problem.several_turns || kept_to_one_turn(mechanism)) return obstacle->message;
+  if (const auto other = obstacle_but_one_turn(mechanism)) return other->message;
+  return problem.several_turns(mechanism);
+}
+
+}  // namespace
+
 Evaluation evaluate_design(const Problem& problem, Objective objective, const Design& design) {
   Evaluation none;
   if (constraint_violation(problem, design) > 0) {
@@ -192,8 +208,8 @@ Evaluation evaluate_design(const Problem& problem, Objective objective, const De
   }
   Evaluation evaluation = evaluate(objective, mechanism);
   if (evaluation.possible && problem.feasible) {
-    if (const auto obstacle = obstacle_to(mechanism)) {
-      none.reason = "no pulley can be made: " + obstacle->message;
+    if (const auto obstacle = obstacle_to_pulleys(problem, mechanism)) {
+      none.reason = "no pulley can be made: " + *obstacle;
       return none;
     }
   }
@@ -214,7 +230,7 @@ bool is_widened(const Problem& problem) {
 
 bool has_footprint(const Problem& problem) { return !is_widened(problem) && !problem.base.sheath.is_there(); }
 
-Problem make_problem(const MechanismFile& file, JointGate as_it_is) {
+Problem make_problem(const MechanismFile& file, JointGate as_it_is, TurnsGate several_turns) {
   const Optimization& table = file.mechanism.optimize;
   if (file.mechanism.transmission)
     throw InputError(file.path, "declares [transmission] in place of a mechanism",
@@ -230,6 +246,7 @@ Problem make_problem(const MechanismFile& file, JointGate as_it_is) {
   problem.base = file.mechanism;
   problem.base.optimize = {};  // designs are copied by the thousand
   problem.as_it_is = std::move(as_it_is);
+  problem.several_turns = std::move(several_turns);
   for (const std::string& name : table.objectives) problem.objectives.push_back(find_objective(name));
   problem.variables = variables_of(table);
   add_moving_keys(problem, table);

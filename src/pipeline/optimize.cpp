@@ -5,6 +5,7 @@
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
 #include "pipeline/design_file.h"
+#include "pipeline/several_turns.h"
 
 namespace fusee {
 namespace {
@@ -27,7 +28,9 @@ SearchMethod strongest_method(const Problem& problem) {
   return cannot_certify(problem, problem.objectives.front()).empty() ? SearchMethod::certified : SearchMethod::genetic;
 }
 
-Problem problem_of(const MechanismFile& file) { return make_problem(file, joint_gate(file.mechanism)); }
+Problem problem_of(const MechanismFile& file) {
+  return make_problem(file, joint_gate(file.mechanism), obstacle_to_several_turns);
+}
 
 void demand_one_objective(const MechanismFile& file, const Problem& problem) {
   const std::size_t count = problem.objectives.size();
@@ -145,6 +148,13 @@ void write_texts(const MechanismFile& file, const OptimizeOptions& options, Opti
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
 }
 
+/// What slopes leave out of the values of the design that was found.
+void note_turns(const MechanismFile& file, OptimizeResult& result) {
+  MechanismFile found = file;
+  found.mechanism = mechanism_at(result.problem, result.design);
+  if (const auto note = note_on_turns(found)) result.warnings.push_back(*note);
+}
+
 void publish(const OptimizeOptions& options, OutputFolder& front_folder, OptimizeResult& result) {
   for (const OutputFile& file : result.front_files) front_folder.stage(file);
   front_folder.publish();
@@ -169,6 +179,7 @@ OptimizeResult optimize(const MechanismFile& file, const OptimizeOptions& option
   search(method, options, result);
   result.before = evaluate(result.problem.objectives.front(), judged(result.problem, result.problem.base));
   if (!result.found) return result;
+  note_turns(file, result);
   write_texts(file, options, result);
   if (!options.dry_run) publish(options, front_folder, result);
   return result;

@@ -251,6 +251,8 @@ std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
   return keys;
 }
 
+constexpr double k_trial_tolerance = 0.05;
+
 /// Of curves first, then of the body.
 std::vector<Condition> obstacles_of(const Mechanism& mechanism, double tolerance) {
   SynthesisOptions options;
@@ -263,9 +265,13 @@ std::vector<Condition> obstacles_of(const Mechanism& mechanism, double tolerance
 
 }  // namespace
 
+std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism) {
+  const std::vector<Condition> obstacles = obstacles_of(mechanism, k_trial_tolerance);
+  return obstacles.empty() ? std::nullopt : std::optional<std::string>(obstacles.front().message);
+}
+
 Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
                                 const std::function<void()>& between_tries) {
-  constexpr double k_trial_tolerance = 0.05;
   const Judge judge{.obstacles =
                         [&](const Mechanism& changed) {
                           if (between_tries) between_tries();

@@ -43,6 +43,10 @@ HelicalRewind rewind_several_turns(const Product& product, const std::vector<Flo
 /// Of a mesh that was read back.
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh);
 
+/// What keeps a joint whose pulleys turn further than once from helical grooves, looked at as briefly as trials are;
+/// null where nothing is seen to.
+std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism);
+
 /// What would make a refused one possible. `made`: the whole making.
 Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
                                 const std::function<void()>& between_tries);

@@ -67,8 +67,16 @@ std::vector<Condition> failed_of(const std::vector<Condition>& conditions) {
   return failed;
 }
 
+bool is_of_one_turn(const Condition& condition) { return condition.name.starts_with("one_turn_"); }
+
 std::optional<Condition> obstacle_to(const Mechanism& mechanism) {
   return first_failure(mechanism, Transmission(mechanism));
+}
+
+std::optional<Condition> obstacle_but_one_turn(const Mechanism& mechanism) {
+  for (Condition& failed : failed_of(attempt(mechanism, Transmission(mechanism)).conditions))
+    if (!is_of_one_turn(failed)) return std::move(failed);
+  return std::nullopt;
 }
 
 SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& options) {
@@ -88,9 +96,7 @@ SynthesisResult synthesise(const Mechanism& mechanism, const SynthesisOptions& o
 
 bool need_several_turns(const SynthesisResult& synthesis) {
   const std::vector<Condition> failed = failed_of(synthesis.conditions);
-  return !failed.empty() && std::all_of(failed.begin(), failed.end(), [](const Condition& condition) {
-    return condition.name.rfind("one_turn_", 0) == 0;
-  });
+  return !failed.empty() && std::all_of(failed.begin(), failed.end(), is_of_one_turn);
 }
 
 std::optional<std::string> kept_to_one_turn(const Mechanism& mechanism) {

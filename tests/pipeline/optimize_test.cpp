@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 
 #include "fusee/base/files.h"
 #include "fusee/joint/as_it_is.h"
@@ -174,6 +176,57 @@ TEST(Analyze, LooksAtTheJointAsItIs) {
   const double declared = analyze(file, options).largest_paper_tension.value;
   file.mechanism.identified.pins.friction = 0.2;
   EXPECT_GT(analyze(file, options).largest_paper_tension.value, 1.02 * declared);
+}
+
+// ---- several turns --------------------------------------------------------------------------------------------------
+
+/// The less r1, the less torque of the motor: over 110 degrees of a drum of 90 mm it decides how often a pulley turns.
+OptimizeResult least_torque(const std::string& winding) {
+  const MechanismFile file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "elbow_capstan.toml",
+                                            {{"pulley.r1_mm", "35"},
+                                             {"pulley.winding", winding},
+                                             {"load.mass_kg", "0"},
+                                             {"optimize.objective", "\"motor_torque\""},
+                                             {"optimize.variables", "[\"pulley.r1_mm\"]"},
+                                             {"optimize.lower", "[7]"},
+                                             {"optimize.upper", "[45]"},
+                                             {"optimize.feasible", "true"}});
+  OptimizeOptions options;
+  options.method = SearchMethod::genetic;
+  options.genetic.population = 16;
+  options.genetic.generations = 8;
+  options.dry_run = true;
+  return optimize(file, options);
+}
+
+TEST(OptimizeTurns, TakesPulleysOfSeveralTurnsThatBuildMakes) {
+  const OptimizeResult one = least_torque("\"one_turn\""), several = least_torque("\"auto\"");
+  ASSERT_TRUE(one.found) << one.reason;
+  ASSERT_TRUE(several.found) << several.reason;
+  // 110 degrees of 90 mm are 172.8 mm: a round pulley that takes them in less than a turn is larger than 27.5 mm.
+  EXPECT_GT(one.design[0], 27.5);
+  EXPECT_LT(several.design[0], 9.0);
+  EXPECT_LT(several.value, 0.35 * one.value);
+
+  MechanismFile found;
+  found.path = "found.toml";
+  found.mechanism = mechanism_at(several.problem, several.design);
+  BuildOptions options;
+  options.folder = fs::temp_directory_path() / "fusee-optimize-turns";
+  options.dry_run = true;
+  const BuildResult built = build(found, options);
+  ASSERT_EQ(built.status, BuildStatus::done);
+  ASSERT_TRUE(built.product.helix);
+  EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 3.0);
+  EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.01);
+
+  const auto says_level = [](const OptimizeResult& result) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(), [](const Diagnostic& warning) {
+      return warning.message.find("level tendons") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says_level(several));
+  EXPECT_FALSE(says_level(one));
 }
 
 }  // namespace

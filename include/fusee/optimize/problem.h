@@ -53,6 +53,10 @@ struct ObjectiveCap {
 /// From a mechanism as declared to the joint that is judged.
 using JointGate = std::function<Mechanism(const DeclaredMechanism& declared)>;
 
+/// What keeps a judged joint, whose only fault is that its pulleys turn further than once, from helical grooves; null
+/// where nothing does.
+using TurnsGate = std::function<std::optional<std::string>(const Mechanism& judged)>;
+
 struct Problem {
   DeclaredMechanism base;
   JointGate as_it_is;  ///< empty: the joint is as declared
@@ -61,12 +65,13 @@ struct Problem {
   std::vector<MovingKey> moving;  ///< variables in their order, then what is tied
   std::vector<LinearConstraint> constraints;
   bool feasible = false;
+  TurnsGate several_turns;  ///< empty: pulleys are of one turn
   std::optional<ObjectiveCap> cap;
 };
 
 /// Variables, ties and constraints are of declared numbers; objectives are of the joint that comes of them through
 /// `as_it_is`. InputError: nothing to optimise, a variable that no objective depends on.
-Problem make_problem(const MechanismFile& file, JointGate as_it_is = {});
+Problem make_problem(const MechanismFile& file, JointGate as_it_is = {}, TurnsGate several_turns = {});
 
 /// Whether the footprint of its designs is known: of the paper's joint, at its pulley.
 bool has_footprint(const Problem& problem);

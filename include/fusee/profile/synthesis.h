@@ -38,9 +38,14 @@ struct Condition {
 /// Those that do not hold.
 std::vector<Condition> failed_of(const std::vector<Condition>& conditions);
 
+/// It asks that a pulley turns no further than once.
+bool is_of_one_turn(const Condition& condition);
+
 /// Why synthesise() would not make it, the condition that is cheapest to see; null when it would. Draws nothing: for
 /// searches that ask of thousands.
 std::optional<Condition> obstacle_to(const Mechanism& mechanism);
+/// The same, but for conditions of one turn: null where those alone do not hold.
+std::optional<Condition> obstacle_but_one_turn(const Mechanism& mechanism);
 
 enum class SynthesisStatus { made, infeasible };
 
