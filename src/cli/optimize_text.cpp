@@ -174,14 +174,15 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
   if (result.then) add_then(*options.then, *result.then, reply);
   reply.fields["boxes"] = search.boxes;
   reply.fields["evaluations"] = search.evaluations;
-  reply.text = std::string(info(objective).name) + " of " + result.problem.base.name + ", proven by branch and bound\n";
+  reply.text = std::string(info(objective).name) + " of " + result.problem.base.name +
+               (search.proven ? ", proven by branch and bound\n" : ", by branch and bound, not to its end\n");
   add_value(result, reply);
   reply.fields["found"] = true;
   reply.fields["lower_bound"] = search.lower_bound;
   reply.fields["relative_gap"] = search.relative_gap;
   reply.fields["proven"] = search.proven;
-  reply.text +=
-      line("proven", "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
+  reply.text += line(search.proven ? "proven" : "bound",
+                     "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
   reply.text +=
       line("searched", std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
   if (result.problem.feasible)

@@ -221,7 +221,7 @@ Condition one_turn(const Mechanism& mechanism, Side side, const std::vector<Take
                         rounded(degrees(lap), 3) + "° for the anchor: more than one turn" +
                         (mechanism.pulley.winding == WindingChoice::automatic &&
                                  mechanism.pulley.method == Method::exact && !mechanism.sheath.is_there()
-                             ? ", and only 'fusee build', 'kit' and 'rewind' know several"
+                             ? ", and only 'fusee build', 'kit', 'optimize' and 'rewind' know several"
                              : "");
   }
   return condition;
