@@ -85,6 +85,7 @@ class MechanismReader {
   void take_number(const Field& field, const Entry& entry, int end, const toml::node& node);
   bool take_pair(const Field& field, const Entry& entry);
   void take_range(const Field& field, const Entry& entry);
+  void demand_home(const Field& field, const Entry& entry, double lowest, double highest);
   void take_text(const Field& field, const Entry& entry);
   void take_numbers(const Field& field, const Entry& entry);
   void take_texts(const Field& field, const Entry& entry);
@@ -272,7 +273,7 @@ toml::table MechanismReader::setting_value(const Setting& setting, const std::st
 void MechanismReader::apply(const Setting& setting) {
   const std::string file = "--set " + as_shown(setting.key + "=" + setting.value);
   const std::size_t dot = setting.key.find('.');
-  if (const auto one = find_number_key(setting.key); one && one->field->kind == FieldKind::point) {
+  if (const auto one = find_number_key(setting.key); one && one->field->kind != FieldKind::number) {
     setting_values_.push_back(std::make_unique<toml::table>(setting_value(setting, file)));
     if (const toml::node* node = setting_values_.back()->get("value")) points_.push_back({*one, {node, {file, 0, 0}}});
     return;
@@ -336,6 +337,10 @@ void MechanismReader::take_range(const Field& field, const Entry& entry) {
   if (!take_pair(field, entry)) return;
   const toml::array* ends = entry.node->as_array();
   const double lowest = *(*ends)[0].value<double>(), highest = *(*ends)[1].value<double>();
+  demand_home(field, entry, lowest, highest);
+}
+
+void MechanismReader::demand_home(const Field& field, const Entry& entry, double lowest, double highest) {
   if (lowest <= 0 && highest >= 0 && lowest < highest) return;
   good_[field.name()] = false;
   fail(entry.place, field.name() + " = [" + shortest(lowest) + ", " + shortest(highest) + "] deg does not hold home",
@@ -420,8 +425,14 @@ void MechanismReader::take_texts(const Field& field, const Entry& entry) {
 
 void MechanismReader::take_points() {
   for (const auto& [key, entry] : points_) {
+    // A point that the file does not have is whole with one number; a range is not, and is missing.
+    if (key.field->kind == FieldKind::range && !entries_.contains(key.field->name())) continue;
     take_number(*key.field, entry, key.end, *entry.node);
     entries_.try_emplace(key.field->name(), entry);
+  }
+  for (const auto& [key, entry] : points_) {
+    if (key.field->kind == FieldKind::range && entries_.contains(key.field->name()) && good_[key.field->name()])
+      demand_home(*key.field, entry, key.field->get(mechanism_, 0), key.field->get(mechanism_, 1));
   }
 }
 

@@ -114,6 +114,18 @@ TEST(Reader, AttachmentsAndDrum) {
   EXPECT_THAT(only_error(wide, {{"joint.attachment2_mm[1]", "x"}}), HasSubstr("joint.attachment2_mm must be"));
 }
 
+/// One end of a range by --set, as advice names it.
+TEST(Reader, EndsOfTheRange) {
+  const Joint joint = parse_mechanism(k_good_file, "f.toml", ".", {{"joint.range_deg[1]", "12.5"}}).joint;
+  EXPECT_NEAR(degrees(joint.theta_max), 12.5, 1e-12);
+  EXPECT_EQ(joint.theta_min, parse_mechanism(k_good_file, "f.toml").joint.theta_min);
+  EXPECT_THAT(only_error(k_good_file, {{"joint.range_deg[0]", "3"}}), HasSubstr("does not hold home"));
+  EXPECT_THAT(only_error(k_good_file, {{"joint.range_deg[1]", "x"}}), HasSubstr("joint.range_deg must be"));
+  EXPECT_THAT(only_error(k_good_file, {{"joint.range_deg[2]", "3"}}), HasSubstr("unknown key"));
+  EXPECT_THAT(only_error(with("range_deg = [-30.0, 30.0]\n", ""), {{"joint.range_deg[1]", "20"}}),
+              HasSubstr("missing key"));
+}
+
 TEST(Reader, Sheaths) {
   EXPECT_FALSE(parse_mechanism(k_good_file, "f.toml").sheath.is_there());
   const std::string sheathed = with(
