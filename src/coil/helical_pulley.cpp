@@ -24,6 +24,7 @@
 #include "solid/hub.h"
 #include "solid/self_intersection.h"
 #include "solid/set_screw.h"
+#include "solid/size.h"
 #include "solid/tools.h"
 namespace fusee {
 namespace {
@@ -112,12 +113,19 @@ class Planner {
                               pulley_name(side)));
       condition.unit = "deg";
       pulley_.conditions.push_back(condition);
+      const double reach = circumradius(spiral(side));
+      if (auto far = too_far_out(side, reach, reach)) pulley_.conditions.push_back(std::move(*far));
     }
     return failed_of(pulley_.conditions).empty();
   }
 
   const Spiral& spiral(Side side) const { return side == Side::left ? p1_ : p2_; }
 
+  static double circumradius(const Spiral& spiral) {
+    double most = 0;
+    for (const SpiralRow& row : spiral.rows) most = std::max(most, std::hypot(row.x, row.y));
+    return most;
+  }
   double floor_radius(const Spiral& spiral) const {
     double least = std::numeric_limits<double>::infinity();
     for (const SpiralRow& row : spiral.rows)
@@ -279,7 +287,8 @@ class Planner {
   // Of the bore and a horn's holes.
   double reach() const {
     double furthest = pulley_.layout.bore.radius;
-    for (const Polygon& hole : pulley_.layout.bore.screw_holes) furthest = std::max(furthest, circumradius(hole));
+    for (const Polygon& hole : pulley_.layout.bore.screw_holes)
+      furthest = std::max(furthest, fusee::circumradius(hole));
     return furthest;
   }
 
@@ -294,6 +303,7 @@ class Planner {
                     mm(least_floor() - reach()), mm(layout.min_wall)));
     for (Condition& condition : hub_conditions(mechanism_, layout, upper_rim()))
       pulley_.conditions.push_back(std::move(condition));
+    if (auto tall = too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));
     for (std::size_t i = 0; i < ends_.size(); ++i) knot_pocket(i);
     add("groove_depth_at_knot", section_.depth, k_least_depth_of_tendon * d_,
         fmt::format("a groove of {} (body.groove_depth_mm) leaves the channel to the knot open, it takes two thirds of "

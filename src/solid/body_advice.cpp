@@ -8,6 +8,7 @@
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/pulley.h"
 #include "solid/plan.h"
+#include "solid/size.h"
 
 namespace fusee {
 namespace {
@@ -82,7 +83,10 @@ class BodyAdviser {
     // Where there are no curves, no number of the body alone would help.
     Judge judge = judge_;
     judge.is_dear = !obstacle_to(mechanism_);  // a body is planned
-    const std::vector<std::string> keys = judge.is_dear ? written_keys(mechanism_) : std::vector<std::string>{};
+    std::vector<std::string> keys = judge.is_dear ? written_keys(mechanism_) : std::vector<std::string>{};
+    const auto is_height = [](const Condition& condition) { return condition.name == k_height_condition; };
+    if (!mechanism_.print.supports && std::any_of(failed.begin(), failed.end(), is_height))
+      keys.emplace_back("print.overhang_deg");
     const Advice numbers = find_advice(mechanism_, judge, keys, advice.alone.size());
     advice.alone.insert(advice.alone.end(), numbers.alone.begin(), numbers.alone.end());
     for (const std::string& key : keys) {

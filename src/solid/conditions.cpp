@@ -11,6 +11,7 @@
 #include "solid/condition_list.h"
 #include "solid/hub.h"
 #include "solid/plane_distance.h"
+#include "solid/size.h"
 
 namespace fusee {
 namespace {
@@ -34,6 +35,7 @@ class Conditions {
 
   std::vector<Condition> all(const std::vector<AnchorRoom>& rooms) {
     add_rims();
+    if (auto tall = too_tall(layout_)) list_.take(std::move(*tall));
     add_groove();
     add_bore_wall(synthesis_.p1);
     add_bore_wall(synthesis_.p2);

@@ -12,6 +12,7 @@
 #include "solid/nearest_segment.h"
 #include "solid/plane_distance.h"
 #include "solid/section.h"
+#include "solid/undersides.h"
 
 namespace fusee {
 namespace {
@@ -86,12 +87,12 @@ class WidenedLayer {
   Corners corners_;
 };
 
-// Walks a loop in steps of k_stride over the layer below. What is surely held is passed over: lines within that layer,
-// lines beside its own (in a wall the lines of two layers follow each other), and what is near to a point that is held
-// all round.
+// Walks a loop in steps of k_stride over the layer below. What is surely held is passed over: lines without a flat
+// underside between the two layers, lines within the one below, lines beside its own (in a wall the lines of two layers
+// follow each other), and what is near to a point that is held all round.
 class LayerWalk {
  public:
-  explicit LayerWalk(const WidenedLayer& below) : below_(below) {}
+  LayerWalk(const WidenedLayer& below, const PlacesInPlan& undersides) : below_(below), undersides_(undersides) {}
 
   std::optional<Vec2> furthest_out(const Polygon& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i) pass_along(loop[i], loop[(i + 1) % loop.size()]);
@@ -101,8 +102,9 @@ class LayerWalk {
  private:
   void pass_along(const Vec2& from, const Vec2& to) {
     const double length = (to - from).norm();
-    within_ = within_ && below_.stays_within(from, to);
-    if (within_ || length < held_ || follows(from, to)) {
+    const bool may_stand_out = undersides_.may_meet(from, to);
+    within_ = within_ && may_stand_out && below_.stays_within(from, to);
+    if (!may_stand_out || within_ || length < held_ || follows(from, to)) {
       held_ = std::max(0.0, held_ - length);
     } else {
       step_along(from, to, length);
@@ -157,6 +159,7 @@ class LayerWalk {
   }
 
   const WidenedLayer& below_;
+  const PlacesInPlan& undersides_;
   std::size_t beside_ = 0;  ///< the last line of the layer below that was found near
   double held_ = 0;         ///< how far on from here all is held
   bool within_ = false;     ///< here is surely inside of the layer below
@@ -164,15 +167,26 @@ class LayerWalk {
   double most_ = 0;
 };
 
-// Of each layer from the second on: the triangles that its section may cut, in the mesh's order.
-std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::vector<double>& heights) {
+// Layers that may stand out over the one below, and those below them.
+std::vector<bool> layers_to_look_at(const std::vector<PlacesInPlan>& undersides) {
+  std::vector<bool> wanted(undersides.size(), false);
+  for (std::size_t k = 1; k < undersides.size(); ++k) {
+    if (!undersides[k].none()) wanted[k - 1] = wanted[k] = true;
+  }
+  return wanted;
+}
+
+// Of each layer that is wanted: the triangles that its section may cut, in the mesh's order.
+std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::vector<double>& heights,
+                                          const std::vector<bool>& wanted) {
   std::vector<Triangles> layers(heights.size());
   for (const auto& triangle : mesh.triangles) {
     const auto [low, high] =
         std::minmax({mesh.vertices[triangle[0]].z(), mesh.vertices[triangle[1]].z(), mesh.vertices[triangle[2]].z()});
     const auto first = std::lower_bound(heights.begin(), heights.end(), low) - heights.begin();
-    for (auto k = static_cast<std::size_t>(first); k < heights.size() && heights[k] <= high; ++k)
-      layers[k].push_back(triangle);
+    for (auto k = static_cast<std::size_t>(first); k < heights.size() && heights[k] <= high; ++k) {
+      if (wanted[k]) layers[k].push_back(triangle);
+    }
   }
   return layers;
 }
@@ -180,13 +194,14 @@ std::vector<Triangles> triangles_by_layer(const TriangleMesh& mesh, const std::v
 }  // namespace
 
 std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, Corners corners) {
-  const double reach = k_layer / std::tan(overhang + k_threshold);
+  const double steepness = std::tan(overhang + k_threshold), reach = k_layer / steepness;
   const Bounds box = bounds(lying);
   // What stands out over the first layer comes down onto the bed: PrusaSlicer puts no support that low.
   std::vector<double> heights{box.low.z() + 1.5 * k_layer};
   for (double z = box.low.z() + 2.5 * k_layer; z < box.high.z(); z += k_layer) heights.push_back(z);
   const TriangleMesh welded = weld(lying);
-  const std::vector<Triangles> layers = triangles_by_layer(welded, heights);
+  const std::vector<PlacesInPlan> undersides = flat_undersides(welded, heights, steepness);
+  const std::vector<Triangles> layers = triangles_by_layer(welded, heights, layers_to_look_at(undersides));
   const auto section_of = [&](std::size_t layer) { return section_of_welded(welded, layers[layer], heights[layer]); };
   // Of the layers after the first up to the last.
   const auto ledges_between = [&](std::size_t first, std::size_t last) {
@@ -194,10 +209,12 @@ std::vector<Vec3> ledges_in_layers(const TriangleMesh& lying, double overhang, C
     std::vector<Polygon> below = section_of(first);
     for (std::size_t layer = first + 1; layer <= last; ++layer) {
       std::vector<Polygon> here = section_of(layer);
-      const WidenedLayer widened(std::move(below), reach, corners);
-      for (const Polygon& loop : here) {
-        if (const auto out = LayerWalk(widened).furthest_out(loop))
-          ledges.emplace_back(out->x(), out->y(), heights[layer]);
+      if (!undersides[layer].none()) {
+        const WidenedLayer widened(std::move(below), reach, corners);
+        for (const Polygon& loop : here) {
+          if (const auto out = LayerWalk(widened, undersides[layer]).furthest_out(loop))
+            ledges.emplace_back(out->x(), out->y(), heights[layer]);
+        }
       }
       below = std::move(here);
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "fusee/mechanism/catalogue.h"
 #include "solid/bore.h"
@@ -12,6 +13,7 @@
 #include "solid/heights.h"
 #include "solid/hub.h"
 #include "solid/set_screw.h"
+#include "solid/size.h"
 #include "solid/tails.h"
 
 namespace fusee {
@@ -158,6 +160,21 @@ class Planner {
   TieOffPlanner tie_offs_;
 };
 
+// What is too large is not planned at all.
+std::vector<Condition> too_far_out(const SynthesisResult& synthesis) {
+  std::vector<Condition> far;
+  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    double reach = 0, active_reach = 0;
+    for (std::size_t i = 0; i < outline->points.size(); ++i) {
+      const double here = outline->points[i].position.norm();
+      reach = std::max(reach, here);
+      if (outline->is_active(i)) active_reach = std::max(active_reach, here);
+    }
+    if (auto condition = too_far_out(outline->side, reach, active_reach)) far.push_back(std::move(*condition));
+  }
+  return far;
+}
+
 // What holds P1 and P2 at one angle: pins, a horn's screws, or a shaft that does not turn in its bore.
 bool is_located(const BodyLayout& layout) {
   return !layout.dowels.places.empty() || layout.bore.screw_holes.size() > 1 || layout.bore.kind == Bore::d ||
@@ -171,6 +188,11 @@ bool BodyPlan::possible() const {
 }
 
 BodyPlan plan_body(const Mechanism& mechanism, const SynthesisResult& synthesis, const TieOffWishes& wishes) {
+  if (std::vector<Condition> far = too_far_out(synthesis); !far.empty()) {
+    BodyPlan none;
+    none.conditions = std::move(far);
+    return none;
+  }
   const FlangeRims rims = rims_of(mechanism, synthesis);
   const TieOffWishes nearest_wishes{WrapChoice::nearest, wishes.rejected, wishes.mouth_lean};
   const auto plan_on = [&](const BodyLayout& base) {

@@ -343,26 +343,6 @@ Condition uncut_features(int ways) {
   return condition;
 }
 
-// Ends of an active arc that are all but opposite meet kilometres out, where the floats of a mesh soon hold
-// neighbouring points as one (campaign of seed 400001, design 210: 16 km).
-std::optional<Condition> too_far_out(const Outline& outline) {
-  constexpr double k_furthest = 1e5;  // mm
-  double reach = 0;
-  for (const OutlinePoint& point : outline.points) reach = std::max(reach, point.position.norm());
-  if (!(reach > k_furthest)) return std::nullopt;
-  Condition condition;
-  condition.name = "furthest_" + std::string(pulley_name(outline.side));
-  condition.ok = false;
-  condition.value = reach;
-  condition.limit = k_furthest;
-  condition.unit = "mm";
-  condition.message = fmt::format(
-      "the arc that closes {} would reach {} m from the axis: the ends of its active arc lie all but opposite each "
-      "other",
-      pulley_name(outline.side), rounded(1e-3 * reach, 3));
-  return condition;
-}
-
 Anchor anchor_of(const PlannedAnchor& planned, const BodyPlan& plan, int variant) {
   const BodyLayout& layout = plan.layout;
   Anchor anchor{planned.side, planned.wound_end, planned.start(), {}, {}, planned.pocket(), {}, {}, planned.tail};
@@ -476,10 +456,6 @@ RatedPulley pulley_of(const Mechanism& mechanism, const SynthesisResult& synthes
   pulley.conditions = plan.conditions;
   pulley.layout = plan.layout;
   if (!plan.possible()) return rated;
-  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
-    if (auto far = too_far_out(*outline)) pulley.conditions.push_back(std::move(*far));
-  }
-  if (!pulley.conditions.empty() && !pulley.conditions.back().ok) return rated;
   const AnchorVariants anchors(mechanism, synthesis, plan);
   int first = 0;
   while (first < effort.variants && !anchors.may_be(first)) ++first;

@@ -1,4 +1,6 @@
 // Impossible parts are refused; with another number, and with each that is advised, they are made.
+#include "solid/conditions.h"
+
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -6,7 +8,7 @@
 
 #include "fusee/mechanism/fields.h"
 #include "fusee/solid/pulley.h"
-#include "solid/conditions.h"
+#include "solid/size.h"
 #include "support/mechanisms.h"
 #include "support/shapes.h"
 
@@ -71,6 +73,29 @@ TEST(Conditions, ExplicitNumbersThatDoNotFitAreRefused) {
   expect_refused_for({"groove_depth", &Body::groove_depth, 0.9, 1.1});
   expect_refused_for({"channel_width", &Body::anchor_hole, 0.8, 1.2});
   expect_refused_for({"channel_floor", &Body::anchor_hole, 8, 1.2});
+}
+
+// Of 2 m across and 1 m in height no more is made. What is within says nothing of it.
+TEST(Conditions, WhatIsTooLargeIsRefused) {
+  const auto pulley_with = [](double overhang, Parts parts) {
+    Mechanism mechanism = plain_mechanism();
+    mechanism.print.overhang = radians(overhang);
+    mechanism.print.parts = parts;
+    return make_pulley(mechanism, pulley_of(circle(100), circle(400)));
+  };
+  const Condition tall = condition_named(pulley_with(75, Parts::one), k_height_condition);
+  EXPECT_FALSE(tall.ok);
+  EXPECT_GT(tall.value, k_tallest);
+  EXPECT_NE(tall.message.find("print.overhang_deg"), std::string::npos) << tall.message;
+  EXPECT_THROW(condition_named(pulley_with(45, Parts::one), k_height_condition), std::out_of_range);
+  // Each of two parts is printed on its own, without the cone between them.
+  EXPECT_THROW(condition_named(pulley_with(75, Parts::two), k_height_condition), std::out_of_range);
+
+  EXPECT_FALSE(too_far_out(Side::left, 999, 300));
+  const auto active = too_far_out(Side::left, 1200, 1200), closing = too_far_out(Side::right, 1200, 300);
+  ASSERT_TRUE(active && closing);
+  EXPECT_EQ(active->message, "P1 would reach 1.2 m from the axis: at most 1 m are made");
+  EXPECT_NE(closing->message.find("the arc that closes P2"), std::string::npos) << closing->message;
 }
 
 TEST(Conditions, HubOverTheFlangeAndHubWithoutWall) {

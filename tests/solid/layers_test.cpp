@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -133,6 +134,44 @@ TEST(Layers, NothingIsPassedOverThatIsNotHeld) {
     found += ledges.size();
   }
   EXPECT_GT(found, 20u);
+}
+
+// A wedge in mid-air beside a pillar: two steep flanks that meet in a keel from `left` to `right`, under a flat top.
+TriangleMesh pillar_and_wedge(const Vec3& left, const Vec3& right, double width) {
+  TriangleMesh mesh = tower({{6, 0}, {6, 9}}, 16);
+  for (Vec3& vertex : mesh.vertices) vertex.x() -= 12;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  constexpr double top = 8;
+  mesh.vertices.insert(mesh.vertices.end(), {left,
+                                             right,
+                                             {left.x() - 0.1, left.y() - width, top},
+                                             {right.x() + 0.1, right.y() - width, top},
+                                             {right.x() + 0.1, right.y() + width, top},
+                                             {left.x() - 0.1, left.y() + width, top}});
+  const std::array<std::array<std::uint32_t, 3>, 8> facets{
+      {{0, 1, 3}, {0, 3, 2}, {1, 0, 5}, {1, 5, 4}, {0, 2, 5}, {1, 4, 3}, {2, 3, 4}, {2, 4, 5}}};
+  for (const auto& [a, b, c] : facets) mesh.triangles.push_back({first + a, first + b, first + c});
+  return mesh;
+}
+
+// None of its faces is flat: keels and lowest points alone tell where a layer may stand out.
+TEST(Layers, WhatHangsByAKeelOrAPointOfSteepFacesIsSeen) {
+  struct Wedge {
+    Vec3 left, right;
+    double width;
+  };
+  const std::vector<Wedge> wedges{{{0, 0, 3.03}, {8, 0, 3.03}, 2},     // level
+                                  {{0, 0, 3.03}, {8, 0, 6.01}, 1},     // rising by 20°
+                                  {{0, 0, 2.01}, {4, 0, 7.5}, 0.5},    // by 54°: its lower end alone
+                                  {{0, 0, 3.1}, {0.001, 0, 3.1}, 2}};  // a spike
+  for (const auto& [left, right, width] : wedges) {
+    const TriangleMesh mesh = pillar_and_wedge(left, right, width);
+    const std::vector<Vec3> expected = ledges_point_by_point(mesh),
+                            ledges = ledges_in_layers(mesh, radians(45), Corners::round);
+    EXPECT_FALSE(expected.empty()) << right.z();
+    ASSERT_EQ(ledges.size(), expected.size()) << right.z();
+    for (std::size_t i = 0; i < ledges.size(); ++i) EXPECT_LT((ledges[i] - expected[i]).norm(), 1e-9) << right.z();
+  }
 }
 
 TEST(Layers, ARoundConeIsHeldAsLongAsItsStepIs) {

@@ -1,0 +1,154 @@
+#include "solid/undersides.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fusee {
+namespace {
+
+// Far above the rounding of sections and normals, far below what matters.
+constexpr double k_grain = 1e-6;
+
+bool looks_down(const Vec3& normal) { return normal.z() < k_grain * normal.norm(); }
+
+bool is_flat(const Vec3& normal, double steepness) {
+  return normal.head<2>().norm() <= steepness * (1 + k_grain) * std::abs(normal.z());
+}
+
+bool is_flat_line(const Vec3& along, double steepness) {
+  return std::abs(along.z()) <= steepness * (1 + k_grain) * along.head<2>().norm();
+}
+
+// From the line on, towards the corner.
+bool rises_from(const Vec3& along, const Vec3& to_corner) {
+  const double slope = to_corner.z() * along.squaredNorm() - to_corner.dot(along) * along.z();
+  return slope >= -k_grain * to_corner.norm() * along.squaredNorm();
+}
+
+// A facet that rises from one of its sides, which is flat.
+struct RisingSide {
+  std::uint32_t low, high;  // vertices
+  bool looks_down;
+};
+
+bool in_order(const RisingSide& a, const RisingSide& b) {
+  return std::pair(a.low, a.high) < std::pair(b.low, b.high);
+}
+
+class Undersides {
+ public:
+  Undersides(const TriangleMesh& mesh, const std::vector<double>& heights, double steepness)
+      : mesh_(mesh), heights_(heights), steepness_(steepness) {
+    const double thickest = heights.size() < 2 ? 0.0 : heights[1] - heights[0];
+    places_.assign(heights.size(), PlacesInPlan(bounds(mesh), thickest / steepness + k_grain));
+  }
+
+  std::vector<PlacesInPlan> found() && {
+    add_faces();
+    add_keels();
+    add_lowest_points();
+    return std::move(places_);
+  }
+
+ private:
+  const Vec3& corner(const std::array<std::uint32_t, 3>& triangle, std::size_t k) const {
+    return mesh_.vertices[triangle[k % 3]];
+  }
+
+  void add_faces() {
+    is_lower_beside_.assign(mesh_.vertices.size(), false);
+    is_under_.assign(mesh_.vertices.size(), false);
+    for (const auto& triangle : mesh_.triangles) {
+      const Vec3 &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
+      const Vec3 normal = (b - a).cross(c - a);
+      const bool down = looks_down(normal);
+      if (down && is_flat(normal, steepness_)) add(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+      see_sides(triangle, down);
+    }
+  }
+
+  void see_sides(const std::array<std::uint32_t, 3>& triangle, bool down) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
+      const Vec3 along = corner(triangle, k + 1) - corner(triangle, k);
+      if (along.z() < 0) is_lower_beside_[from] = true;
+      if (along.z() > 0) is_lower_beside_[to] = true;
+      if (down) is_under_[from] = true;
+      if (is_flat_line(along, steepness_) && rises_from(along, corner(triangle, k + 2) - corner(triangle, k)))
+        sides_.push_back({std::min(from, to), std::max(from, to), down});
+    }
+  }
+
+  void add_keels() {
+    std::sort(sides_.begin(), sides_.end(), in_order);
+    for (auto first = sides_.begin(); first != sides_.end();) {
+      const auto end = std::upper_bound(first, sides_.end(), *first, in_order);
+      const bool is_under = std::any_of(first, end, [](const RisingSide& side) { return side.looks_down; });
+      const Vec3 &a = mesh_.vertices[first->low], &b = mesh_.vertices[first->high];
+      if (is_under && end - first > 1) add(a.cwiseMin(b), a.cwiseMax(b));
+      first = end;
+    }
+  }
+
+  void add_lowest_points() {
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+      if (is_under_[v] && !is_lower_beside_[v]) add(mesh_.vertices[v], mesh_.vertices[v]);
+    }
+  }
+
+  // To each layer that has a part of it between itself and the layer below.
+  void add(const Vec3& low, const Vec3& high) {
+    const auto first = std::lower_bound(heights_.begin(), heights_.end(), low.z() - k_grain) - heights_.begin();
+    for (auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 1));
+         k < heights_.size() && heights_[k - 1] <= high.z() + k_grain; ++k)
+      places_[k].add(low.head<2>(), high.head<2>());
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<double>& heights_;
+  double steepness_;
+  std::vector<PlacesInPlan> places_;
+  std::vector<RisingSide> sides_;
+  std::vector<bool> is_lower_beside_, is_under_;  // of vertices
+};
+
+}  // namespace
+
+PlacesInPlan::PlacesInPlan(const Bounds& part, double reach) : low_(part.low.head<2>()), reach_(reach) {
+  const Vec2 size = (part.high - part.low).head<2>();
+  per_cell_ = k_cells * size.cwiseMax(k_grain).cwiseInverse();
+}
+
+int PlacesInPlan::cell(double at, int axis) const {
+  return static_cast<int>(std::clamp((at - low_[axis]) * per_cell_[axis], 0.0, k_cells - 1.0));
+}
+
+std::uint64_t PlacesInPlan::columns(double from, double to) const {
+  const std::uint64_t all = ~std::uint64_t{0};
+  return (all << cell(from, 0)) & (all >> (k_cells - 1 - cell(to, 0)));
+}
+
+void PlacesInPlan::add(const Vec2& low, const Vec2& high) {
+  const std::uint64_t mask = columns(low.x() - reach_, high.x() + reach_);
+  const int last = cell(high.y() + reach_, 1);
+  for (int row = cell(low.y() - reach_, 1); row <= last; ++row) rows_[static_cast<std::size_t>(row)] |= mask;
+  none_ = false;
+}
+
+bool PlacesInPlan::may_meet(const Vec2& from, const Vec2& to) const {
+  const std::uint64_t mask = columns(std::min(from.x(), to.x()), std::max(from.x(), to.x()));
+  const int last = cell(std::max(from.y(), to.y()), 1);
+  for (int row = cell(std::min(from.y(), to.y()), 1); row <= last; ++row) {
+    if (rows_[static_cast<std::size_t>(row)] & mask) return true;
+  }
+  return false;
+}
+
+std::vector<PlacesInPlan> flat_undersides(const TriangleMesh& welded, const std::vector<double>& heights,
+                                          double steepness) {
+  return Undersides(welded, heights, steepness).found();
+}
+
+}  // namespace fusee
