@@ -60,22 +60,19 @@ class AnchorSearch {
     AnchorPath path{station.position, station.normal, arc_.sense(), site_.fillet, turn, 0, 0,
                     station.lap,      station.wrap};
     const Vec2 outer = path.outer(), heading = path.heading();
-    const double first = 0.6 * site_.width;
-    const Vec2 bend = path.start - path.fillet * path.normal + path.fillet * outer;
-    if (ground_.depth_of(bend + first * heading) < -site_.width) return false;
-    const StretchOfLine deep = ground_.deeper_than(site_.wall + least_room(), bend, heading);
-    double promising = deep.from - k_skip_margin * longest;
-    const double last = std::min(longest, deep.to + k_skip_margin * longest);
-    for (double straight = first; straight < last; straight += step) {
+    double promising = 0;
+    for (double straight = 0.6 * site_.width; straight < longest; straight += step) {
       if (straight < promising) continue;
-      const Vec2 pocket = bend + straight * heading;
+      const Vec2 pocket = path.start - path.fillet * path.normal + path.fillet * outer + straight * heading;
       const double depth = ground_.depth_of(pocket);
+      if (depth < -site_.width) break;
       if (reach_ == AnchorReach::near && heading.dot(pocket) > 0) break;
       path.straight = straight;
       path.room = room_at(pocket, depth, straight);
+      const double least = best_ ? std::max(best_->room, k_least_room * site_.width) : k_least_room * site_.width;
       if (!(path.room >= k_least_room * site_.width) || (best_ && path.room <= best_->room)) {
         // Room grows no faster than the straight, and the depth does not dip on the way: the floor is convex.
-        promising = straight + (1.0 - k_skip_margin) * (least_room() - path.room);
+        promising = straight + (1.0 - k_skip_margin) * (least - path.room);
         continue;
       }
       if (!channel_fits(path)) break;
@@ -83,11 +80,6 @@ class AnchorSearch {
       if (path.room >= wanted_) return true;
     }
     return false;
-  }
-
-  double least_room() const {
-    const double usable = k_least_room * site_.width;
-    return best_ ? std::max(best_->room, usable) : usable;
   }
 
   // The pocket's circle must meet the channel's edges on the straight.
@@ -233,19 +225,6 @@ AnchorGround::AnchorGround(const Outline& outline, double tendon_diameter)
 
 double AnchorGround::depth_of(const Vec2& point) const {
   return (inward_x_ * point.x() + inward_y_ * point.y() - offset_).minCoeff();
-}
-
-StretchOfLine AnchorGround::deeper_than(double depth, const Vec2& from, const Vec2& heading) const {
-  StretchOfLine stretch;
-  const Eigen::ArrayXd above = inward_x_ * from.x() + inward_y_ * from.y() - offset_ - depth,
-                       rise = inward_x_ * heading.x() + inward_y_ * heading.y();
-  for (Eigen::Index side = 0; side < above.size(); ++side) {
-    const double crossing = -above[side] / rise[side];
-    if (rise[side] > 0) stretch.from = std::max(stretch.from, crossing);
-    if (rise[side] < 0) stretch.to = std::min(stretch.to, crossing);
-    if (rise[side] == 0 && above[side] < 0) return {0.0, -std::numeric_limits<double>::infinity()};
-  }
-  return stretch;
 }
 
 LapRange AnchorGround::lap_range(bool wound_end, double least_wrap) const {

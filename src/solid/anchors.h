@@ -87,11 +87,6 @@ struct LapRange {
   double least = 0;
   double most = std::numeric_limits<double>::infinity();
 };
-/// From where on a line up to where, along it from its origin; `to` < `from`: nowhere. mm
-struct StretchOfLine {
-  double from = -std::numeric_limits<double>::infinity();
-  double to = std::numeric_limits<double>::infinity();
-};
 /// What tie-offs on one outline are looked for by: made once, asked hundreds of times. Refers to the outline.
 class AnchorGround {
  public:
@@ -104,8 +99,6 @@ class AnchorGround {
   LapRange lap_range(bool wound_end, double least_wrap) const;
   /// Below the groove's floor, negative outside.
   double depth_of(const Vec2& point) const;
-  /// Where the line is at least as deep as that; `heading` has the length 1.
-  StretchOfLine deeper_than(double depth, const Vec2& from, const Vec2& heading) const;
   /// The floor's part that a tendon lies on.
   const std::vector<Vec2>& active_floor() const { return active_floor_; }
   /// Of the floor's furthest point.
