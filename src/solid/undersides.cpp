@@ -10,15 +10,19 @@ namespace {
 
 // Far above the rounding of sections and normals, far below what matters.
 constexpr double k_grain = 1e-6;
+// What is steeper than asked for by less than this share counts as flat: where a way down crosses slivers, which have
+// no slope of their own, it may lead so much further; each of at most a quarter of that in width.
+constexpr double k_spare = 1e-2;
+constexpr double k_narrow = 0.25 * k_spare;
 
 bool looks_down(const Vec3& normal) { return normal.z() < k_grain * normal.norm(); }
 
 bool is_flat(const Vec3& normal, double steepness) {
-  return normal.head<2>().norm() <= steepness * (1 + k_grain) * std::abs(normal.z());
+  return normal.head<2>().norm() <= steepness * (1 + k_spare) * std::abs(normal.z());
 }
 
 bool is_flat_line(const Vec3& along, double steepness) {
-  return std::abs(along.z()) <= steepness * (1 + k_grain) * along.head<2>().norm();
+  return std::abs(along.z()) <= steepness * (1 + k_spare) * along.head<2>().norm();
 }
 
 // From the line on, towards the corner.
@@ -41,12 +45,14 @@ class Undersides {
  public:
   Undersides(const TriangleMesh& mesh, const std::vector<double>& heights, double steepness)
       : mesh_(mesh), heights_(heights), steepness_(steepness) {
-    const double thickest = heights.size() < 2 ? 0.0 : heights[1] - heights[0];
-    places_.assign(heights.size(), PlacesInPlan(bounds(mesh), thickest / steepness + k_grain));
+    const double reach = heights.size() < 2 ? 0.0 : (heights[1] - heights[0]) / steepness;
+    narrow_ = k_narrow * reach;
+    places_.assign(heights.size(), PlacesInPlan(bounds(mesh), reach + k_grain));
   }
 
   std::vector<PlacesInPlan> found() && {
     add_faces();
+    add_slivers();
     add_keels();
     add_lowest_points();
     return std::move(places_);
@@ -64,9 +70,37 @@ class Undersides {
       const Vec3 &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
       const Vec3 normal = (b - a).cross(c - a);
       const bool down = looks_down(normal);
-      if (down && is_flat(normal, steepness_)) add(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+      if (down && is_flat(normal, steepness_)) {
+        const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+        if (normal.norm() > narrow_ * longest)
+          add_facet(triangle);
+        else
+          slivers_.push_back(triangle);
+      }
       see_sides(triangle, down);
     }
+  }
+
+  // A sliver beside another one: who knows how wide they are together.
+  void add_slivers() {
+    std::vector<std::pair<std::uint64_t, std::size_t>> sides;
+    for (std::size_t s = 0; s < slivers_.size(); ++s) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(slivers_[s][k], slivers_[s][(k + 1) % 3]);
+        sides.emplace_back((std::uint64_t{low} << 32) | high, s);
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+      if (sides[i].first != sides[i + 1].first) continue;
+      add_facet(slivers_[sides[i].second]);
+      add_facet(slivers_[sides[i + 1].second]);
+    }
+  }
+
+  void add_facet(const std::array<std::uint32_t, 3>& triangle) {
+    const Vec3 &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
+    add(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
   }
 
   void see_sides(const std::array<std::uint32_t, 3>& triangle, bool down) {
@@ -108,8 +142,9 @@ class Undersides {
 
   const TriangleMesh& mesh_;
   const std::vector<double>& heights_;
-  double steepness_;
+  double steepness_, narrow_ = 0;
   std::vector<PlacesInPlan> places_;
+  std::vector<std::array<std::uint32_t, 3>> slivers_;  ///< that look down flatly
   std::vector<RisingSide> sides_;
   std::vector<bool> is_lower_beside_, is_under_;  // of vertices
 };
