@@ -22,10 +22,20 @@ TEST(Obj, RoundTripIsExactInFloats) {
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
 
-TEST(Obj, NamesItsObjectAndWritesShortNumbers) {
+// Who reads the numbers as doubles finds the volume of the STL.
+TEST(Obj, VolumeIsThatOfTheFloats) {
+  TriangleMesh mesh = testing::torus();
+  for (Vec3& vertex : mesh.vertices) vertex = 31.7 * vertex + Vec3(0, 0, 37.9);
+  mesh = rounded_to_float(mesh);
+  const double volume = enclosed_volume(mesh);
+  EXPECT_NEAR(enclosed_volume(read_mesh(obj_text(mesh, "torus"), "torus.obj")), volume, 2e-8 * volume);
+}
+
+TEST(Obj, NamesItsObjectAndWritesNineDigits) {
   const TriangleMesh mesh{{{0.1, -0.0, 1e-7}, {16777216, 0, 0}, {0, 1.0 / 3.0, 0}}, {{0, 1, 2}}};
   const std::string text = obj_text(mesh, "a\nname");
-  EXPECT_THAT(text, HasSubstr("\no a\\x0aname\nv 0.1 0 1e-07\nv 16777216 0 0\nv 0 0.33333334 0\nf 1 2 3\n"));
+  EXPECT_THAT(
+      text, HasSubstr("\no a\\x0aname\nv 0.100000001 0 1.00000001e-07\nv 16777216 0 0\nv 0 0.333333343 0\nf 1 2 3\n"));
   EXPECT_THAT(text, HasSubstr("unit mm"));
 }
 
