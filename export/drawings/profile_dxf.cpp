@@ -84,12 +84,20 @@ void add_take_off(DxfDocument& drawing, const Vec2& place, double normal, const 
   drawing.text("MARK_TAKE_OFF", name, place + 12 * up + Vec2(out.x() < 0 ? -3.5 : 1.0, 0), k_text_height);
 }
 
-/// Ticks over the groove at both ends of the arc that tendons leave from.
-void add_active_ends(DxfDocument& drawing, const Outline& outline, double d, double depth) {
-  for (const std::size_t i : {outline.active_first, outline.active_last}) {
-    const OutlinePoint& point = outline.points[i];
-    drawing.open("MARK_TAKE_OFF",
-                 {point.position - 0.5 * d * point.normal, point.position + (depth - 0.5 * d) * point.normal});
+/// Ticks over the grooves at both ends of the arcs that tendons leave from. Where both pulleys are alike, one of P1's
+/// may be one of P2's: a line is drawn once.
+void add_active_ends(DxfDocument& drawing, const SynthesisResult& synthesis, double d, double depth) {
+  constexpr double k_same = 1e-6;
+  std::vector<Vec2> drawn;  // where they begin
+  for (const Outline* outline : {&synthesis.p1, &synthesis.p2}) {
+    for (const std::size_t i : {outline->active_first, outline->active_last}) {
+      const OutlinePoint& point = outline->points[i];
+      const Vec2 from = point.position - 0.5 * d * point.normal;
+      const auto is_there = [&from](const Vec2& other) { return (other - from).norm() < k_same; };
+      if (std::any_of(drawn.begin(), drawn.end(), is_there)) continue;
+      drawn.push_back(from);
+      drawing.open("MARK_TAKE_OFF", {from, point.position + (depth - 0.5 * d) * point.normal});
+    }
   }
 }
 
@@ -232,8 +240,7 @@ std::string profile_dxf(const Product& product, DxfVersion version) {
     add_take_off(drawing, contact(synthesis.p1, home->t1.lower_normal), home->t1.lower_normal, "1");
     add_take_off(drawing, contact(synthesis.p2, home->t2.lower_normal), home->t2.lower_normal, "2");
   }
-  add_active_ends(drawing, synthesis.p1, d, layout.groove_depth);
-  add_active_ends(drawing, synthesis.p2, d, layout.groove_depth);
+  add_active_ends(drawing, synthesis, d, layout.groove_depth);
   add_anchors(drawing, product.pulley.anchors, layout);
   add_legend(drawing, legend);
   return dxf_text(drawing, version);

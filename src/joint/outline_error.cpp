@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
 
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
 #include "fusee/joint/as_it_is.h"
+#include "fusee/transmission/tendon_path.h"
 
 namespace fusee {
 namespace {
@@ -25,6 +31,27 @@ Vec2 made_between(const Vec2& point, const Vec2& before, const Vec2& after, cons
   const Vec2 along = (after - before).normalized(), normal(along.y(), -along.x());
   return point + Vec2(outline.runout_x, outline.runout_y) +
          outline_wave(std::atan2(normal.y(), normal.x()), outline).outward * normal;
+}
+
+// More than the rounding of neighbouring points turns a polygon.
+constexpr double k_most_inward = radians(0.5);
+
+struct Turn {
+  double turn = std::numeric_limits<double>::infinity();
+  double at = 0;  ///< direction of the normal
+};
+
+// The least by which a polygon turns to the left at a corner.
+Turn least_turn(const std::vector<OutlinePoint>& points) {
+  Turn least;
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 before = points[i].position - points[(i + n - 1) % n].position,
+               after = points[(i + 1) % n].position - points[i].position;
+    const double turn = std::atan2(cross(before, after), before.dot(after));
+    if (turn < least.turn) least = {turn, points[i].psi};
+  }
+  return least;
 }
 
 }  // namespace
@@ -62,6 +89,26 @@ void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline) {
   for (Outline* curve : {&synthesis.p1, &synthesis.p2}) {
     for (OutlinePoint& point : curve->points) point = drawn_for_making(point, outline);
   }
+}
+
+std::vector<Condition> turns_inward_as_drawn(const SynthesisResult& drawn, const OutlineError& outline) {
+  std::vector<Condition> failed;
+  if (outline.wave_sin == 0 && outline.wave_cos == 0) return failed;
+  for (const Outline* curve : {&drawn.p1, &drawn.p2}) {
+    const auto [turn, at] = least_turn(curve->points);
+    if (turn >= -k_most_inward) continue;
+    Condition condition;
+    condition.name = "drawn_convex_" + std::string(pulley_name(curve->side));
+    condition.ok = false;
+    condition.value = degrees(turn);
+    condition.limit = -degrees(k_most_inward);
+    condition.unit = "deg";
+    condition.message = "drawn against the wave of its making (identified.profile_sin_mm, identified.profile_cos_mm) " +
+                        std::string(pulley_name(curve->side)) + " turns inward by " + rounded(-degrees(turn), 2) +
+                        "° at a normal of " + fixed(degrees(at), 0) + "°: it bends too sharply there for such a wave";
+    failed.push_back(std::move(condition));
+  }
+  return failed;
 }
 
 Polygon as_made(Polygon drawn, const OutlineError& outline) {

@@ -43,6 +43,8 @@ bool design(Product& product, double tolerance, const std::function<void(std::st
   product.synthesis = synthesise(mechanism, synthesis_options);
   if (!product.synthesis.made()) return false;
   draw_for_making(product.synthesis, product.joint.outline);
+  product.pulley.conditions = turns_inward_as_drawn(product.synthesis, product.joint.outline);
+  if (!product.pulley.conditions.empty()) return false;
   if (before_step) before_step("making the body");
   auto cut_layout = beside([&] { return layout_to_cut(mechanism, product.synthesis); });
   product.pulley = make_pulley(mechanism, product.synthesis, search);
@@ -71,7 +73,9 @@ Curves curves_of(const DeclaredMechanism& declared) {
   curves.synthesis =
       synthesise(mechanism, {.tolerance = k_trial_tolerance, .advice = false, .stroke_steps = k_trial_steps});
   curves.obstacles = failed_of(curves.synthesis.conditions);
-  if (curves.obstacles.empty()) draw_for_making(curves.synthesis, curves.joint.outline);
+  if (!curves.obstacles.empty()) return curves;
+  draw_for_making(curves.synthesis, curves.joint.outline);
+  curves.obstacles = turns_inward_as_drawn(curves.synthesis, curves.joint.outline);
   return curves;
 }
 

@@ -6,6 +6,8 @@
 /// and what was declared is never overwritten.
 #pragma once
 
+#include <vector>
+
 #include "fusee/base/plane.h"
 #include "fusee/joint/joint_model.h"
 #include "fusee/mechanism/mechanism.h"
@@ -38,6 +40,8 @@ DeclaredMechanism expected_joint(const DeclaredMechanism& declared);
 OutlinePoint drawn_for_making(OutlinePoint point, const OutlineError& outline);
 /// … and all of both curves.
 void draw_for_making(SynthesisResult& synthesis, const OutlineError& outline);
+/// What curves drawn so fail by: a wave may turn a sharp bend inward, one for each pulley of which it does.
+std::vector<Condition> turns_inward_as_drawn(const SynthesisResult& drawn, const OutlineError& outline);
 /// Seen the other way: a floor drawn off the axis, on it …
 Polygon as_made(Polygon drawn, const OutlineError& outline);
 /// … of which an open line is known in many points on each side, so that normals are those of so many on either hand …
