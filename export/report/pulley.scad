@@ -406,13 +406,17 @@ function circle_like(r) = [for (k = [0 : 95]) r * [cos(3.75 * k), sin(3.75 * k)]
 channel = channel_width / 2;
 pocket = max(knot_pocket / 2, 1.05 * channel);
 
-// A circle under a gable, x level, in the plane across `ahead`.
+// A circle in the plane across `ahead` under a gable with its ridge upright over the middle: a ball with a cone on it,
+// carried along.
 function tube(centre, ahead, r) = let (
     level = [ahead[1], -ahead[0], 0] / norm([ahead[0], ahead[1]]),
     up = cross(level, ahead),
-    sides = [for (k = [0 : facets]) let (a = 90 + gable_slope + (360 - 2 * gable_slope) * k / facets) [cos(a), sin(a)]],
-    outline = concat(sides, [[0, 1 / cos(gable_slope)]]))
-  [for (p = outline) centre + r * (p[0] * level + p[1] * up)];
+    lean = cos(gable_slope) / up[2],
+    low = lean > 0.98,
+    gap = low ? 180 * 0.2 / PI : acos(lean),
+    sides = [for (k = [0 : facets]) let (a = 90 + gap + (360 - 2 * gap) * k / facets) cos(a) * level + sin(a) * up],
+    ridge = low ? up / cos(gap) : [0, 0, 1 / cos(gable_slope)])
+  [for (p = concat(sides, [ridge])) centre + r * p];
 
 module run_out(t) {
   row = t[0];
@@ -429,7 +433,9 @@ module run_out(t) {
       tube(start + bend * (sin(a) * along + (1 - cos(a)) * towards), cos(a) * along + sin(a) * towards, channel)],
     [tube(top + 0.8 * channel * towards, towards, channel)]));
   around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.23) / facets), sin(360 * (k + 0.23) / facets)]];
-  strip([for (s = [[-1, pocket], [t[4][2], pocket], [t[4][2] + cone, channel]])
+  neck = min(pocket, channel);  // from there on the lower face's pocket narrows to a tip: it has no ceiling
+  strip([for (s = concat([[-1, pocket], [t[4][2], pocket], [t[4][2] + cone, channel]],
+                         t[2] < 0 ? [[t[4][2] + cone + rise(0.8 * neck), 0.2 * neck]] : []))
     [for (p = around) lifted(t[4][1], t[3] - t[2] * s[0]) + s[1] * lifted(p, 0)]]);
 }
 

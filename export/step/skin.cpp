@@ -769,15 +769,12 @@ class SkinBuilder {
 
 StepTool run_out_pocket(const GrooveEnd& end, const RunOutSizes& sizes) {
   constexpr double k_outside = 1.0;
-  const HelicalAnchor anchor = anchor_at(end, sizes);
-  const double depth = anchor.pocket_depth, deepest = depth + sizes.cone;
   const auto z = [&](double in) { return end.face - end.outward * in; };
-  Polygon section{{0, z(-k_outside)},
-                  {sizes.pocket_radius, z(-k_outside)},
-                  {sizes.pocket_radius, z(depth)},
-                  {sizes.channel_radius, z(deepest)},
-                  {0, z(deepest)}};
-  return {{StepTurned{anchor.pocket.head<2>(), std::move(section), 0, k_two_pi}}};
+  Polygon section{{0, z(-k_outside)}, {sizes.pocket_radius, z(-k_outside)}};
+  const std::vector<Vec2> profile = pocket_profile(end, sizes);
+  for (const Vec2& corner : profile) section.emplace_back(corner.x(), z(corner.y()));
+  section.emplace_back(0, z(profile.back().y()));
+  return {{StepTurned{pocket_place(end, sizes), std::move(section), 0, k_two_pi}}};
 }
 
 }  // namespace
@@ -789,9 +786,8 @@ std::vector<StepTool> run_out_cuts(const Product& product) {
   std::vector<StepTool> tools;
   for (std::size_t i = 0; i < plan.ends.size(); ++i) {
     StepChannel channel;
-    channel.roof_slope = plan.run_outs[i].roof_slope;
     for (const ChannelRing& ring : channel_rings(plan.ends[i], plan.run_outs[i], 0))
-      channel.rings.push_back({ring.middle, ring.level, ring.up, ring.radius});
+      channel.rings.push_back({ring.middle, ring.level, ring.up, ring.radius, ring.gap, ring.ridge});
     tools.push_back({{std::move(channel)}});
     tools.push_back(run_out_pocket(plan.ends[i], plan.run_outs[i]));
   }

@@ -309,6 +309,7 @@ void scale(StepChannel& channel, double by) {
   for (StepRing& ring : channel.rings) {
     ring.middle *= by;
     ring.radius *= by;
+    ring.ridge *= by;
   }
 }
 

@@ -460,24 +460,22 @@ class ToolMaker {
   }
 
   TopoDS_Shape operator()(const StepChannel& channel) const {
-    BRepOffsetAPI_ThruSections loft(true, true);
+    BRepOffsetAPI_ThruSections loft(false, true);
     loft.CheckCompatibility(false);
+    std::vector<TopoDS_Face> faces;
     for (const StepRing& ring : channel.rings) {
-      const auto at = [&](double angle, double radius) {
-        return point_at(Vec3(ring.middle + radius * (std::cos(angle) * ring.level + std::sin(angle) * ring.up)));
-      };
-      const double left = M_PI_2 + channel.roof_slope, right = M_PI_2 - channel.roof_slope;
-      const gp_Pnt top = at(M_PI_2, ring.radius / std::cos(channel.roof_slope));
-      BRepBuilderAPI_MakeWire wire;
-      wire.Add(BRepBuilderAPI_MakeEdge(
-          GC_MakeArcOfCircle(at(left, ring.radius), at(-M_PI_2, ring.radius), at(right, ring.radius)).Value()));
-      if (channel.roof_slope > 0) {
-        wire.Add(BRepBuilderAPI_MakeEdge(at(right, ring.radius), top));
-        wire.Add(BRepBuilderAPI_MakeEdge(top, at(left, ring.radius)));
-      }
+      const RingEdges edges = edges_of(ring);
+      BRepBuilderAPI_MakeWire wire(edges.circle, edges.right, edges.left);
       loft.AddWire(wire.Wire());
+      if (&ring != &channel.rings.front() && &ring != &channel.rings.back()) continue;
+      faces.push_back(BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(edges.circle, edges.chord).Wire(), true));
+      faces.push_back(
+          BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(edges.right, edges.left, edges.chord).Wire(), true));
     }
-    return loft.Shape();
+    loft.Build();
+    for (TopExp_Explorer each(loft.Shape(), TopAbs_FACE); each.More(); each.Next())
+      faces.push_back(TopoDS::Face(each.Current()));
+    return solid_of(sewn(faces));
   }
 
   TopoDS_Shape operator()(const TriangleMesh& mesh) const {
@@ -493,6 +491,21 @@ class ToolMaker {
   }
 
  private:
+  /// The circle from the gable's left foot down and round to its right one, both sides of the gable, and what joins its
+  /// feet.
+  struct RingEdges {
+    TopoDS_Edge circle, right, left, chord;
+  };
+  static RingEdges edges_of(const StepRing& ring) {
+    const auto at = [&](double angle) {
+      return point_at(Vec3(ring.middle + ring.radius * (std::cos(angle) * ring.level + std::sin(angle) * ring.up)));
+    };
+    const gp_Pnt left = at(M_PI_2 + ring.gap), right = at(M_PI_2 - ring.gap), top = point_at(ring.ridge);
+    return {BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(left, at(-M_PI_2), right).Value()),
+            BRepBuilderAPI_MakeEdge(right, top), BRepBuilderAPI_MakeEdge(top, left),
+            BRepBuilderAPI_MakeEdge(right, left)};
+  }
+
   static TopoDS_Wire wire_of(const StepContour& contour, const gp_Ax3& frame) {
     const auto place = [&frame](const Vec2& point) {
       return gp_Pnt(frame.Location().XYZ() + point.x() * frame.XDirection().XYZ() +

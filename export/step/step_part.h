@@ -90,15 +90,17 @@ struct StepTurned {
   double turn = 0;
 };
 
-/// A section of a channel: a circle under a gable that rises by `roof_slope` to both sides of its top.
+/// A section of a channel: a circle in the plane of `level` and `up`, open by `gap` to both sides of its top, and the
+/// gable over it up to `ridge`.
 struct StepRing {
   Vec3 middle, level, up;
   double radius = 0;
+  double gap = 0;
+  Vec3 ridge;
 };
 /// Through rings; the part up to the second is straight.
 struct StepChannel {
   std::vector<StepRing> rings = {};
-  double roof_slope = 0;
 };
 
 /// What all of these have in common.

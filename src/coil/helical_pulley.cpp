@@ -16,8 +16,10 @@
 #include "coil/winding.h"
 #include "fusee/base/text.h"
 #include "fusee/base/units.h"
+#include "solid/blame.h"
 #include "solid/boolean.h"
 #include "solid/bore.h"
+#include "solid/condition_list.h"
 #include "solid/euler.h"
 #include "solid/groove.h"
 #include "solid/heights.h"
@@ -256,11 +258,16 @@ class Planner {
     for (WindingRow& row : winding.rows) row.height += by;
   }
 
-  // Within which every turn of P2 reaches.
+  // Within which every turn of P2 reaches, and the upper face's rim, which leaves the outermost turn.
   double upper_rim() const {
-    double room = std::numeric_limits<double>::infinity();
+    double room = face_rim(Side::right);
     for (const WindingRow& row : fan_.p2.rows) room = std::min(room, row.position.norm() + section_.depth - 0.5 * d_);
     return room;
+  }
+  double face_rim(Side side) const { return inradius(rim_of(fan_, side, section_.depth - 0.5 * d_)); }
+  // What a bore goes through.
+  double least_radius() const {
+    return std::min({least_floor(), face_rim(Side::left) - pulley_.layout.elephant_foot, face_rim(Side::right)});
   }
 
   // How near to the axis a pocket comes.
@@ -268,7 +275,7 @@ class Planner {
     return pocket_place(ends_[i], run_outs_[i]).norm() - run_outs_[i].pocket_radius;
   }
   double room_for_bore() const {
-    return std::min({least_floor(), pocket_inside(0), pocket_inside(1)}) - pulley_.layout.min_wall;
+    return std::min({least_radius(), pocket_inside(0), pocket_inside(1)}) - pulley_.layout.min_wall;
   }
 
   void choose_bore() {
@@ -298,9 +305,10 @@ class Planner {
     neighbours(fan_.p2, Side::right);
     free_end(Side::left, p1_.rows[p1_.first_used].s - p1_.rows.front().s, p1_.rows[p1_.first_used].rho);
     free_end(Side::right, p2_.rows.back().s - p2_.rows[p2_.last_used].s, p2_.rows[p2_.last_used].rho);
-    add("bore_wall", least_floor() - reach(), layout.min_wall,
-        fmt::format("the bore leaves {} to a groove's floor, it takes {} (body.min_wall_mm)",
-                    mm(least_floor() - reach()), mm(layout.min_wall)));
+    const double bore_wall = least_radius() - reach();
+    add("bore_wall", bore_wall, layout.min_wall,
+        fmt::format("the bore leaves {} to a groove's floor or a face's rim, it takes {} (body.min_wall_mm)",
+                    wall_words(bore_wall), mm(layout.min_wall)));
     for (Condition& condition : hub_conditions(mechanism_, layout, upper_rim()))
       pulley_.conditions.push_back(std::move(condition));
     if (auto tall = too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));
@@ -338,7 +346,7 @@ class Planner {
     const auto one = [&](const std::string& name, double wall, const std::string& to) {
       add(fmt::format("{}_{}", name, pulley), wall, layout.min_wall - k_grain,
           fmt::format("{}'s knot pocket of {} (body.knot_pocket_mm) leaves {} to {}, it takes {} (body.min_wall_mm)",
-                      pulley, mm(2.0 * layout.pocket_radius), mm(wall), to, mm(layout.min_wall)));
+                      pulley, mm(2.0 * layout.pocket_radius), wall_words(wall), to, mm(layout.min_wall)));
     };
     one("knot_pocket", wall_inside(i), "the bore or the hub");
     one("knot_pocket_rim", wall_outside(i), "the rim");
@@ -397,6 +405,10 @@ class Planner {
       if (screw) tools.push_back(set_screw_tool(layout.set_screw, layout.hub_radius, layout.z_hub, variant));
       if (cut_with(blank, volume, tools)) return;
     }
+    if (!unprintable_.empty()) {
+      pulley_.conditions.push_back(does_not_print(mechanism_.name, unprintable_, "however its run-outs are cut"));
+      return;
+    }
     pulley_.conditions.push_back(
         condition_of("features", false, 0, 1,
                      fmt::format("run-outs and screw run into one another: none of {} ways to cut "
@@ -417,7 +429,7 @@ class Planner {
     }
     std::vector<Check> checks = check_mesh(mesh);
     // A chip that comes off, or a way through that nobody planned, is no pulley either.
-    if (!all_ok(checks) || euler_number(mesh) != pulley_.expected_euler) return false;
+    if (!all_ok(checks) || euler_number(mesh) != pulley_.expected_euler || !prints(mesh)) return false;
     pulley_.mesh = std::move(mesh);
     pulley_.mesh_checks = std::move(checks);
     pulley_.expected_volume = volume;
@@ -425,6 +437,12 @@ class Planner {
     pulley_.plan = std::make_shared<const HelicalPlan>(HelicalPlan{fan_, section_, heights_, ends_, run_outs_});
     pulley_.made = true;
     return true;
+  }
+
+  bool prints(const TriangleMesh& mesh) {
+    if (mechanism_.print.supports) return true;
+    unprintable_ = unprintable_places(mesh, Piece::whole, pulley_.layout, mechanism_.print.overhang, Corners::round);
+    return unprintable_.empty();
   }
 
   const Mechanism& mechanism_;
@@ -436,6 +454,7 @@ class Planner {
   Fan fan_;
   RingHeights heights_;
   std::array<GrooveEnd, 2> ends_;
+  std::vector<Vec3> unprintable_;  ///< of the cut that was tried last
 };
 
 }  // namespace

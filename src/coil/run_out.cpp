@@ -23,9 +23,12 @@ constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
 // Arcs bend no sharper than this, of the tendon; in these steps one is looked for that fits.
 constexpr double k_sharpest_bend = 2.0;
-// And of the channel's radius: its gable stays outside of the middle that it turns about.
-constexpr double k_bend_of_channel = 1.5;
+// And of the channel's radius: seen from above, the flanks of its gable do not meet on the inside of the bend. They
+// would at 2.46, where one that rises has turned by 78°.
+constexpr double k_bend_of_channel = 2.8;
 constexpr int k_bends = 5;
+// What a pocket's cone narrows to, of its channel.
+constexpr double k_tip = 0.2;
 constexpr double k_step_inward = 0.05;
 
 // Ring of a tube about `centre`, its plane spanned by two unit vectors.
@@ -69,23 +72,31 @@ Vec3 way_end(const GrooveEnd& end, const RunOutSizes& sizes) {
   return arc_point(end, sizes.bend_radius, 0.5 * k_pi) + straight * directions_of(end).towards;
 }
 
-// A channel's section in its own plane, x level and y up: a circle under a gable that prints.
-std::vector<Vec2> channel_section(double radius, double roof_slope, int facets) {
-  std::vector<Vec2> points;
-  for (int k = 0; k <= facets; ++k)
-    points.push_back(radius * unit(0.5 * k_pi + roof_slope + (k_two_pi - 2.0 * roof_slope) * k / facets));
-  points.emplace_back(0.0, radius / std::cos(roof_slope));
+// The gable leaves the circle where that is as steep as the cone. Where the channel dives so steeply that all of the
+// circle is, a low gable stands across it.
+ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, double roof_slope) {
+  constexpr double k_all_of_it = 0.98, k_low_gable = 0.2;
+  const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized(), up = level.cross(ahead);
+  const double lean = std::cos(roof_slope) / up.z();
+  if (lean > k_all_of_it) return {middle, level, up, radius, k_low_gable, middle + radius / std::cos(k_low_gable) * up};
+  return {middle, level, up, radius, std::acos(lean), middle + radius / std::cos(roof_slope) * Vec3::UnitZ()};
+}
+
+// A channel's section in space, `facets` chords of its circle.
+std::vector<Vec3> points_of(const ChannelRing& ring, int facets) {
+  std::vector<Vec3> points;
+  for (int k = 0; k <= facets; ++k) {
+    const Vec2 at = unit(0.5 * k_pi + ring.gap + (k_two_pi - 2.0 * ring.gap) * k / facets);
+    points.push_back(ring.middle + ring.radius * (at.x() * ring.level + at.y() * ring.up));
+  }
+  points.push_back(ring.ridge);
   return points;
 }
 
 TriangleMesh channel_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
-  const std::vector<Vec2> section = channel_section(1.0, sizes.roof_slope, k_channel_facets + variant);
   std::vector<std::vector<Vec3>> sections;
-  for (const ChannelRing& ring : channel_rings(end, sizes, variant)) {
-    std::vector<Vec3>& points = sections.emplace_back();
-    for (const Vec2& point : section)
-      points.push_back(ring.middle + ring.radius * (point.x() * ring.level + point.y() * ring.up));
-  }
+  for (const ChannelRing& ring : channel_rings(end, sizes, variant))
+    sections.push_back(points_of(ring, k_channel_facets + variant));
   return strip(sections);
 }
 
@@ -96,14 +107,12 @@ double pocket_depth(const GrooveEnd& end, const RunOutSizes& sizes) {
 
 TriangleMesh pocket_of(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
   const Vec2 place = pocket_place(end, sizes);
-  const auto ring_at = [&](double in, double radius) {
+  const auto ring_at = [&](double radius, double in) {
     return ring_of({place.x(), place.y(), end.face - end.outward * in}, Vec3::UnitX(), Vec3::UnitY(), radius,
                    k_pocket_facets + variant, 0.23);
   };
-  const double depth = pocket_depth(end, sizes);
-  std::vector sections{ring_at(-k_overshoot, sizes.pocket_radius), ring_at(depth, sizes.pocket_radius)};
-  // A pocket no wider than its channel has no cone.
-  if (sizes.cone > k_float_grain) sections.push_back(ring_at(depth + sizes.cone, sizes.channel_radius));
+  std::vector<std::vector<Vec3>> sections{ring_at(sizes.pocket_radius, -k_overshoot)};
+  for (const Vec2& corner : pocket_profile(end, sizes)) sections.push_back(ring_at(corner.x(), corner.y()));
   return strip(sections);
 }
 
@@ -133,12 +142,22 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, 
   sizes.pocket_depth = sizes.pocket_radius;
   sizes.roof_slope = gable_slope(layout);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
+  sizes.tip = rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
   // The pocket leaves a wall to the rim.
   const double to_rim = sizes.pocket_radius + layout.min_wall - (layout.groove_depth - 0.5 * d);
   sizes.sharpest_bend = std::max(k_sharpest_bend * d, k_bend_of_channel * sizes.channel_radius);
   sizes.inward = std::max(to_rim, sizes.sharpest_bend / std::sqrt(2.0));
   sizes.bend_radius = std::sqrt(2.0) * sizes.inward;
   return sizes;
+}
+
+std::vector<Vec2> pocket_profile(const GrooveEnd& end, const RunOutSizes& sizes) {
+  const double depth = pocket_depth(end, sizes), neck = std::min(sizes.pocket_radius, sizes.channel_radius);
+  std::vector<Vec2> profile{{sizes.pocket_radius, depth}};
+  // A pocket no wider than its channel has no cone.
+  if (sizes.cone > k_float_grain) profile.emplace_back(neck, depth + sizes.cone);
+  if (end.outward < 0 && sizes.tip > 0) profile.emplace_back(k_tip * neck, depth + sizes.cone + sizes.tip);
+  return profile;
 }
 
 Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes) { return way_end(end, sizes).head<2>(); }
@@ -199,13 +218,11 @@ HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes) {
   return anchor;
 }
 
-// However a channel dives, its section stands across it with a level x: its roof is then no flatter than the section's.
 std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& sizes, int variant) {
   const auto [along, towards] = directions_of(end);
   std::vector<ChannelRing> rings;
-  const auto add = [&rings](const Vec3& middle, const Vec3& ahead, double radius) {
-    const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized();
-    rings.push_back({middle, level, level.cross(ahead), radius});
+  const auto add = [&](const Vec3& middle, const Vec3& ahead, double radius) {
+    rings.push_back(ring_across(middle, ahead, radius, sizes.roof_slope));
   };
   // The groove's end wall stands between the first two, in the plane of neither.
   const Vec3 mouth = start_of(end) + sizes.mouth_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);

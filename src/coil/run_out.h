@@ -19,7 +19,8 @@ struct RunOutSizes {
   double mouth_outward = 0;  ///< of its middle, from the tendon's centre line
   double pocket_radius = 0;
   double pocket_depth = 0;  ///< of the straight part, at least
-  double cone = 0;          ///< height of the cone over it
+  double cone = 0;          ///< height of the cone over it, down to the channel's radius
+  double tip = 0;           ///< and on to a fifth of that, in the lower face's pocket: it has no ceiling
   double inward = 0;        ///< from the groove's end to the pocket, and as much towards the face
   double bend_radius = 0;   ///< of the arc, at most inward · √2: a straight way goes on from it
   double sharpest_bend = 0;
@@ -58,14 +59,20 @@ struct ChannelRoom {
 /// The channel's radii along the arc: no wider than the room it has, no narrower than the mouth.
 std::vector<double> channel_radii(const Polygon& rim, const GrooveEnd& end, const RunOutSizes& sizes,
                                   const ChannelRoom& room);
+/// Radii and depths of the pocket below its face, from there in.
+std::vector<Vec2> pocket_profile(const GrooveEnd& end, const RunOutSizes& sizes);
 /// Middle of the pocket in plan.
 Vec2 pocket_place(const GrooveEnd& end, const RunOutSizes& sizes);
 HelicalAnchor anchor_at(const GrooveEnd& end, const RunOutSizes& sizes);
-/// A channel's section in its own plane, `level` and `up` in it: a circle under a gable.
+/// A channel's section: a circle in the plane across the channel, `level` and `up` in it, under a gable whose ridge
+/// stands upright over the middle: what a ball with a cone on it, carried along the channel, sweeps. Its roof is as
+/// steep as the cone however the channel bends, dives and widens.
 struct ChannelRing {
   Vec3 middle = Vec3::Zero();
   Vec3 level = Vec3::UnitX(), up = Vec3::UnitZ();
   double radius = 0;
+  double gap = 0;  ///< of the circle under the gable, from `up` to either side, rad
+  Vec3 ridge = Vec3::Zero();
 };
 /// Along the channel, from the open groove into the pocket's cone; the first two stand in the mouth.
 std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& sizes, int variant);

@@ -16,12 +16,17 @@ constexpr double k_same_column = 0.004;
 constexpr double k_share_of_tolerance = 0.9;
 constexpr double k_widest_column = radians(8);
 
+// Filled rows begin so far behind a groove's end wall: the lips stand out over the channel from its mouth on. mm
+constexpr double k_behind_end = 0.1;
+
 double into_turn(double angle, double first) { return angle - k_two_pi * std::floor((angle - first) / k_two_pi); }
 
 std::vector<double> marks_of(const SpiralCurve& p1, const SpiralCurve& p2) {
   const double first = p1.begin();
   std::vector<double> marks{first};
-  for (const double end : {p1.end(), p2.begin(), p2.end()}) {
+  const auto behind = [](const WindingRow& end) { return std::max(k_behind_end / end.rho, 1.5 * k_same_column); };
+  for (const double end :
+       {p1.end(), p2.begin(), p2.end(), p1.end() + behind(p1.at(p1.end())), p2.begin() - behind(p2.at(p2.begin()))}) {
     const double mark = into_turn(end, first);
     const bool is_new = std::none_of(marks.begin(), marks.end(), [mark](double known) {
       return std::abs(std::remainder(mark - known, k_two_pi)) < k_same_column;

@@ -1,11 +1,14 @@
 #include "solid/blame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "fusee/solid/print.h"
 #include "solid/hanging.h"
+#include "solid/place.h"
 #include "solid/plane_distance.h"
 
 namespace fusee {
@@ -58,6 +61,19 @@ std::vector<Vec3> unprintable_places(const TriangleMesh& lying, Piece piece, con
     if (piece != Piece::whole) place.z() += layout.z_mate;
   }
   return places;
+}
+
+Condition does_not_print(const std::string& name, const std::vector<Vec3>& places, const std::string& whatever) {
+  Condition condition;
+  condition.name = k_prints;
+  condition.ok = false;
+  condition.value = static_cast<double>(places.size());
+  condition.limit = 0;
+  condition.unit = "1";
+  condition.message =
+      fmt::format("{} has no form that prints without supports: at {} a layer would stand out too far, {}", name,
+                  place_of(places.front()), whatever);
+  return condition;
 }
 
 std::vector<Rejection> blamed_for(const std::vector<Vec3>& places, const BodyPlan& plan) {

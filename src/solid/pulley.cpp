@@ -48,7 +48,6 @@ struct Effort {
   int rounds = k_rounds;
 };
 constexpr Effort k_brief{k_brief_variants, k_brief_rounds};
-constexpr const char* k_prints = "prints";  // a condition
 
 // Room between two parts on the printer.
 constexpr double k_between_parts = 5.0;
@@ -508,16 +507,7 @@ std::vector<Rejection> news(std::vector<Rejection> blamed, const std::vector<Rej
 
 // No way was found to print it without supports.
 Pulley refused(Pulley pulley, const Mechanism& mechanism, const std::vector<Vec3>& places) {
-  Condition condition;
-  condition.name = k_prints;
-  condition.ok = false;
-  condition.value = static_cast<double>(places.size());
-  condition.limit = 0;
-  condition.unit = "1";
-  condition.message = fmt::format(
-      "{} has no form that prints without supports: at {} a layer would stand out too far, wherever its tie-offs lie",
-      mechanism.name, place_of(places.front()));
-  pulley.conditions.push_back(std::move(condition));
+  pulley.conditions.push_back(does_not_print(mechanism.name, places, "wherever its tie-offs lie"));
   pulley.status = PulleyStatus::impossible;
   return pulley;
 }

@@ -1,0 +1,95 @@
+// Channels from a groove's end to the knot, as they are cut: their roofs are the part's undersides.
+#include "coil/run_out.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "fusee/base/units.h"
+#include "solid/self_intersection.h"
+
+namespace fusee {
+namespace {
+
+constexpr double k_radius = 12.0, k_from_face = 9.0;
+
+GrooveEnd end_on(Side side) {
+  GrooveEnd end;
+  end.side = side;
+  end.row = {{k_radius, 0}, {1, 0}, 0, k_radius, 20};
+  end.along = side == Side::left ? 1 : -1;
+  end.outward = side == Side::left ? -1 : 1;
+  end.face = end.row.height + end.outward * k_from_face;
+  return end;
+}
+
+struct Sizes {
+  double radius, bend_ratio, mouth, growth;  ///< growth of the radius along the arc
+};
+
+RunOutSizes sizes_of(const Sizes& wanted) {
+  RunOutSizes sizes;
+  sizes.channel_radius = wanted.radius;
+  sizes.mouth_radius = wanted.mouth;
+  sizes.pocket_radius = 1.4 * wanted.radius;
+  sizes.pocket_depth = sizes.pocket_radius;
+  sizes.cone = (sizes.pocket_radius - wanted.radius) * std::tan(radians(47.5));
+  sizes.tip = 0.8 * wanted.radius * std::tan(radians(47.5));
+  sizes.bend_radius = wanted.bend_ratio * wanted.radius;
+  sizes.inward = std::max(sizes.bend_radius / std::sqrt(2.0), 3 * wanted.radius);
+  sizes.roof_slope = radians(57.5);
+  for (int k = 1; k <= 9; ++k)
+    sizes.channel_radii.push_back(
+        std::min(wanted.radius, wanted.mouth + wanted.growth * 0.5 * k_pi * k / 9 * sizes.bend_radius));
+  return sizes;
+}
+
+/// Of all that looks up in what is cut, and is no face or end of it.
+double flattest_roof(const TriangleMesh& tool, const GrooveEnd& end) {
+  double flattest = 0.5 * k_pi;
+  for (const auto& [ia, ib, ic] : tool.triangles) {
+    const Vec3 &a = tool.vertices[ia], &b = tool.vertices[ib], &c = tool.vertices[ic];
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    const bool is_outside = end.outward > 0 && std::min({a.z(), b.z(), c.z()}) > end.face;
+    // What is left of the channel's end beside a pocket's cone.
+    const bool is_end = normal.dot(Vec3(-1, 0, end.outward).normalized()) > 0.9999;
+    if (normal.z() < 1e-6 || is_outside || is_end) continue;
+    flattest = std::min(flattest, std::atan2(normal.head<2>().norm(), normal.z()));
+  }
+  return flattest;
+}
+
+// A ball with a cone on it sweeps the channel: its roof is as steep as the cone, 57.5°, but for the twist of facets.
+// With a gable across the channel it was 37° on the sharpest bends, and the slicer put supports below it.
+TEST(RunOut, RoofsAreSteepHoweverTheChannelBendsAndWidens) {
+  for (const Side side : {Side::left, Side::right}) {
+    for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0}, Sizes{1.0, 2.8, 0.3, 0.3}, Sizes{0.45, 4, 0.3, 0.2},
+                                Sizes{0.8, 3.3, 0.4, 0.5}}) {
+      const GrooveEnd end = end_on(side);
+      for (int variant = 0; variant < 3; ++variant) {
+        const auto tool = run_out_tool(end, sizes_of(wanted), variant);
+        ASSERT_TRUE(tool) << wanted.radius;
+        EXPECT_FALSE(find_crossing(*tool).facets) << wanted.radius;
+        EXPECT_GT(degrees(flattest_roof(*tool, end)), 47.0) << wanted.radius << (side == Side::left ? " P1" : " P2");
+      }
+    }
+  }
+}
+
+// The cone over a pocket ends in a tip: the flat disc that it had as wide as the channel hung over it.
+TEST(RunOut, APocketThatOpensBelowHasNoCeiling) {
+  const RunOutSizes sizes = sizes_of({0.6, 3, 0.5, 0.1});
+  const std::vector<Vec2> below = pocket_profile(end_on(Side::left), sizes),
+                          above = pocket_profile(end_on(Side::right), sizes);
+  EXPECT_LT(below.back().x(), 0.25 * sizes.channel_radius);
+  for (std::size_t k = 1; k < below.size(); ++k) {
+    const Vec2 step = below[k] - below[k - 1];
+    EXPECT_NEAR(degrees(std::atan2(step.y(), -step.x())), 47.5, 1e-6);
+  }
+  EXPECT_EQ(above.back().x(), sizes.channel_radius);
+}
+
+}  // namespace
+}  // namespace fusee
