@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coil/helical_plan.h"
 #include "coil/winding.h"
 #include "export/report/scad_words.h"
 #include "fusee/base/units.h"
@@ -64,7 +65,12 @@ std::string rows_array(const char* name, const Winding& winding, double half) {
   return text + "];\n";
 }
 
-std::string spiral_arrays(const Fan& fan, double half) {
+std::string lips_text(const char* name, const Winding& winding) {
+  return fmt::format("{} = [{}, {}];", name, decimal(winding.bulge_low), decimal(winding.bulge_high));
+}
+
+/// `made`: the fan that the part was cut from, which knows how far its lips stand out.
+std::string spiral_arrays(const Fan& fan, const Fan& made, double half) {
   return "// The groove floors from end to end: x, y, the direction in which the floor looks, degrees, and the height "
          "of "
          "the tendon's\n// centre line there. A turn has as many rows as the fan has columns.\n" +
@@ -73,7 +79,8 @@ std::string spiral_arrays(const Fan& fan, double half) {
                      fan.p1.first_column, fan.p2.first_column) +
          fmt::format("filled1 = {};  // rows past P1's last end, with no groove\nfilled2 = {};  // before P2's first\n",
                      fan.p1.filled_back, fan.p2.filled_front) +
-         rows_array("P1", fan.p1, half) + rows_array("P2", fan.p2, half) + "\n";
+         lips_text("lips1", made.p1) + "  // how far these rows' lower and upper lip stand out at first\n" +
+         lips_text("lips2", made.p2) + "\n" + rows_array("P1", fan.p1, half) + rows_array("P2", fan.p2, half) + "\n";
 }
 
 /// What a groove is like has to leave the ribs between its turns: it can only be made smaller.
@@ -116,8 +123,9 @@ std::string climbing_numbers(const Product& product) {
 
 std::string helix_scad(const Product& product) {
   return climbing_parameters(product) + climbing_numbers(product) +
-         spiral_arrays(coarse_fan(product), 0.5 * product.joint.mechanism.tendon.diameter) + run_out_array(product) +
-         program_for("several turns");
+         spiral_arrays(coarse_fan(product), product.helix->pulley.plan->fan,
+                       0.5 * product.joint.mechanism.tendon.diameter) +
+         run_out_array(product) + program_for("several turns");
 }
 
 }  // namespace fusee

@@ -331,7 +331,14 @@ last2 = len(P2) - 1;
 function looks(row) = [cos(row[2]), sin(row[2])];
 function out_of(row, out) = [row[0], row[1]] + out * looks(row);
 function lifted(p, z) = [p[0], p[1], z];
-function row_points(P) = [for (row = P) for (s = section) lifted(out_of(row, s[0]), row[3] + s[1])];
+// Filled rows' lips stand out over the channel's mouth, and go back with the ring's blend.
+function fill_share(j, last, front, back) =
+  j < front ? (front - j) / front : j + back > last ? (j + back - last) / back : 0;
+function stands_out(share, k, lips) =
+  share == 0 ? 0 : k == 0 ? lips[0] * (1 - blend(share)) : k == m - 1 ? lips[1] * (1 - blend(share)) : 0;
+function row_points(P, front, back, lips) =
+  [for (j = [0 : len(P) - 1]) let (share = fill_share(j, len(P) - 1, front, back)) for (k = [0 : m - 1])
+    lifted(out_of(P[j], section[k][0] + stands_out(share, k, lips)), P[j][3] + section[k][1])];
 
 // A closed ring about the outermost turn of an open spiral: on the second half of its way it goes over to where the turn
 // began. Point i is in column i.
@@ -386,7 +393,7 @@ function winding(first, last, first_column, filled_front, filled_back, below, ab
       [[l0, r0, r1], [l0, r1, r2], [l0, r2, l1], [l1, r2, r3]]);
 
 module body() {
-  points = concat(row_points(P1), row_points(P2), [for (r = rings) each r]);
+  points = concat(row_points(P1, 0, filled1, lips1), row_points(P2, filled2, 0, lips2), [for (r = rings) each r]);
   rim = first_ring + (count - 4) * columns;
   faces = concat(
     [[for (c = [columns - 1 : -1 : 0]) first_ring + c]],
