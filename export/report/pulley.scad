@@ -1,5 +1,9 @@
 // ---- printing: what looks down is made steep where nothing may hang ----
+//= one turn
 slope = supports ? 0 : overhang_deg + 2.5;  // slicers take up to a degree more for too flat
+//= several turns
+slope = supports ? 0 : overhang_deg + 4;  // slicers take up to a degree more for too flat, and draw what climbs coarsely
+//= both
 function rise(width) = width * tan(slope > 0 ? slope : 45);
 // of a ceiling or a cone, which may be flat where supports hold it
 function roof(width) = slope > 0 ? rise(width) : 0;
@@ -415,15 +419,13 @@ pocket = max(knot_pocket / 2, 1.05 * channel);
 
 // A circle in the plane across `ahead` under a gable with its ridge upright over the middle: a ball with a cone on it,
 // carried along.
+channel_slope = max(gable_slope, 57.5);
 function tube(centre, ahead, r) = let (
     level = [ahead[1], -ahead[0], 0] / norm([ahead[0], ahead[1]]),
     up = cross(level, ahead),
-    lean = cos(gable_slope) / up[2],
-    low = lean > 0.98,
-    gap = low ? 180 * 0.2 / PI : acos(lean),
-    sides = [for (k = [0 : facets]) let (a = 90 + gap + (360 - 2 * gap) * k / facets) cos(a) * level + sin(a) * up],
-    ridge = low ? up / cos(gap) : [0, 0, 1 / cos(gable_slope)])
-  [for (p = concat(sides, [ridge])) centre + r * p];
+    gap = acos(cos(channel_slope) / up[2]),
+    sides = [for (k = [0 : facets]) let (a = 90 + gap + (360 - 2 * gap) * k / facets) cos(a) * level + sin(a) * up])
+  [for (p = concat(sides, [[0, 0, 1 / cos(channel_slope)]])) centre + r * p];
 
 module run_out(t) {
   row = t[0];
@@ -434,11 +436,16 @@ module run_out(t) {
   bend = t[4][0];
   cone = rise(pocket - channel);
   top = lifted(t[4][1], t[3] - t[2] * (t[4][2] + cone));
+  arc_end = start + bend * (along + towards);
+  end = tube(top, towards, channel);
+  front = top + channel * (cos(channel_slope) * [0, 0, 1] - sin(channel_slope) * normal);
   strip(concat(
-    [for (x = [-0.12, 0.06]) tube(start + x * along, along, min(tendon / 2, channel))],
+    [for (x = [-0.02, 0.06]) tube(start + x * along, along, min(tendon / 2, channel))],
     [for (k = [1 : 9]) let (a = 10 * k)
       tube(start + bend * (sin(a) * along + (1 - cos(a)) * towards), cos(a) * along + sin(a) * towards, channel)],
-    [tube(top + 0.8 * channel * towards, towards, channel)]));
+    // into the lower pocket; before the upper one it ends in a point: straight across it would have a ceiling
+    t[2] < 0 ? [tube(top + 0.8 * channel * towards, towards, channel)]
+             : concat(norm(top - arc_end) > 0.05 * channel ? [end] : [], [[for (p = end) front + 0.05 * (p - front)]])));
   around = [for (k = [0 : facets - 1]) [cos(360 * (k + 0.23) / facets), sin(360 * (k + 0.23) / facets)]];
   neck = min(pocket, channel);  // from there on the lower face's pocket narrows to a tip: it has no ceiling
   strip([for (s = concat([[-1, pocket], [t[4][2], pocket], [t[4][2] + cone, channel]],

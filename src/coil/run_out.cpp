@@ -15,17 +15,22 @@ namespace {
 
 // Thinner channels close in the print (the same bound as of one-turn pulleys' channels).
 constexpr double k_least_channel = 0.6;
-// The channel begins this far before the groove's end, in the open groove: its wall is gone there for sure.
-constexpr double k_before_end = 0.12;
+// The channel begins this far before the groove's end: its wall is gone there for sure. Its gable rises higher than the
+// groove's upper wall and leaves a tooth hanging from that, so far out of the end wall.
+constexpr double k_before_end = 0.02;
 constexpr double k_past_end = 0.06;
 constexpr int k_channel_facets = 14;
 constexpr int k_pocket_facets = 28;
 constexpr int k_arc_steps = 9;
+// Of its radius, of a channel from its arc straight on.
+constexpr double k_shortest_way = 0.05;
 // Arcs bend no sharper than this, of the tendon; in these steps one is looked for that fits.
 constexpr double k_sharpest_bend = 2.0;
 // And of the channel's radius: seen from above, the flanks of its gable do not meet on the inside of the bend. They
 // would at 2.46, where one that rises has turned by 78°.
 constexpr double k_bend_of_channel = 2.8;
+// Channels dive at 45°: a gable as flat as that would have its ridge in the next section.
+constexpr double k_flattest_gable = radians(57.5);
 constexpr int k_bends = 5;
 // What a pocket's cone narrows to, of its channel.
 constexpr double k_tip = 0.2;
@@ -72,14 +77,22 @@ Vec3 way_end(const GrooveEnd& end, const RunOutSizes& sizes) {
   return arc_point(end, sizes.bend_radius, 0.5 * k_pi) + straight * directions_of(end).towards;
 }
 
-// The gable leaves the circle where that is as steep as the cone. Where the channel dives so steeply that all of the
-// circle is, a low gable stands across it.
+// The gable leaves the circle where that is as steep as the cone.
 ChannelRing ring_across(const Vec3& middle, const Vec3& ahead, double radius, double roof_slope) {
-  constexpr double k_all_of_it = 0.98, k_low_gable = 0.2;
   const Vec3 level = ahead.cross(Vec3::UnitZ()).normalized(), up = level.cross(ahead);
-  const double lean = std::cos(roof_slope) / up.z();
-  if (lean > k_all_of_it) return {middle, level, up, radius, k_low_gable, middle + radius / std::cos(k_low_gable) * up};
-  return {middle, level, up, radius, std::acos(lean), middle + radius / std::cos(roof_slope) * Vec3::UnitZ()};
+  return {middle,
+          level,
+          up,
+          radius,
+          std::acos(std::cos(roof_slope) / up.z()),
+          middle + radius / std::cos(roof_slope) * Vec3::UnitZ()};
+}
+
+// Nearly to a point.
+ChannelRing narrowed(const ChannelRing& ring, const Vec3& to) {
+  constexpr double k_left = 0.05;
+  const auto nearly = [&](const Vec3& place) -> Vec3 { return to + k_left * (place - to); };
+  return {nearly(ring.middle), ring.level, ring.up, k_left * ring.radius, ring.gap, nearly(ring.ridge)};
 }
 
 // A channel's section in space, `facets` chords of its circle.
@@ -140,7 +153,7 @@ RunOutSizes run_out_sizes(const Mechanism& mechanism, const BodyLayout& layout, 
   sizes.pocket_radius = mechanism.body.knot_pocket > 0 ? 0.5 * mechanism.body.knot_pocket
                                                        : share * std::max(1.75 * d, 2.0 * sizes.channel_radius);
   sizes.pocket_depth = sizes.pocket_radius;
-  sizes.roof_slope = gable_slope(layout);
+  sizes.roof_slope = std::max(gable_slope(layout), k_flattest_gable);
   sizes.cone = rise_of(layout, sizes.pocket_radius - sizes.channel_radius);
   sizes.tip = rise_of(layout, (1.0 - k_tip) * std::min(sizes.pocket_radius, sizes.channel_radius));
   // The pocket leaves a wall to the rim.
@@ -226,15 +239,25 @@ std::vector<ChannelRing> channel_rings(const GrooveEnd& end, const RunOutSizes& 
   };
   // The groove's end wall stands between the first two, in the plane of neither.
   const Vec3 mouth = start_of(end) + sizes.mouth_outward * Vec3(end.row.normal.x(), end.row.normal.y(), 0.0);
-  for (const double place : {-k_before_end - 0.017 * variant, k_past_end + 0.005 * variant})
+  for (const double place : {-k_before_end - 0.003 * variant, k_past_end + 0.005 * variant})
     add(mouth + place * along, along, sizes.mouth_radius);
   for (int k = 1; k <= k_arc_steps; ++k) {
     const double turn = arc_turn(k);
     add(arc_place(end, sizes, k), std::cos(turn) * along + std::sin(turn) * towards,
         sizes.channel_radii[static_cast<std::size_t>(k - 1)]);
   }
-  // Straight on, into the cone.
-  add(way_end(end, sizes) + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius);
+  // Straight on, into the pocket. What lies below the face ends in a point where ball and cone meet in front: straight
+  // across it would have a ceiling as flat as the way is.
+  const Vec3 last = way_end(end, sizes);
+  if (end.outward < 0) {
+    add(last + 0.8 * sizes.channel_radius * towards, towards, sizes.channel_radius);
+    return rings;
+  }
+  if ((last - rings.back().middle).norm() > k_shortest_way * sizes.channel_radius)
+    add(last, towards, sizes.channel_radius);
+  const Vec3 inwards(-end.row.normal.x(), -end.row.normal.y(), 0.0);
+  const Vec3 front = std::sin(sizes.roof_slope) * inwards + std::cos(sizes.roof_slope) * Vec3::UnitZ();
+  rings.push_back(narrowed(rings.back(), last + sizes.channel_radius * front));
   return rings;
 }
 

@@ -85,8 +85,10 @@ Winding winding_on(const std::vector<double>& angles, const SpiralCurve& curve, 
     WindingRow row = curve.at(turn_of(j));
     const double before = j > 0 ? turn_of(j) - turn_of(j - 1) : turn_of(j + 1) - turn_of(j);
     const double after = turn_of(j + 1) - turn_of(j);
-    // A third of the sagitta of the floor's chord, ρ step²/8, on both sides.
-    row.position += (row.rho - floor_inward) * 0.5 * (before * before + after * after) / 24.0 * row.normal;
+    // The floor's chords are ρ step³/24 shorter than its arcs, half of that each side of a row: moving it out by x
+    // lengthens them by x (before + after)/2.
+    const double out = (before * before - before * after + after * after) / 24.0;
+    row.position += (row.rho - floor_inward) * out * row.normal;
     winding.rows.push_back(row);
   }
   winding.falls = winding.rows.back().height < winding.rows.front().height;

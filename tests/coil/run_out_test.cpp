@@ -27,6 +27,7 @@ GrooveEnd end_on(Side side) {
 
 struct Sizes {
   double radius, bend_ratio, mouth, growth;  ///< growth of the radius along the arc
+  double gable = 57.5;
 };
 
 RunOutSizes sizes_of(const Sizes& wanted) {
@@ -39,7 +40,7 @@ RunOutSizes sizes_of(const Sizes& wanted) {
   sizes.tip = 0.8 * wanted.radius * std::tan(radians(47.5));
   sizes.bend_radius = wanted.bend_ratio * wanted.radius;
   sizes.inward = std::max(sizes.bend_radius / std::sqrt(2.0), 3 * wanted.radius);
-  sizes.roof_slope = radians(57.5);
+  sizes.roof_slope = radians(wanted.gable);
   for (int k = 1; k <= 9; ++k)
     sizes.channel_radii.push_back(
         std::min(wanted.radius, wanted.mouth + wanted.growth * 0.5 * k_pi * k / 9 * sizes.bend_radius));
@@ -53,9 +54,7 @@ double flattest_roof(const TriangleMesh& tool, const GrooveEnd& end) {
     const Vec3 &a = tool.vertices[ia], &b = tool.vertices[ib], &c = tool.vertices[ic];
     const Vec3 normal = (b - a).cross(c - a).normalized();
     const bool is_outside = end.outward > 0 && std::min({a.z(), b.z(), c.z()}) > end.face;
-    // What is left of the channel's end beside a pocket's cone.
-    const bool is_end = normal.dot(Vec3(-1, 0, end.outward).normalized()) > 0.9999;
-    if (normal.z() < 1e-6 || is_outside || is_end) continue;
+    if (normal.z() < 1e-6 || is_outside) continue;
     flattest = std::min(flattest, std::atan2(normal.head<2>().norm(), normal.z()));
   }
   return flattest;
@@ -76,6 +75,27 @@ TEST(RunOut, RoofsAreSteepHoweverTheChannelBendsAndWidens) {
       }
     }
   }
+}
+
+// The sections of the sharpest bends that are made keep clear of one another, be the gable as steep as it may.
+TEST(RunOut, ChannelsAreWholeUnderEveryGable) {
+  for (const Side side : {Side::left, Side::right}) {
+    for (const double gable : {57.5, 60.0, 65.0, 72.0, 80.0}) {
+      for (const Sizes& wanted : {Sizes{0.6, 2.8, 0.6, 0, gable}, Sizes{1.0, 2.8, 0.3, 0.3, gable}}) {
+        const auto tool = run_out_tool(end_on(side), sizes_of(wanted), 0);
+        ASSERT_TRUE(tool) << gable;
+        EXPECT_FALSE(find_crossing(*tool).facets) << gable;
+      }
+    }
+  }
+}
+
+// Under the end of a channel that rises into a wider pocket nothing is as flat as the way itself, 45°.
+TEST(RunOut, AChannelEndsInAPointBelowItsPocket) {
+  const GrooveEnd end = end_on(Side::right);
+  const ChannelRing last = channel_rings(end, sizes_of({1.0, 2.8, 0.6, 0}), 0).back();
+  EXPECT_LT(last.radius, 0.06);
+  EXPECT_LT(last.ridge.z(), end.face);
 }
 
 // The cone over a pocket ends in a tip: the flat disc that it had as wide as the channel hung over it.
