@@ -10,7 +10,8 @@ Exit 0: all is well; 1: something is not, a line each on stdout; 77: Chromium is
 The page is opened as it is, with a script before its own that notes errors and one after them that moves the slider and
 looks at the outcome. What must hold: the drawn lever stands where transmission.csv says; each drawn tendon keeps its
 length over the stroke; the 3-D view is neither blank nor inside out and turns with the pulley; without WebGL there is a
-still picture; nothing is asked of a network; nothing is wider than a phone; a frame takes at most 4 ms. Where a pulley has
+still picture; nothing is asked of a network; nothing is wider than a phone; a frame takes at most
+10 ms (sixty a second, on a machine that has other things to do). Where a pulley has
 several turns the tendons' take-offs are drawn instead of a lever: they must stand on the spirals of profile.csv, turned,
 at the place whose normal looks across the line to the guide pin.
 """
@@ -27,7 +28,7 @@ import sys
 import tempfile
 
 SKIPPED = 77
-MOST_FRAME_MS = 4.0
+MOST_FRAME_MS = 10.0
 MOST_BYTES = 1_000_000
 
 BEFORE = """

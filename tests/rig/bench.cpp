@@ -69,17 +69,36 @@ double solved(double guess, double at_zero, Function function) {
   return crossing(low, at_low, high, at_high, k_tension, function);
 }
 
-/// The printed outline with all that is wrong with it, as the right-hand image sees it.
+/// A point of the curve with all that is wrong with its print, as the right-hand image sees it.
+Vec2 printed_at(const OutlinePoint& point, std::size_t side, const Hidden& hidden) {
+  const double wave = hidden.profile_error * std::cos(hidden.profile_harmonic * point.psi + hidden.profile_phase);
+  const Vec2 moved = (1.0 + hidden.pulley_scale) * point.position + (hidden.radius_offset + wave) * point.normal +
+                     Vec2(hidden.runout_x, hidden.runout_y);
+  return side == 0 ? mirrored(moved) : moved;
+}
+
 Hull printed(const Outline& outline, std::size_t side, const Hidden& hidden) {
   Polygon corners;
   corners.reserve(outline.points.size());
-  for (const OutlinePoint& point : outline.points) {
-    const double wave = hidden.profile_error * std::cos(hidden.profile_harmonic * point.psi + hidden.profile_phase);
-    const Vec2 moved = (1.0 + hidden.pulley_scale) * point.position + (hidden.radius_offset + wave) * point.normal +
-                       Vec2(hidden.runout_x, hidden.runout_y);
-    corners.push_back(side == 0 ? mirrored(moved) : moved);
-  }
+  for (const OutlinePoint& point : outline.points) corners.push_back(printed_at(point, side, hidden));
   return hull_of(corners);
+}
+
+/// The groove that climbs, with the same wrong with it.
+Hull printed_spiral(const MadeSpiral& made, std::size_t side, const Hidden& hidden) {
+  Polygon corners;
+  std::vector<double> heights;
+  for (const SpiralRow& row : made.rows) {
+    corners.push_back(printed_at({row.turn, {row.x, row.y}, {std::cos(row.turn), std::sin(row.turn)}}, side, hidden));
+    heights.push_back(row.z);
+  }
+  auto home = static_cast<std::ptrdiff_t>(made.home);
+  if (side == 0) {
+    std::reverse(corners.begin(), corners.end());
+    std::reverse(heights.begin(), heights.end());
+    home = std::ssize(corners) - 1 - home;
+  }
+  return spiral_of(std::move(corners), std::move(heights), home);
 }
 
 /// A hardening tendon follows T = E' ε (1 + ε/h): E' such that dT/dε is as declared at the declared pretension.
@@ -135,6 +154,7 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
       torque_(hidden.torque),
       dry_(hidden.dry) {
   const DeclaredMechanism& declared = joint.declared;
+  collar_ = declared.guides.collar;
   R_ = declared.joint.R + hidden.joint_length;
   friction_ = std::max(0.0, declared.guides.mu + hidden.friction);
   if (declared.guides.kind == GuideKind::idler) {
@@ -149,13 +169,17 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
   torque_declared_ = declared.load.torque;
   weight_ = 9.80665 * declared.load.mass * declared.load.lever;
   tilt_ = declared.load.tilt;
+  spring_ = declared.spring;
   const double modulus = hidden.modulus > 0 ? hidden.modulus : declared.tendon.modulus;
   EA_ = modulus * k_pi * declared.tendon.diameter * declared.tendon.diameter / 4.0;
   if (hidden.hardening > 0) EA_ = softer_at_rest(EA_, declared.tendon.pretension, hidden.hardening);
   double arm = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];
-    tendon.hull = printed(side == 0 ? joint.p1 : joint.p2, side, hidden);
+    const MadeSpiral& spiral = joint.spirals[side];
+    tendon.hull = spiral.rows.empty() ? printed(side == 0 ? joint.p1 : joint.p2, side, hidden)
+                                      : printed_spiral(spiral, side, hidden);
+    tendon.held_at = spiral.held_at;
     tendon.sign = side == 0 ? -1.0 : 1.0;
     const double outward =
         (side == 0 ? declared.guides.EB : declared.guides.ED) + hidden.guide_outward + hidden.pin_outward[side];
@@ -164,7 +188,7 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
     build_link(tendon, side, declared);
     tendon.axis = {0.0, -declared.guides.OE - declared.pulley.EF};
     if (declared.sheath.is_there()) thread(tendon, declared);
-    const double own_arm = string_up(tendon, tendon.pin, 0.0, tendon.over).arm;
+    const double own_arm = level_arm_at_home(tendon);
     const double pretension = hidden.slack > 0 ? 0.0 : declared.tendon.pretension;
     hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
          side == 0 ? -joint.alpha_max : joint.alpha_min);
@@ -224,6 +248,28 @@ double Bench::through(std::vector<SheathPiece>& sheath, const Cord& cord, double
   return tension;
 }
 
+/// How much longer a way is than it looks from above, rising all along.
+double Bench::slant(double level, double rise) { return std::hypot(1.0, rise / level); }
+
+/// Of a straight that begins in a collar.
+double Bench::sloping_more(const BenchTendon& tendon, const LowerString& string) {
+  return std::hypot(string.length, rise_of(tendon, string)) - string.length;
+}
+
+double Bench::rise_of(const BenchTendon& tendon, const LowerString& string) {
+  return tendon.hull.climbs() ? string.height - tendon.held_at : 0.0;
+}
+
+/// Of what a tendon that rises turns the joint with, per newton.
+double Bench::level_arm_at_home(BenchTendon& tendon) const {
+  const UpperString up = string_up(tendon, tendon.pin, 0.0, tendon.over);
+  if (collar_ || !tendon.hull.climbs()) return up.arm;
+  const Circle seen = seen_guide(tendon, tendon.pin);
+  const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
+  const double level = up.length + low.length + tendon.pin.radius * (direction(up.normal) - direction(low.normal));
+  return up.arm / slant(level, rise_of(tendon, low));
+}
+
 /// Lower per upper tension at this share of the friction. An idler's bearing is pressed by both as vectors.
 double Bench::ratio(double wrap, double bristle) const {
   if (turning_ == 0) return std::exp(friction_ * wrap * bristle);
@@ -237,6 +283,17 @@ double Bench::ratio(double wrap, double bristle) const {
   return lower;
 }
 
+/// A groove that climbs goes on to its knot by its spare turns.
+double Bench::knot_of(const BenchTendon& tendon, const Circle& seen, const LowerString& at_home, double unwound) {
+  if (tendon.hull.climbs()) return 0.0;
+  // By steps: past half a turn a string would be looked for the other way round.
+  LowerString at_end = at_home;
+  const int steps = 1 + static_cast<int>(std::abs(unwound));
+  for (int i = 1; i <= steps; ++i)
+    at_end = lower_string(tendon.hull, {turned(seen.centre, unwound * i / steps), seen.radius}, at_end.corner);
+  return at_end.arc - k_knot_beyond;
+}
+
 /// Cut to length so that it carries `tension` at home; no friction is in use. The knot is met at the image's angle
 /// `unwound`.
 void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwound) {
@@ -247,20 +304,21 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
   // Into a sheath it goes straight down.
   const double off_pin = tendon.sheath.empty() ? direction(low.normal) : 0.0;
   tendon.mark = tendon.sheath.empty() ? 0.5 * (direction(up.normal) + off_pin) : off_pin;
-  const double above = up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark);
-  const double below = low.length + tendon.pin.radius * (tendon.mark - off_pin);
+  double above = up.length + tendon.pin.radius * (direction(up.normal) - tendon.mark);
+  double below = low.length + tendon.pin.radius * (tendon.mark - off_pin);
+  if (tendon.hull.climbs() && !collar_) {
+    const double longer = slant(above + below, rise_of(tendon, low));
+    above *= longer;
+    below *= longer;
+  }
+  if (collar_) below += sloping_more(tendon, low);
   for (SheathPiece& piece : tendon.sheath) piece.material = cord.material(piece.length, tension);
   tendon.upper = cord.material(above, tension) + 0.25 * slack;
   tendon.lower = cord.material(below, tension) + 0.25 * slack;
   tendon.wound = low.arc;
   tendon.corner = low.corner;
-  // By steps: past half a turn a string would be looked for the other way round.
-  LowerString at_end = low;
-  const int steps = 1 + static_cast<int>(std::abs(unwound));
-  for (int i = 1; i <= steps; ++i)
-    at_end = lower_string(tendon.hull, {turned(seen.centre, unwound * i / steps), seen.radius}, at_end.corner);
-  const double knot = at_end.arc - k_knot_beyond;
-  tendon.laid = GrooveChain(tendon.hull, knot, low.arc, tension, hidden_.groove_friction, cord);
+  tendon.laid =
+      GrooveChain(tendon.hull, knot_of(tendon, seen, low, unwound), low.arc, tension, hidden_.groove_friction, cord);
   tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
   const Vec2 down = turned(Vec2(std::cos(off_pin), std::sin(off_pin)), -0.5 * k_pi);
   tendon.push = tendon.home_push = tension * (down - turned(up.normal, -0.5 * k_pi));
@@ -307,6 +365,10 @@ Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer,
   below.over = tendon.over;
   below.wound = string.arc;
   below.length = string.length + tendon.pin.radius * (tendon.mark - below.normal);
+  if (collar_)
+    below.length += sloping_more(tendon, string);
+  else
+    below.rise = rise_of(tendon, string);
   below.length += tendon.sign * (lump(at.alpha) - lump(0.0)) + longer;
   below.material = tendon.lower;
   below.cord = cord(side, at);
@@ -324,8 +386,10 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
   const double image_theta = tendon.sign * theta;
   const UpperString up = string_up(tendon, below.pin, image_theta, below.over);
   const double normal = direction(up.normal);
-  const double length = up.length + below.pin.radius * (normal - tendon.mark);
-  const double wrap = std::max(0.0, normal - below.normal);
+  const double level = up.length + below.pin.radius * (normal - tendon.mark);
+  const double longer = slant(level + below.length, below.rise);
+  const double length = level * longer, lower_length = below.length * longer;
+  const double wrap = std::max(0.0, normal - below.normal) / longer;
   Trial trial;
   const auto slip = [&](double slipped) {
     trial.slipped = slipped;
@@ -333,7 +397,7 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
     trial.upper_tension = below.cord.tension(length, tendon.upper - slipped);
   };
   const auto too_little = [&](double tension) {
-    double slipped = below.cord.material(below.length, tension) - below.material + below.laid.taken(tension);
+    double slipped = below.cord.material(lower_length, tension) - below.material + below.laid.taken(tension);
     trial.pulley_tension = tension;
     trial.to_span = slipped;
     trial.sheath = tendon.sheath;
@@ -351,7 +415,7 @@ Bench::Trial Bench::tried(std::size_t side, Below& below, double theta) const {
     slip(std::clamp(0.0, least, std::max(least, tendon.upper - length / below.cord.natural)));
     trial.to_span += trial.slipped - least;
   }
-  trial.torque = trial.upper_tension * up.arm;
+  trial.torque = trial.upper_tension * up.arm / longer;
   trial.pull = turned(up.normal, -0.5 * k_pi);
   const Vec2 down = turned(Vec2(std::cos(below.normal), std::sin(below.normal)), -0.5 * k_pi);
   trial.push = trial.lower_tension * down - trial.upper_tension * trial.pull;
@@ -362,6 +426,7 @@ double Bench::excess(std::array<Below, 2>& below, double theta, const Conditions
   const double weight = hidden_.gravity * std::sin(theta - hidden_.gravity_direction);
   double all = tried(1, below[1], theta).torque - tried(0, below[0], theta).torque - at.load * R_ + weight;
   all -= torque_declared_ + weight_ * std::sin(tilt_ - theta);
+  all -= spring_.preload + spring_.stiffness * (theta - spring_.free);
   if (!torque_.empty()) {
     Moment then = at;
     then.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);

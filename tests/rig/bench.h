@@ -30,6 +30,7 @@ struct SheathPiece {
 /// A tendon in its right-hand image: index 0 is tendon 1, seen in the mirror.
 struct BenchTendon {
   Hull hull;  ///< its pulley, in the pulley's frame at home
+  double held_at = 0;  ///< height of its end, or of the collar, where the pulley's groove climbs
   Circle pin;
   Vec2 axis = Vec2::Zero();   ///< of the pulley
   double sign = 1;            ///< of the image's angles
@@ -73,7 +74,8 @@ class Bench {
   /// A tendon at a pulley angle, before θ is known.
   struct Below {
     Circle pin;
-    double length = 0;
+    double length = 0;    ///< but for what all of its way rises by
+    double rise = 0;      ///< of that, from the joint to where it meets the pulley; 0 with collars
     double material = 0;  ///< before the groove takes or gives
     double wound = 0;
     double normal = 0;
@@ -99,6 +101,11 @@ class Bench {
   void build_link(BenchTendon& tendon, std::size_t side, const DeclaredMechanism& declared) const;
   void thread(BenchTendon& tendon, const DeclaredMechanism& declared) const;
   Circle seen_guide(const BenchTendon& tendon, const Circle& pin) const;
+  static double slant(double level, double rise);
+  static double sloping_more(const BenchTendon& tendon, const LowerString& string);
+  static double rise_of(const BenchTendon& tendon, const LowerString& string);
+  double level_arm_at_home(BenchTendon& tendon) const;
+  static double knot_of(const BenchTendon& tendon, const Circle& seen, const LowerString& at_home, double unwound);
   double ratio(double wrap, double bristle) const;
   /// Of the tension at the mouth what is left at the pin. `slipped` past each bend, from the mouth to the pin.
   static double through(std::vector<SheathPiece>& sheath, const Cord& cord, double home, double tension,
@@ -114,6 +121,7 @@ class Bench {
   double lump(double alpha) const;
 
   Hidden hidden_;
+  bool collar_ = false;
   double R_ = 0;
   double EA_ = 0;
   double friction_ = 0;
@@ -122,6 +130,7 @@ class Bench {
   double torque_declared_ = 0;
   double weight_ = 0;  ///< times its lever, N·mm
   double tilt_ = 0;
+  Spring spring_;
   double step_ = 0;  ///< of θ, the last one
   double theta_ = 0;
   std::array<BenchTendon, 2> tendons_;

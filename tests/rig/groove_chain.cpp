@@ -20,15 +20,23 @@ double hold_of(double friction, double turn) { return std::exp(std::min(k_most_h
 
 }  // namespace
 
-Turning::Turning(const Hull& hull) : around_(hull.around) {
+Turning::Turning(const Hull& hull) : around_(hull.around), climbs_(hull.climbs()) {
   const std::size_t count = hull.corners.size();
-  // Half of a corner's turn belongs to each of its edges, so that the turning is even along a smooth curve.
+  // Half of a corner's turn belongs to each of its edges, so that the turning is even along a smooth curve. Before a
+  // spiral begins, and past its end, it goes straight on.
   std::vector<double> at_corner(count + 1, 0.0);
-  const auto edge = [&](std::size_t i) { return hull.corners[(i + 1) % count] - hull.corners[i % count]; };
+  const auto edge = [&](std::ptrdiff_t i) -> Vec2 {
+    const auto n = std::ssize(hull.corners);
+    const auto from = static_cast<std::size_t>(climbs_ ? std::clamp<std::ptrdiff_t>(i, 0, n - 2) : (i + n) % n);
+    return hull.corners[(from + 1) % count] - hull.corners[from];
+  };
+  const auto turn = [&edge](std::ptrdiff_t corner) {
+    const Vec2 before = edge(corner - 1), after = edge(corner);
+    return std::atan2(cross(before, after), before.dot(after));
+  };
   for (std::size_t i = 1; i <= count; ++i) {
-    const double here = std::atan2(cross(edge(i + count - 1), edge(i)), edge(i + count - 1).dot(edge(i)));
-    const double last = std::atan2(cross(edge(i + count - 2), edge(i - 1)), edge(i + count - 2).dot(edge(i - 1)));
-    at_corner[i] = at_corner[i - 1] + 0.5 * (last + here);
+    const auto corner = static_cast<std::ptrdiff_t>(i);
+    at_corner[i] = at_corner[i - 1] + 0.5 * (turn(corner - 1) + turn(corner));
   }
   angle_.reserve(k_table + 1);
   std::size_t corner = 0;
@@ -36,13 +44,14 @@ Turning::Turning(const Hull& hull) : around_(hull.around) {
     const double arc = around_ * static_cast<double>(i) / k_table;
     while (corner + 1 < count && hull.arc[corner + 1] <= arc) ++corner;
     const double end = corner + 1 < count ? hull.arc[corner + 1] : around_;
-    const double share = std::min(1.0, (arc - hull.arc[corner]) / (end - hull.arc[corner]));
+    const double edge_length = end - hull.arc[corner];
+    const double share = edge_length > 0 ? std::min(1.0, (arc - hull.arc[corner]) / edge_length) : 0.0;
     angle_.push_back(at_corner[corner] + share * (at_corner[corner + 1] - at_corner[corner]));
   }
 }
 
 double Turning::at(double arc) const {
-  const double turns = std::floor(arc / around_);
+  const double turns = climbs_ ? 0.0 : std::floor(arc / around_);
   const double place = (arc / around_ - turns) * k_table;
   const auto i = std::min(k_table - 1, static_cast<std::size_t>(place));
   return turns * angle_.back() + angle_[i] + (place - static_cast<double>(i)) * (angle_[i + 1] - angle_[i]);

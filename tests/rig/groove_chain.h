@@ -19,6 +19,7 @@ class Turning {
 
  private:
   double around_ = 1;
+  bool climbs_ = false;
   std::vector<double> angle_;  ///< at even steps of arc
 };
 

@@ -5,6 +5,7 @@
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
+#include "fusee/helix/synthesis.h"
 #include "fusee/profile/synthesis.h"
 #include "rig/bench.h"
 #include "rig/random.h"
@@ -234,6 +235,30 @@ class Session {
   double zero_walk_ = 0;
 };
 
+/// A groove a little wider than its tendon, as any would do.
+HelixGroove plain_groove(const Mechanism& mechanism) {
+  const double depth = mechanism.groove_depth(), d = mechanism.tendon.diameter;
+  return {depth, d, [depth, d](double step) { return d + 2.0 * depth + std::max(1.0, std::abs(step)); }};
+}
+
+MadeJoint made_of_several_turns(const DeclaredMechanism& declared) {
+  SynthesisOptions options;
+  options.tolerance = 2e-4;
+  const HelixSynthesis made = synthesise_helix(declared, plain_groove(declared), options);
+  if (!made.made()) throw InputError("rig", "no helical grooves for " + declared.name);
+  MadeJoint joint{declared, {}, {}, made.stroke.front().alpha, made.stroke.back().alpha};
+  const auto home = std::min_element(made.stroke.begin(), made.stroke.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.alpha) < std::abs(b.alpha);
+  });
+  for (std::size_t side = 0; side < 2; ++side) {
+    const HelixSide& own = made.sides[side];
+    const double height = own.stroke[static_cast<std::size_t>(home - made.stroke.begin())].z;
+    const auto at_home = static_cast<std::size_t>(&own.spiral.row_at(height) - own.spiral.rows.data());
+    joint.spirals[side] = {own.spiral.rows, own.attachment_z, at_home};
+  }
+  return joint;
+}
+
 }  // namespace
 
 MadeJoint make_joint(const DeclaredMechanism& declared) {
@@ -241,6 +266,7 @@ MadeJoint make_joint(const DeclaredMechanism& declared) {
   options.tolerance = 2e-5;
   options.advice = false;
   const SynthesisResult made = synthesise(declared, options);
+  if (need_several_turns(made)) return made_of_several_turns(declared);
   if (!made.made()) throw InputError("rig", made.brief());
   return {declared, made.p1, made.p2, made.stroke.front().alpha, made.stroke.back().alpha};
 }

@@ -1,7 +1,7 @@
 /// \file
 /// A joint on a bench whose faults are known: what calibration is judged by.
 ///
-/// It shares no equation with the fit. Strings are wound on the polygon of the pulley that was made
+/// It shares no equation with the fit. Strings are wound on the polygon of the pulley that was made, or on the spiral
 /// (string_geometry.h); tendons are elastic between C, pin and pulley (bench.h); a tendon slips over its pin against a
 /// bristle that gives way (Dahl 1968), not by stick and slip; the joint stands where the torques balance, found by
 /// bracketing. Only the declared numbers and the outlines come from fusee. rad, mm, N, s unless the name says
@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "fusee/helix/spiral.h"
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/profile/outline.h"
 #include "rig/action.h"
@@ -132,12 +133,22 @@ struct Row {
 };
 using Log = std::vector<Row>;
 
+/// A groove that climbs, as it was made.
+struct MadeSpiral {
+  std::vector<SpiralRow> rows;  ///< none: the pulley has an outline
+  double held_at = 0;           ///< height of the tendon's end on the joint, or of the collar that holds it at its pin
+  std::size_t home = 0;         ///< the row near which the tendon leaves it at home
+};
+
 /// Both pitch curves that were made for a declared mechanism.
 struct MadeJoint {
   DeclaredMechanism declared;
   Outline p1, p2;
   double alpha_min = 0;  ///< of the declared range
   double alpha_max = 0;
+  std::array<MadeSpiral, 2> spirals = {};  ///< in place of p1, p2 where one turn is too little
+
+  bool climbs() const { return !spirals[0].rows.empty(); }
 };
 /// InputError when there is no pulley for it.
 MadeJoint make_joint(const DeclaredMechanism& declared);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
@@ -19,6 +20,11 @@ std::size_t wrapped(std::ptrdiff_t corner, std::size_t count) {
   return static_cast<std::size_t>(((corner % n) + n) % n);
 }
 
+/// Where a string goes on beyond it: around a polygon without end, along a spiral up to its ends.
+bool has_corner(const Hull& hull, std::ptrdiff_t corner) {
+  return !hull.climbs() || (corner >= 0 && corner < std::ssize(hull.corners));
+}
+
 double arc_at(const Hull& hull, std::ptrdiff_t corner) {
   const std::size_t within = wrapped(corner, hull.corners.size());
   const auto turns = (corner - static_cast<std::ptrdiff_t>(within)) / static_cast<std::ptrdiff_t>(hull.corners.size());
@@ -34,6 +40,20 @@ Hull hull_of(const Polygon& points) {
     hull.arc.push_back(hull.around);
     hull.around += (hull.corners[(i + 1) % hull.corners.size()] - hull.corners[i]).norm();
   }
+  return hull;
+}
+
+Hull spiral_of(Polygon corners, std::vector<double> height, std::ptrdiff_t home) {
+  Hull hull;
+  hull.corners = std::move(corners);
+  hull.height = std::move(height);
+  hull.home = home;
+  hull.arc.push_back(0);
+  for (std::size_t i = 1; i < hull.corners.size(); ++i) {
+    const double along = (hull.corners[i] - hull.corners[i - 1]).norm();
+    hull.arc.push_back(hull.arc.back() + std::hypot(along, hull.height[i] - hull.height[i - 1]));
+  }
+  hull.around = hull.arc.back();
   return hull;
 }
 
@@ -56,6 +76,7 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
     if (!(string.length > 0)) break;
     const Vec2 along = leaving_circle(span, pin.radius, string.length);
     string.normal = turned_left(along);
+    if (!has_corner(hull, string.corner - 1) || !has_corner(hull, string.corner + 1)) break;
     const auto beyond = [&](std::ptrdiff_t other) {
       return string.normal.dot(hull.corners[wrapped(other, count)] - corner);
     };
@@ -66,6 +87,7 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
     } else {
       string.arc = arc_at(hull, string.corner);
       string.arm = string.normal.dot(corner);
+      if (hull.climbs()) string.height = hull.height[static_cast<std::size_t>(string.corner)];
       return string;
     }
   }
@@ -74,6 +96,7 @@ LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t nea
 }
 
 std::ptrdiff_t first_look(const Hull& hull, const Circle& pin) {
+  if (hull.climbs()) return hull.home;
   const Vec2 outwards = -turned_left(pin.centre);
   const auto further = [&](const Vec2& a, const Vec2& b) { return outwards.dot(a) < outwards.dot(b); };
   return std::max_element(hull.corners.begin(), hull.corners.end(), further) - hull.corners.begin();

@@ -17,15 +17,22 @@ struct Circle {
   double radius = 0;
 };
 
-/// A strictly convex polygon, counter-clockwise, with the length along it to each corner.
+/// A strictly convex polygon, counter-clockwise, with the length along it to each corner; or a spiral, which is open
+/// and climbs.
 struct Hull {
   Polygon corners;
-  std::vector<double> arc;  ///< from corner 0 to corner i
-  double around = 0;        ///< once around
+  std::vector<double> arc;     ///< from corner 0 to corner i
+  double around = 0;           ///< once around; of a spiral from end to end
+  std::vector<double> height;  ///< of a spiral's corners; empty: all at one height
+  std::ptrdiff_t home = 0;     ///< of a spiral: a corner near which the string leaves it at home
+
+  bool climbs() const { return !height.empty(); }
 };
 
 /// Around the points; what is not convex is bridged by the string.
 Hull hull_of(const Polygon& points);
+/// Counter-clockwise. Lengths along it are those in space.
+Hull spiral_of(Polygon corners, std::vector<double> height, std::ptrdiff_t home);
 
 /// The string from its end `from`, down to the pin.
 struct UpperString {
@@ -43,11 +50,12 @@ struct LowerString {
   std::ptrdiff_t corner = 0;  ///< counted on through turns
   double arc = 0;             ///< along the polygon to that corner, counted on through turns
   double arm = 0;             ///< about the origin
+  double height = 0;          ///< of that corner
 };
-/// `near`: where to begin looking. InputError when the pulley swallows the pin.
+/// `near`: where to begin looking. InputError when the pulley swallows the pin, or a spiral ends before.
 LowerString lower_string(const Hull& hull, const Circle& pin, std::ptrdiff_t near);
 
-/// A corner near the one that the string meets, found without knowing anything.
+/// A corner near the one that the string meets, found without knowing anything but a spiral's `home`.
 std::ptrdiff_t first_look(const Hull& hull, const Circle& pin);
 
 }  // namespace fusee::rig

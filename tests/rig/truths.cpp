@@ -183,10 +183,14 @@ bool has_name(const std::string& name) {
 std::vector<Truth> wide_truths(const MadeJoint& joint) {
   std::vector<Truth> truths = {{"nothing", {}}};
   const std::vector<const Effect*> possible = effects_of(joint.declared);
-  for (const std::string& name : names_in("wide")) {
-    const auto is = [&](const Effect* effect) { return effect->name == name; };
-    if (std::any_of(possible.begin(), possible.end(), is)) truths.push_back({name, {name}});
-  }
+  const auto add_possible = [&](const char* list) {
+    for (const std::string& name : names_in(list)) {
+      const auto is = [&](const Effect* effect) { return effect->name == name; };
+      if (std::any_of(possible.begin(), possible.end(), is)) truths.push_back({name, {name}});
+    }
+  };
+  add_possible("wide");
+  if (joint.climbs()) add_possible("named");
   return truths;
 }
 

@@ -30,7 +30,8 @@ std::vector<std::string> kin_of(const std::string& fault);
 /// Nothing at all (three kinds of noise), every fault alone but those of a split that is kept aside, and pairs.
 std::vector<Truth> all_truths();
 
-/// Nothing, and every fault of the wide list that this joint can have, alone.
+/// Nothing, and every fault of the wide list that this joint can have, alone; where its grooves climb, those with a
+/// name too.
 std::vector<Truth> wide_truths(const MadeJoint& joint);
 
 /// What a joint drawn at random is like.

@@ -1,0 +1,86 @@
+// A bench whose pulleys are wound several times: its strings rise from the pin, or from where they end, to the groove.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "fusee/base/units.h"
+#include "fusee/mechanism/file.h"
+#include "rig/bench.h"
+#include "rig/rig.h"
+#include "rig/string_geometry.h"
+
+namespace fusee::rig {
+namespace {
+
+DeclaredMechanism wrist_turns() {
+  DeclaredMechanism declared = read_mechanism(FUSEE_SOURCE_DIR "/profiles/wrist_turns.toml").mechanism;
+  declared.load = {};
+  return declared;
+}
+
+/// Tendons that do not give way, and pins that do not rub.
+DeclaredMechanism stiff(DeclaredMechanism declared) {
+  declared.tendon.modulus = 1e9;
+  declared.guides.mu = 0;
+  return declared;
+}
+
+double furthest_off(const DeclaredMechanism& declared) {
+  const MadeJoint joint = make_joint(declared);
+  EXPECT_TRUE(joint.climbs());
+  double off = 0;
+  for (const double end : {joint.alpha_min, joint.alpha_max}) {
+    Bench bench(joint, {});
+    for (int i = 1; i <= 200; ++i) {
+      const double alpha = end * i / 200;
+      off = std::max(off, std::abs(bench.to(alpha, alpha, {}) - alpha / declared.pulley.ratio));
+    }
+  }
+  return degrees(off);
+}
+
+TEST(Climbing, AStringOnACylinderIsAsLongAsThatUnrolled) {
+  constexpr double radius = 7.0, slope = 0.07;
+  constexpr int corners = 4000;
+  Polygon polygon;
+  std::vector<double> heights;
+  for (int i = 0; i <= 3 * corners; ++i) {
+    polygon.push_back(radius * unit(k_two_pi * i / corners));
+    heights.push_back(slope * radius * k_two_pi * i / corners);
+  }
+  const Hull spiral = spiral_of(polygon, heights, corners);
+  EXPECT_NEAR(spiral.around, 3.0 * k_two_pi * radius * std::hypot(1.0, slope), 1e-4);
+
+  const Circle pin{{15.0, 40.0}, 2.0};
+  const LowerString level = lower_string(hull_of(Polygon(polygon.begin(), polygon.begin() + corners)), pin, 0);
+  const LowerString string = lower_string(spiral, pin, first_look(spiral, pin));
+  EXPECT_NEAR(string.length, level.length, 1e-9);
+  EXPECT_NEAR(string.height, slope * string.arc / std::hypot(1.0, slope), 1e-4);
+  EXPECT_THROW(lower_string(spiral, pin, 3 * corners), InputError);
+}
+
+// The curves are those that build draws, from paths unrolled; here strings are laid on them in space.
+TEST(Climbing, FollowsTheDeclaredLawWhereNothingGives) { EXPECT_LT(furthest_off(stiff(wrist_turns())), 5e-4); }
+
+TEST(Climbing, FollowsItWithCollarsToo) {
+  DeclaredMechanism declared = stiff(wrist_turns());
+  declared.guides.collar = true;
+  EXPECT_LT(furthest_off(declared), 5e-4);
+}
+
+// Else the groove would end where the knot of a pulley of one turn lies.
+TEST(Climbing, TiesItsTendonsBehindTheSpareTurns) {
+  const MadeJoint joint = make_joint(wrist_turns());
+  const Bench bench(joint, {});
+  for (const std::size_t side : {0u, 1u}) {
+    const BenchTendon& tendon = bench.tendon(side);
+    // Half of the range's three turns and a spare one, of a radius of 10 mm: some 150 mm.
+    EXPECT_GT(tendon.laid.length(), 120.0);
+    EXPECT_NEAR(tendon.laid.length(), tendon.wound, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace fusee::rig
