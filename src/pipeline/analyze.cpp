@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "fusee/analysis/plausibility.h"
 #include "fusee/joint/as_it_is.h"
 #include "fusee/pipeline.h"
@@ -28,6 +30,7 @@ AnalysisResult analyze(const MechanismFile& file, const AnalysisOptions& options
   if (const auto turns = note_on_turns(file)) {
     wind_several_times(result);
     result.warnings.push_back(*turns);
+    for (Diagnostic& warning : warnings_of_turns(file)) result.warnings.push_back(std::move(warning));
   }
   return result;
 }

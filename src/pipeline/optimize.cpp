@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fusee/analysis/plausibility.h"
 #include "fusee/joint/as_it_is.h"
@@ -148,11 +149,12 @@ void write_texts(const MechanismFile& file, const OptimizeOptions& options, Opti
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
 }
 
-/// What slopes leave out of the values of the design that was found.
+/// What slopes leave out of the values of the design that was found, and what its grooves do to the tendons.
 void note_turns(const MechanismFile& file, OptimizeResult& result) {
   MechanismFile found = file;
   found.mechanism = mechanism_at(result.problem, result.design);
   if (const auto note = note_on_turns(found)) result.warnings.push_back(*note);
+  for (Diagnostic& warning : warnings_of_turns(found)) result.warnings.push_back(std::move(warning));
 }
 
 void publish(const OptimizeOptions& options, OutputFolder& front_folder, OptimizeResult& result) {

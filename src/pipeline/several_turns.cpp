@@ -74,16 +74,27 @@ std::vector<Condition> faults_of(const Mechanism& mechanism, const HelicalPulley
   return faults;
 }
 
+HelixSynthesis looked_at(const Mechanism& mechanism) {
+  constexpr double k_look_tolerance = 0.05;
+  SynthesisOptions options;
+  options.tolerance = k_look_tolerance;
+  options.stroke_steps = 72;
+  return synthesise_helix(mechanism, groove_of(mechanism), options);
+}
+
+bool winds_several_times(const DeclaredMechanism& mechanism) {
+  if (mechanism.transmission || kept_to_one_turn(mechanism)) return false;
+  SynthesisOptions options;
+  options.advice = false;
+  return need_several_turns(synthesise(mechanism, options));
+}
+
 /// What slopes do to forces that are computed of level tendons. In a tension T along a path of slope φ there is T cos φ
 /// to turn the joint with; and at one α, the rise being what it is, a path of planar length L gets longer by cos φ dL,
 /// and is L/cos φ long: so a tendon of EA cos³φ in the plane gives way as it does.
 std::string words_on_slopes(const Mechanism& mechanism) {
-  constexpr double k_look_tolerance = 0.05;
   constexpr double k_noted_theta = radians(0.001);
-  SynthesisOptions options;
-  options.tolerance = k_look_tolerance;
-  options.stroke_steps = 72;
-  const HelixSynthesis helix = synthesise_helix(mechanism, groove_of(mechanism), options);
+  const HelixSynthesis helix = looked_at(mechanism);
   const std::string start = "the tendons are wound several times: angles and forces are those of level tendons";
   if (helix.sides[0].stroke.empty()) return start;
   double steepest = 0, off = 0;
@@ -132,12 +143,16 @@ void take_over(Product& product, const HelixProduct& helix) {
 }  // namespace
 
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file) {
-  const DeclaredMechanism& mechanism = file.mechanism;
-  if (mechanism.transmission || kept_to_one_turn(mechanism)) return std::nullopt;
-  SynthesisOptions options;
-  options.advice = false;
-  if (!need_several_turns(synthesise(mechanism, options))) return std::nullopt;
-  return Diagnostic{Severity::note, file.place_of("pulley.winding"), words_on_slopes(mechanism), {}};
+  if (!winds_several_times(file.mechanism)) return std::nullopt;
+  return Diagnostic{Severity::note, file.place_of("pulley.winding"), words_on_slopes(file.mechanism), {}};
+}
+
+std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file) {
+  std::vector<Diagnostic> warnings;
+  if (!winds_several_times(file.mechanism)) return warnings;
+  for (const std::string& words : looked_at(file.mechanism).warnings)
+    warnings.push_back({Severity::warning, file.place_of("pulley.winding"), words, {}});
+  return warnings;
 }
 
 std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file) {
@@ -253,21 +268,40 @@ std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
 
 constexpr double k_trial_tolerance = 0.05;
 
-/// Of curves first, then of the body.
-std::vector<Condition> obstacles_of(const Mechanism& mechanism, double tolerance) {
+HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
   SynthesisOptions options;
   options.tolerance = tolerance;
   options.stroke_steps = 36;
-  const HelixSynthesis made = synthesise_helix(mechanism, groove_of(mechanism), options, HelixLook::brief);
+  return synthesise_helix(mechanism, groove_of(mechanism), options, HelixLook::brief);
+}
+
+/// Of curves first, then of the body.
+std::vector<Condition> obstacles_of(const Mechanism& mechanism, const HelixSynthesis& made, double tolerance) {
   if (!made.made()) return failed_of(made.conditions);
   return helical_obstacles(mechanism, made.sides[0].spiral, made.sides[1].spiral, tolerance);
+}
+
+/// Of the arcs that tendons lie on.
+std::optional<std::string> tight_bend(const Mechanism& mechanism, const HelixSynthesis& curves) {
+  const double least = 0.5 * mechanism.tendon.bend_ratio * mechanism.tendon.diameter;
+  for (const HelixSide& side : curves.sides) {
+    const Spiral& spiral = side.spiral;
+    for (std::size_t i = spiral.first_used; i <= spiral.last_used; ++i) {
+      if (spiral.rows[i].rho >= least) continue;
+      return "the tendon would be bent to a radius of " + rounded(spiral.rows[i].rho, 3) + " mm, and wants " +
+             rounded(least, 3) + " mm or more (tendon.bend_ratio)";
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism) {
-  const std::vector<Condition> obstacles = obstacles_of(mechanism, k_trial_tolerance);
-  return obstacles.empty() ? std::nullopt : std::optional<std::string>(obstacles.front().message);
+  const HelixSynthesis curves = trial_curves(mechanism, k_trial_tolerance);
+  const std::vector<Condition> obstacles = obstacles_of(mechanism, curves, k_trial_tolerance);
+  if (!obstacles.empty()) return obstacles.front().message;
+  return tight_bend(mechanism, curves);
 }
 
 Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
@@ -277,7 +311,8 @@ Advice advice_for_several_turns(const Product& product, const std::function<bool
                           if (between_tries) between_tries();
                           DeclaredMechanism declared = product.file.mechanism;
                           static_cast<Mechanism&>(declared) = changed;
-                          return obstacles_of(as_it_is(declared, LawSearch::brief).mechanism, k_trial_tolerance);
+                          const Mechanism joint = as_it_is(declared, LawSearch::brief).mechanism;
+                          return obstacles_of(joint, trial_curves(joint, k_trial_tolerance), k_trial_tolerance);
                         },
                     .made = made,
                     .is_dear = true};

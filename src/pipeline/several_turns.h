@@ -20,6 +20,9 @@ std::vector<Diagnostic> unused_turn_keys(const MechanismFile& file);
 
 /// What a joint of level tendons leaves out of one whose tendons are wound several times; null where they are not.
 std::optional<Diagnostic> note_on_turns(const MechanismFile& file);
+/// Where its pulleys bend a tendon tighter than tendon.bend_ratio wants, and where a tendon leaves its groove at too
+/// large an angle; nothing where they turn less than once.
+std::vector<Diagnostic> warnings_of_turns(const MechanismFile& file);
 /// with_doubts(), and that note.
 MechanismFile with_doubts_and_turns(MechanismFile file);
 
@@ -44,7 +47,7 @@ HelicalRewind rewind_several_turns(const Product& product, const std::vector<Flo
 std::vector<Check> check_several_turns(const Product& product, const TriangleMesh& mesh);
 
 /// What keeps a joint whose pulleys turn further than once from helical grooves, looked at as briefly as trials are;
-/// null where nothing is seen to.
+/// null where nothing is seen to. A search would make r1 ever smaller: to it a bend that build warns of is an obstacle.
 std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism);
 
 /// What would make a refused one possible. `made`: the whole making.

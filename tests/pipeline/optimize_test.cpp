@@ -181,11 +181,12 @@ TEST(Analyze, LooksAtTheJointAsItIs) {
 // ---- several turns --------------------------------------------------------------------------------------------------
 
 /// The less r1, the less torque of the motor: over 110 degrees of a drum of 90 mm it decides how often a pulley turns.
-OptimizeResult least_torque(const std::string& winding) {
+OptimizeResult least_torque(const std::string& winding, const char* bend_ratio = "8") {
   const MechanismFile file = read_mechanism(fs::path(FUSEE_SOURCE_DIR) / "profiles" / "elbow_capstan.toml",
                                             {{"pulley.r1_mm", "35"},
                                              {"pulley.winding", winding},
                                              {"load.mass_kg", "0"},
+                                             {"tendon.bend_ratio", bend_ratio},
                                              {"optimize.objective", "\"motor_torque\""},
                                              {"optimize.variables", "[\"pulley.r1_mm\"]"},
                                              {"optimize.lower", "[7]"},
@@ -219,6 +220,12 @@ TEST(OptimizeTurns, TakesPulleysOfSeveralTurnsThatBuildMakes) {
   ASSERT_TRUE(built.product.helix);
   EXPECT_GT(built.product.helix->synthesis.sides[0].turns, 3.0);
   EXPECT_LT(degrees(built.product.as_built.max_theta_error), 0.01);
+
+  // The tendon of 0.6 mm sets the limit where it wants more than the r1 of 7 mm that may be.
+  const OptimizeResult gentle = least_torque("\"auto\"", "40");
+  ASSERT_TRUE(gentle.found) << gentle.reason;
+  EXPECT_GT(gentle.design[0], 12.0);
+  EXPECT_LT(gentle.design[0], 13.0);
 
   const auto says_level = [](const OptimizeResult& result) {
     return std::any_of(result.warnings.begin(), result.warnings.end(), [](const Diagnostic& warning) {
