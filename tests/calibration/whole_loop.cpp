@@ -72,6 +72,24 @@ Outline printed(Outline outline, const DeclaredMechanism& declared, const Mechan
   return outline;
 }
 
+MadeJoint with_corrected_spirals(const MadeJoint& declared, const JointAsItIs& made_for) {
+  const Mechanism& drawn = made_for.mechanism;
+  MadeJoint joint = declared;
+  DeclaredMechanism as_drawn = declared.declared;
+  static_cast<Mechanism&>(as_drawn) = drawn;
+  joint.spirals = make_joint(as_drawn).spirals;
+  const double scale = (1.0 - declared.declared.material.shrinkage) / (1.0 - drawn.material.shrinkage);
+  for (MadeSpiral& spiral : joint.spirals) {
+    for (SpiralRow& row : spiral.rows) {
+      const Vec2 made =
+          scale * drawn_for_making({row.turn, {row.x, row.y}, unit(row.turn), row.rho}, made_for.outline).position;
+      row.x = made.x();
+      row.y = made.y();
+    }
+  }
+  return joint;
+}
+
 }  // namespace
 
 std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load) {
@@ -128,6 +146,7 @@ std::vector<LoopCase> loop_cases(const DeclaredMechanism& declared, double load)
 MadeJoint with_corrected_pulley(const MadeJoint& declared, const DeclaredMechanism& corrected) {
   const JointAsItIs made_for = as_it_is(corrected);
   const Mechanism& drawn = made_for.mechanism;
+  if (declared.climbs()) return with_corrected_spirals(declared, made_for);
   SynthesisOptions options;
   options.tolerance = 2e-5;
   options.advice = false;

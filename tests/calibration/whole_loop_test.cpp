@@ -88,6 +88,13 @@ TEST_P(Known, FaultIsTakenOutByThePulley) {
   EXPECT_LT(after, 0.025 * before + 2 * floor);
 }
 
+// Strings in space on both spirals, before and after.
+INSTANTIATE_TEST_SUITE_P(WoundSeveralTimes, Known,
+                         testing::Combine(testing::Values("profiles/wrist_turns.toml"),
+                                          testing::Values("radius_offset", "pulley_runout", "guide_position",
+                                                          "tendon_stretch")),
+                         [](const auto& each) { return std::string(std::get<1>(each.param)); });
+
 INSTANTIATE_TEST_SUITE_P(WholeLoop, Known,
                          testing::Combine(testing::Values("profiles/forearm.toml", "profiles/unsymmetric.toml",
                                                           "tests/data/rig/d_guide_radius/spec.toml"),
