@@ -1,5 +1,6 @@
 #include "export/drawings/end_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fusee {
@@ -10,18 +11,22 @@ std::size_t EndPoints::CellHash::operator()(const Cell& cell) const {
   return static_cast<std::size_t>((x ^ (x >> 31)) + (y ^ (y >> 29)));
 }
 
+// Cells are wide beside k_joined: of most points the one that they are in is all there is to look at, and in a drawing
+// there is about one point in it.
 std::size_t EndPoints::number(const Vec2& point) {
-  const Cell home{static_cast<std::int64_t>(std::floor(point.x() / k_joined)),
-                  static_cast<std::int64_t>(std::floor(point.y() / k_joined))};
-  for (std::int64_t dx = -1; dx <= 1; ++dx) {
-    for (std::int64_t dy = -1; dy <= 1; ++dy) {
-      const auto [first, last] = cells_.equal_range({home.x + dx, home.y + dy});
+  constexpr double k_cell = 500 * k_joined;
+  const auto cell_of = [](double along) { return static_cast<std::int64_t>(std::floor(along / k_cell)); };
+  std::size_t earliest = points_.size();
+  for (std::int64_t x = cell_of(point.x() - k_joined); x <= cell_of(point.x() + k_joined); ++x) {
+    for (std::int64_t y = cell_of(point.y() - k_joined); y <= cell_of(point.y() + k_joined); ++y) {
+      const auto [first, last] = cells_.equal_range({x, y});
       for (auto it = first; it != last; ++it) {
-        if ((points_[it->second] - point).norm() <= k_joined) return it->second;
+        if ((points_[it->second] - point).norm() <= k_joined) earliest = std::min(earliest, it->second);
       }
     }
   }
-  cells_.emplace(home, points_.size());
+  if (earliest < points_.size()) return earliest;
+  cells_.emplace(Cell{cell_of(point.x()), cell_of(point.y())}, points_.size());
   points_.push_back(point);
   return points_.size() - 1;
 }

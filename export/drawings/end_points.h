@@ -14,8 +14,8 @@ namespace fusee {
 /// Ends nearer than this meet: what a reader of drawings may call the same point without changing a part.
 inline constexpr double k_joined = 1e-4;
 
-/// Numbers points in the order in which they come; a point within k_joined of an earlier one gets that one's number.
-/// Constant time a point: cells of a grid, each with its neighbours.
+/// Numbers points in the order in which they come; a point within k_joined of an earlier one gets that one's number, of
+/// several the earliest's. Constant time a point: cells of a grid, and neighbours of those that the point is next to.
 class EndPoints {
  public:
   std::size_t number(const Vec2& point);
