@@ -259,12 +259,12 @@ void OutputFolder::demand_ours(const std::vector<std::string>& names) const {
   throw OutputError(message, "choose another folder with -o, or overwrite them with --force");
 }
 
-/// Beside the folder where it can be replaced as a whole, so that what a killed run leaves does not lie in it either.
-void OutputFolder::discard() {
-  staging_.reset();
-  missing_.reset();
+void OutputFolder::discard() const {
+  if (staging_) staging_->remove();
+  missing_->remove();
 }
 
+/// Beside the folder where it can be replaced as a whole, so that what a killed run leaves does not lie in it either.
 void OutputFolder::open_staging() {
   if (staging_) return;
   demand_ground(folder_);

@@ -93,7 +93,9 @@ void MissingFolders::make(const fs::path& folder) {
   }
 }
 
-MissingFolders::~MissingFolders() {
+MissingFolders::~MissingFolders() { remove(); }
+
+void MissingFolders::remove() const {
   for (auto path = made_.rbegin(); path != made_.rend(); ++path) ::rmdir(path->c_str());
 }
 
@@ -106,9 +108,13 @@ Staging::Staging(const fs::path& within) {
 }
 
 Staging::~Staging() {
+  remove();
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void Staging::remove() const {
   std::error_code ignored;
   if (!path_.empty()) fs::remove_all(path_, ignored);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 bool Staging::move_into(const fs::path& folder) {

@@ -39,6 +39,8 @@ class MissingFolders {
   MissingFolders(const MissingFolders&) = delete;
   MissingFolders& operator=(const MissingFolders&) = delete;
   void make(const std::filesystem::path& folder);
+  /// Those that are empty.
+  void remove() const;
 
  private:
   std::vector<std::filesystem::path> made_;  ///< outermost first
@@ -55,6 +57,8 @@ class Staging {
   Staging& operator=(const Staging&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// From the disk; path() stays what it was.
+  void remove() const;
   /// Renames it into another folder of the same file system; false with errno.
   bool move_into(const std::filesystem::path& folder);
   /// Nothing of what now has its name is removed.

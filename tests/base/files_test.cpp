@@ -155,6 +155,17 @@ TEST_F(Files, LeavesNothingWithoutPublishing) {
   EXPECT_THAT(names_in(root_ / "mine"), IsEmpty());
 }
 
+// An interrupted program discards what it staged while its other threads go on: one of them asked a folder that was no
+// more where its file was (signal 11, one interruption in 750).
+TEST_F(Files, SaysWhereItsFilesWereAfterTheyAreDiscarded) {
+  OutputFolder output(root_ / "a" / "b", false);
+  output.stage({"x.stl", "xyz"});
+  const fs::path there = output.staged_path("x.stl");
+  output.discard();
+  EXPECT_THAT(names_in(root_), IsEmpty());
+  EXPECT_EQ(output.staged_path("x.stl"), there);
+}
+
 TEST_F(Files, OverwritesItsOwnWork) {
   publish(root_ / "out", {{"x.stl", "old"}, {"y.obj", "same"}});
   EXPECT_TRUE(OutputFolder(root_ / "out", false).has_earlier_run());

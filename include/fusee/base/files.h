@@ -69,8 +69,9 @@ class OutputFolder {
   void withdraw(const std::vector<std::string>& names);
   /// Where a rename fails, what was renamed before it is put back.
   void publish();
-  /// Removes what is staged and the folders made for it.
-  void discard();
+  /// Removes what is staged and the folders made for it from the disk, and nothing else: an interrupted program leaves
+  /// while other threads still ask where their files are.
+  void discard() const;
 
  private:
   void demand_ours(const std::vector<std::string>& names) const;
