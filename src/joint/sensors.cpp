@@ -6,6 +6,18 @@
 namespace fusee {
 namespace {
 
+/// Of a way between two stands: a motor that stands to this part of it stands.
+constexpr double k_stands = 0.02;
+
+/// Whether α went from stand to stand on its way to row `i`, with no row between them: nobody knows when it arrived, and
+/// who reads a joint from point to point waits until it stands.
+bool arrived_unseen(const BenchRun& run, std::size_t i) {
+  if (i == 0 || i + 1 >= run.rows.size()) return false;
+  const auto way = [&](std::size_t to) { return std::abs(run.rows[to].alpha - run.rows[to - 1].alpha); };
+  const double most = k_stands * way(i);
+  return way(i + 1) < most && (i == 1 || way(i - 1) < most);
+}
+
 /// θ at the time `lag` earlier, straight between samples. Before the first sample the joint stood still.
 std::vector<double> delayed(const BenchRun& run, const std::vector<double>& theta, double lag) {
   std::vector<double> late(theta.size());
@@ -16,7 +28,9 @@ std::vector<double> delayed(const BenchRun& run, const std::vector<double>& thet
     const double from = run.rows[j].time;
     const double step = j + 1 < theta.size() ? run.rows[j + 1].time - from : 0.0;
     const double share = step > 0 ? std::clamp((time - from) / step, 0.0, 1.0) : 0.0;
-    late[i] = share > 0 ? theta[j] + share * (theta[j + 1] - theta[j]) : theta[j];
+    late[i] = share == 0                   ? theta[j]
+              : arrived_unseen(run, j + 1) ? theta[j + 1]
+                                           : theta[j] + share * (theta[j + 1] - theta[j]);
   }
   return late;
 }
@@ -29,7 +43,7 @@ std::vector<double> filtered(const BenchRun& run, const std::vector<double>& the
     const double time = run.rows[i].time - run.rows[i - 1].time;
     if (!(time > 0)) {
       smooth[i] = smooth[i - 1];
-    } else if (std::isfinite(smooth[i - 1])) {
+    } else if (std::isfinite(smooth[i - 1]) && !arrived_unseen(run, i)) {
       const double behind = lag * (theta[i] - theta[i - 1]) / time;  // of a ramp, once it has settled
       smooth[i] = theta[i] - behind + (smooth[i - 1] - theta[i - 1] + behind) * std::exp(-time / lag);
     }

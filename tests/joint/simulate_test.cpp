@@ -50,6 +50,33 @@ TEST(Simulate, TellsWhereTheJointStandsFromWhatItsSensorShows) {
     EXPECT_NEAR(state.shown, at.sensor.zero + (1 + at.sensor.gain) * state.theta, 1e-14);
 }
 
+/// Held for `rows` rows at each of some places, the way between them not logged.
+BenchLog held_places(int rows) {
+  BenchRun run;
+  double time = 0;
+  for (const double alpha : {-1.2, -0.4, 0.4, 1.2, 0.4, -0.4}) {
+    time += 1.0;
+    for (int k = 0; k < rows; ++k) run.rows.push_back({time += 0.1, alpha, 0, 0});
+  }
+  return {run};
+}
+
+// Who reads from point to point waits until the joint stands: the first row of a place is not on the way to it.
+TEST(Simulate, ALateSensorHasArrivedWhereTheWayIsNotLogged) {
+  for (const double first_order : {0.0, 1.0}) {
+    Imperfections late;
+    late.sensor.lag = 0.3;
+    late.sensor.first_order = first_order;
+    const Readings still = predict(testing::forearm(), {}, held_places(4));
+    const Readings shown = predict(testing::forearm(), late, held_places(4));
+    for (std::size_t i = 0; i < still.front().size(); ++i) EXPECT_NEAR(shown[0][i], still[0][i], 1e-8) << i;
+    // Where the way is logged the same sensor is late on it.
+    const double lost =
+        predict(testing::forearm(), late, swept(0))[0][40] - predict(testing::forearm(), {}, swept(0))[0][40];
+    EXPECT_LT(lost, -1e-3);
+  }
+}
+
 // Virtual work: what the motor turns the pulley with, times dα, is what the load takes, times dθ, but for friction.
 TEST(Simulate, MotorCarriesTheLoad) {
   DeclaredMechanism joint = testing::forearm();
