@@ -10,8 +10,9 @@ Effect creep(JointKind kind) {
   effect.signature = "grows with the logarithm of time at constant load";
   effect.separating_run = "hold one loaded position for ten minutes and log it";
   effect.correctable_by = CorrectableBy::table;
-  effect.needs = {.time = true, .load = true};
+  effect.needs = {.time = true};
   if (kind == JointKind::ratio) {
+    effect.needs.load = true;  // with tendons their pretension is one
     effect.parameters = {{.name = "per_decade_deg_per_load",
                           .number = [](Imperfections& at) -> double& { return at.ratio_joint.drift; },
                           .least = -1e6,

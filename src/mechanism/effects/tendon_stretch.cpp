@@ -24,9 +24,9 @@ Effect tendon_stretch(JointKind kind) {
   effect.signature = "in proportion to the load, zero without; the same both ways";
   effect.separating_run = "run the same strokes at no load, at half and at full load, and at the reversed load";
   effect.correctable_by = CorrectableBy::pulley;
-  effect.needs = {.load = true};
   if (kind == JointKind::ratio) {
     effect.correctable_by = CorrectableBy::table;
+    effect.needs = {.load = true};  // with tendons their pretension does
     effect.parameters = {{.name = "compliance_deg_per_load",
                           .number = [](Imperfections& at) -> double& { return at.ratio_joint.compliance; },
                           .least = -1e6,
