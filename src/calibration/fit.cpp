@@ -68,15 +68,6 @@ Eigen::VectorXd numbers_of(const Parameters& parameters, const Imperfections& at
   return x;
 }
 
-/// What a tangent says of the place `x`.
-Tangent said_of(Tangent tangent, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd step = x - tangent.x;
-  tangent.residual -= tangent.J * step;
-  tangent.against += step.dot(tangent.read * step) - 2.0 * step.dot(tangent.pull);
-  tangent.x = x;
-  return tangent;
-}
-
 /// What loose rows leave less than noise does, nats.
 double price_of(const Evidence& evidence, const Fit& fit) {
   double squares = 0;
@@ -108,6 +99,16 @@ double cost_of_play(const Evidence& evidence, const Fit& fit) {
 
 }  // namespace
 
+/// Whether something larger than noise is left to what has no name.
+bool leaves_much(const Evidence& evidence, const Fit& fit) {
+  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const double amplitude = fit.explained.amplitudes.families[static_cast<Eigen::Index>(f)];
+    if (!(families[f].fixed > 0) && amplitude > evidence.floor) return true;
+  }
+  return false;
+}
+
 /// Whether the slopes promise a better place than this.
 bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5; }
 
@@ -136,12 +137,21 @@ Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
   return tangent;
 }
 
-Fit Fitter::placed(const EffectSet& effects, const Imperfections& at) const {
+Tangent said_of(Tangent tangent, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd step = x - tangent.x;
+  tangent.residual -= tangent.J * step;
+  tangent.against += step.dot(tangent.read * step) - 2.0 * step.dot(tangent.pull);
+  tangent.x = x;
+  return tangent;
+}
+
+Fit Fitter::placed(const EffectSet& effects, const Imperfections& at, LooseRow rest) const {
   Fit fit;
+  fit.rest = rest;
   fit.effects = effects;
   fit.parameters = model_.varied(effects);
   fit.at = at;
-  Said words = model_.said(at);
+  Said words = model_.said(at, rest);
   fit.residual = std::move(words.residual);
   fit.loose = std::move(words.loose);
   fit.x = numbers_of(fit.parameters, at);
@@ -151,12 +161,12 @@ Fit Fitter::placed(const EffectSet& effects, const Imperfections& at) const {
 void Fitter::take_slopes(Fit& fit, Eigen::Index from) const {
   fit.J.conservativeResize(fit.residual.size(), fit.x.size());
   for (Eigen::Index k = from; k < fit.x.size(); ++k)
-    fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual);
+    fit.J.col(k) = model_.slope(fit.at, *fit.parameters[static_cast<std::size_t>(k)], fit.residual, fit.rest);
 }
 
 /// At `at`, with the slopes that `base` knows and new ones of what it does not have.
 Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& at) const {
-  Fit fit = placed(effects, at);
+  Fit fit = placed(effects, at, base.rest);
   fit.J = base.J;
   take_slopes(fit, base.x.size());
   fit.usable = is_finite(evidence(), fit);
@@ -186,7 +196,7 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
       if (promised() < k_worth_a_step) break;
     }
     const double height = known.height - price_of(evidence(), fit);
-    Fit next = placed(fit.effects, there);
+    Fit next = placed(fit.effects, there, fit.rest);
     next.J = fit.J;
     next.usable = is_finite(evidence(), next);
     const double reached =
@@ -212,13 +222,26 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
 }
 
 Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
-  Fit start = placed(effects, from);
+  Fit beside = or_pushed(fitted(effects, from, LooseRow::anywhere));
+  if (!beside.usable || beside.x.size() == 0 || !leaves_much(evidence(), beside)) return beside;
+  // What has no name took it before the effects could: they are let go first.
+  Fit start = placed(effects, from, LooseRow::anywhere);
+  take_slopes(start, 0);
+  const Amplitudes alone = all_error_named(start);
+  Fit named = settled(judged(descended(std::move(start), 0, k_chords, alone, 1)));
+  return named.usable && named.log_evidence > beside.log_evidence ? named : beside;
+}
+
+Fit Fitter::fitted(const EffectSet& effects, const Imperfections& from, LooseRow rest) const {
+  Fit start = placed(effects, from, rest);
   take_slopes(start, 0);
   start.usable = is_finite(evidence(), start);
   if (!start.usable) return start;
-  Fit fit = judged(start.x.size() > 0
-                       ? descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds)
-                       : std::move(start));
+  if (start.x.size() == 0) return judged(std::move(start));
+  return settled(judged(descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds)));
+}
+
+Fit Fitter::settled(Fit fit) const {
   for (int pass = 0; pass < k_passes && fit.usable && is_promising(fit); ++pass) {
     Fit further = judged(descended(fit, 0, k_steps, fit.explained.amplitudes, 1));
     if (!further.usable || !(further.log_evidence > fit.log_evidence + k_settled)) break;
@@ -227,10 +250,32 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   return fit;
 }
 
-Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
+/// As if all of the error were its effects': where a discrepancy explains as much, small steps end too soon.
+Amplitudes Fitter::all_error_named(const Fit& fit) const {
+  Amplitudes alone = evidence().marginal->nothing_unnamed();
+  const Eigen::VectorXd left = tangent_of(evidence(), fit).residual;
+  alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
+  return alone;
+}
+
+/// The looser the joint, the less the rows say that rest anywhere, and steps lead to more play than there is. Rows that
+/// rest where they were pushed lead to as much as there is, and then say as much as any.
+Fit Fitter::or_pushed(Fit fit) const {
+  if (!fit.usable || fit.x.size() == 0 || !(fit.loose(evidence().rows()).maxCoeff() > 0)) return fit;
+  Fit start = placed(fit.effects, fit.at, LooseRow::pushed);
+  take_slopes(start, 0);
+  start.usable = is_finite(evidence(), start);
+  if (!start.usable) return fit;
+  const Amplitudes alone = all_error_named(start);
+  const Fit near = descended(std::move(start), 0, k_steps, alone, 1);
+  Fit pushed = fitted(near.effects, near.at, LooseRow::pushed);
+  return pushed.usable && pushed.log_evidence > fit.log_evidence ? pushed : fit;
+}
+
+/// Of the starts of `effect` beside `base` the one whose slopes promise most.
+Fit Fitter::best_start(const Fit& base, const Effect& effect, const Amplitudes& unnamed) const {
   EffectSet effects = base.effects;
   effects.push_back(&effect);
-  const Marginal& marginal = *evidence().marginal;
   Fit best;
   double promised = -std::numeric_limits<double>::infinity();
   for (const std::vector<double>& values : starts_of(evidence(), base, effect)) {
@@ -238,25 +283,38 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
     for (std::size_t k = 0; k < values.size(); ++k) set_value(start, effect.parameters[k], values[k]);
     Fit fit = at(base, effects, start);
     if (!fit.usable) continue;
-    const double promise =
-        marginal.at(tangent_of(evidence(), fit), base.explained.amplitudes).log_evidence - price_of(evidence(), fit);
+    const Explained explained = evidence().marginal->at(tangent_of(evidence(), fit), unnamed);
+    const double promise = explained.log_evidence - price_of(evidence(), fit);
     if (promise <= promised) continue;
     promised = promise;
     best = std::move(fit);
   }
+  return best;
+}
+
+Fit Fitter::with_effect_alone(const Fit& base, const Effect& effect) const {
+  Fit start = best_start(base, effect, all_error_named(base));
+  if (!start.usable) return start;
+  const Amplitudes alone = all_error_named(start);
+  return judged(descended(std::move(start), 0, k_chords, alone, 1));
+}
+
+Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
+  Fit best = best_start(base, effect, base.explained.amplitudes);
   if (!best.usable) return best;
-  // As if all of the error were its: where a discrepancy explains as much, small steps from nothing end too soon.
-  Amplitudes alone = marginal.nothing_unnamed();
-  const Eigen::VectorXd left = tangent_of(evidence(), best).residual;
-  alone.noise = std::max(alone.noise, left.norm() / std::sqrt(static_cast<double>(left.size())));
+  const double promised =
+      evidence().marginal->at(tangent_of(evidence(), best), base.explained.amplitudes).log_evidence -
+      price_of(evidence(), best);
+  const Amplitudes alone = all_error_named(best);
   const auto ended = [&](Fit from) {
     return judged(descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds));
   };
   Fit first = ended(descended(best, base.x.size(), k_chords, alone, 1));
   // What the start promised is reached: small steps from there would not find more.
-  if (first.usable && first.log_evidence >= promised) return first;
+  if (first.usable && first.log_evidence >= promised) return or_pushed(std::move(first));
   Fit beside = ended(std::move(best));
-  return beside.usable && (!first.usable || beside.log_evidence > first.log_evidence) ? beside : first;
+  const bool is_better = beside.usable && (!first.usable || beside.log_evidence > first.log_evidence);
+  return or_pushed(is_better ? std::move(beside) : std::move(first));
 }
 
 Fit Fitter::judged(Fit fit) const {
@@ -323,7 +381,7 @@ void Fitter::take_chord(Fit& wider, Eigen::Index k, double size) const {
   Imperfections moved = wider.at;
   set_value(moved, parameter, value + size <= parameter.most ? value + size : std::max(parameter.least, value - size));
   const double steps = (value_of(moved, parameter) - value) / parameter.step;
-  wider.J.col(k) = (wider.residual - model_.said(moved).residual) / steps;
+  wider.J.col(k) = (wider.residual - model_.said(moved, wider.rest).residual) / steps;
 }
 
 Fit Fitter::with_chords(const Fit& fit, const Effect& effect) const {

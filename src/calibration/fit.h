@@ -19,8 +19,9 @@ struct Fit {
   EffectSet effects;
   Parameters parameters;  ///< in the order of x
   Imperfections at;
-  Eigen::VectorXd x;         ///< the parameters, each by its step
-  Eigen::MatrixXd J;         ///< dθ/dx, rows of all runs
+  Eigen::VectorXd x;  ///< the parameters, each by its step
+  Eigen::MatrixXd J;  ///< dθ/dx, rows of all runs
+  LooseRow rest = LooseRow::anywhere;
   Eigen::VectorXd residual;  ///< as Said
   Eigen::VectorXd loose;
   std::vector<NormalEquations> sums;  ///< block by block
@@ -54,6 +55,9 @@ class Fitter {
   /// `base` with one effect more, from the best of its starts, close to its optimum: what candidates are compared by.
   Fit with_effect(const Fit& base, const Effect& effect) const;
 
+  /// The same as if all that is left were the effect's.
+  Fit with_effect_alone(const Fit& base, const Effect& effect) const;
+
   /// `fit` with `effect` added where it does nothing: what the data would say of it. No fit.
   Fit with_direction(const Fit& fit, const Effect& effect) const;
 
@@ -65,7 +69,10 @@ class Fitter {
 
  private:
   const Evidence& evidence() const { return model_.evidence(); }
-  Fit placed(const EffectSet& effects, const Imperfections& at) const;
+  Fit placed(const EffectSet& effects, const Imperfections& at, LooseRow rest) const;
+  Fit fitted(const EffectSet& effects, const Imperfections& from, LooseRow rest) const;
+  /// Steps from a place that was judged, by the amplitudes there, as long as they promise something.
+  Fit settled(Fit fit) const;
   void take_slopes(Fit& fit, Eigen::Index from) const;
   Fit beside(const Fit& fit, const Effect& effect, const std::vector<double>& start) const;
   Fit beside(const Fit& fit, const Effect& effect) const;
@@ -73,13 +80,19 @@ class Fitter {
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
   Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const;
   void judge(Fit& fit) const;
+  Fit best_start(const Fit& base, const Effect& effect, const Amplitudes& unnamed) const;
+  Amplitudes all_error_named(const Fit& fit) const;
   /// At the end of its steps.
   Fit judged(Fit fit) const;
+  /// `fit`, or a likelier one from there whose loose rows rest just where the joint was last pushed.
+  Fit or_pushed(Fit fit) const;
 
   Model model_;
 };
 
 /// What a set's evidence is computed from: the rows in use.
 Tangent tangent_of(const Evidence& evidence, const Fit& fit);
+/// What a tangent says of the place `x`.
+Tangent said_of(Tangent tangent, const Eigen::VectorXd& x);
 
 }  // namespace fusee

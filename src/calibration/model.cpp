@@ -15,21 +15,23 @@ double weight_of(double loose, double floor) {
 
 }  // namespace
 
-Said Model::said(const Imperfections& at) const {
-  Said words{evidence_.theta - flat(forward_(at)), flat(forward_.looseness(at))};
+Said Model::said(const Imperfections& at, LooseRow rest) const {
+  const Eigen::VectorXd theta = flat(forward_(at));
+  if (rest == LooseRow::pushed) return {evidence_.theta - theta, Eigen::VectorXd::Zero(theta.size())};
+  Said words{evidence_.theta - theta, flat(forward_.looseness(at))};
   for (Eigen::Index i = 0; i < words.residual.size(); ++i) {
     if (words.loose[i] > 0) words.residual[i] *= weight_of(words.loose[i], evidence_.floor);
   }
   return words;
 }
 
-Eigen::VectorXd Model::slope(const Imperfections& at, const EffectParameter& parameter,
-                             const Eigen::VectorXd& residual) const {
+Eigen::VectorXd Model::slope(const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual,
+                             LooseRow rest) const {
   Imperfections moved = at;
   const double value = value_of(at, parameter);
   const double step = value + parameter.step <= parameter.most ? 1.0 : -1.0;
   set_value(moved, parameter, value + step * parameter.step);
-  return (residual - said(moved).residual) / step;
+  return (residual - said(moved, rest).residual) / step;
 }
 
 double price_of_play(double loose, double floor) {

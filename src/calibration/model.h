@@ -9,9 +9,15 @@
 
 namespace fusee {
 
+/// Where the joint is taken to rest while nothing holds it.
+enum class LooseRow {
+  anywhere,  ///< about where it was last pushed, as far as its play goes: such a row says little
+  pushed,    ///< just there: it says as much as any
+};
+
 /// What a model says of the logged angles, all runs one after another.
 struct Said {
-  Eigen::VectorXd residual;  ///< measured − model, rad; by its weight where the model's joint is loose
+  Eigen::VectorXd residual;  ///< measured − model, rad; by its weight where the model's joint rests anywhere
   Eigen::VectorXd loose;     ///< that play, rad
 };
 
@@ -22,10 +28,10 @@ class Model {
 
   const Evidence& evidence() const { return evidence_; }
   Parameters varied(const EffectSet& effects) const { return fusee::varied(*evidence_.declared, effects); }
-  Said said(const Imperfections& at) const;
+  Said said(const Imperfections& at, LooseRow rest) const;
   /// dθ/dx of one parameter by a step of its own size, away from its upper bound; `residual` is what is said at `at`.
-  Eigen::VectorXd slope(const Imperfections& at, const EffectParameter& parameter,
-                        const Eigen::VectorXd& residual) const;
+  Eigen::VectorXd slope(const Imperfections& at, const EffectParameter& parameter, const Eigen::VectorXd& residual,
+                        LooseRow rest) const;
 
  private:
   const Evidence& evidence_;
