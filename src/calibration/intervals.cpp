@@ -30,9 +30,9 @@ std::vector<ConfidenceInterval> intervals(const Selection& selection) {
   const Fit& best = selection.best;
   std::vector<ConfidenceInterval> found;
   for (std::size_t k = 0; k < best.parameters.size(); ++k) {
-    const auto apart = selection.spread.find(best.parameters[k]);
-    const double beside = apart == selection.spread.end() ? 0.0 : apart->second;
-    found.push_back(about(best.x[static_cast<Eigen::Index>(k)], selection.temperature * variance_of(best, k) + beside));
+    const auto known = selection.variance.find(best.parameters[k]);
+    const double variance = known == selection.variance.end() ? variance_of(best, k) : known->second;
+    found.push_back(about(best.x[static_cast<Eigen::Index>(k)], variance));
   }
   return found;
 }

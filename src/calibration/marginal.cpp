@@ -48,6 +48,20 @@ double log_prior(double x, double prior) {
   return constant - std::log(prior) - 0.5 * (k_tail + 1.0) * std::log1p(x * x / (k_tail * prior * prior));
 }
 
+void add_numbers(const Eigen::VectorXd& prior, Tangent& tangent) {
+  const Eigen::Index before = tangent.x.size();
+  const Eigen::Index all = before + prior.size();
+  tangent.x.conservativeResize(all);
+  tangent.x.tail(prior.size()).setZero();
+  tangent.prior.conservativeResize(all);
+  tangent.prior.tail(prior.size()) = prior;
+  Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
+  read.topLeftCorner(before, before) = tangent.read;
+  tangent.read = std::move(read);
+  tangent.pull.conservativeResize(all);
+  tangent.pull.tail(prior.size()).setZero();
+}
+
 /// Of a tangent beside a discrepancy of given size.
 struct Marginal::Solved {
   Eigen::MatrixXd B;      ///< λ DᵀJ β
@@ -143,6 +157,33 @@ Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepanc
   s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * std::log(u.beta) -
                u.A.matrixLLT().diagonal().array().log().sum() + 0.5 * freedom * (std::log(excess) - excess);
   return s;
+}
+
+ReducedTangent Marginal::reduced(const TangentSums& sums, const SizedDiscrepancy& beside) const {
+  Solved s = solved(sums, beside);
+  return {std::move(s.JJ), std::move(s.Jr), s.rr, s.constant, sums.x, sums.prior, sums.read, sums.pull, sums.against};
+}
+
+double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::Index>& columns) {
+  const Eigen::MatrixXd known = tangent.JJ(columns, columns) + tangent.read(columns, columns);
+  const Eigen::VectorXd gradient = tangent.Jr(columns) + tangent.pull(columns);
+  const Eigen::VectorXd x = tangent.x(columns);
+  const Eigen::VectorXd prior = tangent.prior(columns);
+  Eigen::MatrixXd H = known;
+  Eigen::VectorXd g = gradient;
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const double by_prior = information(x[k], prior[k]);
+    H(k, k) += by_prior;
+    g[k] -= by_prior * x[k];
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(H);
+  const Eigen::VectorXd step = factor.solve(g);
+  double log_evidence = tangent.constant - factor.matrixLLT().diagonal().array().log().sum() -
+                        0.5 * (tangent.rr + tangent.against + step.dot(known * step) - 2.0 * step.dot(gradient));
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    if (std::isfinite(prior[k])) log_evidence += log_prior(x[k] + step[k], prior[k]) + 0.5 * std::log(k_two_pi);
+  }
+  return log_evidence;
 }
 
 Explained Marginal::explained(const TangentSums& tangent, const SizedDiscrepancy& u, const Solved& s) const {

@@ -27,6 +27,9 @@ struct Tangent {
   double give = 1;        ///< deflection there by the declared joint's: what the model is trusted to grows with it
 };
 
+/// With numbers more, of which nothing was read, where they do nothing; its slopes are the caller's.
+void add_numbers(const Eigen::VectorXd& prior, Tangent& tangent);
+
 /// A tangent's sums over rows, not weighted: all that its evidence needs.
 struct TangentSums {
   Eigen::MatrixXd JJ, JD;
@@ -62,6 +65,21 @@ struct SizedDiscrepancy {
   Eigen::LLT<Eigen::MatrixXd> A;  ///< I + λ DᵀD λ β
 };
 
+/// A tangent with noise and discrepancy integrated out: any choice of its columns is weighed by a small matrix.
+struct ReducedTangent {
+  Eigen::MatrixXd JJ;  ///< information about x that the data give …
+  Eigen::VectorXd Jr;  ///< … and its gradient
+  double rr = 0;
+  double constant = 0;  ///< log of the likelihood without its squares
+  Eigen::VectorXd x, prior;
+  Eigen::MatrixXd read;
+  Eigen::VectorXd pull;
+  double against = 0;
+};
+
+/// As Explained, with some of its columns, the others staying where they are.
+double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::Index>& columns);
+
 /// Sums over the rows in use that every set of effects shares.
 class Marginal {
  public:
@@ -86,6 +104,7 @@ class Marginal {
   /// `give`: as TangentSums.
   SizedDiscrepancy sized(const Amplitudes& amplitudes, double give) const;
 
+  ReducedTangent reduced(const TangentSums& sums, const SizedDiscrepancy& beside) const;
   /// With amplitudes as they are given.
   Explained at(const TangentSums& sums, const SizedDiscrepancy& beside) const;
   Explained at(const TangentSums& sums, const Amplitudes& amplitudes) const {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <set>
 
 #include "calibration/catalogue.h"
 #include "calibration/thresholds.h"
@@ -49,7 +51,8 @@ struct PairBeside {
 /// Looks beside a base: what is summed over rows is summed once for all sets of them.
 class SharedLooks {
  public:
-  SharedLooks(const Evidence& evidence, const Fit& base, const std::vector<const Look*>& looks)
+  SharedLooks(const Evidence& evidence, const Fit& base, const Amplitudes& unnamed,
+              const std::vector<const Look*>& looks)
       : marginal_(*evidence.marginal) {
     Tangent tangent = tangent_of(evidence, base);
     own_ = tangent.x.size();
@@ -58,49 +61,30 @@ class SharedLooks {
       add(*look, tangent);
     }
     first_.push_back(tangent.J.cols());
-    all_ = marginal_.sums_of(tangent);
-    beside_ = marginal_.sized(base.explained.amplitudes, tangent.give);
+    const TangentSums sums = marginal_.sums_of(tangent);
+    beside_ = marginal_.reduced(sums, marginal_.sized(unnamed, sums.give));
   }
 
-  /// With the base's discrepancy beside them; `chosen`: places in the looks.
+  /// With that much unnamed beside them; `chosen`: places in the looks.
   double log_evidence(const std::vector<std::size_t>& chosen) const {
     std::vector<Eigen::Index> columns(static_cast<std::size_t>(own_));
     std::iota(columns.begin(), columns.end(), 0);
     for (const std::size_t i : chosen) {
       for (Eigen::Index k = first_[i]; k < first_[i + 1]; ++k) columns.push_back(k);
     }
-    TangentSums sums = all_;
-    sums.JJ = all_.JJ(columns, columns);
-    sums.JD = all_.JD(columns, Eigen::all);
-    sums.Jr = all_.Jr(columns);
-    sums.x = all_.x(columns);
-    sums.prior = all_.prior(columns);
-    sums.read = all_.read(columns, columns);
-    sums.pull = all_.pull(columns);
-    return marginal_.at(sums, beside_).log_evidence;
+    return log_evidence_of(beside_, columns);
   }
 
   /// One look more, where it does nothing.
   static void add(const Look& look, Tangent& tangent) {
-    const Eigen::Index before = tangent.x.size();
-    const Eigen::Index all = before + look.J.cols();
-    tangent.J.conservativeResize(Eigen::NoChange, all);
+    tangent.J.conservativeResize(Eigen::NoChange, tangent.J.cols() + look.J.cols());
     tangent.J.rightCols(look.J.cols()) = look.J;
-    tangent.x.conservativeResize(all);
-    tangent.x.tail(look.J.cols()).setZero();
-    tangent.prior.conservativeResize(all);
-    tangent.prior.tail(look.J.cols()) = look.prior;
-    Eigen::MatrixXd read = Eigen::MatrixXd::Zero(all, all);
-    read.topLeftCorner(before, before) = tangent.read;
-    tangent.read = read;
-    tangent.pull.conservativeResize(all);
-    tangent.pull.tail(look.J.cols()).setZero();
+    add_numbers(look.prior, tangent);
   }
 
  private:
   const Marginal& marginal_;
-  TangentSums all_;
-  SizedDiscrepancy beside_;
+  ReducedTangent beside_;
   Eigen::Index own_ = 0;
   std::vector<Eigen::Index> first_;  ///< column of each look, and the end
 };
@@ -115,22 +99,31 @@ class Selector {
  private:
   using Key = std::vector<std::size_t>;
   Key key_of(const EffectSet& effects) const;
+  void take_in(Fit fit);
   void keep(Fit fit);
+  bool is_tried(const Key& key) const { return tried_.count(key) > 0; }
   std::vector<const Fit*> ranked() const;
-  double promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks, int rounds) const;
+  double promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks,
+                  const Amplitudes& unnamed) const;
   std::vector<Look> looks_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added);
   void try_singles();
-  void try_pairs();
+  Explained plainly(const Fit& fit) const;
+  double plain_score(const Fit& fit) const;
+  std::vector<Fit> wider_plainly(const std::vector<Fit>& beam);
+  void explain_plainly();
   bool widen();
   void settle_best();
-  std::vector<Addition> promising(const Fitter& fitter, const Fit& base, std::size_t most) const;
+  std::vector<Addition> promising(const Fitter& fitter, const Fit& base, const Amplitudes& unnamed,
+                                  std::size_t most) const;
   bool challenge();
   std::vector<Fit> reduced() const;
   std::vector<PairBeside> pairs_beside(const Fit& base, std::size_t place, const std::vector<Addition>& looks) const;
   bool exchange();
   std::vector<Weighed> weighed();
-  void look_at_spread();
+  std::optional<std::size_t> shares_with(const Fit& wider) const;
+  void join_companions();
+  void look_at_variance();
   bool is_without_size(const Effect& effect) const;
   bool drop_doubtful();
   void write_down();
@@ -149,6 +142,7 @@ class Selector {
   Selection selection_;
   std::vector<Look> looks_;  ///< of each effect of the catalogue; empty where it cannot be simulated
   std::map<Key, Fit> seen_;
+  std::set<Key> tried_;  ///< sets that were reached beside what has no name
 };
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
@@ -158,7 +152,13 @@ Selector::Key Selector::key_of(const EffectSet& effects) const {
   return key;
 }
 
+/// Its set is not tried again.
 void Selector::keep(Fit fit) {
+  if (fit.usable) tried_.insert(key_of(fit.effects));
+  take_in(std::move(fit));
+}
+
+void Selector::take_in(Fit fit) {
   if (!fit.usable) return;
   const auto [place, added] = seen_.try_emplace(key_of(fit.effects), fit);
   if (!added && fit.log_evidence > place->second.log_evidence) place->second = std::move(fit);
@@ -205,7 +205,7 @@ void Selector::try_singles() {
 
 /// Score of `base` with these effects by a linear look.
 double Selector::promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks,
-                          int rounds) const {
+                          const Amplitudes& unnamed) const {
   Tangent tangent = tangent_of(evidence_, base);
   double cost = base.log_evidence - score(base);
   for (const Effect* effect : added) cost += rareness_of(*effect);
@@ -214,38 +214,7 @@ double Selector::promised(const Fit& base, const EffectSet& added, const std::ve
     SharedLooks::add(*of_one, tangent);
   }
   const double loose = base.explained.log_evidence - base.log_evidence;
-  return evidence_.marginal->best(tangent, base.explained.amplitudes, rounds).log_evidence - loose - cost;
-}
-
-/// The best of all pairs by a linear look.
-void Selector::try_pairs() {
-  struct Pair {
-    double promise;
-    std::size_t one, other;
-  };
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < looks_.size(); ++i) {
-    for (std::size_t j = i + 1; j < looks_.size(); ++j) pairs.push_back({0, i, j});
-  }
-  const auto look_at = [&](int rounds) {
-    workers_.each(pairs.size(), [&](const Fitter&, std::size_t k) {
-      const std::size_t one = pairs[k].one, other = pairs[k].other;
-      pairs[k].promise = promised(selection_.none, {selection_.catalogue[one], selection_.catalogue[other]},
-                                  {&looks_[one], &looks_[other]}, rounds);
-    });
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.promise > b.promise; });
-  };
-  look_at(1);
-  pairs.resize(std::min(pairs.size(), k_thresholds.most_looks_at_pairs));
-  look_at(k_look_rounds);
-  std::vector<Addition> added;
-  for (const Pair& pair : pairs) {
-    const auto base = seen_.find({pair.one});
-    if (added.size() == k_thresholds.most_pairs || base == seen_.end()) continue;
-    added.push_back({&base->second, selection_.catalogue[pair.other], pair.promise});
-  }
-  std::vector<Fit> fits = fitted("trying effects in pairs", added);
-  for (Fit& fit : fits) keep(std::move(fit));
+  return evidence_.marginal->best(tangent, unnamed, k_look_rounds).log_evidence - loose - cost;
 }
 
 /// By chords over the effect's size in practice, and to each of its starts.
@@ -261,7 +230,8 @@ std::vector<Look> Selector::looks_beside(const Fitter& fitter, const Fit& base, 
 }
 
 /// Effects beside `base`, by a linear look the best first.
-std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base, std::size_t most) const {
+std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base, const Amplitudes& unnamed,
+                                          std::size_t most) const {
   EffectSet effects = selection_.catalogue;
   std::erase_if(effects, [&](const Effect* effect) { return contains(base.effects, *effect); });
   std::vector<std::vector<Look>> looks(effects.size());
@@ -270,26 +240,92 @@ std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base,
     looks[i] = looks_beside(fitter, base, *effects[i]);
     for (const Look& look : looks[i]) flat.push_back(&look);
   }
-  const SharedLooks shared(evidence_, base, flat);
+  const SharedLooks shared(evidence_, base, unnamed, flat);
   std::vector<Addition> all;
   std::size_t place = 0;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Look& alone = looks_[place_of(*effects[i])];
-    Addition best{&base, effects[i], promised(base, {effects[i]}, {&alone}, k_look_rounds), alone};
+    Addition best{&base, effects[i], promised(base, {effects[i]}, {&alone}, unnamed), alone};
     double most_likely = -std::numeric_limits<double>::infinity();
     const Look* likeliest = nullptr;
     for (const Look& look : looks[i]) {
       const double likely = shared.log_evidence({place++});
       if (likely > most_likely) most_likely = likely, likeliest = &look;
     }
-    const double promise =
-        likeliest == nullptr ? most_likely : promised(base, {effects[i]}, {likeliest}, k_look_rounds);
+    const double promise = likeliest == nullptr ? most_likely : promised(base, {effects[i]}, {likeliest}, unnamed);
     if (promise > best.promise) best.promise = promise, best.look = *likeliest;
     all.push_back(std::move(best));
   }
   std::stable_sort(all.begin(), all.end(), [](const Addition& a, const Addition& b) { return a.promise > b.promise; });
   all.resize(std::min(all.size(), most));
   return all;
+}
+
+/// Where nothing stays without a name but noise, as much as it takes.
+Explained Selector::plainly(const Fit& fit) const {
+  return evidence_.marginal->best(tangent_of(evidence_, fit), evidence_.marginal->nothing_unnamed());
+}
+
+double Selector::plain_score(const Fit& fit) const {
+  return score(fit) - fit.explained.log_evidence + plainly(fit).log_evidence;
+}
+
+/// Each of the beam with one effect more, the best first.
+std::vector<Fit> Selector::wider_plainly(const std::vector<Fit>& beam) {
+  std::vector<std::vector<Addition>> looks(beam.size());
+  workers_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
+    looks[i] = promising(fitter, beam[i], plainly(beam[i]).amplitudes, k_thresholds.plain_looks);
+  });
+  std::map<Key, Addition> added;
+  for (const std::vector<Addition>& look : looks) {
+    for (const Addition& addition : look) {
+      EffectSet effects = addition.base->effects;
+      effects.push_back(addition.effect);
+      added.try_emplace(key_of(effects), addition);
+    }
+  }
+  std::vector<Addition> each;
+  for (const auto& [key, addition] : added) each.push_back(addition);
+  std::vector<Fit> wider(each.size());
+  workers_.each(each.size(), [&](const Fitter& fitter, std::size_t i) {
+    wider[i] = fitter.with_effect_alone(*each[i].base, *each[i].effect);
+  });
+  std::erase_if(wider, [](const Fit& fit) { return !fit.usable; });
+  return wider;
+}
+
+/// Sets that explain most where nothing stays without a name, until little does. Beside what has none, sets of two do
+/// no better than it where three are needed; of plain squares each takes its part. Such a fit may end on another summit
+/// than one beside what has no name, and its set stays to be tried.
+void Selector::explain_plainly() {
+  std::vector<Fit> beam;
+  const auto keep_best = [&] {
+    std::vector<double> scores(beam.size());
+    workers_.each(beam.size(), [&](const Fitter&, std::size_t i) { scores[i] = plain_score(beam[i]); });
+    std::vector<std::size_t> order(beam.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
+    order.resize(std::min(order.size(), k_thresholds.plain_beam));
+    std::vector<Fit> best;
+    for (const std::size_t i : order) best.push_back(std::move(beam[i]));
+    beam = std::move(best);
+    return scores[order.front()];
+  };
+  for (const auto& [key, fit] : seen_) beam.push_back(fit);
+  double reached = keep_best();
+  while (reached < score(beam.front()) - k_thresholds.little_unnamed &&
+         beam.front().effects.size() < k_thresholds.most_effects) {
+    std::vector<Fit> wider = wider_plainly(beam);
+    for (const Fit& fit : wider) take_in(fit);
+    if (wider.empty()) break;
+    std::swap(beam, wider);
+    const double before = std::exchange(reached, keep_best());
+    if (reached <= before) break;
+  }
+  std::vector<Fit> settled(beam.size());
+  workers_.each(beam.size(),
+                [&](const Fitter& fitter, std::size_t i) { settled[i] = fitter.fit(beam[i].effects, beam[i].at); });
+  for (Fit& fit : settled) take_in(std::move(fit));
 }
 
 /// Whether a wider set than those of the beam does better than the best so far.
@@ -300,14 +336,14 @@ bool Selector::widen() {
   std::vector<std::vector<Addition>> looks(beam.size());
   workers_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
     if (beam[i]->effects.size() < k_thresholds.most_effects)
-      looks[i] = promising(fitter, *beam[i], k_thresholds.most_looks);
+      looks[i] = promising(fitter, *beam[i], beam[i]->explained.amplitudes, k_thresholds.most_looks);
   });
   std::vector<Addition> added;
   for (const std::vector<Addition>& look : looks) {
     for (const Addition& addition : look) {
       EffectSet effects = addition.base->effects;
       effects.push_back(addition.effect);
-      if (addition.promise > before - k_thresholds.hopeless && !seen_.count(key_of(effects))) added.push_back(addition);
+      if (addition.promise > before - k_thresholds.hopeless && !is_tried(key_of(effects))) added.push_back(addition);
     }
   }
   std::vector<Fit> fits = fitted("trying wider sets of effects", added);
@@ -338,7 +374,8 @@ bool Selector::challenge() {
   });
   std::vector<std::vector<Addition>> looks(best.effects.size());
   workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
-    if (selection_.without[i].usable) looks[i] = promising(fitter, selection_.without[i], selection_.catalogue.size());
+    const Fit& less = selection_.without[i];
+    if (less.usable) looks[i] = promising(fitter, less, less.explained.amplitudes, selection_.catalogue.size());
   });
   selection_.rivals.clear();
   std::vector<Addition> added;
@@ -396,13 +433,13 @@ std::vector<PairBeside> Selector::pairs_beside(const Fit& base, std::size_t plac
     usable.push_back(&addition.look);
     owners.push_back(&addition);
   }
-  const SharedLooks shared(evidence_, base, usable);
+  const SharedLooks shared(evidence_, base, base.explained.amplitudes, usable);
   std::vector<PairBeside> pairs;
   for (std::size_t i = 0; i < owners.size(); ++i) {
     for (std::size_t j = i + 1; j < owners.size(); ++j) {
       EffectSet effects = base.effects;
       effects.insert(effects.end(), {owners[i]->effect, owners[j]->effect});
-      if (seen_.count(key_of(effects))) continue;
+      if (is_tried(key_of(effects))) continue;
       const double cost = rareness_of(*owners[i]->effect) + rareness_of(*owners[j]->effect);
       pairs.push_back({place, owners[i], owners[j], shared.log_evidence({i, j}) - cost});
     }
@@ -414,8 +451,8 @@ std::vector<PairBeside> Selector::pairs_beside(const Fit& base, std::size_t plac
   };
   keep_best(k_thresholds.most_looks_instead);
   for (PairBeside& pair : pairs)
-    pair.promise =
-        promised(base, {pair.one->effect, pair.other->effect}, {&pair.one->look, &pair.other->look}, k_look_rounds);
+    pair.promise = promised(base, {pair.one->effect, pair.other->effect}, {&pair.one->look, &pair.other->look},
+                            base.explained.amplitudes);
   keep_best(k_thresholds.most_instead);
   return pairs;
 }
@@ -428,7 +465,7 @@ bool Selector::exchange() {
   std::vector<std::vector<Addition>> looks(bases.size());
   workers_.each(bases.size(), [&](const Fitter& fitter, std::size_t i) {
     if (bases[i].effects.size() < k_thresholds.most_effects)
-      looks[i] = promising(fitter, bases[i], selection_.catalogue.size());
+      looks[i] = promising(fitter, bases[i], bases[i].explained.amplitudes, selection_.catalogue.size());
   });
   std::vector<std::vector<PairBeside>> pairs(bases.size());
   workers_.each(bases.size(), [&](const Fitter&, std::size_t i) {
@@ -440,7 +477,7 @@ bool Selector::exchange() {
     for (std::size_t k = 0; k < std::min(looks[i].size(), k_thresholds.most_instead); ++k) {
       EffectSet effects = bases[i].effects;
       effects.push_back(looks[i][k].effect);
-      if (looks[i][k].promise > before - k_thresholds.hopeless && !seen_.count(key_of(effects)))
+      if (looks[i][k].promise > before - k_thresholds.hopeless && !is_tried(key_of(effects)))
         singles.push_back(looks[i][k]);
     }
     for (const PairBeside& pair : pairs[i]) {
@@ -458,14 +495,19 @@ bool Selector::exchange() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
-/// Whether all its numbers may as well be nothing.
-bool has_no_size(const Fit& fit, const Effect& effect, double temperature) {
+std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect) {
   std::vector<Eigen::Index> own;
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
     const bool is_own = std::any_of(effect.parameters.begin(), effect.parameters.end(),
                                     [&](const EffectParameter& p) { return &p == fit.parameters[k]; });
     if (is_own) own.push_back(static_cast<Eigen::Index>(k));
   }
+  return own;
+}
+
+/// Whether all its numbers may as well be nothing.
+bool has_no_size(const Fit& fit, const Effect& effect, double temperature) {
+  const std::vector<Eigen::Index> own = places_of(fit, effect);
   if (own.empty()) return false;
   const Eigen::VectorXd x = fit.x(own);
   const Eigen::MatrixXd variance = temperature * fit.explained.covariance(own, own);
@@ -511,20 +553,71 @@ bool Selector::drop_doubtful() {
   return true;
 }
 
-/// What a number is depends on what else is there.
-void Selector::look_at_spread() {
+/// Root mean square over the rows of what a Gaussian of covariance `C` does by the slopes `J`, rad.
+double rms_by(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
+  return std::sqrt(std::max(0.0, (J * C).cwiseProduct(J).sum()) /
+                   static_cast<double>(std::max<Eigen::Index>(1, J.rows())));
+}
+
+/// The place of the member that shares what `wider`, the best with one effect more, gives its last, or none where they
+/// share little: as much as it may be larger, the member is smaller, and the data do not say how much.
+std::optional<std::size_t> Selector::shares_with(const Fit& wider) const {
+  const Fit& best = selection_.best;
+  const Tangent tangent = tangent_of(evidence_, wider);
+  const Eigen::MatrixXd C = selection_.temperature * wider.explained.covariance;
+  const std::vector<Eigen::Index> own = places_of(wider, *wider.effects.back());
+  const double least = k_thresholds.least_shared * evidence_.floor;
+  if (own.empty() || rms_by(tangent.J(Eigen::all, own), C(own, own)) < least) return {};
+  const Eigen::MatrixXd known = C(own, own).inverse();
+  std::optional<std::size_t> most;
+  double most_shared = least;
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    const std::vector<Eigen::Index> others = places_of(wider, *best.effects[i]);
+    if (others.empty()) continue;
+    const double shared = rms_by(tangent.J(Eigen::all, others), C(others, own) * known * C(own, others));
+    if (shared > most_shared) most_shared = shared, most = i;
+  }
+  return most;
+}
+
+/// Effects that the data do not ask for, and that may be there all the same by as much as a member is smaller then,
+/// join that member's group: one of them is there, and perhaps both.
+void Selector::join_companions() {
+  const Fit& best = selection_.best;
+  if (best.effects.empty() || best.effects.size() >= k_thresholds.most_effects) return;
+  const double least = score(best) - k_thresholds.as_good * selection_.temperature;
+  std::vector<Addition> likely =
+      promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size());
+  std::erase_if(likely, [&](const Addition& addition) { return !(addition.promise > least); });
+  likely.resize(std::min(likely.size(), k_thresholds.most_rivals));
+  std::vector<Fit> fits = fitted("looking at what may be there beside it", likely);
+  for (Fit& fit : fits) {
+    if (!fit.usable || !(score(fit) > least)) continue;
+    const Effect* effect = fit.effects.back();
+    if (const std::optional<std::size_t> place = shares_with(fit)) {
+      EffectSet& members = selection_.groups[*place].members;
+      if (!contains(members, *effect)) members.push_back(effect);
+    }
+    keep(std::move(fit));
+  }
+}
+
+/// What a number is depends on what else is there: mean squares about the best over all sets that hold it.
+void Selector::look_at_variance() {
   const Fit& best = selection_.best;
   for (std::size_t k = 0; k < best.parameters.size(); ++k) {
     double squares = 0, weights = 0;
     for (const auto& [key, fit] : seen_) {
       const auto own = std::find(fit.parameters.begin(), fit.parameters.end(), best.parameters[k]);
       if (own == fit.parameters.end()) continue;
+      const Eigen::Index place = own - fit.parameters.begin();
       const double weight = std::exp((score(fit) - score(best)) / selection_.temperature);
-      const double apart = fit.x[own - fit.parameters.begin()] - best.x[static_cast<Eigen::Index>(k)];
-      squares += weight * apart * apart;
+      const double apart = fit.x[place] - best.x[static_cast<Eigen::Index>(k)];
+      squares +=
+          weight * (apart * apart + selection_.temperature * std::max(0.0, fit.explained.covariance(place, place)));
       weights += weight;
     }
-    if (weights > 0) selection_.spread[best.parameters[k]] = squares / weights;
+    if (weights > 0) selection_.variance[best.parameters[k]] = squares / weights;
   }
 }
 
@@ -544,7 +637,7 @@ void Selector::write_down() {
     candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
     selection_.tried.push_back(candidate);
   }
-  for (const Addition& look : promising(workers_.one(), best, selection_.catalogue.size())) {
+  for (const Addition& look : promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size())) {
     Candidate candidate;
     candidate.name = look.effect->name;
     candidate.evidence = look.promise + rareness_of(*look.effect) - score(best);
@@ -561,7 +654,7 @@ Selection Selector::run() {
   if (!selection_.none.usable || !options_.look_for_effects) return std::move(selection_);
   keep(selection_.none);
   try_singles();
-  try_pairs();
+  explain_plainly();
   for (int exchanges = 0; exchanges <= k_thresholds.most_exchanges; ++exchanges) {
     while (widen()) {
     }
@@ -573,7 +666,8 @@ Selection Selector::run() {
     }
     challenge();
   }
-  look_at_spread();
+  join_companions();
+  look_at_variance();
   write_down();
   return std::move(selection_);
 }

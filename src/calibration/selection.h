@@ -28,8 +28,8 @@ struct Selection {
   std::vector<Rival> rivals;          ///< of every accepted effect, usable ones
   std::vector<CredibleGroup> groups;  ///< of every accepted effect, in their order
   double temperature = 1;             ///< by which evidence is overstated: variances are as many times larger
-  /// Of each number of `best`: how far apart the sets that hold it put it, by their weight, in its steps squared.
-  std::map<const EffectParameter*, double> spread;
+  /// Of each number of `best`, over all sets that hold it by their weight: mean square about it, in its steps.
+  std::map<const EffectParameter*, double> variance;
   std::vector<Candidate> tried;
 };
 

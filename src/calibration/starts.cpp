@@ -2,54 +2,73 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace fusee {
 namespace {
 
 constexpr std::size_t k_slip_times = 4;
+/// At which a step is tried.
+constexpr std::size_t k_tried_times = 96;
 
-/// What a fit leaves at a time of the bench's clock.
-struct Left {
-  double time = 0;
-  double residual = 0;
-};
-
-std::vector<Left> left_in_time(const Evidence& evidence, const Fit& base) {
-  std::vector<Left> rows;
+/// By the bench's clock, of the rows in use.
+std::vector<double> times_of_rows(const Evidence& evidence) {
+  std::vector<double> all, used;
   const std::vector<double> clock = bench_clock(evidence.log);
   for (std::size_t i = 0; i < evidence.measurement.runs.size(); ++i) {
-    for (const Sample& sample : evidence.measurement.runs[i].samples)
-      rows.push_back({clock[i] + sample.time, base.residual[static_cast<Eigen::Index>(rows.size())]});
+    for (const Sample& sample : evidence.measurement.runs[i].samples) all.push_back(clock[i] + sample.time);
   }
-  std::stable_sort(rows.begin(), rows.end(), [](const Left& a, const Left& b) { return a.time < b.time; });
-  return rows;
+  for (const Eigen::Index row : evidence.rows()) used.push_back(all[static_cast<std::size_t>(row)]);
+  return used;
 }
 
-/// Rows before which a step would stand, the one first that takes most squares out.
-std::vector<std::size_t> by_gain(const std::vector<Left>& rows) {
-  double total = 0;
-  for (const Left& row : rows) total += row.residual;
-  const double count = static_cast<double>(rows.size());
-  std::vector<std::pair<double, std::size_t>> gains;
-  double sum = 0;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    sum += rows[i - 1].residual;
-    const double before = static_cast<double>(i);
-    const double step = (total - sum) / (count - before) - sum / before;
-    gains.emplace_back(-step * step * before * (count - before), i);
+/// Between rows, evenly among them.
+std::vector<double> times_to_try(std::vector<double> rows) {
+  std::sort(rows.begin(), rows.end());
+  const std::size_t count = std::min(rows.size(), k_tried_times + 1);
+  std::vector<double> times;
+  for (std::size_t k = 1; k < count; ++k) {
+    const std::size_t i = k * rows.size() / count;
+    if (rows[i - 1] < rows[i]) times.push_back(0.5 * (rows[i - 1] + rows[i]));
   }
-  std::sort(gains.begin(), gains.end());
-  std::vector<std::size_t> places;
-  for (const auto& [gain, i] : gains) places.push_back(i);
-  return places;
+  return times;
+}
+
+/// The likeliest first, each with a step of any size beside the base's numbers and what has no name.
+std::vector<double> by_evidence(const Evidence& evidence, const Fit& base, const std::vector<double>& times) {
+  const std::vector<double> rows = times_of_rows(evidence);
+  Tangent tangent = tangent_of(evidence, base);
+  const Eigen::Index own = tangent.x.size();
+  const auto count = static_cast<Eigen::Index>(times.size());
+  tangent.J.conservativeResize(Eigen::NoChange, own + count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    for (Eigen::Index i = 0; i < tangent.J.rows(); ++i)
+      tangent.J(i, own + k) = rows[static_cast<std::size_t>(i)] > times[static_cast<std::size_t>(k)] ? 1.0 : 0.0;
+  }
+  add_numbers(Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity()), tangent);
+  const TangentSums sums = evidence.marginal->sums_of(tangent);
+  const Amplitudes& unnamed = base.explained.amplitudes;
+  const ReducedTangent beside = evidence.marginal->reduced(sums, evidence.marginal->sized(unnamed, sums.give));
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(own) + 1);
+  std::iota(columns.begin(), columns.end(), 0);
+  std::vector<std::pair<double, double>> likely;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    columns.back() = own + k;
+    likely.emplace_back(-log_evidence_of(beside, columns), times[static_cast<std::size_t>(k)]);
+  }
+  std::sort(likely.begin(), likely.end());
+  std::vector<double> ordered;
+  for (const auto& [evidence_lost, time] : likely) ordered.push_back(time);
+  return ordered;
 }
 
 std::vector<double> steps_in_time(const Evidence& evidence, const Fit& base) {
-  const std::vector<Left> rows = left_in_time(evidence, base);
   std::vector<double> times;
-  for (const std::size_t i : by_gain(rows)) {
-    const double time = 0.5 * (rows[i - 1].time + rows[i].time);
-    const double apart = 0.02 * (rows.back().time - rows.front().time);
+  const std::vector<double> tried = times_to_try(times_of_rows(evidence));
+  if (tried.empty()) return times;
+  const double apart = 0.02 * (tried.back() - tried.front());
+  for (const double time : by_evidence(evidence, base, tried)) {
     const bool new_place =
         std::none_of(times.begin(), times.end(), [&](double other) { return std::abs(other - time) < apart; });
     if (new_place) times.push_back(time);

@@ -83,6 +83,29 @@ TEST(Marginal, IntegratesANumberOverItsPrior) {
   EXPECT_NEAR(found, std::log(sum) + reference - log_density(r, D, amplitudes, 0.1), 0.02);
 }
 
+TEST(Marginal, AChoiceOfColumnsIsTheTangentThatHasNoOthers) {
+  std::mt19937 random(4);
+  const Marginal marginal(two_families(60, random), 0.1, 1.0);
+  const Amplitudes amplitudes{Eigen::Vector2d(0.2, 0.1), 0.1};
+  Tangent all = nothing_varied(drawn(60, random, 0.2));
+  all.J.resize(60, 4);
+  for (Eigen::Index k = 0; k < 4; ++k) all.J.col(k) = drawn(60, random);
+  add_numbers(Eigen::Vector4d(0.5, 1.0, std::numeric_limits<double>::infinity(), 2.0), all);
+  all.x = Eigen::Vector4d(0.3, -0.1, 0.0, 0.2);
+  all.read.diagonal().setConstant(3.0);
+  all.pull.setConstant(0.4);
+  const std::vector<Eigen::Index> chosen = {0, 2};
+  Tangent few = all;
+  few.J = all.J(Eigen::all, chosen);
+  few.x = all.x(chosen);
+  few.prior = all.prior(chosen);
+  few.read = all.read(chosen, chosen);
+  few.pull = all.pull(chosen);
+  const TangentSums sums = marginal.sums_of(all);
+  const ReducedTangent reduced = marginal.reduced(sums, marginal.sized(amplitudes, all.give));
+  EXPECT_NEAR(log_evidence_of(reduced, chosen), marginal.at(few, amplitudes).log_evidence, 1e-9);
+}
+
 TEST(Marginal, FindsAmplitudesAndLeavesOutWhatIsNot) {
   std::mt19937 random(3);
   const Eigen::Index rows = 400, count = 40;
