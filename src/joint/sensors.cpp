@@ -9,8 +9,8 @@ namespace {
 /// Of a way between two stands: a motor that stands to this part of it stands.
 constexpr double k_stands = 0.02;
 
-/// Whether α went from stand to stand on its way to row `i`, with no row between them: nobody knows when it arrived, and
-/// who reads a joint from point to point waits until it stands.
+/// Whether α went from stand to stand on its way to row `i`, with no row between them: nobody knows when it arrived,
+/// and who reads a joint from point to point waits until it stands.
 bool arrived_unseen(const BenchRun& run, std::size_t i) {
   if (i == 0 || i + 1 >= run.rows.size()) return false;
   const auto way = [&](std::size_t to) { return std::abs(run.rows[to].alpha - run.rows[to - 1].alpha); };
