@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "base/output_list.h"
 #include "export/report/tendon_lengths.h"
@@ -14,8 +13,6 @@
 namespace fusee {
 namespace {
 
-using KitJson = nlohmann::ordered_json;
-
 /// To a micrometre: the last digits of a sum tell nothing.
 double to_hand(double value) { return std::round(1000 * value) / 1000 + 0.0; }
 
@@ -25,12 +22,12 @@ std::string csv_quoted(const std::string& words) {
   return text + "\"";
 }
 
-KitJson point_json(const Vec2& point) { return {to_hand(point.x()), to_hand(point.y())}; }
+Json point_json(const Vec2& point) { return {to_hand(point.x()), to_hand(point.y())}; }
 
-KitJson parts_json(const KitProduct& product) {
-  KitJson list = KitJson::array();
+Json parts_json(const KitProduct& product) {
+  Json list = Json::array();
   for (const KitPart& part : product.plan.parts) {
-    KitJson places = KitJson::array();
+    Json places = Json::array();
     for (const KitPlace& place : part.places)
       places.push_back({{"x_mm", to_hand(place.shift.x())},
                         {"y_mm", to_hand(place.shift.y())},
@@ -47,21 +44,21 @@ KitJson parts_json(const KitProduct& product) {
   return list;
 }
 
-KitJson heights_json(const TendonHeights& heights) {
-  const auto span = [](const TendonHeights::Span& of) { return KitJson{to_hand(of.low), to_hand(of.high)}; };
+Json heights_json(const TendonHeights& heights) {
+  const auto span = [](const TendonHeights::Span& of) { return Json{to_hand(of.low), to_hand(of.high)}; };
   return {{"ends", {to_hand(heights.ends[0]), to_hand(heights.ends[1])}},
           {"guides", {span(heights.guides[0]), span(heights.guides[1])}},
           {"drum", span(heights.drum)}};
 }
 
-KitJson places_json(const KitPlan& plan) {
+Json places_json(const KitPlan& plan) {
   const KitSizes& sizes = plan.sizes;
   if (plan.drilled) {
-    KitJson places = {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}}};
+    Json places = {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}}};
     if (plan.heights) places["tendon_heights_mm"] = heights_json(*plan.heights);
     return places;
   }
-  KitJson feet = KitJson::array();
+  Json feet = Json::array();
   for (const Vec2& foot : plan.feet) feet.push_back(point_json(foot));
   return {{"pins_mm", {point_json(plan.pins[0].place), point_json(plan.pins[1].place)}},
           {"feet_mm", feet},
@@ -70,7 +67,7 @@ KitJson places_json(const KitPlan& plan) {
           {"scale_z_mm", to_hand(sizes.scale_low)},
           {"link_z_mm", to_hand(sizes.link_low)},
           {"bracket_z_mm", to_hand(sizes.bracket_low)},
-          {"motor", sizes.motor ? KitJson(sizes.motor->name) : KitJson(nullptr)},
+          {"motor", sizes.motor ? Json(sizes.motor->name) : Json(nullptr)},
           {"bearing", sizes.bearing->name},
           {"board", sizes.board->name}};
 }
@@ -104,29 +101,29 @@ std::string bom_csv(const KitProduct& product) {
 }
 
 std::string kit_manifest_json(const KitProduct& product, const std::vector<OutputFile>& outputs) {
-  KitJson json = {{"schema", 1}, {"tool", std::string(k_tool)}};
+  Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
   json["status"] = all_ok(product.checks) ? "done" : "check_failed";
   json["input"] = {{"file", std::filesystem::path(product.pulley.file.path).filename().string()},
                    {"sha256", product.pulley.file.sha256}};
   json["name"] = product.pulley.joint.mechanism.name;
   json["places"] = places_json(product.plan);
   json["parts"] = parts_json(product);
-  json["print"] = KitJson::array();
+  json["print"] = Json::array();
   for (const KitPart& part : product.plan.parts) json["print"].push_back({{"file", kit_file_name(part, "stl")}});
-  json["tendons_at_home"] = KitJson::array();
+  json["tendons_at_home"] = Json::array();
   for (const KitCut& cut : kit_cuts(product))
     json["tendons_at_home"].push_back({{"tendon", cut.side == Side::left ? 1 : 2},
                                        {"between_knots_mm", to_hand(cut.between_knots)},
                                        {"cut_length_mm", to_hand(cut.cut)}});
-  json["buy"] = KitJson::array();
+  json["buy"] = Json::array();
   for (const KitItem& item : product.plan.items)
     json["buy"].push_back({{"count", item.count}, {"item", item.what}, {"use", item.use}});
   json["notes"] = product.plan.notes;
-  json["checks"] = KitJson::array();
+  json["checks"] = Json::array();
   for (const Check& check : product.checks) {
-    KitJson entry = {
+    Json entry = {
         {"name", check.name},
-        {"value", std::isfinite(check.value) ? KitJson(std::stod(rounded(check.value, 6))) : KitJson(nullptr)},
+        {"value", std::isfinite(check.value) ? Json(std::stod(rounded(check.value, 6))) : Json(nullptr)},
         {"limit", check.limit},
         {"unit", check.unit},
         {"ok", check.ok}};
@@ -134,7 +131,7 @@ std::string kit_manifest_json(const KitProduct& product, const std::vector<Outpu
     json["checks"].push_back(std::move(entry));
   }
   json["outputs"] = output_list(outputs);
-  return json.dump(1, ' ', false, KitJson::error_handler_t::replace) + "\n";
+  return json_text(json, 1);
 }
 
 }  // namespace fusee

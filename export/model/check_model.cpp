@@ -4,9 +4,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "base/json.h"
 #include "export/model/words.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/text.h"
@@ -116,14 +116,14 @@ double error_of_ros2_control(const ModelProduct& product, const std::vector<Outp
 
 // ---- tables ---------------------------------------------------------------------------------------------------------
 
-std::vector<float> floats_of(const nlohmann::json& list) {
+std::vector<float> floats_of(const Json& list) {
   std::vector<float> values;
-  for (const nlohmann::json& value : list) values.push_back(static_cast<float>(value.get<double>()));
+  for (const Json& value : list) values.push_back(static_cast<float>(value.get<double>()));
   return values;
 }
 
 JointTable table_in(const std::string& bytes) {
-  const nlohmann::json json = nlohmann::json::parse(bytes);
+  const Json json = parse_json(bytes);
   JointTable table;
   table.unit.per_turn = json["motor_unit"]["per_turn"];
   table.unit.zero = json["motor_unit"]["zero"];
@@ -131,7 +131,7 @@ JointTable table_in(const std::string& bytes) {
   const std::vector<float> theta = floats_of(json["theta_deg"]);
   table.theta_first = theta[0];
   table.theta_last = theta[1];
-  for (const nlohmann::json& way : json["ways"]) {
+  for (const Json& way : json["ways"]) {
     const std::vector<float> ends = floats_of(way["motor"]);
     table.ways.push_back({ends[0], ends[1], floats_of(way["theta_deg_of_motor"]), floats_of(way["motor_of_theta"])});
   }

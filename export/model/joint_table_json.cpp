@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "base/output_list.h"
 #include "export/model/words.h"
@@ -14,19 +13,18 @@ namespace fusee {
 namespace {
 
 using namespace model_words;
-using ModelJson = nlohmann::ordered_json;
 
 /// A float as a short number that reads back as the same float.
 double short_number(float value) { return std::stod(c_float(value)); }
 
-ModelJson list_of(const std::vector<float>& values) {
-  ModelJson list = ModelJson::array();
+Json list_of(const std::vector<float>& values) {
+  Json list = Json::array();
   for (const float value : values) list.push_back(short_number(value));
   return list;
 }
 
-ModelJson coefficients(const Polynomial& p) {
-  ModelJson list = ModelJson::array();
+Json coefficients(const Polynomial& p) {
+  Json list = Json::array();
   for (const double c : p.c) list.push_back(std::stod(coefficient(c)));
   return list;
 }
@@ -46,7 +44,7 @@ std::string_view word(CurveSource source) {
   return "declared";
 }
 
-ModelJson input_of(const ModelProduct& product) {
+Json input_of(const ModelProduct& product) {
   return {{"file", std::filesystem::path(product.file.path).filename().string()}, {"sha256", product.file.sha256}};
 }
 
@@ -59,16 +57,16 @@ std::string way_word(const JointTable& table, std::size_t way) {
 
 std::string joint_table_json(const ModelProduct& product) {
   const JointTable& table = product.table;
-  ModelJson json = {
+  Json json = {
       {"schema", 1}, {"tool", std::string(k_tool)}, {"input", input_of(product)}, {"name", product.mechanism.name}};
   json["source"] = word(product.curves.shown.source);
-  json["what"] = ModelJson::array();
+  json["what"] = Json::array();
   for (const std::string& line : of_curve(product.curves.shown, product, true)) json["what"].push_back(line);
   json["motor_unit"] = {
       {"name", table.unit.ticks ? "count" : "deg"}, {"per_turn", table.unit.per_turn}, {"zero", table.unit.zero}};
   json["pieces"] = table.pieces;
   json["theta_deg"] = {short_number(table.theta_first), short_number(table.theta_last)};
-  json["ways"] = ModelJson::array();
+  json["ways"] = Json::array();
   for (std::size_t i = 0; i < table.ways.size(); ++i) {
     const OneWayTable& way = table.ways[i];
     json["ways"].push_back({{"moving", way_word(table, i)},
@@ -77,7 +75,7 @@ std::string joint_table_json(const ModelProduct& product) {
                             {"motor_of_theta", list_of(way.motor)}});
   }
   json["slope_of_motor"] = list_of(table.slope);
-  json["holding_torque_Nmm_of_motor"] = table.holding.empty() ? ModelJson(nullptr) : list_of(table.holding);
+  json["holding_torque_Nmm_of_motor"] = table.holding.empty() ? Json(nullptr) : list_of(table.holding);
   json["errors"] = {{"theta_deg", bound_deg(table.errors.theta)},
                     {"returned_theta_deg", bound_deg(table.errors.returned)},
                     {"alpha_deg", bound_deg(table.errors.motor)}};
@@ -86,38 +84,38 @@ std::string joint_table_json(const ModelProduct& product) {
                         {"theta_error_deg", bound_deg(product.equality.error)}};
   json["line"] = {{"coefficients_rad", coefficients(product.line.p)},
                   {"theta_error_deg", bound_deg(product.line.error)}};
-  return json.dump(1, ' ', false, ModelJson::error_handler_t::replace) + "\n";
+  return json_text(json, 1);
 }
 
 bool names_output(const std::string& manifest, const std::string& name, const std::string& sha256) {
-  const ModelJson json = ModelJson::parse(manifest, nullptr, false);
+  const Json json = parse_foreign_json(manifest);
   if (!json.is_object() || !json.contains("outputs") || !json["outputs"].is_array()) return false;
-  for (const ModelJson& output : json["outputs"]) {
-    if (output.is_object() && output.value("file", ModelJson()) == name &&
-        output.value("sha256", ModelJson()) == sha256)
+  for (const Json& output : json["outputs"]) {
+    if (output.is_object() && output.value("file", Json()) == name &&
+        output.value("sha256", Json()) == sha256)
       return true;
   }
   return false;
 }
 
 std::string model_manifest_json(const ModelProduct& product, const std::vector<OutputFile>& outputs) {
-  ModelJson json = {{"schema", 1}, {"tool", std::string(k_tool)}};
+  Json json = {{"schema", 1}, {"tool", std::string(k_tool)}};
   json["status"] = all_ok(product.checks) ? "done" : "check_failed";
   json["input"] = input_of(product);
   json["name"] = product.mechanism.name;
   json["simulators_follow"] = word(product.curves.stands.source);
   json["table_follows"] = word(product.curves.shown.source);
   json["notes"] = product.notes;
-  json["checks"] = ModelJson::array();
+  json["checks"] = Json::array();
   for (const Check& check : product.checks)
     json["checks"].push_back(
         {{"name", check.name},
-         {"value", std::isfinite(check.value) ? ModelJson(std::stod(rounded(check.value, 6))) : ModelJson(nullptr)},
+         {"value", std::isfinite(check.value) ? Json(std::stod(rounded(check.value, 6))) : Json(nullptr)},
          {"limit", std::stod(rounded(check.limit, 6))},
          {"unit", check.unit},
          {"ok", check.ok}});
   json["outputs"] = output_list(outputs);
-  return json.dump(1, ' ', false, ModelJson::error_handler_t::replace) + "\n";
+  return json_text(json, 1);
 }
 
 }  // namespace fusee

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "base/output_list.h"
 #include "export/report/calibration_words.h"
@@ -14,8 +13,6 @@
 
 namespace fusee {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// JSON knows no NaN and no infinity. Nine digits: the last ones of a fit are noise.
 Json number(double value) {
@@ -161,8 +158,6 @@ Json correctable_json(const Correction& correction) {
   return json;
 }
 
-std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
 }  // namespace
 
 std::string calibration_json(const CalibrationProduct& product) {
@@ -191,7 +186,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["tried"] = tried_json(calibration.tried);
   json["not_testable"] = product.measurement.not_testable;
   json["notes"] = product.measurement.notes;
-  return text_of(json);
+  return json_text(json, 1);
 }
 
 std::string calibration_manifest_json(const CalibrationProduct& product, const std::vector<OutputFile>& outputs) {
@@ -203,7 +198,7 @@ std::string calibration_manifest_json(const CalibrationProduct& product, const s
   json["verdict"] = word(product.calibration.verdict);
   if (product.correction.by_curve > 0) json["empirical"] = {"compensation.csv"};
   json["outputs"] = output_list(outputs);
-  return text_of(json);
+  return json_text(json, 1);
 }
 
 }  // namespace fusee

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "export/report/derived.h"
 #include "base/output_list.h"
@@ -15,8 +14,6 @@
 
 namespace fusee {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// JSON knows no NaN and no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -210,7 +207,7 @@ std::string manifest_json(const Product& product, const std::vector<OutputFile>&
   manifest["checks"] = checks_json(product.checks);
   manifest["outputs"] = output_list(outputs);
   // A name that is no UTF-8 is written all the same, with U+FFFD in its place.
-  return manifest.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(manifest, 1);
 }
 
 }  // namespace fusee

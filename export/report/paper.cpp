@@ -1,7 +1,5 @@
 #include "fusee/export/paper.h"
 
-#include <nlohmann/json.hpp>
-
 #include "base/output_list.h"
 #include "export/report/calibration_words.h"
 #include "export/report/plot.h"
@@ -183,9 +181,9 @@ std::string figures_section(const Reproduction& all) {
 
 /// Names and hashes of the files, so that a later run knows them for its own.
 std::string manifest_of(const std::vector<OutputFile>& files) {
-  nlohmann::ordered_json json = {{"schema", 1}, {"tool", k_tool}};
+  Json json = {{"schema", 1}, {"tool", k_tool}};
   json["outputs"] = output_list(files);
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace

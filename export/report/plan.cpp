@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "base/output_list.h"
 #include "export/report/csv_cells.h"
@@ -16,8 +15,6 @@
 
 namespace fusee {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Enough for every stroke's shape, and for a person who sets them one by one.
 constexpr int k_rows_a_stroke = 120;
@@ -158,7 +155,7 @@ std::string plan_json(const PlanProduct& product) {
   json["false_blame"] = {{"nothing_wrong", blame_json(plan.nothing)},
                          {"one_cause", blame_json(plan.one)},
                          {"cause_not_in_catalogue", blame_json(plan.unknown)}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 1);
 }
 
 std::string plan_manifest_json(const PlanProduct& product, const std::vector<OutputFile>& outputs) {
@@ -166,7 +163,7 @@ std::string plan_manifest_json(const PlanProduct& product, const std::vector<Out
   json["input"] = {{"file", std::filesystem::path(product.file.path).filename().string()},
                    {"sha256", product.file.sha256}};
   json["outputs"] = output_list(outputs);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 1);
 }
 
 }  // namespace fusee

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/json.h"
 #include "base/zip.h"
 #include "fusee/base/files.h"
 
 namespace fusee {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* k_index = "bundle.json";
 constexpr const char* k_result = "stdout.txt";
@@ -169,9 +167,7 @@ BundledFile read_bundled(const Index& index, std::map<std::string, std::string>&
 }
 
 Json parse_index(const std::string& text, const std::string& file) {
-  // nlohmann destroys nested lists with recursion; an index nests four deep.
-  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= 8; };
-  Json json = Json::parse(text, shallow, /*allow_exceptions=*/false);
+  Json json = parse_foreign_json(text);
   if (!json.is_object()) fail(file, k_index, "is no JSON document of a bundle");
   return json;
 }
@@ -191,8 +187,7 @@ bool is_inner_path(std::string_view path) {
 }
 
 std::string bundle_bytes(const Bundle& bundle) {
-  // Messages may quote bytes of any file; JSON may not.
-  const std::string index = index_of(bundle).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string index = json_text(index_of(bundle), 1);
   std::vector<ZipEntry> entries = {{k_index, index}, {k_result, bundle.outcome.result}};
   for (const BundledFile& file : bundle.files)
     if (!file.failure) entries.push_back({k_files + file.path, file.bytes});

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <nlohmann/json.hpp>
-
 #include "base/output_list.h"
 #include "base/staging.h"
 #include "fusee/base/diagnostics.h"
@@ -51,8 +49,8 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
-nlohmann::ordered_json output_list(const std::vector<OutputFile>& files) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+Json output_list(const std::vector<OutputFile>& files) {
+  Json list = Json::array();
   for (const OutputFile& file : files)
     list.push_back({{"file", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(file.bytes)}});
   return list;

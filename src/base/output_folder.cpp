@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <nlohmann/json.hpp>
 
 #include "base/output_list.h"
 #include "base/staging.h"
@@ -34,17 +33,13 @@ using Owned = std::set<std::pair<std::string, std::string>>;
 
 /// Adds what a manifest says fusee wrote. False when it is no manifest of fusee.
 bool read_manifest(const fs::path& path, Owned& owned) {
-  using Json = nlohmann::json;
   std::string text;
   try {
     text = read_output(path, k_largest_manifest);
   } catch (const InputError&) {
     return false;
   }
-  // nlohmann parses nested lists without recursion, but destroys and compares them with it; a manifest nests three
-  // deep.
-  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= 8; };
-  const Json manifest = Json::parse(text, shallow, /*allow_exceptions=*/false);
+  const Json manifest = parse_foreign_json(text);
   if (!manifest.is_object() || !manifest.contains("tool") || !manifest.contains("outputs")) return false;
   const Json& tool = manifest["tool"];
   if (!tool.is_string() || tool.get_ref<const std::string&>().rfind("fusee", 0) != 0) return false;
@@ -140,14 +135,14 @@ bool rename_as(const fs::path& from, const fs::path& to, unsigned how) {
 /// The journal is a manifest of what is about to go.
 std::string journal_of(const fs::path& folder, const std::vector<std::string>& replaced,
                        const std::vector<std::string>& withdrawn) {
-  nlohmann::json journal = {{"tool", "fusee"}, {"outputs", nlohmann::json::array()}, {"withdrawn", withdrawn}};
+  Json journal = {{"tool", "fusee"}, {"outputs", Json::array()}, {"withdrawn", withdrawn}};
   for (const auto* names : {&replaced, &withdrawn}) {
     for (const std::string& name : *names) {
       if (!stands(folder / name)) continue;
       journal["outputs"].push_back({{"file", name}, {"sha256", sha256(read_output(folder / name, k_largest_output))}});
     }
   }
-  return journal.dump();
+  return json_text(journal, -1);
 }
 
 bool is_of(const Owned& owned, const fs::path& file) {
@@ -170,7 +165,7 @@ void end_publishing(const fs::path& staging, const fs::path& folder) {
   for (const fs::path& file : rest)
     if (::rename(file.c_str(), (folder / file.filename()).c_str()) != 0) return;
   ::rename((staging / k_manifest).c_str(), (folder / k_manifest).c_str());
-  const auto journal = nlohmann::json::parse(read_output(staging / k_journal, k_largest_manifest));
+  const Json journal = parse_json(read_output(staging / k_journal, k_largest_manifest));
   for (const std::string& name : journal.at("withdrawn").get<std::vector<std::string>>())
     if (is_of(owned, folder / name)) ::unlink((folder / name).c_str());
 }

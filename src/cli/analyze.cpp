@@ -204,7 +204,7 @@ void write_result(const Arguments& arguments, const MechanismFile& mechanism, co
   const std::optional<std::string> file = arguments.text("--out");
   if (!file) return;
   const std::filesystem::path ending = std::filesystem::path(*file).extension();
-  const std::string bytes = ending == ".json"   ? stroke_json(result.rows).dump(1) + "\n"
+  const std::string bytes = ending == ".json"   ? json_text(stroke_json(result.rows), 1)
                             : ending == ".html" ? analysis_html(mechanism, result, options, reply.diagnostics)
                                                 : stroke_csv(result.rows);
   if (!arguments.has("--dry-run")) write_file(*file, bytes, arguments.has("--force"));

@@ -77,7 +77,7 @@ Reply run_calibrate(const Arguments& arguments, Console& console) {
   add_notes(result, console.verbose(), reply);
   reply.text = calibration_summary(result.product, console.verbose()) +
                files_text(result.outputs, options.folder.string(), result.published);
-  reply.fields = Json::parse(calibration_json(result.product));
+  reply.fields = parse_json(calibration_json(result.product));
   reply.fields["folder"] = options.folder.string();
   reply.fields["published"] = result.published;
   reply.fields["outputs"] = output_list(result.outputs);

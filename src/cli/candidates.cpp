@@ -41,7 +41,7 @@ const Option* option_named(const std::vector<Option>& options, const std::string
   return found == options.end() ? nullptr : &*found;
 }
 
-Json fields_of_a_mechanism() { return Json::parse(explain_json(""))["fields"]; }
+Json fields_of_a_mechanism() { return parse_json(explain_json(""))["fields"]; }
 
 /// "pulley.law=compensate" where a key takes one of a few words, else "pulley.r1_mm=".
 Candidates settings(const std::string& typed) {

@@ -9,12 +9,12 @@ Reply run_explain(const Arguments& arguments, Console&) {
   if (arguments.has("--schema")) {
     const std::string schema = mechanism_schema();
     reply.text = schema;
-    reply.fields["json_schema"] = Json::parse(schema);
+    reply.fields["json_schema"] = parse_json(schema);
     return reply;
   }
   const std::string key = arguments.positionals().empty() ? "" : arguments.positionals().front();
   reply.text = explain(key);
-  reply.fields["explained"] = Json::parse(explain_json(key));
+  reply.fields["explained"] = parse_json(explain_json(key));
   return reply;
 }
 

@@ -149,7 +149,7 @@ Reply run_plan(const Arguments& arguments, Console& console) {
     explain_without_law(file.path, *result.without_law, reply);
     return reply;
   }
-  reply.fields = Json::parse(plan_json(result.product));
+  reply.fields = parse_json(plan_json(result.product));
   reply.fields["folder"] = options.folder.string();
   reply.fields["published"] = result.published;
   if (result.product.plan.steps.empty()) {

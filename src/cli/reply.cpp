@@ -31,8 +31,7 @@ std::string document(const Reply& reply, const std::string& command) {
   json["errors"] = of_severity(reply.diagnostics, true);
   json["warnings"] = of_severity(reply.diagnostics, false);
   json.update(reply.fields);
-  // Names of files may hold any bytes; JSON may not.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2);
 }
 
 Json to_json(const Check& check) {

@@ -2,17 +2,15 @@
 /// What a command answers: an exit code, text for a person and the same as JSON for a machine.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "base/json.h"
 #include "fusee/base/check.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/profile/synthesis.h"
 
 namespace fusee::cli {
-
-using Json = nlohmann::ordered_json;
 
 enum class Exit {
   done = 0,

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"
@@ -9,8 +9,6 @@
 
 namespace fusee {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The fields that a word means: a dotted name, a key (of every table that has it), a table, or all for "".
 std::vector<const Field*> meant(std::string_view word) {
@@ -194,7 +192,7 @@ std::string explain_json(std::string_view key) {
   json["schema"] = 1;
   for (const Field* field : meant(key)) json["fields"].push_back(field_json(*field));
   json["catalogue"] = catalogue_json();
-  return json.dump(2) + "\n";
+  return json_text(json, 2);
 }
 
 }  // namespace fusee

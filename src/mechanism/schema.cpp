@@ -1,6 +1,6 @@
 #include <charconv>
-#include <nlohmann/json.hpp>
 
+#include "base/json.h"
 #include "fusee/mechanism/catalogue.h"
 #include "fusee/mechanism/fields.h"
 #include "fusee/mechanism/file.h"
@@ -8,8 +8,6 @@
 
 namespace fusee {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A table whose keys are all known; keys come with add().
 Json closed_object(std::string_view description) {
@@ -20,7 +18,7 @@ Json closed_object(std::string_view description) {
 }
 
 Json fallback_json(const Field& field) {
-  return Json::parse(field.fallback);
+  return parse_json(field.fallback);
 }  // TOML's numbers, strings and booleans are JSON's
 
 Json field_schema(const Field& field) {
@@ -106,7 +104,7 @@ std::string mechanism_schema() {
     if (field.fallback.empty() && !field.only_when.empty()) object["allOf"].push_back(condition_schema(field));
   }
   schema["allOf"].push_back(either_joint());
-  return schema.dump(2) + "\n";
+  return json_text(schema, 2);
 }
 
 }  // namespace fusee

@@ -1,0 +1,18 @@
+#include "base/json.h"
+
+namespace fusee {
+
+std::string json_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json parse_json(std::string_view text) { return Json::parse(text); }
+
+Json parse_foreign_json(std::string_view text) {
+  // nlohmann parses nested lists without recursion, but destroys and compares them with it. A bundle's index nests four
+  // deep, a manifest three.
+  const auto shallow = [](int depth, Json::parse_event_t, Json&) { return depth <= 8; };
+  return Json::parse(text, shallow, /*allow_exceptions=*/false);
+}
+
+}  // namespace fusee
