@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fusee/base/diagnostics.h"
 #include "fusee/model/model.h"

@@ -99,6 +99,12 @@ constexpr double k_margin = 0.02;
 
 }  // namespace
 
+Transmission::Transmission(const Transmission&) = default;
+Transmission::Transmission(Transmission&&) noexcept = default;
+Transmission& Transmission::operator=(const Transmission&) = default;
+Transmission& Transmission::operator=(Transmission&&) noexcept = default;
+Transmission::~Transmission() = default;
+
 Transmission::Transmission(const Mechanism& mechanism)
     : Transmission(mechanism, mechanism.seen_pitch_radius()) {}
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fusee/base/units.h"
@@ -283,8 +282,16 @@ struct Prior {
   bool operator==(const Prior&) const = default;
 };
 
-/// A mechanism, whosoever's: as declared, as mounted, or as it is made.
+/// A mechanism, whosoever's: as declared, as mounted, or as it is made. A plain value, whose copies are made in
+/// mechanism.cpp: in two dozen files that take one they were compiled again and again.
 struct Mechanism {
+  Mechanism();
+  Mechanism(const Mechanism&);
+  Mechanism(Mechanism&&) noexcept;
+  Mechanism& operator=(const Mechanism&);
+  Mechanism& operator=(Mechanism&&) noexcept;
+  ~Mechanism();
+
   std::string name;
   Joint joint;
   Guides guides;
@@ -327,9 +334,14 @@ struct DeclaredMechanism : Mechanism {
   Imperfections identified;  ///< what fusee calibrate found; all zero: as declared
   Prior prior;
 
-  DeclaredMechanism() = default;
+  DeclaredMechanism();
   /// Of which no more is known.
-  explicit DeclaredMechanism(Mechanism mechanism) : Mechanism(std::move(mechanism)) {}
+  explicit DeclaredMechanism(Mechanism mechanism);
+  DeclaredMechanism(const DeclaredMechanism&);
+  DeclaredMechanism(DeclaredMechanism&&) noexcept;
+  DeclaredMechanism& operator=(const DeclaredMechanism&);
+  DeclaredMechanism& operator=(DeclaredMechanism&&) noexcept;
+  ~DeclaredMechanism();
   bool operator==(const DeclaredMechanism&) const = default;
 };
 

@@ -53,6 +53,11 @@ class Transmission {
   /// With tendons wound several times, whose paths slope: p_i = m_i dθ/dα + dq_i/dα in the tendon's image, and a round
   /// P1 turns the joint as if α were α + q1/r1. `paths` null: planar tendons.
   Transmission(const Mechanism& mechanism, std::shared_ptr<const SlopedPaths> paths);
+  Transmission(const Transmission&);
+  Transmission(Transmission&&) noexcept;
+  Transmission& operator=(const Transmission&);
+  Transmission& operator=(Transmission&&) noexcept;
+  ~Transmission();
 
   /// θ where a moment arm of the range vanishes (dead centre), C touches a pin, a wanted torque does not hold its load,
   /// or a formula has no value; null when
