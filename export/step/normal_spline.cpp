@@ -1,10 +1,10 @@
 #include "export/step/normal_spline.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/decompositions.h"
 #include "fusee/base/units.h"
 #include "profile/pitch_curve.h"
 
@@ -124,7 +124,7 @@ class SectorFit {
           }
         }
       }
-      poles.middleRows(static_cast<Eigen::Index>(fixed), free) = normal.ldlt().solve(right);
+      poles.middleRows(static_cast<Eigen::Index>(fixed), free) = solved(normal, right);
     }
     return spline;
   }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "base/decompositions.h"
 #include "calibration/catalogue.h"
 #include "calibration/thresholds.h"
 
@@ -511,7 +512,7 @@ bool has_no_size(const Fit& fit, const Effect& effect, double temperature) {
   if (own.empty()) return false;
   const Eigen::VectorXd x = fit.x(own);
   const Eigen::MatrixXd variance = temperature * fit.explained.covariance(own, own);
-  return x.dot(variance.ldlt().solve(x)) < k_thresholds.least_size * static_cast<double>(own.size());
+  return x.dot(solved(variance, x)) < k_thresholds.least_size * static_cast<double>(own.size());
 }
 
 /// All sets that were looked at. Where more than noise is left that nothing describes, the model is wrong by more, and

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/decompositions.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 #include "fusee/base/text.h"
@@ -156,8 +157,8 @@ Harmonic strongest(const Eigen::VectorXd& angle, double row_step, const Eigen::V
     Eigen::MatrixXd wave(left.size(), 2);
     wave.col(0) = (order * angle).array().sin();
     wave.col(1) = (order * angle).array().cos();
-    const Eigen::Vector2d pull = wave.transpose() * left;
-    const Eigen::Vector2d size = (wave.transpose() * wave).ldlt().solve(pull);
+    const Eigen::VectorXd pull = wave.transpose() * left;
+    const Eigen::VectorXd size = solved(wave.transpose() * wave, pull);
     const double taken = size.dot(pull) / left.squaredNorm();
     if (taken > best.taken) best = {order, taken, wave * size};
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/decompositions.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 
@@ -120,8 +121,8 @@ Eigen::Vector3d step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
 Eigen::Vector3d shift_step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
   const auto slope = gaps.slope.rightCols<2>();
   const Eigen::Matrix2d normal = slope.transpose() * weights.asDiagonal() * slope;
-  const Eigen::Vector2d pull = slope.transpose() * weights.asDiagonal() * gaps.size;
-  const Eigen::Vector2d step = -normal.ldlt().solve(pull);
+  const Eigen::VectorXd pull = slope.transpose() * weights.asDiagonal() * gaps.size;
+  const Eigen::VectorXd step = -solved(normal, pull);
   return {0.0, step.x(), step.y()};
 }
 
