@@ -124,6 +124,7 @@ class Selector {
   std::vector<Weighed> weighed();
   std::optional<std::size_t> shares_with(const Fit& wider) const;
   void join_companions();
+  std::optional<double> square_about_best(const Fit& fit, Eigen::Index place) const;
   void look_at_variance();
   bool is_without_size(const Effect& effect) const;
   bool drop_doubtful();
@@ -143,7 +144,8 @@ class Selector {
   Selection selection_;
   std::vector<Look> looks_;  ///< of each effect of the catalogue; empty where it cannot be simulated
   std::map<Key, Fit> seen_;
-  std::set<Key> tried_;  ///< sets that were reached beside what has no name
+  std::vector<Fit> companions_;  ///< the best with one effect more that may be there
+  std::set<Key> tried_;          ///< sets that were reached beside what has no name
 };
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
@@ -598,27 +600,40 @@ void Selector::join_companions() {
     if (const std::optional<std::size_t> place = shares_with(fit)) {
       EffectSet& members = selection_.groups[*place].members;
       if (!contains(members, *effect)) members.push_back(effect);
+      companions_.push_back(fit);
     }
     keep(std::move(fit));
   }
 }
 
-/// What a number is depends on what else is there: mean squares about the best over all sets that hold it.
+/// Mean square of a number of the best about its value there, by another fit that holds it, in its steps.
+std::optional<double> Selector::square_about_best(const Fit& fit, Eigen::Index place) const {
+  const Fit& best = selection_.best;
+  const auto own =
+      std::find(fit.parameters.begin(), fit.parameters.end(), best.parameters[static_cast<std::size_t>(place)]);
+  if (own == fit.parameters.end()) return {};
+  const Eigen::Index k = own - fit.parameters.begin();
+  const double apart = fit.x[k] - best.x[place];
+  return apart * apart + selection_.temperature * std::max(0.0, fit.explained.covariance(k, k));
+}
+
+/// What a number is depends on what else is there: over all sets that hold it by their weight, and as far as any
+/// companion would move it, since nobody knows whether it is there.
 void Selector::look_at_variance() {
   const Fit& best = selection_.best;
   for (std::size_t k = 0; k < best.parameters.size(); ++k) {
+    const auto place = static_cast<Eigen::Index>(k);
     double squares = 0, weights = 0;
     for (const auto& [key, fit] : seen_) {
-      const auto own = std::find(fit.parameters.begin(), fit.parameters.end(), best.parameters[k]);
-      if (own == fit.parameters.end()) continue;
-      const Eigen::Index place = own - fit.parameters.begin();
+      const std::optional<double> square = square_about_best(fit, place);
+      if (!square) continue;
       const double weight = std::exp((score(fit) - score(best)) / selection_.temperature);
-      const double apart = fit.x[place] - best.x[static_cast<Eigen::Index>(k)];
-      squares +=
-          weight * (apart * apart + selection_.temperature * std::max(0.0, fit.explained.covariance(place, place)));
+      squares += weight * *square;
       weights += weight;
     }
-    if (weights > 0) selection_.variance[best.parameters[k]] = squares / weights;
+    double variance = weights > 0 ? squares / weights : *square_about_best(best, place);
+    for (const Fit& companion : companions_) variance = std::max(variance, *square_about_best(companion, place));
+    selection_.variance[best.parameters[k]] = variance;
   }
 }
 
