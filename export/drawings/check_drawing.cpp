@@ -104,12 +104,19 @@ struct Edge {
 
 bool before(const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
 
-void append_edges(std::vector<Edge>& edges, const DrawingPath& path) {
+/// Its corners: where it stands still, one.
+Polygon corners_of(const DrawingPath& path) {
   Polygon points;
+  points.reserve(path.points.size());
   for (const Vec2& p : path.points) {
     if (points.empty() || p != points.back()) points.push_back(p);
   }
   while (path.closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
+  return points;
+}
+
+void append_edges(std::vector<Edge>& edges, const DrawingPath& path) {
+  const Polygon points = corners_of(path);
   if (points.size() < 2) return;
   const std::size_t count = path.closed ? points.size() : points.size() - 1;
   for (std::size_t i = 0; i < count; ++i) {
@@ -266,6 +273,51 @@ class Sweep {
   std::pair<Edge, Edge> pair_;
 };
 
+/// Turns to one side at every corner, once round: such a path meets itself nowhere. Most of a pulley's do, and are told
+/// so by their corners alone.
+bool is_convex(const DrawingPath& path) {
+  const Polygon points = corners_of(path);
+  const std::size_t n = points.size();
+  if (!path.closed || n < 3) return false;
+  const auto corner = [&](std::size_t i) -> const Vec2& { return points[i % n]; };
+  const int side = orientation(corner(0), corner(1), corner(2));
+  int reversals = 0;  // of the way along x: two of them in each turn
+  for (std::size_t i = 0; i < n; ++i) {
+    if (side == 0 || orientation(corner(i), corner(i + 1), corner(i + 2)) != side) return false;
+    reversals += before(corner(i), corner(i + 1)) != before(corner(i + 1), corner(i + 2)) ? 1 : 0;
+  }
+  return reversals == 2;
+}
+
+std::optional<std::pair<Edge, Edge>> fault_within(const DrawingPath& path) {
+  if (is_convex(path)) return std::nullopt;
+  std::vector<Edge> edges;
+  append_edges(edges, path);
+  return Sweep(edges, true).first_fault();
+}
+
+/// Surely no two of them meet; of a great many it may be that nobody knows.
+bool are_apart(const Paths& paths) {
+  std::size_t looks_left = 100'000;
+  std::vector<Box2d> boxes;
+  for (const DrawingPath* path : paths) boxes.push_back(bounding_box(path->points));
+  std::sort(boxes.begin(), boxes.end(), [](const Box2d& a, const Box2d& b) { return a.low.x() < b.low.x(); });
+  for (auto a = boxes.begin(); a != boxes.end(); ++a) {
+    for (auto b = std::next(a); b != boxes.end() && b->low.x() <= a->high.x(); ++b) {
+      if (looks_left-- == 0 || (b->low.y() <= a->high.y() && a->low.y() <= b->high.y())) return false;
+    }
+  }
+  return true;
+}
+
+std::optional<std::pair<Edge, Edge>> fault_between(const Paths& paths) {
+  if (are_apart(paths)) return std::nullopt;
+  std::vector<Edge> edges;
+  for (const DrawingPath* path : paths) append_edges(edges, *path);
+  take_duplicates(edges);  // they have a check of their own
+  return Sweep(edges, false).first_fault();
+}
+
 struct CrossingChecks {
   Check self;
   Check mutual;
@@ -275,20 +327,17 @@ struct CrossingChecks {
 CrossingChecks check_crossings(const Paths& contours) {
   std::size_t crossed = 0;
   std::string self_where;
-  Paths whole;
+  std::map<std::string, Paths> whole;  // by layer
   for (const DrawingPath* path : contours) {
-    std::vector<Edge> edges;
-    append_edges(edges, *path);
-    const auto fault = Sweep(edges, true).first_fault();
-    if (!fault) whole.push_back(path);
+    const auto fault = fault_within(*path);
+    if (!fault) whole[path->layer].push_back(path);
     if (fault && crossed++ == 0)
       self_where = "crosses or touches itself: " + place(*path, crossing_point(fault->first, fault->second));
   }
   std::size_t layers = 0;
   std::string mutual_where;
-  for (auto& [layer, edges] : edges_by_layer(whole)) {
-    take_duplicates(edges);  // they have a check of their own
-    const auto fault = Sweep(edges, false).first_fault();
+  for (const auto& [layer, paths] : whole) {
+    const auto fault = fault_between(paths);
     if (!fault || layers++ > 0) continue;
     mutual_where = place(*fault->first.path, crossing_point(fault->first, fault->second)) +
                    fmt::format(" meets the {} at line {}", fault->second.path->entity, fault->second.path->line);

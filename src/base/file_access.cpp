@@ -5,8 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <vector>
+#include <memory>
 
 #include "base/descriptor.h"
 #include "base/staging.h"
@@ -20,7 +21,8 @@ FileAccess* innermost = nullptr;
 
 std::string error_text(int code) { return std::error_code(code, std::generic_category()).message(); }
 
-void demand_readable(const ReadRequest& request, const Descriptor& file) {
+/// The size of a regular file, and 0 of what has none.
+std::size_t demand_readable(const ReadRequest& request, const Descriptor& file) {
   const std::string name = request.path.string();
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) throw InputError(name, "cannot be read: " + error_text(errno));
@@ -29,6 +31,7 @@ void demand_readable(const ReadRequest& request, const Descriptor& file) {
     throw InputError(name, "is not a regular file", "write it to a file first");
   if (S_ISREG(status.st_mode) && static_cast<std::uintmax_t>(status.st_size) > request.limit)
     throw InputError(name, fmt::format("is larger than {} bytes", request.limit), "is it the right file?");
+  return S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
 }
 
 }  // namespace
@@ -44,12 +47,15 @@ void read_as_it_lies(const ReadRequest& request, const TakeBlock& take) {
   const Descriptor file(::open(request.path.c_str(), O_RDONLY | O_CLOEXEC | waiting));
   if (!file.ok())
     throw InputError(name, "cannot be read: " + error_text(errno), errno == ENOENT ? "check the path" : "");
-  demand_readable(request, file);
-  constexpr std::size_t k_block = std::size_t{1} << 20;
-  std::vector<char> block(k_block);
+  const std::size_t size = demand_readable(request, file);
+  // A page that is touched for the first time costs more than what is read into it: no more of them than the file has,
+  // of which many are small, and none for zeros that are written over. A byte more sees the end, or that it grew.
+  constexpr std::size_t k_least = std::size_t{1} << 12, k_most = std::size_t{1} << 18;
+  const std::size_t room = std::clamp(size + 1, k_least, k_most);
+  const auto block = std::make_unique_for_overwrite<char[]>(room);
   std::size_t left = request.limit;
   for (;;) {
-    const ssize_t count = ::read(file.number(), block.data(), block.size());
+    const ssize_t count = ::read(file.number(), block.get(), room);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw InputError(name, "cannot be read: " + error_text(errno));
     if (count == 0) return;
@@ -57,7 +63,7 @@ void read_as_it_lies(const ReadRequest& request, const TakeBlock& take) {
     if (static_cast<std::size_t>(count) > left)
       throw InputError(name, fmt::format("is larger than {} bytes", request.limit), "is it the right file?");
     left -= static_cast<std::size_t>(count);
-    take({block.data(), static_cast<std::size_t>(count)});
+    take({block.get(), static_cast<std::size_t>(count)});
   }
 }
 

@@ -474,13 +474,16 @@ const std::vector<std::string>& output_names() {
 
 BuildResult build(const MechanismFile& file, const BuildOptions& options) {
   BuildResult result;
-  result.product.file = with_doubts(file);
+  result.product.file = file;
+  auto doubted = beside([&file] { return doubts(file); });
   result.product.joint = as_it_is(file.mechanism);
   OutputFolder target(options.folder, options.force);
   if (const auto why = options.step ? step_missing() : std::nullopt)
     throw InputError("", "no pulley.step: this fusee was built without STEP: " + *why, "build without --step");
   target.claim(output_names());  // before the work: a refusal should not cost a wait
-  if (!design_any(result.product, options.tolerance, options.limits, options.before_step)) {
+  const bool is_possible = design_any(result.product, options.tolerance, options.limits, options.before_step);
+  for (Diagnostic& doubt : doubted.get()) result.product.file.warnings.push_back(std::move(doubt));
+  if (!is_possible) {
     result.status = BuildStatus::infeasible;
     announce(options, "looking for what would make it possible");
     result.advice = advice_for(result.product, options);
