@@ -20,6 +20,7 @@
 #include "solid/boolean.h"
 #include "solid/bore.h"
 #include "solid/condition_list.h"
+#include "solid/cut_ways.h"
 #include "solid/euler.h"
 #include "solid/groove.h"
 #include "solid/heights.h"
@@ -41,8 +42,6 @@ constexpr std::array<double, 6> k_bore_diameters{5.0, 4.0, 3.0, 2.5, 2.0, 1.5};
 // other parts.
 constexpr double k_drawn_coarsely = radians(1.5);
 constexpr double k_most_wall = 1.2, k_wall_of_radius = 0.12, k_thinnest_wall = 0.4;
-// A cut whose rounding to float left a fault is tried again with other facets on the tools.
-constexpr int k_cut_variants = 8;
 // Of an automatic knot pocket, where there is no room for all of it: knots are 2.5 to 3 tendons thick.
 constexpr std::array k_pocket_shares{1.0, 0.9, 0.8, 0.72};
 // What the chamfer at the bed leaves of the lip.
@@ -79,8 +78,8 @@ class Planner {
         d_(mechanism.tendon.diameter),
         section_(helical_section(mechanism)) {}
 
-  HelicalPulley make() {
-    if (plan().empty()) cut();
+  HelicalPulley make(TieOffSearch search) {
+    if (plan().empty()) cut(search == TieOffSearch::brief ? k_brief_cut_ways : k_cut_ways);
     return std::move(pulley_);
   }
 
@@ -393,14 +392,15 @@ class Planner {
     return rounded_to_float(std::move(mesh));
   }
 
-  void cut() {
+  void cut(int wanted_ways) {
     const BodyLayout& layout = pulley_.layout;
     const TriangleMesh blank = scaled(helical_blank(fan_, section_, layout, heights_));
     const double volume = enclosed_volume(blank);
     const bool screw = layout.set_screw.present;
     pulley_.expected_euler = 2 - 2 * (1 + static_cast<int>(layout.bore.screw_holes.size() + ends_.size()) +
                                       (screw ? (layout.set_screw.nut_trap ? 2 : 1) : 0));
-    for (int variant = 0; variant < k_cut_variants; ++variant) {
+    const int ways = cut_ways(blank.triangles.size(), wanted_ways);
+    for (int variant = 0; variant < ways; ++variant) {
       std::vector<TriangleMesh> tools;
       for (std::size_t i = 0; i < ends_.size(); ++i) {
         auto tool = run_out_tool(ends_[i], run_outs_[i], variant);
@@ -418,24 +418,23 @@ class Planner {
         condition_of("features", false, 0, 1,
                      fmt::format("run-outs and screw run into one another: none of {} ways to cut "
                                  "them leaves a solid",
-                                 k_cut_variants)));
+                                 ways)));
   }
 
   bool cut_with(const TriangleMesh& blank, double volume, const std::vector<TriangleMesh>& tools) {
-    TriangleMesh mesh = blank;
+    std::vector<TriangleMesh> cutters;
     for (const TriangleMesh& tool : tools) {
-      const TriangleMesh cutter = scaled(tool);
+      cutters.push_back(scaled(tool));
       // What crosses itself cannot be cut with: it may never end.
-      if (find_crossing(cutter).facets) return false;
-      const auto outcome = subtract(mesh, cutter);
-      if (!outcome) return false;
-      mesh = outcome->mesh;
-      volume -= outcome->common_volume;
+      if (find_crossing(cutters.back()).facets) return false;
     }
-    std::vector<Check> checks = check_mesh(mesh);
+    auto cut = subtract_each(blank, cutters);
+    if (!cut) return false;
+    for (const double common : cut->common_volumes) volume -= common;
+    std::vector<Check> checks = check_mesh(cut->mesh);
     // A chip that comes off, or a way through that nobody planned, is no pulley either.
-    if (!all_ok(checks) || euler_number(mesh) != pulley_.expected_euler || !prints(mesh)) return false;
-    pulley_.mesh = std::move(mesh);
+    if (!all_ok(checks) || euler_number(cut->mesh) != pulley_.expected_euler || !prints(cut->mesh)) return false;
+    pulley_.mesh = std::move(cut->mesh);
     pulley_.mesh_checks = std::move(checks);
     pulley_.expected_volume = volume;
     for (std::size_t i = 0; i < ends_.size(); ++i) pulley_.anchors.push_back(anchor_at(ends_[i], run_outs_[i]));
@@ -499,8 +498,9 @@ std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spira
   return Planner(mechanism, p1, p2, tolerance).plan();
 }
 
-HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance) {
-  return Planner(mechanism, p1, p2, tolerance).make();
+HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2, double tolerance,
+                                  TieOffSearch search) {
+  return Planner(mechanism, p1, p2, tolerance).make(search);
 }
 
 }  // namespace fusee

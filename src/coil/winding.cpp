@@ -125,19 +125,26 @@ void fill_front(Winding& winding, std::size_t columns, double length) {
 
 }  // namespace
 
-WindingRow SpiralCurve::at(double turn) const {
+SpiralCurve::Between SpiralCurve::between(double turn) const {
   const std::vector<SpiralRow>& rows = spiral_.rows;
   const auto after = std::upper_bound(rows.begin() + 1, rows.end() - 1, turn,
                                       [](double value, const SpiralRow& row) { return value < row.turn; });
   const SpiralRow &a = *(after - 1), &b = *after;
-  const double step = b.turn - a.turn, u = (turn - a.turn) / step;
+  return {a, b, b.turn - a.turn, (turn - a.turn) / (b.turn - a.turn)};
+}
+
+double SpiralCurve::Between::rho() const { return a.rho + (b.rho - a.rho) * std::clamp(u, 0.0, 1.0); }
+
+WindingRow SpiralCurve::at(double turn) const {
+  const Between here = between(turn);
+  const auto& [a, b, step, u] = here;
   // Hermite's cubics: places and derivatives dX/dψ = ρ t, dz/dψ = ρ tan λ.
   const double from = (1 + 2 * u) * (1 - u) * (1 - u), to = u * u * (3 - 2 * u);
   const double out_of = u * (1 - u) * (1 - u) * step, into = u * u * (u - 1) * step;
   WindingRow row;
   row.turn = turn;
   row.normal = unit(turn);
-  row.rho = a.rho + (b.rho - a.rho) * std::clamp(u, 0.0, 1.0);
+  row.rho = here.rho();
   row.position = from * Vec2(a.x, a.y) + to * Vec2(b.x, b.y) + out_of * a.rho * turned_left(unit(a.turn)) +
                  into * b.rho * turned_left(unit(b.turn));
   row.height = place_.height(from * a.z + to * b.z + (out_of * a.rho + into * b.rho) * spiral_.slope);
@@ -146,7 +153,7 @@ WindingRow SpiralCurve::at(double turn) const {
 
 double SpiralCurve::largest_rho(double turn) const {
   double rho = 0;
-  for (double t = into_turn(turn, begin()); t <= end() + k_same_column; t += k_two_pi) rho = std::max(rho, at(t).rho);
+  for (double t = into_turn(turn, begin()); t <= end() + k_same_column; t += k_two_pi) rho = std::max(rho, between(t).rho());
   return rho;
 }
 

@@ -33,6 +33,15 @@ class SpiralCurve {
   double largest_rho(double turn) const;
 
  private:
+  /// Two neighbouring rows, the turn from one to the other, and the share of it that is gone.
+  struct Between {
+    const SpiralRow &a, &b;
+    double step, u;
+
+    double rho() const;
+  };
+  Between between(double turn) const;
+
   const Spiral& spiral_;
   SpiralPlace place_;
 };

@@ -6,42 +6,45 @@
 namespace fusee {
 namespace {
 
+struct Drawn {
+  double psi;
+  SpiralPoint point;
+};
+
 /// Over a stretch between two directions, both among them.
-void add_directions(std::vector<double>& directions, const PitchSpiral& curve, double begin, double end,
-                    const SpiralDrawing& drawing) {
+void add_points(std::vector<Drawn>& points, const PitchSpiral& curve, double begin, double end,
+                const SpiralDrawing& drawing) {
+  const auto add = [&](double psi) { points.push_back({psi, curve.at(psi)}); };
   double psi = begin;
   while (psi < end) {
-    directions.push_back(psi);
-    const double radius = curve.at(psi).curve.radius + drawing.reach;
+    add(psi);
+    const double radius = points.back().point.curve.radius + drawing.reach;
     psi += std::min(drawing.largest_turn, std::sqrt(8.0 * drawing.tolerance / radius));
   }
   // The last two steps are shared evenly: none is next to nothing.
-  if (directions.size() > 1 && directions.back() > begin) {
-    const double before = directions[directions.size() - 2];
-    directions.back() = 0.5 * (before + end);
+  if (points.size() > 1 && points.back().psi > begin) {
+    points.pop_back();
+    add(0.5 * (points.back().psi + end));
   }
 }
 
 }  // namespace
 
 Spiral draw_spiral(const PitchSpiral& curve, Side side, double slope, const SpiralDrawing& drawing) {
-  std::vector<double> directions;
-  add_directions(directions, curve, curve.begin(), curve.working_begin(), drawing);
-  const std::size_t first = directions.size();
-  add_directions(directions, curve, curve.working_begin(), curve.working_end(), drawing);
-  const std::size_t last = directions.size();
-  add_directions(directions, curve, curve.working_end(), curve.end(), drawing);
-  directions.push_back(curve.end());
+  std::vector<Drawn> points;
+  add_points(points, curve, curve.begin(), curve.working_begin(), drawing);
+  const std::size_t first = points.size();
+  add_points(points, curve, curve.working_begin(), curve.working_end(), drawing);
+  const std::size_t last = points.size();
+  add_points(points, curve, curve.working_end(), curve.end(), drawing);
+  points.push_back({curve.end(), curve.at(curve.end())});
 
-  std::vector<SpiralPoint> points;
-  points.reserve(directions.size());
-  for (const double psi : directions) points.push_back(curve.at(psi));
   Spiral spiral;
   spiral.slope = slope;
   const bool left = side == Side::left;
-  const double sigma0 = left ? points.back().sigma : points.front().sigma;
+  const double sigma0 = left ? points.back().point.sigma : points.front().point.sigma;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SpiralPoint& point = points[left ? points.size() - 1 - i : i];
+    const SpiralPoint& point = points[left ? points.size() - 1 - i : i].point;
     const Vec2 place = point.curve.position();
     SpiralRow row;
     row.x = left ? -place.x() : place.x();

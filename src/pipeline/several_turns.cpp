@@ -175,7 +175,7 @@ MechanismFile with_doubts_and_turns(MechanismFile file) {
 }
 
 bool design_several_turns(Product& product, double tolerance,
-                          const std::function<void(std::string_view step)>& before_step) {
+                          const std::function<void(std::string_view step)>& before_step, TieOffSearch search) {
   const Mechanism& mechanism = product.joint.mechanism;
   if (before_step) before_step("winding both tendons several times");
   HelixProduct& helix = product.helix.emplace();
@@ -187,8 +187,8 @@ bool design_several_turns(Product& product, double tolerance,
   if (!helix.synthesis.made()) return false;
   for (HelixSide& side : helix.synthesis.sides) draw_for_making(side.spiral, product.joint.outline);
   if (before_step) before_step("making the body");
-  helix.pulley =
-      make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral, tolerance);
+  helix.pulley = make_helical_pulley(mechanism, helix.synthesis.sides[0].spiral, helix.synthesis.sides[1].spiral,
+                                     tolerance, search);
   Pulley& pulley = product.pulley;
   pulley = {};
   pulley.status = helix.pulley.made ? PulleyStatus::made : PulleyStatus::impossible;
@@ -214,14 +214,14 @@ namespace {
 /// radian that it is wound: where that is too much over the range, the curves are drawn once more, as finely as the
 /// limit asks for (campaign of seed 620001, design 316: 10.5 rad, 0.11 mm of slack).
 bool design_turns_within(Product& product, double tolerance, const AsBuiltLimits& limits,
-                         const std::function<void(std::string_view step)>& before_step) {
-  if (!design_several_turns(product, tolerance, before_step)) return false;
+                         const std::function<void(std::string_view step)>& before_step, TieOffSearch search) {
+  if (!design_several_turns(product, tolerance, before_step, search)) return false;
   double furthest = 0;  // rad
   for (const TransmissionPoint& place : product.synthesis.stroke) furthest = std::max(furthest, std::abs(place.alpha));
   if (furthest * tolerance <= limits.slack) return true;
   const RewindResult wound = rewind_several_turns(product, product.pulley.mesh).result;
   if (all_ok(as_built_checks(product.joint.mechanism, wound, limits))) return true;
-  return design_several_turns(product, 0.5 * limits.slack / furthest, before_step);
+  return design_several_turns(product, 0.5 * limits.slack / furthest, before_step, search);
 }
 
 }  // namespace
@@ -231,7 +231,7 @@ bool design_any(Product& product, double tolerance, const AsBuiltLimits& limits,
   if (design(product, tolerance, before_step, search)) return true;
   if (!need_several_turns(product.synthesis)) return false;
   const auto kept = kept_to_one_turn(product.file.mechanism);
-  if (!kept) return design_turns_within(product, tolerance, limits, before_step);
+  if (!kept) return design_turns_within(product, tolerance, limits, before_step, search);
   for (Condition& condition : product.synthesis.conditions) {
     if (!condition.ok) condition.message += " (" + *kept + ")";
   }

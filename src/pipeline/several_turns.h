@@ -28,7 +28,8 @@ MechanismFile with_doubts_and_turns(MechanismFile file);
 
 /// Spirals and body of product.joint in place of what one turn could not be; as design() otherwise.
 bool design_several_turns(Product& product, double tolerance,
-                          const std::function<void(std::string_view step)>& before_step);
+                          const std::function<void(std::string_view step)>& before_step,
+                          TieOffSearch search = TieOffSearch::thorough);
 
 /// One turn where it suffices, else several: false when neither can be made. Where several are not for this file, what
 /// keeps it to one is said.

@@ -223,14 +223,15 @@ class Adviser {
     helpful.resize(std::min(helpful.size(), k_helpful));
     double before = 0;
     for (double step = 2 * k_first_step; step < k_last_step; before = step, step *= k_step_ratio) {
-      for (std::size_t i = 0; i < helpful.size(); ++i) {
-        for (std::size_t j = i + 1; j < helpful.size(); ++j) {
-          const std::vector<Turn> both{turns_[helpful[i]], turns_[helpful[j]]};
-          if (both[0].dial == both[1].dial || !may_look() || !is_clear(turned(both, values(both, step)))) continue;
-          const std::vector<Candidate> proven = made_of({Candidate{both, before, step, step, 0, {}}}, 1);
-          if (!proven.empty()) return proven.front().changes();
-          if (makings_left() == 0) return {};
-        }
+      const std::vector<std::vector<Turn>> pairs = pairs_of(helpful);
+      std::vector<Mechanism> there;
+      for (const std::vector<Turn>& both : pairs) there.push_back(turned(both, values(both, step)));
+      const std::vector<std::vector<Condition>> left = look_at(there);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!left[i].empty()) continue;
+        const std::vector<Candidate> proven = made_of({Candidate{pairs[i], before, step, step, 0, {}}}, 1);
+        if (!proven.empty()) return proven.front().changes();
+        if (makings_left() == 0) return {};
       }
     }
     return {};
@@ -264,9 +265,18 @@ class Adviser {
   };
 
   bool may_look() const { return looks_ < k_most_looks; }
-  bool is_clear(const Mechanism& changed) {
-    ++looks_;
-    return judge_.obstacles(changed).empty();
+
+  /// Of these turns, each with each of another dial; no more than may be looked at.
+  std::vector<std::vector<Turn>> pairs_of(const std::vector<std::size_t>& turns) const {
+    std::vector<std::vector<Turn>> pairs;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      for (std::size_t j = i + 1; j < turns.size(); ++j) {
+        const Turn &one = turns_[turns[i]], &other = turns_[turns[j]];
+        if (one.dial != other.dial) pairs.push_back({one, other});
+      }
+    }
+    pairs.resize(std::min(pairs.size(), static_cast<std::size_t>(std::max(0, k_most_looks - looks_))));
+    return pairs;
   }
   /// None knows of another: where a look is dear, half of them on a thread of their own.
   std::vector<std::vector<Condition>> look_at(const std::vector<Mechanism>& changed) {

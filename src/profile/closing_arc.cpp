@@ -123,11 +123,22 @@ std::optional<ClosingArc> ClosingArc::between(const CurvePoint& begin, const Cur
   return arc;
 }
 
-CurvePoint ClosingArc::at(double psi) const {
+ClosingArc::Place ClosingArc::place(double psi) const {
   const double place = std::clamp((psi - begin_) / step_, 0.0, static_cast<double>(k_segments));
-  const auto i = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(k_segments - 1));
+  const auto knot = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(k_segments - 1));
+  return {knot, place - static_cast<double>(knot)};
+}
+
+double ClosingArc::radius(const Place& place) const {
+  return radii_[place.knot] + (radii_[place.knot + 1] - radii_[place.knot]) * place.share;
+}
+double ClosingArc::radius(double psi) const { return radius(place(psi)); }
+
+CurvePoint ClosingArc::at(double psi) const {
+  const Place here = place(psi);
+  const std::size_t i = here.knot;
   const double psi0 = begin_ + static_cast<double>(i) * step_;
-  const double radius = radii_[i] + (radii_[i + 1] - radii_[i]) * (place - static_cast<double>(i));
+  const double radius = this->radius(here);
   Vec2 position = positions_[i];
   if (psi > psi0) position += way(psi0, psi, radii_[i], radius);
   return {psi, position.dot(unit(psi)), position.dot(turned_left(unit(psi))), radius};

@@ -17,11 +17,20 @@ class ClosingArc {
   static std::optional<ClosingArc> between(const CurvePoint& begin, const CurvePoint& end, double least_radius);
 
   CurvePoint at(double psi) const;
+  double radius(double psi) const;  ///< at(psi).radius
   double length() const;
   /// The smallest distance of a tangent from the axis; below zero the axis lies outside.
   double least_support() const;
 
  private:
+  /// Of the knot before, and the share of the way to the next one.
+  struct Place {
+    std::size_t knot;
+    double share;
+  };
+  Place place(double psi) const;
+  double radius(const Place& place) const;
+
   double begin_ = 0;
   double step_ = 0;
   std::vector<double> radii_;   ///< at the knots

@@ -14,13 +14,21 @@ EnvelopeCurve::EnvelopeCurve(const TakeOffs& take_offs, const std::vector<TakeOf
                              std::vector<double> straight)
     : take_offs_(take_offs), samples_(samples), closing_(closing), straight_(std::move(straight)) {}
 
+// The ends belong to the active arc, also after a rounding error in the turn.
+constexpr double k_slip = 1e-12;
+double EnvelopeCurve::turned(double psi) const { return turned_into(active_begin() - k_slip, psi); }
+bool EnvelopeCurve::is_active(double turned) const { return turned <= active_end() + k_slip; }
+
 CurvePoint EnvelopeCurve::at(double psi) const {
-  // The ends belong to the active arc, also after a rounding error in the turn.
-  constexpr double slip = 1e-12;
-  const double turned = turned_into(active_begin() - slip, psi);
-  CurvePoint point = turned <= active_end() + slip ? active_at(turned) : closing_.at(turned);
+  const double here = turned(psi);
+  CurvePoint point = is_active(here) ? active_at(here) : closing_.at(here);
   point.psi = psi;
   return point;
+}
+
+double EnvelopeCurve::radius(double psi) const {
+  const double here = turned(psi);
+  return is_active(here) ? active_at(here).radius : closing_.radius(here);
 }
 
 CurvePoint EnvelopeCurve::active_at(double psi) const {

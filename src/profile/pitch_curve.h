@@ -19,6 +19,8 @@ class PitchCurve {
   virtual ~PitchCurve() = default;
   /// At any ψ.
   virtual CurvePoint at(double psi) const = 0;
+  /// at(psi).radius, which may be had for less.
+  virtual double radius(double psi) const { return at(psi).radius; }
   /// Normals at the ends of the active arc; end > begin, less than a turn apart.
   virtual double active_begin() const = 0;
   virtual double active_end() const = 0;
@@ -35,11 +37,14 @@ class EnvelopeCurve : public PitchCurve {
                 std::vector<double> straight);
 
   CurvePoint at(double psi) const override;
+  double radius(double psi) const override;
   double active_begin() const override { return samples_.front().curve.psi; }
   double active_end() const override { return samples_.back().curve.psi; }
   std::vector<double> straight_directions() const override { return straight_; }
 
  private:
+  double turned(double psi) const;
+  bool is_active(double turned) const;
   CurvePoint active_at(double psi) const;
 
   const TakeOffs& take_offs_;

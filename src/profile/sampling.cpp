@@ -30,7 +30,7 @@ constexpr double k_most_chords = 5e4;
 /// turn: however straight a curve is there, no chord is longer than `longest`, and so the number of chords has a bound.
 double allowed_turn(const PitchCurve& left, const PitchCurve& right, double psi, double longest,
                     const SamplingOptions& options) {
-  const double radius = std::max(mirrored(left, psi).radius, right.at(psi).radius) + options.reach;
+  const double radius = std::max(left.radius(k_pi - psi), right.radius(psi)) + options.reach;
   const double of_an_arc = std::sqrt(8.0 * options.tolerance / radius),
                of_a_straight = 8.0 * options.tolerance / longest;
   return std::min(options.largest_turn, std::max(of_an_arc, of_a_straight));
@@ -90,36 +90,51 @@ std::vector<double> kept_apart(std::vector<double> wanted) {
   return apart;
 }
 
-std::size_t nearest(const std::vector<double>& directions, double psi) {
-  const double wanted = turned_into(directions.front(), psi);
-  const auto above = std::lower_bound(directions.begin(), directions.end(), wanted);
-  const double above_value = above == directions.end() ? directions.front() + k_two_pi : *above;
-  const auto index = static_cast<std::size_t>(above - directions.begin()) % directions.size();
-  if (above == directions.begin()) return 0;
-  return wanted - *(above - 1) < above_value - wanted ? static_cast<std::size_t>(above - directions.begin()) - 1 : index;
+OutlinePoint outline_point(const CurvePoint& curve) { return {curve.psi, curve.position(), unit(curve.psi), curve.radius}; }
+
+/// Of both curves in one direction.
+struct Pair {
+  OutlinePoint left, right;
+
+  double psi() const { return right.psi; }
+};
+Pair pair_at(const PitchCurve& left, const PitchCurve& right, double psi) {
+  return {outline_point(mirrored(left, psi)), outline_point(right.at(psi))};
+}
+
+std::size_t nearest(const std::vector<Pair>& points, double psi) {
+  const double first = points.front().psi(), wanted = turned_into(first, psi);
+  const auto above = std::lower_bound(points.begin(), points.end(), wanted,
+                                      [](const Pair& point, double value) { return point.psi() < value; });
+  if (above == points.begin()) return 0;
+  const auto index = static_cast<std::size_t>(above - points.begin());
+  const double above_value = above == points.end() ? first + k_two_pi : above->psi();
+  return wanted - (above - 1)->psi() < above_value - wanted ? index - 1 : index % points.size();
 }
 
 /// Beside the bridge over a hollow a drawn curve bends within a probe: chords there are halved until none has more sagitta, as
 /// an arc, than is allowed, or there are as many as a curve may have.
-void halve_coarse_chords(std::vector<double>& directions, const PitchCurve& left, const PitchCurve& right,
-                         double longest, const SamplingOptions& options) {
+void halve_coarse_chords(std::vector<Pair>& points, const PitchCurve& left, const PitchCurve& right, double longest,
+                         const SamplingOptions& options) {
   constexpr int k_halvings = 12;
   const double reach = 0.25 * longest, finest = std::min(k_finest_turn, 2.0 * k_shortest_half / reach);
+  const Pair end = pair_at(left, right, points.front().psi() + k_two_pi);
   for (int pass = 0; pass < k_halvings; ++pass) {
-    std::vector<double> finer;
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-      const double here = directions[i], next = i + 1 < directions.size() ? directions[i + 1] : directions.front() + k_two_pi;
+    std::vector<Pair> finer;
+    finer.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Pair &here = points[i], &next = i + 1 < points.size() ? points[i + 1] : end;
       finer.push_back(here);
-      const double chord = std::max((right.at(next).position() - right.at(here).position()).norm(),
-                                    (mirrored(left, next).position() - mirrored(left, here).position()).norm());
-      if (next - here > finest && chord * (next - here) / 8.0 > options.tolerance) finer.push_back(0.5 * (here + next));
+      const double chord = std::max((next.right.position - here.right.position).norm(),
+                                    (next.left.position - here.left.position).norm());
+      const double turn = next.psi() - here.psi();
+      if (turn > finest && chord * turn / 8.0 > options.tolerance)
+        finer.push_back(pair_at(left, right, 0.5 * (here.psi() + next.psi())));
     }
-    if (finer.size() == directions.size() || static_cast<double>(finer.size()) > k_most_chords) return;
-    directions = std::move(finer);
+    if (finer.size() == points.size() || static_cast<double>(finer.size()) > k_most_chords) return;
+    points = std::move(finer);
   }
 }
-
-OutlinePoint outline_point(const CurvePoint& curve) { return {curve.psi, curve.position(), unit(curve.psi), curve.radius}; }
 
 }  // namespace
 
@@ -140,14 +155,17 @@ std::array<Outline, 2> sample(const PitchCurve& left, const PitchCurve& right, c
     append_directions(directions, left, right, mandatory[i], end, longest, options);
   }
 
-  halve_coarse_chords(directions, left, right, longest, options);
+  std::vector<Pair> points;
+  points.reserve(directions.size());
+  for (const double psi : directions) points.push_back(pair_at(left, right, psi));
+  halve_coarse_chords(points, left, right, longest, options);
 
   std::array<Outline, 2> outlines;
-  outlines[0] = {Side::left, {}, nearest(directions, ends[2]), nearest(directions, ends[3])};
-  outlines[1] = {Side::right, {}, nearest(directions, ends[0]), nearest(directions, ends[1])};
-  for (const double psi : directions) {
-    outlines[0].points.push_back(outline_point(mirrored(left, psi)));
-    outlines[1].points.push_back(outline_point(right.at(psi)));
+  outlines[0] = {Side::left, {}, nearest(points, ends[2]), nearest(points, ends[3])};
+  outlines[1] = {Side::right, {}, nearest(points, ends[0]), nearest(points, ends[1])};
+  for (const Pair& point : points) {
+    outlines[0].points.push_back(point.left);
+    outlines[1].points.push_back(point.right);
   }
   return outlines;
 }

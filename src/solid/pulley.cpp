@@ -13,6 +13,7 @@
 #include "solid/blame.h"
 #include "solid/body.h"
 #include "solid/boolean.h"
+#include "solid/cut_ways.h"
 #include "solid/dowels.h"
 #include "solid/euler.h"
 #include "solid/face_holes.h"
@@ -30,12 +31,6 @@
 namespace fusee {
 namespace {
 
-// A cut whose rounding to float left a fault is tried again with other facets on the tools.
-constexpr int k_variants = 8;
-constexpr int k_brief_variants = 2;
-// So many facets are cut in all: a large part is tried in fewer ways, and no less than two. One of 110 000 took ten
-// seconds for eight ways that are all as good (campaign of seed 310001, design 171).
-constexpr std::size_t k_most_cut_facets = 300'000;
 // Facets; parts of ordinary size and tolerance have half as many.
 constexpr std::size_t k_large_body = 30'000;
 // How often tie-offs that do not print are planned anew.
@@ -44,10 +39,10 @@ constexpr int k_brief_rounds = 1;
 
 /// How much is tried before a body is given up.
 struct Effort {
-  int variants = k_variants;
+  int variants = k_cut_ways;
   int rounds = k_rounds;
 };
-constexpr Effort k_brief{k_brief_variants, k_brief_rounds};
+constexpr Effort k_brief{k_brief_cut_ways, k_brief_rounds};
 
 // Room between two parts on the printer.
 constexpr double k_between_parts = 5.0;
@@ -293,8 +288,7 @@ class PieceMaker {
   int ways(int wanted) const {
     std::size_t facets = 0;
     for (const Blank& blank : blanks_) facets += blank.mesh.triangles.size();
-    return std::min(wanted,
-                    std::max(k_brief_variants, static_cast<int>(k_most_cut_facets / std::max(facets, std::size_t{1}))));
+    return cut_ways(facets, wanted);
   }
 
   // All with the same features, so that the parts make the whole; none when one of them is no solid, or has a way

@@ -17,6 +17,7 @@
 #include "fusee/profile/synthesis.h"
 #include "fusee/solid/layout.h"
 #include "fusee/solid/mesh.h"
+#include "fusee/solid/pulley.h"
 #include "fusee/transmission/tendon_path.h"
 
 namespace fusee {
@@ -73,9 +74,9 @@ struct HelicalPulley {
 };
 
 /// Both spirals at least a turn long, spare turns included, rows of strictly growing `turn`. `tolerance`: largest
-/// sagitta of a chord, on the pitch curve and on all its parallels up to the lip.
+/// sagitta of a chord, on the pitch curve and on all its parallels up to the lip. A brief search cuts it in fewer ways.
 HelicalPulley make_helical_pulley(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
-                                  double tolerance = 0.01);
+                                  double tolerance = 0.01, TieOffSearch search = TieOffSearch::thorough);
 
 /// Why it cannot be made, as far as is known before it is cut.
 std::vector<Condition> helical_obstacles(const Mechanism& mechanism, const Spiral& p1, const Spiral& p2,
