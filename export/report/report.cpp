@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/beside.h"
 #include "export/report/calibration_words.h"
 #include "export/report/derived.h"
 #include "export/report/drawing.h"
@@ -566,6 +567,8 @@ std::string profiles(const Product& product) {
 }  // namespace
 
 std::string report_html(const Product& product) {
+  auto part = beside([&product] { return part_view(product); });
+  auto mechanism = beside([&product] { return mechanism_panels(product); });
   const Verdict verdict = verdict_of(product);
   const std::string name = product.joint.mechanism.name.empty() ? "unnamed" : safe_text(product.joint.mechanism.name);
   return filled_page(
@@ -585,11 +588,11 @@ std::string report_html(const Product& product) {
           {"verdict", safe_text(verdict.words)},
           {"warnings", warnings(product)},
           {"key_numbers", key_numbers(product)},
-          {"part", part_view(product)},
+          {"part", part.get()},
           {"moving", moving_section(product)},
           {"mechanism_words", product.helix ? std::string(k_helix_words) : mechanism_words(product.joint.mechanism)},
           {"mechanism_class", product.helix ? "plots" : "panels"},
-          {"mechanism", mechanism_panels(product)},
+          {"mechanism", mechanism.get()},
           {"transmission_plots", all_in_divs(transmission_plots(product))},
           {"as_built_words", safe_text(as_built_words(product))},
           {"as_built_plots", all_in_divs(as_built_plots(product))},

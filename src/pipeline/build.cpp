@@ -233,14 +233,23 @@ Looks write_parts(Workshop& shop) {
   return looks;
 }
 
+/// Tables that ask for no check: made while the last of them are under way.
+struct Tables {
+  std::future<std::string> profile, transmission;
+};
+Tables begin_tables(const Product& product) {
+  return {beside([&product] { return profile_csv(product); }), beside([&product] { return transmission_csv(product); })};
+}
+
 /// What the looks found.
-void check_parts(Workshop& shop, Looks& looks) {
+Tables check_parts(Workshop& shop, Looks& looks) {
   Product& product = shop.result.product;
   shop.step("checking what was written");
   shop.add(shop.take(looks.of_pulley));
   shop.step("winding tendons on it");
   product.as_built = shop.take(looks.as_built);
   shop.add(as_built_checks(product.joint.mechanism, product.as_built, shop.options.limits));
+  Tables tables = begin_tables(product);
   shop.step("checking the other files");
   for (std::size_t k = 0; k < product.pulley.parts.size(); ++k)
     shop.add(shop.take(looks.of_printed[k]), product.pulley.parts[k].side == Side::left ? "p1_" : "p2_");
@@ -251,9 +260,10 @@ void check_parts(Workshop& shop, Looks& looks) {
   shop.add(shop.take(looks.of_step), "step_");
   shop.add(shop.take(looks.of_profile), "profile_dxf_");
   shop.add(shop.take(looks.of_plates), "plates_dxf_");
+  return tables;
 }
 
-void check_climbing(Workshop& shop, const DracoFile& draco) {
+Tables check_climbing(Workshop& shop, const DracoFile& draco) {
   Product& product = shop.result.product;
   const Mechanism& mechanism = product.joint.mechanism;
   shop.step("checking what was written");
@@ -271,6 +281,7 @@ void check_climbing(Workshop& shop, const DracoFile& draco) {
   product.helix->as_built = shop.take(as_built);
   product.as_built = product.helix->as_built.result;
   shop.add(as_built_checks(mechanism, product.as_built, shop.options.limits));
+  Tables tables = begin_tables(product);
   shop.step("checking the other files");
   shop.add(shop.take(of_printing));
   shop.add(shop.take(of_obj), "obj_");
@@ -278,36 +289,34 @@ void check_climbing(Workshop& shop, const DracoFile& draco) {
   shop.add(shop.take(of_draco), "drc_");
   shop.add(shop.take(of_step), "step_");
   shop.add(shop.take(of_profile), "profile_dxf_");
+  return tables;
 }
 
 /// A file of ours that cannot be used is nobody's bad input.
 template <typename Look>
-void check_written(const Look& look) {
+Tables check_written(const Look& look) {
   try {
-    look();
+    return look();
   } catch (const InputError& error) {
     throw Bug(std::string("what was written cannot be used: ") + error.what());
   }
 }
 
-void write_and_check_parts(Workshop& shop) {
+Tables write_and_check_parts(Workshop& shop) {
   if (shop.result.product.helix) {
     const DracoFile draco = write_climbing(shop);
-    check_written([&] { check_climbing(shop, draco); });
-  } else {
-    Looks looks = write_parts(shop);
-    check_written([&] { check_parts(shop, looks); });
+    return check_written([&] { return check_climbing(shop, draco); });
   }
+  Looks looks = write_parts(shop);
+  return check_written([&] { return check_parts(shop, looks); });
 }
 
-void write_texts(Workshop& shop) {
+void write_texts(Workshop& shop, Tables tables) {
   const Product& product = shop.result.product;
   shop.step("writing tables, report and manifest");
   auto report = beside([&] { return report_html(product); });
-  auto transmission = beside([&] { return transmission_csv(product); });
-  auto profile = beside([&] { return profile_csv(product); });
-  shop.stage("profile.csv", shop.take(profile));
-  shop.stage("transmission.csv", shop.take(transmission));
+  shop.stage("profile.csv", shop.take(tables.profile));
+  shop.stage("transmission.csv", shop.take(tables.transmission));
   shop.stage("report.html", shop.take(report));
   auto manifest = beside([&] { return manifest_json(product, shop.result.outputs); });
   shop.stage("manifest.json", shop.take(manifest));
@@ -446,8 +455,7 @@ Advice advice_for(const Product& product, const BuildOptions& options) {
 }
 
 void write_and_check(Workshop& shop) {
-  write_and_check_parts(shop);
-  write_texts(shop);
+  write_texts(shop, write_and_check_parts(shop));
   shop.result.status = all_ok(shop.result.product.checks) ? BuildStatus::done : BuildStatus::check_failed;
 }
 

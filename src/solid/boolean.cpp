@@ -3,18 +3,18 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "base/beside.h"
 #include "fusee/base/diagnostics.h"
 #include "fusee/base/units.h"
 #include "solid/corefinement.h"
+#include "solid/dealt_by_vertex.h"
 #include "solid/disjoint_sets.h"
 #include "solid/nearest_float.h"
 #include "solid/self_intersection.h"
@@ -406,23 +406,28 @@ void flip_flat_facets(TriangleMesh& mesh) {
 // CGAL numbers what it makes in an order that depends on where in memory its boxes lie: the same vertices and facets
 // are put into the same order every time.
 TriangleMesh in_order(TriangleMesh mesh) {
-  std::vector<std::uint32_t> order(mesh.vertices.size()), rank(order.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b];
-    return std::tuple(p.z(), p.y(), p.x()) < std::tuple(q.z(), q.y(), q.x());
+  struct Numbered {
+    Vec3 vertex;
+    std::uint32_t index;
+  };
+  std::vector<Numbered> order;
+  order.reserve(mesh.vertices.size());
+  for (std::uint32_t k = 0; k < mesh.vertices.size(); ++k) order.push_back({mesh.vertices[k], k});
+  std::sort(order.begin(), order.end(), [](const Numbered& a, const Numbered& b) {
+    const Vec3 &p = a.vertex, &q = b.vertex;
+    return p.z() != q.z() ? p.z() < q.z() : p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
   });
-  std::vector<Vec3> vertices;
+  std::vector<std::uint32_t> rank(order.size());
   for (std::uint32_t k = 0; k < order.size(); ++k) {
-    rank[order[k]] = k;
-    vertices.push_back(mesh.vertices[order[k]]);
+    rank[order[k].index] = k;
+    mesh.vertices[k] = order[k].vertex;
   }
-  mesh.vertices = std::move(vertices);
   for (auto& triangle : mesh.triangles) {
     for (std::uint32_t& index : triangle) index = rank[index];
     std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
   }
-  std::sort(mesh.triangles.begin(), mesh.triangles.end());
+  mesh.triangles = dealt_by_vertex(
+      mesh.triangles, mesh.vertices.size(), [](const auto& triangle) { return triangle[0]; }, std::less<>());
   return mesh;
 }
 

@@ -1,7 +1,6 @@
 #include "solid/box_tree.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace fusee {
 namespace {
@@ -19,24 +18,26 @@ Box3 around(const Box3& a, const Box3& b) {
 
 }  // namespace
 
-BoxTree::BoxTree(const std::vector<Box3>& boxes) : boxes_(boxes), items_(boxes.size()) {
-  std::iota(items_.begin(), items_.end(), 0u);
-  nodes_.reserve(boxes.size());
+BoxTree::BoxTree(const std::vector<Box3>& boxes) : boxes_(boxes) {
   if (boxes.empty()) return;
-  Middles middles;
-  middles.reserve(boxes.size());
-  for (const Box3& box : boxes)
-    middles.push_back({box.low[0] + box.high[0], box.low[1] + box.high[1], box.low[2] + box.high[2]});
-  add_node(middles, 0, static_cast<std::uint32_t>(boxes.size()));
+  nodes_.reserve(boxes.size());
+  std::vector<Sorted> sorted;
+  sorted.reserve(boxes.size());
+  for (const Box3& box : boxes) {
+    sorted.push_back({{box.low[0] + box.high[0], box.low[1] + box.high[1], box.low[2] + box.high[2]},
+                      static_cast<std::uint32_t>(sorted.size())});
+  }
+  add_node(sorted, 0, static_cast<std::uint32_t>(boxes.size()));
+  items_.reserve(boxes.size());
+  for (const Sorted& item : sorted) items_.push_back(item.box);
 }
 
-std::size_t BoxTree::widest_axis(const Middles& middles, std::uint32_t first, std::uint32_t last) const {
-  std::array<double, 3> low = middles[items_[first]], high = low;
-  for (std::uint32_t i = first + 1; i < last; ++i) {
-    const auto& middle = middles[items_[i]];
+std::size_t BoxTree::widest_axis(const Sorted* first, const Sorted* last) {
+  std::array<double, 3> low = first->middle, high = low;
+  for (const Sorted* item = first + 1; item != last; ++item) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], middle[axis]);
-      high[axis] = std::max(high[axis], middle[axis]);
+      low[axis] = std::min(low[axis], item->middle[axis]);
+      high[axis] = std::max(high[axis], item->middle[axis]);
     }
   }
   std::size_t widest = 0;
@@ -46,24 +47,24 @@ std::size_t BoxTree::widest_axis(const Middles& middles, std::uint32_t first, st
   return widest;
 }
 
-void BoxTree::add_node(const Middles& middles, std::uint32_t first, std::uint32_t last) {
+void BoxTree::add_node(std::vector<Sorted>& sorted, std::uint32_t first, std::uint32_t last) {
   const std::size_t place = nodes_.size();
-  nodes_.push_back({boxes_[items_[first]], first, last, 0});
+  nodes_.push_back({boxes_[sorted[first].box], first, last, 0});
   if (last - first <= k_leaf) {
     for (std::uint32_t i = first + 1; i < last; ++i)
-      nodes_[place].box = around(nodes_[place].box, boxes_[items_[i]]);
+      nodes_[place].box = around(nodes_[place].box, boxes_[sorted[i].box]);
     return;
   }
-  const std::size_t axis = widest_axis(middles, first, last);
+  const std::size_t axis = widest_axis(sorted.data() + first, sorted.data() + last);
   const std::uint32_t half = first + (last - first) / 2;
-  std::nth_element(items_.begin() + first, items_.begin() + half, items_.begin() + last,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const double p = middles[a][axis], q = middles[b][axis];
-                     return p < q || (p == q && a < b);
+  std::nth_element(sorted.begin() + first, sorted.begin() + half, sorted.begin() + last,
+                   [axis](const Sorted& a, const Sorted& b) {
+                     const double p = a.middle[axis], q = b.middle[axis];
+                     return p < q || (p == q && a.box < b.box);
                    });
-  add_node(middles, first, half);
+  add_node(sorted, first, half);
   const auto right = static_cast<std::uint32_t>(nodes_.size());
-  add_node(middles, half, last);
+  add_node(sorted, half, last);
   nodes_[place].right = right;
   nodes_[place].box = around(nodes_[place + 1].box, nodes_[right].box);
 }

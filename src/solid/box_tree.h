@@ -47,10 +47,14 @@ class BoxTree {
     std::uint32_t first = 0, last = 0;  ///< of items_, a leaf's
     std::uint32_t right = 0;            ///< the left child is the next node; 0: a leaf
   };
-  using Middles = std::vector<std::array<double, 3>>;  ///< twice the middle of each box
+  /// A box that is being put into its place among the others.
+  struct Sorted {
+    std::array<double, 3> middle;  ///< twice
+    std::uint32_t box;
+  };
 
-  std::size_t widest_axis(const Middles& middles, std::uint32_t first, std::uint32_t last) const;
-  void add_node(const Middles& middles, std::uint32_t first, std::uint32_t last);
+  static std::size_t widest_axis(const Sorted* first, const Sorted* last);
+  void add_node(std::vector<Sorted>& sorted, std::uint32_t first, std::uint32_t last);
 
   template <typename Look>
   bool within(std::uint32_t node, const Look& look) const {
