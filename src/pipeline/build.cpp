@@ -438,9 +438,8 @@ class Look {
 Advice advice_for(const Product& product, const BuildOptions& options) {
   const MechanismFile& file = product.file;
   if (product.helix) {
-    return advice_for_several_turns(
-        product, [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); },
-        options.between_tries);
+    const auto made = [&](const Mechanism& changed) { return is_made(with_declared(file, changed), options); };
+    return advice_for_several_turns(product, {options.tolerance, made, options.between_tries});
   }
   const Look look(product, options);
   std::atomic<int> begun = 0;

@@ -1,6 +1,7 @@
 #include "pipeline/several_turns.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -304,23 +305,71 @@ std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism)
   return tight_bend(mechanism, curves);
 }
 
-Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
-                                const std::function<void()>& between_tries) {
-  const Judge judge{.obstacles =
-                        [&](const Mechanism& changed) {
-                          if (between_tries) between_tries();
-                          DeclaredMechanism declared = product.file.mechanism;
-                          static_cast<Mechanism&>(declared) = changed;
-                          const Mechanism joint = as_it_is(declared, LawSearch::brief).mechanism;
-                          return obstacles_of(joint, trial_curves(joint, k_trial_tolerance), k_trial_tolerance);
-                        },
-                    .made = made,
-                    .is_dear = true};
+namespace {
+
+// As many rows of spirals are made for advice: a making of 2400 takes half a second (campaign of seed 990202, design
+// 237). Two, which are made at once, are always tried.
+constexpr double k_rows_for_advice = 9000;
+
+/// Of spirals like these as they would be made, about.
+double rows_as_made(const HelixSynthesis& curves, double tolerance) {
+  double rows = 0;
+  for (const HelixSide& side : curves.sides) {
+    const std::vector<SpiralRow>& drawn = side.spiral.rows;
+    for (std::size_t i = 1; i < drawn.size(); ++i)
+      rows += (drawn[i].turn - drawn[i - 1].turn) * std::sqrt(drawn[i].rho / (8.0 * tolerance));
+  }
+  return rows;
+}
+
+/// Mechanisms hardly different from a file's, looked at and made.
+class TurnsLook {
+ public:
+  TurnsLook(const DeclaredMechanism& declared, const TurnsTrial& trial) : declared_(declared), trial_(trial) {}
+
+  std::vector<Condition> obstacles(const Mechanism& changed) {
+    if (trial_.between) trial_.between();
+    DeclaredMechanism declared = declared_;
+    static_cast<Mechanism&>(declared) = changed;
+    const Mechanism joint = as_it_is(declared, LawSearch::brief).mechanism;
+    const HelixSynthesis curves = trial_curves(joint, k_trial_tolerance);
+    std::vector<Condition> obstacles = obstacles_of(joint, curves, k_trial_tolerance);
+    if (obstacles.empty()) see_size(rows_as_made(curves, trial_.tolerance));
+    return obstacles;
+  }
+  bool make(const Mechanism& changed) {
+    ++begun_;
+    return trial_.made(changed);
+  }
+  /// That the largest of what can be made leaves time for.
+  int makings_left() const { return std::max(2, static_cast<int>(k_rows_for_advice / most_rows_)) - begun_; }
+
+ private:
+  void see_size(double rows) {
+    double known = most_rows_;
+    while (rows > known && !most_rows_.compare_exchange_weak(known, rows)) {
+    }
+  }
+
+  const DeclaredMechanism& declared_;
+  const TurnsTrial& trial_;
+  std::atomic<double> most_rows_ = 1;
+  std::atomic<int> begun_ = 0;
+};
+
+}  // namespace
+
+Advice advice_for_several_turns(const Product& product, const TurnsTrial& trial) {
+  TurnsLook look(product.file.mechanism, trial);
+  const Judge judge{.obstacles = [&look](const Mechanism& changed) { return look.obstacles(changed); },
+                    .made = [&look](const Mechanism& changed) { return look.make(changed); },
+                    .is_dear = true,
+                    .makings = [&look] { return look.makings_left(); }};
   DeclaredMechanism in_one = product.file.mechanism;
   const Field& parts = *find_field("print.parts");
   if (const std::string from = parts.get_text(in_one); from == "two") {
     parts.set_text(in_one, "one");
-    if (judge.obstacles(in_one).empty() && made(in_one)) {
+    if (judge.obstacles(in_one).empty() && judge.made(in_one)) {
       Advice advice;
       advice.alone.push_back({"print.parts", 0, 0, {}, "print.parts = \"one\"", from, "one"});
       return advice;

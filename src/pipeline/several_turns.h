@@ -51,8 +51,13 @@ std::vector<Check> check_several_turns(const Product& product, const TriangleMes
 /// null where nothing is seen to. A search would make r1 ever smaller: to it a bend that build warns of is an obstacle.
 std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism);
 
-/// What would make a refused one possible. `made`: the whole making.
-Advice advice_for_several_turns(const Product& product, const std::function<bool(const Mechanism&)>& made,
-                                const std::function<void()>& between_tries);
+/// How advice on several turns is tried.
+struct TurnsTrial {
+  double tolerance = 0;                         ///< that pulleys are made to, mm
+  std::function<bool(const Mechanism&)> made;   ///< the whole making
+  std::function<void()> between;                ///< called between looks; may be empty
+};
+/// What would make a refused one possible.
+Advice advice_for_several_turns(const Product& product, const TurnsTrial& trial);
 
 }  // namespace fusee
