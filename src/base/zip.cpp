@@ -13,7 +13,8 @@ namespace fusee {
 namespace {
 
 void demand_zip(bool done, zip_t* archive, const std::string& step) {
-  demand(done, fmt::format("{}: {}", step, archive == nullptr ? "no memory" : zip_strerror(archive)));
+  if (done) return;  // an archive that was closed has no words any more
+  demand(false, fmt::format("{}: {}", step, archive == nullptr ? "no memory" : zip_strerror(archive)));
 }
 
 void add_entry(zip_t* archive, const ZipEntry& entry) {

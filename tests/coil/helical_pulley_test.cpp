@@ -62,6 +62,20 @@ TEST(HelicalPulley, RoundHelix) {
   expect_good(pulley, "round");
 }
 
+// Advice is tried with a brief search, and what it says is built with a thorough one.
+TEST(HelicalPulley, ABriefSearchFindsTheSame) {
+  const Mechanism mechanism = plain();
+  const double lead = least_lead(helical_section(mechanism), 0.0) + 0.05, slope = lead / (k_two_pi * 16.0);
+  const auto made = [&](TieOffSearch search) {
+    return make_helical_pulley(mechanism, spiral_of(testing::round_curve(16.0), 0.3, 3, slope),
+                               spiral_of(testing::round_curve(18.0), 1.1, 3, slope), 0.05, search);
+  };
+  const HelicalPulley brief = made(TieOffSearch::brief), thorough = made(TieOffSearch::thorough);
+  ASSERT_TRUE(brief.made) << brief.brief();
+  EXPECT_EQ(brief.mesh.vertices, thorough.mesh.vertices);
+  EXPECT_EQ(brief.mesh.triangles, thorough.mesh.triangles);
+}
+
 TEST(HelicalPulley, TheClocksOwn) {
   const Mechanism mechanism = plain();
   const double lead = least_lead(helical_section(mechanism), 2.4) + 0.2, slope = lead / (k_two_pi * 12.0);

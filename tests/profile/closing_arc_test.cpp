@@ -34,6 +34,7 @@ TEST(ClosingArc, IsConvexAndItsSupportIsConsistent) {
   for (double psi = 1.1; psi < 3.4; psi += 0.07) {
     const CurvePoint at = arc->at(psi);
     EXPECT_GE(at.radius, 2.0 - 1e-12);
+    EXPECT_EQ(arc->radius(psi), at.radius);
     EXPECT_NEAR((arc->at(psi + step).h - arc->at(psi - step).h) / (2 * step), at.dh, 1e-6);
     EXPECT_NEAR((arc->at(psi + step).dh - arc->at(psi - step).dh) / (2 * step), at.radius - at.h, 1e-4);
   }

@@ -75,6 +75,25 @@ TEST(CheckDrawing, AFigureOfEightFails) {
   EXPECT_THAT(check.where, HasSubstr("(15, 15)"));
 }
 
+// It turns to one side at every corner, as a convex one does, but twice round.
+TEST(CheckDrawing, APentagramFails) {
+  Drawing drawing = plate();
+  drawing.paths[2].points.clear();
+  for (int i = 0; i < 5; ++i) drawing.paths[2].points.push_back(Vec2(15, 15) + 15 * unit(0.8 * k_pi * i));
+  EXPECT_FALSE(check_named(check_drawing(drawing), "no_self_crossing").ok);
+}
+
+// Its box holds that of a contour which it does not meet, or does.
+TEST(CheckDrawing, ContoursInABoxOfAnotherAreLookedAt) {
+  Drawing drawing = plate();
+  drawing.paths[2].points = {{0, 0}, {30, 0}, {30, 5}, {5, 5}, {5, 30}, {0, 30}};
+  drawing.paths[1].points = circle_polygon({2.5, 2.5}, 1.5);
+  drawing.paths.push_back(contour("CUT_OUTER", square(10, 10, 8), true, 99));
+  EXPECT_TRUE(check_named(check_drawing(drawing), "no_crossing_contours").ok);
+  drawing.paths.back().points = square(4, 4, 8);
+  EXPECT_FALSE(check_named(check_drawing(drawing), "no_crossing_contours").ok);
+}
+
 TEST(CheckDrawing, AContourThatTouchesItselfFails) {
   Drawing drawing = plate();
   drawing.paths[2].points = {{0, 0}, {30, 0}, {30, 30}, {15, 0}, {0, 30}};
