@@ -10,11 +10,11 @@ namespace {
 
 // The other line's ends lie on one side of this one, by more than rounding.
 bool on_one_side(const Vec2& from, const Vec2& to, const Vec2& a, const Vec2& b) {
-  constexpr double k_margin = 1e-12;
+  constexpr double k_relative_margin = 1e-12;
   const Vec2 along = to - from, to_a = a - from, to_b = b - from;
   const double size = along.cwiseAbs().maxCoeff() * std::max(to_a.cwiseAbs().maxCoeff(), to_b.cwiseAbs().maxCoeff());
   const double of_a = cross(along, to_a), of_b = cross(along, to_b);
-  return std::min(of_a, of_b) > k_margin * size || std::max(of_a, of_b) < -k_margin * size;
+  return std::min(of_a, of_b) > k_relative_margin * size || std::max(of_a, of_b) < -k_relative_margin * size;
 }
 
 }  // namespace
