@@ -517,13 +517,22 @@ bool has_no_size(const Fit& fit, const Effect& effect, double temperature) {
   return x.dot(solved(variance, x)) < k_thresholds.least_size * static_cast<double>(own.size());
 }
 
-/// All sets that were looked at. Where more than noise is left that nothing describes, the model is wrong by more, and
-/// evidence is worth less.
+/// All sets that were looked at: of the declared joint's with one effect all were fitted, of the best's those that
+/// promised something, and the others count by what they promise. Where more than noise is left that nothing describes,
+/// the model is wrong by more, and evidence is worth less.
 std::vector<Weighed> Selector::weighed() {
-  const double misfit = std::max(1.0, selection_.best.explained.amplitudes.noise / evidence_.floor);
+  const Fit& best = selection_.best;
+  const double misfit = std::max(1.0, best.explained.amplitudes.noise / evidence_.floor);
   selection_.temperature = k_thresholds.temperature * misfit;
   std::vector<Weighed> sets;
   for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
+  if (best.effects.empty()) return sets;
+  for (const Addition& look : promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size())) {
+    EffectSet effects = best.effects;
+    effects.push_back(look.effect);
+    if (!seen_.count(key_of(effects)) && look.promise < score(best))
+      sets.push_back({std::move(effects), look.promise / selection_.temperature});
+  }
   return sets;
 }
 
