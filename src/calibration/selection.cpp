@@ -12,14 +12,15 @@
 #include "calibration/catalogue.h"
 #include "calibration/thresholds.h"
 
-// A beam over sets of effects. A set is as good as its evidence, beside a discrepancy that may take any smooth shape,
-// and as its effects are common; the best set ever seen is what is looked at closely. A wider set is first looked at by
-// the slopes that each effect had alone and by chords beside what is there, and fitted only if either promises
-// something. Once nothing is gained, every member is left out and held against every effect in its place; and once
-// that gains nothing either, one or two others are tried in the place of none, one or two members: a slip and an offset
-// imitated slack and a wave and a lever's length a profile, and no single exchange that was looked at led from one to
-// the other. Then all sets ever seen are weighed together: a member stands if it, or what stands in its place
-// elsewhere, is in nearly all of the weight.
+// Sets of effects by plain squares first, then a beam over sets by evidence. A set is as good as its evidence, beside a
+// discrepancy that may take any smooth shape, and as its effects are common; the best set ever seen is what is looked
+// at closely. A wider set is first looked at by the slopes that each effect had alone and by chords beside what is
+// there, and fitted only if either promises something. Once nothing is gained, every member is left out and held
+// against every effect in its place; and once that gains nothing either, one or two others are tried in the place of
+// none, one or two members: a slip and an offset imitated slack and a wave and a lever's length a profile, and no
+// single exchange that was looked at led from one to the other. Then all sets ever seen are weighed together: a member
+// stands if it, or what stands in its place elsewhere, is in nearly all of the weight. What may be there unasked joins
+// its group.
 
 namespace fusee {
 namespace {
