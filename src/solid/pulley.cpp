@@ -226,11 +226,26 @@ int handles(const RingStack& stack, const BodyPlan& plan, Piece piece) {
   return static_cast<int>(count);
 }
 
-// A closed mesh without spare vertices is counted at a glance.
+// Whether every vertex is in use, and none where another is: spare ones hide a way through, and where a body touches
+// itself whoever reads it welds one.
+bool is_welded(const TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) used[vertex] = true;
+  }
+  if (std::find(used.begin(), used.end(), false) != used.end()) return false;
+  std::vector<Vec3> places = mesh.vertices;
+  std::sort(places.begin(), places.end(), [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  return std::adjacent_find(places.begin(), places.end()) == places.end();
+}
+
+// A closed mesh that is welded is counted at a glance.
 bool has_euler(const TriangleMesh& mesh, int expected) {
   const auto at_a_glance =
       static_cast<std::ptrdiff_t>(mesh.vertices.size()) - static_cast<std::ptrdiff_t>(mesh.triangles.size() / 2);
-  return at_a_glance == expected || euler_number(mesh) == expected;
+  return (at_a_glance == expected && is_welded(mesh)) || euler_number(mesh) == expected;
 }
 
 struct Made {
