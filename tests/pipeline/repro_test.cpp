@@ -79,6 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         Repro{"rewind", "tests/data/repro/exit1_rewind.toml", {}, 0.01, BuildStatus::infeasible},
         Repro{"paper_floor_deviation", "tests/data/repro/paper_floor_deviation.toml", {}},
         Repro{"plates_off_sheet", "tests/data/repro/plates_off_sheet.toml", {}},
+        Repro{"spare_vertices", "tests/data/repro/spare_vertices.toml", {}},
         Repro{"plates_smallest_feature", "tests/data/repro/plates_smallest_feature.toml", {}},
         Repro{"thin_tendon", "profiles/forearm.toml", {{"tendon.diameter_mm", "0.3"}}},
         Repro{"slow_refusal", "tests/data/repro/slow_refusal.toml", {}, 0.01, BuildStatus::infeasible},
