@@ -463,6 +463,30 @@ double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double
   return theta_ + towards * crossing(low, at_low, high, at_high, 1e-12, left);
 }
 
+/// What pushes the pins moves them, which changes the push: on a frame softer than the tendons by more than it was.
+/// Broyden's method from what `there` was a step ago; whether it ends where both agree.
+template <typename Pushed>
+bool Bench::come_to_rest(Pushed pushed, Pushes there) {
+  constexpr double k_push = 1e-7;  // N
+  Pushes apart = pushed(there) - there;
+  for (int i = 0; i < 60 && apart.allFinite(); ++i) {
+    if (apart.norm() < k_push) return true;
+    const Pushes step = towards_rest_ * apart;
+    there += step;
+    const Pushes now_apart = pushed(there) - there;
+    const Pushes along = towards_rest_ * (now_apart - apart);
+    const double share = step.dot(along);
+    // Of less the next step would be anything.
+    if (std::abs(share) > 1e-3 * step.squaredNorm())
+      towards_rest_ -= (step + along) * (step.transpose() * towards_rest_) / share;
+    else
+      towards_rest_.setIdentity();
+    apart = now_apart;
+  }
+  towards_rest_.setIdentity();
+  return false;
+}
+
 double Bench::to(double pulley, double alpha, const Conditions& conditions) {
   Conditions at = conditions;
   at.alpha = alpha;
@@ -473,21 +497,22 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
   at.pull = now_.pull;
   const std::array<double, 2> longer{longer_[0](at), longer_[1](at)};
   const double dry = dry_friction(at);
-  std::array<Vec2, 2> push{tendons_[0].push, tendons_[1].push};
   std::array<Below, 2> lower;
   std::array<Trial, 2> now;
   double theta = theta_;
-  // A frame that gives moves the pins, which changes the pull.
-  const int looks = hidden_.frame_give > 0 ? 6 : 1;
-  for (int look = 0; look < looks; ++look) {
-    for (std::size_t side = 0; side < 2; ++side) lower[side] = below(side, at, longer[side], push[side]);
-    theta = balanced(lower, at, dry);
-    if (!std::isfinite(theta)) return theta;
+  const auto pushed = [&](const Pushes& push) -> Pushes {
     for (std::size_t side = 0; side < 2; ++side) {
-      now[side] = tried(side, lower[side], theta);
-      push[side] = now[side].push;
+      const auto own = static_cast<Eigen::Index>(2 * side);
+      lower[side] = below(side, at, longer[side], push.segment<2>(own));
     }
-  }
+    theta = balanced(lower, at, dry);
+    if (!std::isfinite(theta)) return Pushes::Constant(theta);
+    for (std::size_t side = 0; side < 2; ++side) now[side] = tried(side, lower[side], theta);
+    return (Pushes() << now[0].push, now[1].push).finished();
+  };
+  const Pushes before = (Pushes() << tendons_[0].push, tendons_[1].push).finished();
+  if (hidden_.frame_give > 0 ? !come_to_rest(pushed, before) : !pushed(before).allFinite())
+    return std::numeric_limits<double>::quiet_NaN();
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];
     tendon.upper -= now[side].slipped;

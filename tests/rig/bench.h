@@ -119,6 +119,10 @@ class Bench {
   double dry_friction(const Conditions& conditions);
   double balanced(std::array<Below, 2>& below, const Conditions& conditions, double dry) const;
   double lump(double alpha) const;
+  /// Of tendon 1 and tendon 2 on their pins, N.
+  using Pushes = Eigen::Vector4d;
+  template <typename Pushed>
+  bool come_to_rest(Pushed pushed, Pushes there);
 
   Hidden hidden_;
   bool collar_ = false;
@@ -132,6 +136,7 @@ class Bench {
   double tilt_ = 0;
   Spring spring_;
   double step_ = 0;  ///< of θ, the last one
+  Eigen::Matrix4d towards_rest_ = Eigen::Matrix4d::Identity();  ///< of the pushes, as found so far
   double theta_ = 0;
   std::array<BenchTendon, 2> tendons_;
   std::array<Actors, 2> longer_;

@@ -59,6 +59,7 @@ const std::vector<SameFault> k_faults{
      },
      0.004},
     {"frame_compliance", [](Hidden& h) { h.frame_give = 5e-3; }, [](Imperfections& at) { at.pins.give = 5e-3; }, 0.01},
+    {"soft_frame", [](Hidden& h) { h.frame_give = 0.04; }, [](Imperfections& at) { at.pins.give = 0.04; }, 0.01},
     {"joint_friction", [](Hidden& h) { h.bearing = 60; }, [](Imperfections& at) { at.joint.friction = 60; }, 0.015},
     {"creep", [](Hidden& h) { h.creep = 0.15; }, [](Imperfections& at) { at.tendon.creep = 0.15; }, 0.08},
     {"slack", [](Hidden& h) { h.slack = 1.0; },
