@@ -12,8 +12,8 @@
 
 namespace fusee::rig {
 
-/// How the joint stands. What follows from the solution (θ, tensions) is that of the step before, but in a torque,
-/// which sees the θ that is tried.
+/// How the joint stands: θ and tensions are those of the step itself where a torque acts or a tendon gets longer by
+/// them, those of the step before elsewhere.
 struct Moment {
   double time = 0;      ///< on the session's clock
   double run_time = 0;  ///< since the first row of the run

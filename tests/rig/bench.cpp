@@ -1,5 +1,6 @@
 #include "rig/bench.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -190,10 +191,16 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
     if (declared.sheath.is_there()) thread(tendon, declared);
     const double own_arm = level_arm_at_home(tendon);
     const double pretension = hidden.slack > 0 ? 0.0 : declared.tendon.pretension;
-    hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
-         side == 0 ? -joint.alpha_max : joint.alpha_min);
+    const Vec2 pull = hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
+                           side == 0 ? -joint.alpha_max : joint.alpha_min);
+    now_.tension[side] = tendon.upper_tension;
+    now_.pull[side] = side == 0 ? mirrored(pull) : pull;
     arm = own_arm;
   }
+  // What acts remembers home.
+  Moment home = now_;
+  home.seconds = 1e-9;
+  for (Actors& actors : longer_) actors(home);
 }
 
 void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMechanism& declared) const {
@@ -295,8 +302,8 @@ double Bench::knot_of(const BenchTendon& tendon, const Circle& seen, const Lower
 }
 
 /// Cut to length so that it carries `tension` at home; no friction is in use. The knot is met at the image's angle
-/// `unwound`.
-void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwound) {
+/// `unwound`. Its unit pull on the link's end, in the image.
+Vec2 Bench::hang(BenchTendon& tendon, double tension, double slack, double unwound) {
   const UpperString up = string_up(tendon, tendon.pin, 0.0, tendon.over);
   const Circle seen = seen_guide(tendon, tendon.pin);
   const LowerString low = lower_string(tendon.hull, seen, first_look(tendon.hull, seen));
@@ -321,7 +328,9 @@ void Bench::hang(BenchTendon& tendon, double tension, double slack, double unwou
       GrooveChain(tendon.hull, knot_of(tendon, seen, low, unwound), low.arc, tension, hidden_.groove_friction, cord);
   tendon.upper_tension = tendon.lower_tension = tendon.home_tension = tension;
   const Vec2 down = turned(Vec2(std::cos(off_pin), std::sin(off_pin)), -0.5 * k_pi);
-  tendon.push = tendon.home_push = tension * (down - turned(up.normal, -0.5 * k_pi));
+  const Vec2 pull = turned(up.normal, -0.5 * k_pi);
+  tendon.push = tendon.home_push = tension * (down - pull);
+  return pull;
 }
 
 // ---- the material ---------------------------------------------------------------------------------------------------
@@ -351,11 +360,11 @@ double Bench::lump(double alpha) const {
   return hidden_.lump * std::exp(-0.5 * x * x);
 }
 
-Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer, const Vec2& push) const {
+Bench::Below Bench::below(std::size_t side, const Conditions& at, double longer, const Vec2& moved) const {
   const BenchTendon& tendon = tendons_[side];
   const double image_angle = tendon.sign * at.pulley;
   Below below;
-  below.pin = {tendon.pin.centre + hidden_.frame_give * (push - tendon.home_push), tendon.pin.radius};
+  below.pin = {tendon.pin.centre + moved, tendon.pin.radius};
   // The pulley stands still and the pin goes round it.
   const Circle guide = seen_guide(tendon, below.pin);
   const Circle seen{turned(guide.centre, image_angle), guide.radius};
@@ -463,18 +472,27 @@ double Bench::balanced(std::array<Below, 2>& below, const Conditions& at, double
   return theta_ + towards * crossing(low, at_low, high, at_high, 1e-12, left);
 }
 
-/// What pushes the pins moves them, which changes the push: on a frame softer than the tendons by more than it was.
-/// Broyden's method from what `there` was a step ago; whether it ends where both agree.
-template <typename Pushed>
-bool Bench::come_to_rest(Pushed pushed, Pushes there) {
-  constexpr double k_push = 1e-7;  // N
-  Pushes apart = pushed(there) - there;
-  for (int i = 0; i < 60 && apart.allFinite(); ++i) {
-    if (apart.norm() < k_push) return true;
-    const Pushes step = towards_rest_ * apart;
+/// Pins that give way, and what makes a tendon longer by its tension, change the push and the tension: where the frame
+/// is softer than the tendons by more than it was. From what `there` was a step ago by Broyden's method, whose slopes
+/// are looked for anew where it goes astray; whether it ends where both agree.
+template <typename Answer>
+bool Bench::come_to_rest(Answer answer, Ways there) {
+  constexpr double k_way = 1e-7, k_look = 1e-5;  // mm
+  constexpr int k_astray = 15, k_most = 60;
+  const auto apart_at = [&](const Ways& ways) -> Ways { return answer(ways) - ways; };
+  Ways apart = apart_at(there);
+  for (int i = 1; i <= k_most && apart.allFinite(); ++i) {
+    if (apart.norm() < k_way) return true;
+    if (i % k_astray == 0) {
+      Eigen::Matrix<double, 6, 6> slopes;
+      for (Eigen::Index k = 0; k < 6; ++k) slopes.col(k) = (apart - apart_at(there + k_look * Ways::Unit(k))) / k_look;
+      towards_rest_ = slopes.inverse();
+      if (!towards_rest_.allFinite()) break;
+    }
+    const Ways step = towards_rest_ * apart;
     there += step;
-    const Pushes now_apart = pushed(there) - there;
-    const Pushes along = towards_rest_ * (now_apart - apart);
+    const Ways now_apart = apart_at(there);
+    const Ways along = towards_rest_ * (now_apart - apart);
     const double share = step.dot(along);
     // Of less the next step would be anything.
     if (std::abs(share) > 1e-3 * step.squaredNorm())
@@ -495,23 +513,39 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
   at.theta_speed = now_.theta_speed;
   at.tension = now_.tension;
   at.pull = now_.pull;
-  const std::array<double, 2> longer{longer_[0](at), longer_[1](at)};
   const double dry = dry_friction(at);
   std::array<Below, 2> lower;
   std::array<Trial, 2> now;
   double theta = theta_;
-  const auto pushed = [&](const Pushes& push) -> Pushes {
+  const auto stand = [&](const Ways& ways) {
     for (std::size_t side = 0; side < 2; ++side) {
-      const auto own = static_cast<Eigen::Index>(2 * side);
-      lower[side] = below(side, at, longer[side], push.segment<2>(own));
+      const auto own = static_cast<Eigen::Index>(3 * side);
+      lower[side] = below(side, at, ways[own], ways.segment<2>(own + 1));
     }
     theta = balanced(lower, at, dry);
-    if (!std::isfinite(theta)) return Pushes::Constant(theta);
-    for (std::size_t side = 0; side < 2; ++side) now[side] = tried(side, lower[side], theta);
-    return (Pushes() << now[0].push, now[1].push).finished();
+    if (!std::isfinite(theta)) return;
+    for (std::size_t side = 0; side < 2; ++side) {
+      now[side] = tried(side, lower[side], theta);
+      at.tension[side] = now[side].upper_tension;
+      at.pull[side] = side == 0 ? mirrored(now[side].pull) : now[side].pull;
+    }
+    at.theta = theta;
+    at.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);
   };
-  const Pushes before = (Pushes() << tendons_[0].push, tendons_[1].push).finished();
-  if (hidden_.frame_give > 0 ? !come_to_rest(pushed, before) : !pushed(before).allFinite())
+  const auto ways = [&](const std::array<Vec2, 2>& push) {
+    Ways all;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto own = static_cast<Eigen::Index>(3 * side);
+      all[own] = longer_[side].tried(at);
+      all.segment<2>(own + 1) = hidden_.frame_give * (push[side] - tendons_[side].home_push);
+    }
+    return all;
+  };
+  const auto answer = [&](const Ways& before) -> Ways {
+    stand(before);
+    return std::isfinite(theta) ? ways({now[0].push, now[1].push}) : Ways::Constant(theta);
+  };
+  if (!come_to_rest(answer, ways({tendons_[0].push, tendons_[1].push})))
     return std::numeric_limits<double>::quiet_NaN();
   for (std::size_t side = 0; side < 2; ++side) {
     BenchTendon& tendon = tendons_[side];
@@ -529,13 +563,10 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
     tendon.lower_tension = now[side].pulley_tension;
     tendon.push = now[side].push;
     creep(tendon, at.seconds);
-    at.tension[side] = now[side].upper_tension;
-    at.pull[side] = side == 0 ? mirrored(now[side].pull) : now[side].pull;
+    if (!longer_[side].empty()) longer_[side](at);
   }
   step_ = theta - theta_;
   theta_ = theta;
-  at.theta = theta;
-  at.theta_speed = step_ / std::max(1e-9, at.seconds);
   if (!torque_.empty()) torque_(at);
   now_ = at;
   return theta;

@@ -110,19 +110,19 @@ class Bench {
   /// Of the tension at the mouth what is left at the pin. `slipped` past each bend, from the mouth to the pin.
   static double through(std::vector<SheathPiece>& sheath, const Cord& cord, double home, double tension,
                         double& slipped);
-  void hang(BenchTendon& tendon, double tension, double slack, double unwound);
+  Vec2 hang(BenchTendon& tendon, double tension, double slack, double unwound);
   Cord cord(std::size_t side, const Conditions& conditions) const;
   void creep(BenchTendon& tendon, double seconds) const;
-  Below below(std::size_t side, const Conditions& conditions, double longer, const Vec2& push) const;
+  Below below(std::size_t side, const Conditions& conditions, double longer, const Vec2& moved) const;
   Trial tried(std::size_t side, Below& below, double theta) const;
   double excess(std::array<Below, 2>& below, double theta, const Conditions& conditions) const;
   double dry_friction(const Conditions& conditions);
   double balanced(std::array<Below, 2>& below, const Conditions& conditions, double dry) const;
   double lump(double alpha) const;
-  /// Of tendon 1 and tendon 2 on their pins, N.
-  using Pushes = Eigen::Vector4d;
-  template <typename Pushed>
-  bool come_to_rest(Pushed pushed, Pushes there);
+  /// Of each tendon by how much it is longer, and how far its pin is moved, in its image. mm
+  using Ways = Eigen::Matrix<double, 6, 1>;
+  template <typename Answer>
+  bool come_to_rest(Answer answer, Ways there);
 
   Hidden hidden_;
   bool collar_ = false;
@@ -136,7 +136,7 @@ class Bench {
   double tilt_ = 0;
   Spring spring_;
   double step_ = 0;  ///< of θ, the last one
-  Eigen::Matrix4d towards_rest_ = Eigen::Matrix4d::Identity();  ///< of the pushes, as found so far
+  Eigen::Matrix<double, 6, 6> towards_rest_ = Eigen::Matrix<double, 6, 6>::Identity();  ///< as found so far
   double theta_ = 0;
   std::array<BenchTendon, 2> tendons_;
   std::array<Actors, 2> longer_;
