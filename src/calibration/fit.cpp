@@ -97,8 +97,6 @@ double cost_of_play(const Evidence& evidence, const Fit& fit) {
   return nats + root.diagonal().array().log().sum();
 }
 
-}  // namespace
-
 /// Whether something larger than noise is left to what has no name.
 bool leaves_much(const Evidence& evidence, const Fit& fit) {
   const std::vector<Family>& families = evidence.marginal->discrepancy().families;
@@ -111,6 +109,8 @@ bool leaves_much(const Evidence& evidence, const Fit& fit) {
 
 /// Whether the slopes promise a better place than this.
 bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5; }
+
+}  // namespace
 
 void hold_at_bounds(Fit& fit) {
   for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
@@ -155,6 +155,14 @@ Fit Fitter::placed(const EffectSet& effects, const Imperfections& at, LooseRow r
   fit.residual = std::move(words.residual);
   fit.loose = std::move(words.loose);
   fit.x = numbers_of(fit.parameters, at);
+  return fit;
+}
+
+/// With the slopes of all its numbers.
+Fit Fitter::started(const EffectSet& effects, const Imperfections& at, LooseRow rest) const {
+  Fit fit = placed(effects, at, rest);
+  take_slopes(fit, 0);
+  fit.usable = is_finite(evidence(), fit);
   return fit;
 }
 
@@ -225,17 +233,15 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   Fit beside = or_pushed(fitted(effects, from, LooseRow::anywhere));
   if (!beside.usable || beside.x.size() == 0 || !leaves_much(evidence(), beside)) return beside;
   // What has no name took it before the effects could: they are let go first.
-  Fit start = placed(effects, from, LooseRow::anywhere);
-  take_slopes(start, 0);
+  Fit start = started(effects, from, LooseRow::anywhere);
+  if (!start.usable) return beside;
   const Amplitudes alone = all_error_named(start);
   Fit named = settled(judged(descended(std::move(start), 0, k_chords, alone, 1)));
   return named.usable && named.log_evidence > beside.log_evidence ? named : beside;
 }
 
 Fit Fitter::fitted(const EffectSet& effects, const Imperfections& from, LooseRow rest) const {
-  Fit start = placed(effects, from, rest);
-  take_slopes(start, 0);
-  start.usable = is_finite(evidence(), start);
+  Fit start = started(effects, from, rest);
   if (!start.usable) return start;
   if (start.x.size() == 0) return judged(std::move(start));
   return settled(judged(descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds)));
@@ -262,9 +268,7 @@ Amplitudes Fitter::all_error_named(const Fit& fit) const {
 /// rest where they were pushed lead to as much as there is, and then say as much as any.
 Fit Fitter::or_pushed(Fit fit) const {
   if (!fit.usable || fit.x.size() == 0 || !(fit.loose(evidence().rows()).maxCoeff() > 0)) return fit;
-  Fit start = placed(fit.effects, fit.at, LooseRow::pushed);
-  take_slopes(start, 0);
-  start.usable = is_finite(evidence(), start);
+  Fit start = started(fit.effects, fit.at, LooseRow::pushed);
   if (!start.usable) return fit;
   const Amplitudes alone = all_error_named(start);
   const Fit near = descended(std::move(start), 0, k_steps, alone, 1);

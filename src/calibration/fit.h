@@ -70,6 +70,7 @@ class Fitter {
  private:
   const Evidence& evidence() const { return model_.evidence(); }
   Fit placed(const EffectSet& effects, const Imperfections& at, LooseRow rest) const;
+  Fit started(const EffectSet& effects, const Imperfections& at, LooseRow rest) const;
   Fit fitted(const EffectSet& effects, const Imperfections& from, LooseRow rest) const;
   /// Steps from a place that was judged, by the amplitudes there, as long as they promise something.
   Fit settled(Fit fit) const;

@@ -115,9 +115,11 @@ class Selector {
   std::vector<Fit> wider_plainly(const std::vector<Fit>& beam);
   void explain_plainly();
   bool widen();
+  void take_best(Fit best);
   void settle_best();
   std::vector<Addition> promising(const Fitter& fitter, const Fit& base, const Amplitudes& unnamed,
                                   std::size_t most) const;
+  const std::vector<Addition>& beside_best();
   bool challenge();
   std::vector<Fit> reduced() const;
   std::vector<PairBeside> pairs_beside(const Fit& base, std::size_t place, const std::vector<Addition>& looks) const;
@@ -145,8 +147,9 @@ class Selector {
   Selection selection_;
   std::vector<Look> looks_;  ///< of each effect of the catalogue; empty where it cannot be simulated
   std::map<Key, Fit> seen_;
-  std::vector<Fit> companions_;  ///< the best with one effect more that may be there
-  std::set<Key> tried_;          ///< sets that were reached beside what has no name
+  std::optional<std::vector<Addition>> beside_best_;  ///< until there is another best
+  std::vector<Fit> companions_;                       ///< the best with one effect more that may be there
+  std::set<Key> tried_;                               ///< sets that were reached beside what has no name
 };
 
 Selector::Key Selector::key_of(const EffectSet& effects) const {
@@ -271,6 +274,19 @@ std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base,
   return all;
 }
 
+/// Of the whole catalogue.
+const std::vector<Addition>& Selector::beside_best() {
+  const Fit& best = selection_.best;
+  if (!beside_best_)
+    beside_best_ = promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size());
+  return *beside_best_;
+}
+
+void Selector::take_best(Fit best) {
+  selection_.best = std::move(best);
+  beside_best_.reset();
+}
+
 /// Where nothing stays without a name but noise, as much as it takes.
 Explained Selector::plainly(const Fit& fit) const {
   return evidence_.marginal->best(tangent_of(evidence_, fit), evidence_.marginal->nothing_unnamed());
@@ -370,8 +386,8 @@ void Selector::settle_best() {
                 [&](const Fitter& fitter, std::size_t i) { settled[i] = fitter.fit(all[i]->effects, all[i]->at); });
   for (Fit& fit : settled) keep(std::move(fit));
   const Fit* likeliest = ranked().front();
-  selection_.best = workers_.one().fit(likeliest->effects, likeliest->at);
-  if (!selection_.best.usable || selection_.best.log_evidence < likeliest->log_evidence) selection_.best = *likeliest;
+  Fit best = workers_.one().fit(likeliest->effects, likeliest->at);
+  take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
 /// Every member is left out, and held against every effect in its place that promises something, and against those
@@ -538,7 +554,7 @@ std::vector<Weighed> Selector::weighed() {
   std::vector<Weighed> sets;
   for (const auto& [key, fit] : seen_) sets.push_back({fit.effects, score(fit) / selection_.temperature});
   if (best.effects.empty()) return sets;
-  for (const Addition& look : promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size())) {
+  for (const Addition& look : beside_best()) {
     EffectSet effects = best.effects;
     effects.push_back(look.effect);
     if (!seen_.count(key_of(effects)) && look.promise < score(best))
@@ -571,8 +587,7 @@ bool Selector::drop_doubtful() {
                                       [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });
   if (worst == selection_.groups.end() || worst->doubt <= k_thresholds.most_mistaken) return false;
   const Effect& doubtful = *worst->members.front();
-  selection_.best =
-      workers_.one().fit(without(selection_.best.effects, doubtful), without(selection_.best.at, doubtful));
+  take_best(workers_.one().fit(without(selection_.best.effects, doubtful), without(selection_.best.at, doubtful)));
   return true;
 }
 
@@ -609,8 +624,7 @@ void Selector::join_companions() {
   const Fit& best = selection_.best;
   if (best.effects.empty() || best.effects.size() >= k_thresholds.most_effects) return;
   const double least = score(best) - k_thresholds.as_good * selection_.temperature;
-  std::vector<Addition> likely =
-      promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size());
+  std::vector<Addition> likely = beside_best();
   std::erase_if(likely, [&](const Addition& addition) { return !(addition.promise > least); });
   likely.resize(std::min(likely.size(), k_thresholds.most_rivals));
   std::vector<Fit> fits = fitted("looking at what may be there beside it", likely);
@@ -673,7 +687,7 @@ void Selector::write_down() {
     candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
     selection_.tried.push_back(candidate);
   }
-  for (const Addition& look : promising(workers_.one(), best, best.explained.amplitudes, selection_.catalogue.size())) {
+  for (const Addition& look : beside_best()) {
     Candidate candidate;
     candidate.name = look.effect->name;
     candidate.evidence = look.promise + rareness_of(*look.effect) - score(best);
