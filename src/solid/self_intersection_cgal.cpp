@@ -32,14 +32,15 @@ struct SharedCorners {
   std::array<bool, 3> of_first{}, of_second{};
 };
 
+// Of facets with an area, whose own corners are three vertices. Without branches: which corners they are nobody guesses.
 SharedCorners shared_corners(const Triangle& a, const Triangle& b) {
   SharedCorners shared;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      if (a[i] != b[j] || shared.of_second[j]) continue;
-      shared.of_first[i] = shared.of_second[j] = true;
-      ++shared.count;
-      break;
+      const bool is_shared = a[i] == b[j];
+      shared.of_first[i] |= is_shared;
+      shared.of_second[j] |= is_shared;
+      shared.count += is_shared;
     }
   }
   return shared;
