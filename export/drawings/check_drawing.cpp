@@ -26,7 +26,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_least_feature = 1.0;  // mm: what a laser cuts cleanly in common sheet
+constexpr double k_clean_feature = 1.0;  // mm: what a laser cuts cleanly in common sheet
 constexpr double k_drawn = 1e-6;         // mm: to which a drawing's coordinates are taken
 
 constexpr auto k_contour_layers =
@@ -375,8 +375,8 @@ Check check_smallest_feature(const Paths& contours) {
     narrow = path;
   }
   if (narrow == nullptr)
-    return at_least("smallest_feature", 0, k_least_feature - k_drawn, "mm", "there is no closed contour");
-  return at_least("smallest_feature", least, k_least_feature - k_drawn, "mm",
+    return at_least("smallest_feature", 0, k_clean_feature - k_drawn, "mm", "there is no closed contour");
+  return at_least("smallest_feature", least, k_clean_feature - k_drawn, "mm",
                   "narrow: " + place(*narrow, narrow->points.front()));
 }
 

@@ -17,8 +17,8 @@
 namespace fusee {
 namespace {
 
-constexpr double k_text_height = 2.5;
-constexpr double k_line_pitch = 4.5;
+constexpr double k_label_height = 2.5;
+constexpr double k_label_pitch = 4.5;
 
 std::vector<DxfLayer> layers() {
   return {{"P1_PITCH", 1},
@@ -52,7 +52,7 @@ void add_axis_and_home(DxfDocument& drawing, double bore_radius, double radius) 
   const double tip = foot + 8;
   drawing.open("MARK_HOME", {{0, foot}, {0, tip}});
   drawing.open("MARK_HOME", {{-1.2, tip - 3}, {0, tip}, {1.2, tip - 3}});
-  drawing.text("MARK_HOME", "HOME", {2.5, tip - 4}, k_text_height);
+  drawing.text("MARK_HOME", "HOME", {2.5, tip - 4}, k_label_height);
 }
 
 /// `angle` turned by whole turns into [0, 2π).
@@ -81,7 +81,7 @@ void add_take_off(DxfDocument& drawing, const Vec2& place, double normal, const 
   const Vec2 out = unit(normal);
   drawing.open("MARK_TAKE_OFF", {place - 1.5 * out, place + 1.5 * out});
   drawing.open("MARK_TAKE_OFF", {place, place + 12 * up});
-  drawing.text("MARK_TAKE_OFF", name, place + 12 * up + Vec2(out.x() < 0 ? -3.5 : 1.0, 0), k_text_height);
+  drawing.text("MARK_TAKE_OFF", name, place + 12 * up + Vec2(out.x() < 0 ? -3.5 : 1.0, 0), k_label_height);
 }
 
 /// Ticks over the grooves at both ends of the arcs that tendons leave from. Where both pulleys are alike, one of P1's
@@ -111,12 +111,12 @@ void add_anchors(DxfDocument& drawing, const std::vector<Anchor>& anchors, const
 
 void add_legend(DxfDocument& drawing, const std::vector<std::string>& lines) {
   const Box2d box = bounding_box(drawing.paths);
-  double top = box.low.y() - 4 - k_text_height;
-  const Vec2 square(box.low.x(), top + k_text_height - 10);
+  double top = box.low.y() - 4 - k_label_height;
+  const Vec2 square(box.low.x(), top + k_label_height - 10);
   drawing.closed("CHECK_10MM", rectangle(square, square + Vec2(10, 10)));
   for (const std::string& line : lines) {
-    drawing.text("MARK_TEXT", line, {square.x() + 14, top}, k_text_height);
-    top -= k_line_pitch;
+    drawing.text("MARK_TEXT", line, {square.x() + 14, top}, k_label_height);
+    top -= k_label_pitch;
   }
 }
 

@@ -71,7 +71,7 @@ std::string model_xml(const TriangleMesh& mesh, const std::string& name) {
 /// A model of 128 MiB has about two million triangles.
 constexpr std::uint64_t k_largest_part = std::uint64_t{128} << 20;
 /// Text of coordinates packs 5 to 20 times; a part that unpacks to more than this many times the whole file is a bomb.
-constexpr std::uint64_t k_most_unpacking = 100;
+constexpr std::uint64_t k_most_inflation = 100;
 constexpr std::uint64_t k_always_unpacked = std::uint64_t{1} << 20;
 /// Components within components …
 constexpr int k_deepest = 32;
@@ -146,14 +146,14 @@ ThreemfReader::ThreemfReader(const Source& source)
     : source_(source),
       archive_(source.bytes, source.name, "a zip archive with a 3MF model"),
       unpacked_left_(
-          std::min<std::uint64_t>(k_largest_part, k_always_unpacked + k_most_unpacking * source.bytes.size())) {}
+          std::min<std::uint64_t>(k_largest_part, k_always_unpacked + k_most_inflation * source.bytes.size())) {}
 
 std::string ThreemfReader::unpacked(const std::string& path) {
   const std::optional<std::size_t> entry = archive_.find(path);
   if (!entry) fail_in_entry(source_.name, path, -1, "expected this part in the archive");
   return archive_.unpacked(
       *entry, unpacked_left_,
-      fmt::format("parts may have {} MiB and {} times the file's bytes", k_largest_part >> 20, k_most_unpacking));
+      fmt::format("parts may have {} MiB and {} times the file's bytes", k_largest_part >> 20, k_most_inflation));
 }
 
 void ThreemfReader::parse(const std::string& path, std::string& text, pugi::xml_document& xml) const {

@@ -14,7 +14,6 @@
 namespace fusee {
 namespace {
 
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int k_places = 48;                // of α
 constexpr std::size_t k_most_points = 240;  // of a direction in a plot
 constexpr std::size_t k_most_runs = 40;     // with plots of their own
@@ -89,7 +88,7 @@ class ProfileSum {
   /// these.
   Profile mean() const {
     Profile profile;
-    profile.fill(k_nan);
+    profile.fill(k_gap);
     std::size_t last = k_places;
     for (std::size_t k = 0; k < k_places; ++k) {
       if (counts_[k] == 0) continue;
@@ -135,11 +134,9 @@ PlotSeries stroke_series(const Run& run, int direction, const std::function<doub
       [&](std::size_t i) {
         if (i % step == 0) series.points.emplace_back(degrees(run.samples[i].alpha), value(i));
       },
-      [&] { series.points.emplace_back(k_nan, k_nan); });
+      [&] { series.points.emplace_back(k_gap, k_gap); });
   return series;
 }
-
-std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
 
 std::string single(const Plot& plot) { return "<div class=\"single\">" + inline_svg(plot_figure(plot)) + "</div>\n"; }
 
@@ -337,7 +334,7 @@ double rms_of(const Run& run, const std::vector<double>& residuals) {
       count += 1;
     });
   }
-  return count > 0 ? degrees(std::sqrt(squares / count)) : k_nan;
+  return count > 0 ? degrees(std::sqrt(squares / count)) : k_gap;
 }
 
 Figure run_figure(const Run& run, const std::vector<double>& residuals, const std::string& title, const Extent& extent,

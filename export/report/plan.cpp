@@ -20,11 +20,11 @@ namespace {
 constexpr int k_rows_a_stroke = 120;
 
 /// Nine digits: the last ones of a simulation are noise.
-Json number(double value) {
+Json nine_digits(double value) {
   if (!std::isfinite(value)) return nullptr;
   return std::stod(rounded(value, 9));
 }
-Json angle(double value) { return number(degrees(value)); }
+Json angle_json(double value) { return nine_digits(degrees(value)); }
 /// Four digits: what is right to some tens of per cent.
 Json size(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 
@@ -48,21 +48,21 @@ Json step_json(const Plan& plan, const PlanStep& step, const std::string& file) 
   Json json = {{"kind", step.run ? "run" : "reading"}};
   if (step.run) {
     json["file"] = file.empty() ? Json() : Json(file);
-    json["load" + std::string(plan.load_unit == "N" ? "_N" : "")] = number(step.run->load);
-    json["speed_deg_per_s"] = angle(step.run->speed);
+    json["load" + std::string(plan.load_unit == "N" ? "_N" : "")] = nine_digits(step.run->load);
+    json["speed_deg_per_s"] = angle_json(step.run->speed);
     json["cycles"] = step.run->cycles;
-    json["dwell_s"] = number(step.run->dwell);
-    json["from_deg"] = angle(step.run->from);
-    json["to_deg"] = angle(step.run->to);
+    json["dwell_s"] = nine_digits(step.run->dwell);
+    json["from_deg"] = angle_json(step.run->from);
+    json["to_deg"] = angle_json(step.run->to);
     json["bench"] = word(step.run->change);
   } else {
     json["key"] = step.reading->key.name;
-    json["uncertainty"] = number(step.reading->by_hand.uncertainty);
+    json["uncertainty"] = nine_digits(step.reading->by_hand.uncertainty);
   }
   json["words"] = step.words;
-  json["minutes"] = number(step.minutes);
-  json["setup_minutes"] = number(step.setup);
-  json["by_minute"] = number(step.by);
+  json["minutes"] = nine_digits(step.minutes);
+  json["setup_minutes"] = nine_digits(step.setup);
+  json["by_minute"] = nine_digits(step.by);
   json["sees"] = step.sees;
   json["tells"] = step.tells;
   return json;
@@ -141,10 +141,10 @@ std::string run_csv(const PlanProduct& product, std::size_t step) {
 std::string plan_json(const PlanProduct& product) {
   const Plan& plan = product.plan;
   Json json = {{"schema", 1}, {"name", product.file.mechanism.name}};
-  json["noise_deg"] = angle(product.noise);
-  json["minutes"] = number(product.minutes);
-  json["minutes_used"] = number(plan.minutes);
-  json["motor_range_deg"] = {angle(plan.from), angle(plan.to)};
+  json["noise_deg"] = angle_json(product.noise);
+  json["minutes"] = nine_digits(product.minutes);
+  json["minutes_used"] = nine_digits(plan.minutes);
+  json["motor_range_deg"] = {angle_json(plan.from), angle_json(plan.to)};
   json["steps"] = steps_json(plan, plan.steps, true);
   json["more_minutes"] = steps_json(plan, plan.beyond, false);
   json["causes"] = Json::array();

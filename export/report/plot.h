@@ -2,6 +2,7 @@
 /// Line plots as plain values: title, axes with units, series, limits, marks → one figure. Nothing here knows a pulley.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "export/report/svg.h"
 
 namespace fusee {
+
+/// Of a point: breaks the line.
+inline constexpr double k_gap = std::numeric_limits<double>::quiet_NaN();
 
 /// Colour and line style of a series; told apart in print and by the colour-blind too.
 enum class Ink { main, p1, p2, third };

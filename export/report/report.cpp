@@ -28,10 +28,6 @@
 namespace fusee {
 namespace {
 
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-
-std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
-
 std::string all_in_divs(const std::vector<Plot>& plots) {
   std::string html;
   for (const Plot& plot : plots) html += in_div(plot_figure(plot));
@@ -77,13 +73,13 @@ std::string verdict_words(const Product& product) {
          joined(failed, "; ") + ".";
 }
 
-struct Verdict {
+struct PageVerdict {
   std::string style;  ///< class in page.css
   std::string sign;
   std::string words;
 };
 
-Verdict verdict_of(const Product& product) {
+PageVerdict verdict_of(const Product& product) {
   const std::string words = verdict_words(product);
   if (product.checks.empty() || !all_ok(product.checks)) return {"bad", "✕", words};
   if (product.joint.mechanism.pulley.method == Method::paper) return {"noted", "!", words};
@@ -102,14 +98,14 @@ std::string warnings(const Product& product) {
 
 // Key numbers ---------------------------------------------------------------------------------------------------------
 
-struct Range {
-  double low = k_nan;
-  double high = k_nan;
+struct StrokeRange {
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = low;
 };
 
 template <typename Value>
-Range stroke_range(const SynthesisResult& synthesis, Value value) {
-  Range range;
+StrokeRange stroke_range(const SynthesisResult& synthesis, Value value) {
+  StrokeRange range;
   for (const TransmissionPoint& point : synthesis.stroke) {
     range.low = std::fmin(range.low, value(point));
     range.high = std::fmax(range.high, value(point));
@@ -117,7 +113,7 @@ Range stroke_range(const SynthesisResult& synthesis, Value value) {
   return range;
 }
 
-std::string range_words(const Range& range, int decimals, const std::string& unit) {
+std::string range_words(const StrokeRange& range, int decimals, const std::string& unit) {
   const std::string gap = unit == "°" ? "" : "\u00a0";
   return readable(range.low, decimals) + "\u2009…\u2009" + readable(range.high, decimals) + gap + unit;
 }
@@ -142,7 +138,7 @@ void add_law(KeyNumbers& numbers, const Product& product) {
               drive.method == Method::paper ? "the paper’s polar drawing" : "");
   if (drive.law == Law::linear) numbers.add("Ratio α / θ", readable_rounded(drive.ratio));
   if (drive.law == Law::torque) {
-    const Range torque = stroke_range(product.synthesis, [&](const auto& p) {
+    const StrokeRange torque = stroke_range(product.synthesis, [&](const auto& p) {
       return law_load_torque(product.joint.mechanism, p.theta).value * p.g;
     });
     numbers.add("Motor torque",
@@ -569,7 +565,7 @@ std::string profiles(const Product& product) {
 std::string report_html(const Product& product) {
   auto part = beside([&product] { return part_view(product); });
   auto mechanism = beside([&product] { return mechanism_panels(product); });
-  const Verdict verdict = verdict_of(product);
+  const PageVerdict verdict = verdict_of(product);
   const std::string name = product.joint.mechanism.name.empty() ? "unnamed" : safe_text(product.joint.mechanism.name);
   return filled_page(
       embedded::page_html,

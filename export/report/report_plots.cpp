@@ -18,8 +18,6 @@
 namespace fusee {
 namespace {
 
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-
 const PlotAxis k_alpha_axis{"pulley angle α", "°", {}, {}, 1e-6};
 
 template <typename Value>
@@ -79,7 +77,7 @@ PlotSeries curvature_series(const Outline& outline, bool active) {
   if (!active) series.name.clear();
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const OutlinePoint& point = outline.points[i];
-    series.points.emplace_back(degrees(point.psi), outline.is_active(i) == active ? point.curvature_radius : k_nan);
+    series.points.emplace_back(degrees(point.psi), outline.is_active(i) == active ? point.curvature_radius : k_gap);
   }
   return series;
 }
@@ -205,7 +203,7 @@ std::vector<Vec2> torque_with_friction(const Product& product, bool rising) {
   for (const StrokePoint& at : product.holding.loaded) {
     const EquilibriumPoint& point = rising ? at.rising : at.falling;
     const bool held = point.status == EquilibriumStatus::held;
-    points.emplace_back(degrees(point.theta), held ? point.motor_torque : k_nan);
+    points.emplace_back(degrees(point.theta), held ? point.motor_torque : k_gap);
   }
   return points;
 }

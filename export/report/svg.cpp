@@ -45,6 +45,8 @@ std::string svg_element(const Figure& figure, std::string_view namespace_attribu
 
 std::string inline_svg(const Figure& figure) { return svg_element(figure, "", ""); }
 
+std::string in_div(const Figure& figure) { return "<div>" + inline_svg(figure) + "</div>\n"; }
+
 std::string standalone_svg(const Figure& figure) {
   const std::string size = " xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(figure.width) +
                            "\" height=\"" + svg_number(figure.height) + "\"";

@@ -22,6 +22,8 @@ struct Figure {
 
 /// For use inside an HTML page that includes figure.css.
 std::string inline_svg(const Figure& figure);
+/// The same in a block of its own.
+std::string in_div(const Figure& figure);
 /// A file of its own, style included.
 std::string standalone_svg(const Figure& figure);
 

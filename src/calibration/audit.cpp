@@ -16,13 +16,13 @@ namespace fusee {
 namespace {
 
 constexpr int k_rounds = 4;
-constexpr int k_steps = 3;
+constexpr int k_most_added = 3;
 constexpr std::size_t k_tries = 3;
 /// Of what was found: an effect that is smaller in practice cannot stand for it.
 constexpr double k_as_large = 0.5;
 
 /// Chords of an effect over the rows in use, as columns of one matrix.
-struct Chords {
+struct ChordColumns {
   const Effect* effect = nullptr;
   Eigen::Index first = 0;
   Eigen::Index count = 0;
@@ -67,7 +67,7 @@ class Auditor {
   const Evidence& evidence_;
   const Selection& selection_;
   const Marginal& marginal_;
-  std::vector<Chords> chords_;
+  std::vector<ChordColumns> chords_;
   Eigen::VectorXd x_;  ///< as found; zero of what was not
   Eigen::VectorXd prior_;
   Eigen::MatrixXd all_;  ///< chords, then the discrepancy's columns
@@ -90,7 +90,7 @@ Auditor::Auditor(const Evidence& evidence, Workers& workers, const Selection& se
   std::vector<Eigen::VectorXd> columns;
   std::vector<double> x, prior;
   for (std::size_t i = 0; i < catalogue.size(); ++i) {
-    Chords own{catalogue[i], static_cast<Eigen::Index>(columns.size()), 0};
+    ChordColumns own{catalogue[i], static_cast<Eigen::Index>(columns.size()), 0};
     if (contains(selection.best.effects, *catalogue[i])) {
       for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
         const EffectParameter* number = selection.best.parameters[k];
@@ -157,7 +157,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   }
   Eigen::VectorXd z = noise(dice);
   double size = 0;
-  for (const Chords& one : chords_) {
+  for (const ChordColumns& one : chords_) {
     if (one.count == 0 || !contains(selection_.best.effects, *one.effect)) continue;
     const Eigen::VectorXd part = all_.middleCols(one.first, one.count) * x_.segment(one.first, one.count);
     if (one.effect == selection_.best.effects[found]) {
@@ -191,7 +191,7 @@ Auditor::World Auditor::world(std::size_t found, std::size_t number) const {
   }
   const std::size_t kind = number % 4;  // nothing, an effect that is known, one that is not, a shape
   if ((kind == 1 || kind == 2) && !others.empty()) {
-    const Chords& other = chords_[others[(number / 4) % others.size()]];
+    const ChordColumns& other = chords_[others[(number / 4) % others.size()]];
     Eigen::VectorXd part = Eigen::VectorXd::Zero(all_.rows());
     for (Eigen::Index k = 0; k < other.count; ++k)
       part += prior_[other.first + k] * normal(dice) * all_.col(other.first + k);
@@ -242,7 +242,7 @@ double Auditor::score_of(const Explained& explained, const Set& set) const {
 /// Adds what betters the score, the best first.
 Auditor::Set Auditor::search(const World& world, Set set) const {
   Explained here = marginal_.best(sums(world, set), world.start, k_rounds + 2);
-  for (int step = 0; step < k_steps; ++step) {
+  for (int step = 0; step < k_most_added; ++step) {
     std::vector<std::pair<double, std::size_t>> looks;
     const SizedDiscrepancy beside = marginal_.sized(here.amplitudes, give_);
     for (std::size_t i = 0; i < chords_.size(); ++i) {

@@ -13,7 +13,7 @@
 namespace fusee {
 namespace {
 
-constexpr int k_steps = 8;
+constexpr int k_most_steps_down = 8;
 constexpr int k_chords = 3;
 /// With the amplitudes that the place before had.
 constexpr int k_passes = 3;
@@ -22,7 +22,7 @@ constexpr int k_few_rounds = 3;
 /// Of a step that made things worse.
 constexpr double k_shorter = 0.3;
 /// Nats: a step that gains less is the last …
-constexpr double k_settled = 0.05;
+constexpr double k_least_gain = 0.05;
 /// … and one that promises less, a seventieth of a standard error, is not simulated. Matrix, random joints: at 2e-3 a
 /// group of one joint in six that were looked at took in four members more.
 constexpr double k_worth_a_step = 1e-4;
@@ -218,7 +218,7 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
       share *= k_shorter;
       continue;
     }
-    const bool settled = reached < height + k_settled;
+    const bool settled = reached < height + k_least_gain;
     fit = std::move(next);
     here = tangent_of(evidence(), fit);
     estimated = i % 2 == 1 || stated;
@@ -244,13 +244,13 @@ Fit Fitter::fitted(const EffectSet& effects, const Imperfections& from, LooseRow
   Fit start = started(effects, from, rest);
   if (!start.usable) return start;
   if (start.x.size() == 0) return judged(std::move(start));
-  return settled(judged(descended(std::move(start), 0, k_steps, evidence().marginal->first_guess(), k_few_rounds)));
+  return settled(judged(descended(std::move(start), 0, k_most_steps_down, evidence().marginal->first_guess(), k_few_rounds)));
 }
 
 Fit Fitter::settled(Fit fit) const {
   for (int pass = 0; pass < k_passes && fit.usable && is_promising(fit); ++pass) {
-    Fit further = judged(descended(fit, 0, k_steps, fit.explained.amplitudes, 1));
-    if (!further.usable || !(further.log_evidence > fit.log_evidence + k_settled)) break;
+    Fit further = judged(descended(fit, 0, k_most_steps_down, fit.explained.amplitudes, 1));
+    if (!further.usable || !(further.log_evidence > fit.log_evidence + k_least_gain)) break;
     fit = std::move(further);
   }
   return fit;
@@ -271,7 +271,7 @@ Fit Fitter::or_pushed(Fit fit) const {
   Fit start = started(fit.effects, fit.at, LooseRow::pushed);
   if (!start.usable) return fit;
   const Amplitudes alone = all_error_named(start);
-  const Fit near = descended(std::move(start), 0, k_steps, alone, 1);
+  const Fit near = descended(std::move(start), 0, k_most_steps_down, alone, 1);
   Fit pushed = fitted(near.effects, near.at, LooseRow::pushed);
   return pushed.usable && pushed.log_evidence > fit.log_evidence ? pushed : fit;
 }

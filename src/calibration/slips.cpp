@@ -14,7 +14,7 @@ namespace fusee {
 namespace {
 
 /// Ten times as many as a fit looks at.
-constexpr std::size_t k_rows_a_run = 2000;
+constexpr std::size_t k_rows_a_slip = 2000;
 
 Measurement as_meant(Measurement data, const Suspect& suspect) {
   for (Run& run : data.runs) {
@@ -125,7 +125,7 @@ bool can_have_slips(const DeclaredMechanism& declared, const Measurement& as_rea
 
 bool is_plainly_a_slip(const DeclaredMechanism& declared, const Measurement& as_read) {
   if (!can_have_slips(declared, as_read)) return false;
-  const Measurement data = with_fewer_rows(as_read, k_rows_a_run);
+  const Measurement data = with_fewer_rows(as_read, k_rows_a_slip);
   const double floor = std::max(noise_floor(as_read).rms, 1e-9);
   const Trial as_it_stands = tried({{}, declared, declared}, data, floor);
   if (!std::isfinite(as_it_stands.left) || is_within(as_it_stands, k_thresholds.slip_large)) return false;
@@ -145,7 +145,7 @@ std::vector<UndoneSlip> slips_that_explain(const DeclaredMechanism& declared, co
     return {};
   const Stakes stakes = stakes_of(found);
   const double floor = std::max(noise_floor(as_read).rms, 1e-9);
-  const Measurement data = with_fewer_rows(as_read, k_rows_a_run);
+  const Measurement data = with_fewer_rows(as_read, k_rows_a_slip);
   std::vector<UndoneSlip> slips;
   double best = 0;  // held-out rms of the first
   for (Trial& trial : trials(declared, data, floor)) {

@@ -41,7 +41,7 @@ StrokeRanges ranges_of(const std::vector<TransmissionPoint>& stroke) {
           range_over(stroke, [](const TransmissionPoint& point) { return point.t2.p; })};
 }
 
-std::string line(std::string title, const std::string& text) {
+std::string built_line(std::string title, const std::string& text) {
   title.resize(12, ' ');
   return "  " + title + text + "\n";
 }
@@ -55,9 +55,9 @@ std::string size_text(std::size_t bytes) {
 }
 
 std::string files_text(const BuildResult& built, const BuildOptions& options) {
-  if (options.dry_run) return line("files", "none written (--dry-run)");
-  if (!built.published) return line("files", "none written: " + options.folder.string() + " keeps its earlier run");
-  std::string text = line("files", "in " + options.folder.string());
+  if (options.dry_run) return built_line("files", "none written (--dry-run)");
+  if (!built.published) return built_line("files", "none written: " + options.folder.string() + " keeps its earlier run");
+  std::string text = built_line("files", "in " + options.folder.string());
   for (const OutputFile& file : built.outputs) {
     std::string name = file.name;
     name.resize(18, ' ');
@@ -69,14 +69,14 @@ std::string files_text(const BuildResult& built, const BuildOptions& options) {
 
 std::string checks_line(const std::vector<Check>& checks) {
   const auto passed = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.ok; });
-  return line("checks", std::to_string(passed) + " of " + std::to_string(checks.size()) + " passed");
+  return built_line("checks", std::to_string(passed) + " of " + std::to_string(checks.size()) + " passed");
 }
 
 std::string tendons_text(const Product& product) {
   std::string text;
   for (const TendonLength& tendon : tendon_lengths(product))
     text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == Side::left ? "1" : "2") + " at " + fixed(tendon.cut, 0) + " mm";
-  return text.empty() ? text : line("tendons", text + ", with knots and two 50 mm tails");
+  return text.empty() ? text : built_line("tendons", text + ", with knots and two 50 mm tails");
 }
 
 std::string knots_text(const Holding& holding) {
@@ -87,19 +87,19 @@ std::string knots_text(const Holding& holding) {
     text += (text.empty() ? "" : ", ") + std::string(knot.side == Side::left ? "1" : "2") + " up to " + rounded(knot.at_knot, 3) +
             " N" + (share ? " (" + rounded(100.0 * *share, 2) + of_what : "");
   }
-  return text.empty() ? text : line("knots", text);
+  return text.empty() ? text : built_line("knots", text);
 }
 
 std::string summary(const BuildResult& built, const BuildOptions& options, bool verbose) {
   const Product& product = built.product;
   const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
   std::string text = product.joint.mechanism.name + "\n";
-  text += line("alpha", range_text(ranges.alpha, 2, "deg at the pulley"));
-  text += line("theta", range_text(ranges.theta, 2, "deg at the joint"));
-  text += line("r1", range_text(ranges.r1, 3, "mm"));
-  text += line("r2", range_text(ranges.r2, 3, "mm"));
+  text += built_line("alpha", range_text(ranges.alpha, 2, "deg at the pulley"));
+  text += built_line("theta", range_text(ranges.theta, 2, "deg at the joint"));
+  text += built_line("r1", range_text(ranges.r1, 3, "mm"));
+  text += built_line("r2", range_text(ranges.r2, 3, "mm"));
   text += tendons_text(product) + knots_text(product.holding);
-  text += line("as built", as_built_text(product.as_built));
+  text += built_line("as built", as_built_text(product.as_built));
   text += checks_line(product.checks);
   text += files_text(built, options);
   return verbose ? text + "\n" + checks_table(product.checks) : text;
@@ -178,7 +178,7 @@ std::filesystem::path default_folder(const std::filesystem::path& spec) {
   return "out" / (stem == "." || stem == ".." ? spec.filename() : stem);
 }
 
-BuildOptions options_from(const Arguments& arguments) {
+BuildOptions build_options_from(const Arguments& arguments) {
   BuildOptions options;
   options.tolerance = arguments.number("--tolerance-mm", options.tolerance, 0.0005, 1.0, "mm");
   options.limits = limits_from(arguments);
@@ -191,7 +191,7 @@ BuildOptions options_from(const Arguments& arguments) {
 }
 
 Reply run_build(const Arguments& arguments, Console& console) {
-  BuildOptions options = options_from(arguments);
+  BuildOptions options = build_options_from(arguments);
   const MechanismFile file = read_mechanism(arguments.positionals().front(), arguments.settings());
   Steps steps(console);
   options.before_step = steps.shown();

@@ -46,7 +46,7 @@ std::vector<double> list_from(const Arguments& arguments, std::string_view optio
   return values;
 }
 
-PlanFilesOptions options_from(const Arguments& arguments, const std::filesystem::path& spec, Console& console) {
+PlanFilesOptions plan_options_from(const Arguments& arguments, const std::filesystem::path& spec, Console& console) {
   PlanFilesOptions options;
   PlanOptions& plan = options.plan;
   plan.noise = radians(arguments.number("--noise-deg", degrees(plan.noise), 1e-6, 45, "deg"));
@@ -140,7 +140,7 @@ void refuse_short_time(const PlanResult& result, const std::string& path, Reply&
 
 Reply run_plan(const Arguments& arguments, Console& console) {
   const std::filesystem::path spec = arguments.positionals().front();
-  const PlanFilesOptions options = options_from(arguments, spec, console);
+  const PlanFilesOptions options = plan_options_from(arguments, spec, console);
   const MechanismFile file = read_mechanism(spec, arguments.settings());
   const PlanResult result = plan(file, options);
   Reply reply;

@@ -7,7 +7,7 @@
 namespace fusee::cli {
 namespace {
 
-Json to_json(const Diagnostic& diagnostic) {
+Json diagnostic_json(const Diagnostic& diagnostic) {
   return {{"file", diagnostic.place.file},
           {"line", diagnostic.place.line},
           {"column", diagnostic.place.column},
@@ -18,7 +18,7 @@ Json to_json(const Diagnostic& diagnostic) {
 Json of_severity(const std::vector<Diagnostic>& diagnostics, bool errors) {
   Json list = Json::array();
   for (const Diagnostic& diagnostic : diagnostics) {
-    if ((diagnostic.severity == Severity::error) == errors) list.push_back(to_json(diagnostic));
+    if ((diagnostic.severity == Severity::error) == errors) list.push_back(diagnostic_json(diagnostic));
   }
   return list;
 }

@@ -11,10 +11,10 @@ namespace fusee::cli {
 namespace {
 
 /// Rows of the table for a person; --json and --verbose give every point.
-constexpr std::size_t k_short_table = 13;
+constexpr std::size_t k_points_in_table = 13;
 
 std::string points_table(const std::vector<RewindPoint>& points, bool all) {
-  const std::size_t rows = all ? points.size() : std::min(points.size(), k_short_table);
+  const std::size_t rows = all ? points.size() : std::min(points.size(), k_points_in_table);
   std::vector<std::vector<std::string>> cells;
   for (std::size_t row = 0; row < rows; ++row) {
     const RewindPoint& point = points[rows < 2 ? 0 : row * (points.size() - 1) / (rows - 1)];

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_most_noise = 45.0;  // deg: beyond that no sensor shows an angle
 
-SimulateOptions options_from(const Arguments& arguments) {
+SimulateOptions simulate_options_from(const Arguments& arguments) {
   SimulateOptions options;
   options.columns = columns_from(arguments);
   options.corrected = arguments.has("--corrected");
@@ -55,10 +55,10 @@ void add_findings(const Simulation& simulation, Reply& reply) {
   }
 }
 
-struct Range {
+struct RangeText {
   std::string least = "–", most = "–";
 };
-Range range_of(const Simulation& simulation, std::string_view name) {
+RangeText range_of(const Simulation& simulation, std::string_view name) {
   for (const SimulationColumn& column : simulation_columns(simulation)) {
     if (column.name != name) continue;
     std::vector<double> known;
@@ -72,10 +72,10 @@ Range range_of(const Simulation& simulation, std::string_view name) {
 }
 
 std::string summary(const Simulation& simulation, const std::string& file) {
-  const Range theta = range_of(simulation, "theta_deg");
-  const Range torque = range_of(simulation, "motor_torque_Nmm");
-  const Range first = range_of(simulation, "tension1_N");
-  const Range second = range_of(simulation, "tension2_N");
+  const RangeText theta = range_of(simulation, "theta_deg");
+  const RangeText torque = range_of(simulation, "motor_torque_Nmm");
+  const RangeText first = range_of(simulation, "tension1_N");
+  const RangeText second = range_of(simulation, "tension2_N");
   std::string text = simulation.file.mechanism.name + "\n  rows      " + std::to_string(simulation.states.size()) +
                      "\n  theta     from " + theta.least + " to " + theta.most + " deg\n";
   if (!simulation.file.mechanism.transmission) {
@@ -99,7 +99,7 @@ Json columns_json(const Simulation& simulation) {
 }
 
 Reply run_simulate(const Arguments& arguments, Console& console) {
-  const SimulateOptions options = options_from(arguments);
+  const SimulateOptions options = simulate_options_from(arguments);
   const std::vector<std::string>& names = arguments.positionals();
   const MechanismFile file = read_mechanism(names[0], arguments.settings());
   console.progress("moving the joint through " + names[1]);

@@ -11,9 +11,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_wall = 1.2;
 constexpr double k_engraved = 0.6;
-constexpr double k_collar_height = 2.5;
 
 SlabLoop edge(DiscHull hull) { return {std::move(hull), false, 0, 0}; }
 SlabLoop hole(DiscHull hull) { return {std::move(hull), true, 0, 0}; }

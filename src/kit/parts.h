@@ -9,6 +9,8 @@
 namespace fusee {
 
 inline constexpr double k_leg_radius = 5;
+inline constexpr double k_wall = 1.2;           ///< three lines of a 0.4 mm nozzle
+inline constexpr double k_collar_height = 2.5;
 inline constexpr double k_scale_reach = 10;  ///< from the pointer's tip to the edge of the scale
 
 /// Along the tensioner's slide, from C outwards: under the screw that clamps the tendon, a wall, the nut, a wall.

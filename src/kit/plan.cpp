@@ -16,9 +16,7 @@ namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 constexpr double k_clear = 0.5;  // between what moves past each other: a desktop printer is right to 0.2 mm
-constexpr double k_wall = 1.2;   // three lines of a 0.4 mm nozzle
 constexpr int k_places = 49;     // of the stroke that distances are looked at in
-constexpr double k_collar_height = 2.5;
 
 /// A rod that shops have, mm.
 bool is_stock_rod(double diameter) {

@@ -14,7 +14,7 @@
 namespace fusee {
 namespace {
 
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_no_time = std::numeric_limits<double>::quiet_NaN();
 /// With fewer rows there is no telling what is usual.
 constexpr std::size_t k_fewest_rows = 20;
 
@@ -22,7 +22,7 @@ constexpr std::size_t k_fewest_rows = 20;
 
 void drop_time(Run& run) {
   run.has_time = false;
-  for (Sample& sample : run.samples) sample.time = k_nan;
+  for (Sample& sample : run.samples) sample.time = k_no_time;
 }
 
 /// Between the rows that have one; false when more than one in ten has none, or an end.

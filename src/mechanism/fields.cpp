@@ -15,8 +15,8 @@ namespace {
 // ---- how a row reaches its member -----------------------------------------------------------------------------------
 
 double as_it_is(double value) { return value; }
-double percent(double fraction) { return 100.0 * fraction; }
-double fraction(double percent) { return percent / 100.0; }
+double in_percent(double fraction) { return 100.0 * fraction; }
+double from_percent(double percent) { return percent / 100.0; }
 
 using Conversion = double (*)(double);
 
@@ -590,7 +590,7 @@ void add_making(std::vector<Field>& table) {
   constexpr auto cut = &Mechanism::cut;
   table.push_back(text<material, &Material::name>(
       {"material.name", "", "\"PLA\"", "what the part is made of; stands in the report"}));
-  table.push_back(number<material, &Material::shrinkage, percent, fraction>(
+  table.push_back(number<material, &Material::shrinkage, in_percent, from_percent>(
       {"material.shrinkage_percent", "", "0", "by how much a print comes out smaller; the mesh is made larger by it"},
       "%", -5, 10));
   table.push_back(number<material, &Material::hole_compensation>(

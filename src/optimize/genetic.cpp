@@ -21,7 +21,7 @@ namespace {
 /// What a design that breaks a constraint costs: more than any possible one, and more the further off it is.
 constexpr double k_penalty = 1e12;
 /// The best so far where nothing was possible so far.
-constexpr double k_none = 1e300;
+constexpr double k_none_yet = 1e300;
 
 /// What designs cost, and why they are not possible.
 struct Costs {
@@ -61,7 +61,7 @@ class Reasons {
 struct Stopped {};
 
 /// What a generation asks for is judged side by side.
-struct Judge {
+struct GenerationJudge {
   const Problem& problem;
   std::vector<Objective> objectives;
   Hands hands;
@@ -70,7 +70,7 @@ struct Judge {
   CostsOfDesigns known;
   Reasons reasons;
 
-  Judge(const Problem& of, std::vector<Objective> by, const GeneticOptions& options)
+  GenerationJudge(const Problem& of, std::vector<Objective> by, const GeneticOptions& options)
       : problem(of), objectives(std::move(by)), hands(options.threads), keep_going(options.keep_going) {}
 
   Costs costs_of(const Design& design) const {
@@ -114,7 +114,7 @@ const EvolutionMaker& evolution_maker() {
   return *static_cast<const EvolutionMaker*>(module.found);
 }
 
-std::unique_ptr<Evolution> evolution_of(const Judge& judge, EvolutionKind kind, unsigned seed) {
+std::unique_ptr<Evolution> evolution_of(const GenerationJudge& judge, EvolutionKind kind, unsigned seed) {
   EvolutionSettings settings{kind, {}, {}, static_cast<unsigned>(judge.objectives.size()), seed};
   for (const Variable& variable : judge.problem.variables) {
     settings.lower.push_back(variable.lower);
@@ -123,14 +123,14 @@ std::unique_ptr<Evolution> evolution_of(const Judge& judge, EvolutionKind kind, 
   return evolution_maker().make(settings);
 }
 
-void advance(Evolution& evolution, Judge& judge) {
+void advance(Evolution& evolution, GenerationJudge& judge) {
   judge.judge(evolution.next_designs());
   evolution.advance(judge.known);
 }
 
 /// Random designs, those outside of a constraint drawn again: a thin set of possible designs must not be missed at the
 /// start.
-void begin(Evolution& evolution, Judge& judge, const GeneticOptions& options) {
+void begin(Evolution& evolution, GenerationJudge& judge, const GeneticOptions& options) {
   constexpr int k_most_draws = 200;
   Random random(options.seed);
   std::vector<Design> designs;
@@ -161,15 +161,15 @@ Generation described(unsigned number, const Evolution& evolution, Objective obje
   return generation;
 }
 
-std::optional<double> found(double best) { return std::abs(best) < k_none ? std::optional(best) : std::nullopt; }
+std::optional<double> found(double best) { return std::abs(best) < k_none_yet ? std::optional(best) : std::nullopt; }
 
 }  // namespace
 
 GeneticResult genetic_optimum(const Problem& problem, Objective objective, const GeneticOptions& options) {
-  Judge judge(problem, {objective}, options);
+  GenerationJudge judge(problem, {objective}, options);
   const auto evolution = evolution_of(judge, EvolutionKind::genetic, options.seed);
   GeneticResult result;
-  double best = info(objective).largest ? -k_none : k_none;
+  double best = info(objective).largest ? -k_none_yet : k_none_yet;
   try {
     begin(*evolution, judge, options);
     for (unsigned number = 0; number <= options.generations; ++number) {
@@ -199,7 +199,7 @@ ParetoResult pareto_front(const Problem& problem, const GeneticOptions& options)
     throw InputError("", "a front needs two or three objectives",
                      "for example optimize.objective = [\"max_tension\", \"footprint\"]");
   }
-  Judge judge(problem, problem.objectives, options);
+  GenerationJudge judge(problem, problem.objectives, options);
   const auto evolution = evolution_of(judge, EvolutionKind::nsga2, options.seed);
   ParetoResult result;
   bool has_begun = false;

@@ -27,7 +27,7 @@ constexpr std::array<ObjectiveInfo, 5> k_objectives{{
 }};
 
 /// Places of the stroke that are looked at; where the worst lies between two, it is searched for.
-constexpr int k_places = 61;
+constexpr int k_places_looked_at = 61;
 constexpr double k_impossible = 1e300;
 /// A value beyond this is no design: a moment arm is as good as gone.
 constexpr double k_largest = 1e12;
@@ -43,16 +43,16 @@ struct PlaceValue {
   double value = -k_impossible;
 };
 
-double place_of(int i) { return static_cast<double>(i) / (k_places - 1); }
+double place_of(int i) { return static_cast<double>(i) / (k_places_looked_at - 1); }
 
 /// Whether there can be a largest value within a step of `i`: it is as large as its neighbours, and at an end of the
 /// range the value grows inward.
 template <typename Value>
-bool peaks_near(const std::array<double, k_places>& values, int i, Value value) {
+bool peaks_near(const std::array<double, k_places_looked_at>& values, int i, Value value) {
   const auto k = static_cast<std::size_t>(i);
-  constexpr double k_inward = 0.25 / (k_places - 1);
+  constexpr double k_inward = 0.25 / (k_places_looked_at - 1);
   if (i == 0) return values[k] >= values[k + 1] && value(k_inward) > values[k];
-  if (i == k_places - 1) return values[k] >= values[k - 1] && value(1.0 - k_inward) > values[k];
+  if (i == k_places_looked_at - 1) return values[k] >= values[k - 1] && value(1.0 - k_inward) > values[k];
   return values[k] >= values[k - 1] && values[k] >= values[k + 1];
 }
 
@@ -61,19 +61,19 @@ bool peaks_near(const std::array<double, k_places>& values, int i, Value value) 
 template <typename Value>
 Evaluation largest_over_range(const Mechanism& mechanism, Value value) {
   constexpr double k_near = 1e-2;  // a step of a sixtieth misses less of a peak
-  std::array<double, k_places> values{};
+  std::array<double, k_places_looked_at> values{};
   PlaceValue worst;
-  for (int i = 0; i < k_places; ++i) {
+  for (int i = 0; i < k_places_looked_at; ++i) {
     const double here = value(place_of(i));
     if (!(std::abs(here) < k_largest)) return impossible("");
     values[static_cast<std::size_t>(i)] = here;
     if (here > worst.value) worst = {place_of(i), here};
   }
   const double at_least = worst.value - k_near * std::abs(worst.value);
-  for (int i = 0; i < k_places; ++i) {
+  for (int i = 0; i < k_places_looked_at; ++i) {
     if (!(values[static_cast<std::size_t>(i)] >= at_least) || !peaks_near(values, i, value)) continue;
-    const Bracket neighbours = {std::max(0, i - 1) / (k_places - 1.0),
-                                std::min(i + 1, k_places - 1) / (k_places - 1.0)};
+    const Bracket neighbours = {std::max(0, i - 1) / (k_places_looked_at - 1.0),
+                                std::min(i + 1, k_places_looked_at - 1) / (k_places_looked_at - 1.0)};
     const double refined = golden_section(neighbours, 24, [&](double at) { return -value(at); }).middle();
     const double there = value(refined);
     if (there > worst.value) worst = {refined, there};

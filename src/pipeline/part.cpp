@@ -9,7 +9,7 @@ namespace fusee {
 namespace {
 
 /// A binary STL of ten million triangles; nobody prints more.
-constexpr std::size_t k_largest_file = std::size_t{512} << 20;
+constexpr std::size_t k_largest_part = std::size_t{512} << 20;
 
 bool has_ending(std::string name, std::string_view ending) {
   std::transform(name.begin(), name.end(), name.begin(),
@@ -37,10 +37,10 @@ bool is_closed(const DrawingPath& path) { return path.closed; }
 
 }  // namespace
 
-Part read_part(const std::filesystem::path& path) { return parse_part(read_file(path, k_largest_file), path.string()); }
+Part read_part(const std::filesystem::path& path) { return parse_part(read_file(path, k_largest_part), path.string()); }
 
 Part read_made_part(const std::filesystem::path& path) {
-  return parse_part(read_output(path, k_largest_file), path.string());
+  return parse_part(read_output(path, k_largest_part), path.string());
 }
 
 std::vector<Check> check_part(const Part& part) {

@@ -267,7 +267,7 @@ std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
   return keys;
 }
 
-constexpr double k_trial_tolerance = 0.05;
+constexpr double k_helix_trial_tolerance = 0.05;
 
 HelixSynthesis trial_curves(const Mechanism& mechanism, double tolerance) {
   SynthesisOptions options;
@@ -299,8 +299,8 @@ std::optional<std::string> tight_bend(const Mechanism& mechanism, const HelixSyn
 }  // namespace
 
 std::optional<std::string> obstacle_to_several_turns(const Mechanism& mechanism) {
-  const HelixSynthesis curves = trial_curves(mechanism, k_trial_tolerance);
-  const std::vector<Condition> obstacles = obstacles_of(mechanism, curves, k_trial_tolerance);
+  const HelixSynthesis curves = trial_curves(mechanism, k_helix_trial_tolerance);
+  const std::vector<Condition> obstacles = obstacles_of(mechanism, curves, k_helix_trial_tolerance);
   if (!obstacles.empty()) return obstacles.front().message;
   return tight_bend(mechanism, curves);
 }
@@ -332,8 +332,8 @@ class TurnsLook {
     DeclaredMechanism declared = declared_;
     static_cast<Mechanism&>(declared) = changed;
     const Mechanism joint = as_it_is(declared, LawSearch::brief).mechanism;
-    const HelixSynthesis curves = trial_curves(joint, k_trial_tolerance);
-    std::vector<Condition> obstacles = obstacles_of(joint, curves, k_trial_tolerance);
+    const HelixSynthesis curves = trial_curves(joint, k_helix_trial_tolerance);
+    std::vector<Condition> obstacles = obstacles_of(joint, curves, k_helix_trial_tolerance);
     if (obstacles.empty()) see_size(rows_as_made(curves, trial_.tolerance));
     return obstacles;
   }

@@ -34,12 +34,12 @@ double legendre(int degree, double x) {
 }
 
 /// Of each row: where in the range −1 … 1, and which way the motor came.
-struct Place {
+struct RowPlace {
   double at = 0;
   double direction = 0;
 };
-std::vector<Place> places(const BenchRun& run, const Bench& bench) {
-  std::vector<Place> all;
+std::vector<RowPlace> places(const BenchRun& run, const Bench& bench) {
+  std::vector<RowPlace> all;
   double direction = 0;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const double step = i > 0 ? run.rows[i].alpha - run.rows[i - 1].alpha : 0.0;
@@ -125,7 +125,7 @@ std::optional<Signatures::Seen> Signatures::of(const PlannedRun& run) const {
     }
   }
   const DeclaredLaw law(expected_);
-  const std::vector<Place> where = places(log.front(), bench_);
+  const std::vector<RowPlace> where = places(log.front(), bench_);
   const double load = bench_.largest_load() > 0 ? run.load / bench_.largest_load() : 0.0;
   const double speed = run.speed / bench_.speeds.back();
   for (Eigen::Index k = 0; k < rows; ++k) {

@@ -23,7 +23,7 @@ constexpr double k_lines = 400;
 constexpr double k_rim_spacing = 0.25;
 // A ceiling is one bridge where it is printed in one layer: the usual layer of a 0.4 mm nozzle. A vault that rises
 // higher is steps, layer by layer.
-constexpr double k_layer = 0.2;
+constexpr double k_usual_layer = 0.2;
 // Directions tried: even ones, and along and across the longest edges.
 constexpr int k_even_directions = 12;
 constexpr std::size_t k_edge_directions = 6;
@@ -218,7 +218,7 @@ class Ceiling {
     std::vector<Chord> bridges;
     for (const Chord& chord : Chords(patch_, frame, spacing_).all()) {
       if (!chord.held) continue;
-      if (chord.high - chord.low <= k_layer) {
+      if (chord.high - chord.low <= k_usual_layer) {
         bridges.push_back(chord);
       } else {
         look_at_vault(reach, frame, chord);

@@ -14,7 +14,7 @@ namespace {
 
 // A cut triangle: the section enters it over the edge that descends and leaves it over the one that rises, the solid on
 // its left.
-struct Cut {
+struct FacetCut {
   std::uint64_t from = 0;  // undirected edge
   std::uint64_t to = 0;
   Vec2 start;
@@ -55,12 +55,12 @@ Vec2 crossing(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double
   return (first + share * (second - first)).head<2>();
 }
 
-std::vector<Cut> cuts_at(const TriangleMesh& mesh, const Triangles& triangles, double z) {
-  std::vector<Cut> cuts;
+std::vector<FacetCut> cuts_at(const TriangleMesh& mesh, const Triangles& triangles, double z) {
+  std::vector<FacetCut> cuts;
   cuts.reserve(triangles.size());
   for (const auto& triangle : triangles) {
     if (!is_cut(mesh, triangle, z)) continue;
-    Cut cut;
+    FacetCut cut;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
       const bool from_above = above(mesh.vertices[from], z);
@@ -90,14 +90,14 @@ Polygon without_repeats(const Polygon& points) {
 // Where cuts begin, in the order of their edges.
 class CutStarts {
  public:
-  explicit CutStarts(const std::vector<Cut>& cuts) {
+  explicit CutStarts(const std::vector<FacetCut>& cuts) {
     starts_.reserve(cuts.size());
     for (std::size_t k = 0; k < cuts.size(); ++k) starts_.emplace_back(cuts[k].from, k);
     std::sort(starts_.begin(), starts_.end());
   }
 
   // The first cut that begins there and is not used yet; the number of cuts where there is none.
-  std::size_t next(const std::vector<Cut>& cuts, std::uint64_t edge) const {
+  std::size_t next(const std::vector<FacetCut>& cuts, std::uint64_t edge) const {
     auto found = std::lower_bound(starts_.begin(), starts_.end(), std::pair(edge, std::size_t{0}));
     while (found != starts_.end() && found->first == edge && cuts[found->second].used) ++found;
     return found != starts_.end() && found->first == edge ? found->second : cuts.size();
@@ -110,7 +110,7 @@ class CutStarts {
 }  // namespace
 
 std::vector<Polygon> section_of_welded(const TriangleMesh& mesh, const Triangles& triangles, double z) {
-  std::vector<Cut> cuts = cuts_at(mesh, triangles, z);
+  std::vector<FacetCut> cuts = cuts_at(mesh, triangles, z);
   const CutStarts starts(cuts);
   std::vector<Polygon> loops;
   for (std::size_t first = 0; first < cuts.size(); ++first) {

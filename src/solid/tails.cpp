@@ -23,8 +23,8 @@ constexpr double k_gabled_ratio = 0.8;
 constexpr double k_longest_ratio = 10.0;
 constexpr double k_shortest_ratio = 3.0;
 // Below a slot's floor, above a channel's roof: two layers.
-constexpr double k_least_ground = 0.4;
-constexpr int k_directions = 72;
+constexpr double k_ground_of_slot = 0.4;
+constexpr int k_slot_directions = 72;
 // Thread that holds a screw in plastic, per nominal diameter, and the least that does.
 constexpr double k_thread_ratio = 2.5;
 constexpr double k_least_thread_ratio = 1.5;
@@ -48,8 +48,8 @@ class TailPlacer {
     slot.depth = std::max(k_gabled_ratio * d_, k_depth_ratio * d_ - slot.roof);
     const double deep = slot.depth + slot.roof;
     // A groove's plane shows its floor alone, and what is tied off in it.
-    if (to_plane(anchor.side) - deep < k_least_ground) return std::nullopt;
-    const bool over_channels = to_channels(anchor.side) - deep >= k_least_ground;
+    if (to_plane(anchor.side) - deep < k_ground_of_slot) return std::nullopt;
+    const bool over_channels = to_channels(anchor.side) - deep >= k_ground_of_slot;
     if (screw_ != nullptr && !add_screw(slot, anchor.side)) return std::nullopt;
     slot.from = anchor.pocket();
     const double edge = anchor.pocket_radius(layout_);
@@ -59,8 +59,8 @@ class TailPlacer {
     double longest = edge + k_shortest_ratio * d_ - 0.5 * d_;
     // From the direction in which the channel leads, to both sides in turn.
     const Vec2 ahead = heading(anchor);
-    for (int k = 0; k < k_directions; ++k) {
-      const double turn = (k % 2 == 0 ? 1.0 : -1.0) * k_two_pi / k_directions * ((k + 1) / 2);
+    for (int k = 0; k < k_slot_directions; ++k) {
+      const double turn = (k % 2 == 0 ? 1.0 : -1.0) * k_two_pi / k_slot_directions * ((k + 1) / 2);
       const Vec2 direction = turned(ahead, turn);
       // Its own channel comes from behind.
       const bool beside = direction.dot(ahead) >= 0 || edge * std::abs(cross(direction, ahead)) >= slot.width;
@@ -97,7 +97,7 @@ class TailPlacer {
     const double ground = layout_.parts == Parts::one ? layout_.z_top
                           : side == Side::left        ? layout_.z_mate
                                                       : layout_.z_top - layout_.z_mate;
-    const double below = slot.depth + slot.roof, room = ground - k_least_ground - below;
+    const double below = slot.depth + slot.roof, room = ground - k_ground_of_slot - below;
     slot.pilot_diameter = screw_->tapping + compensation_;
     slot.pilot_depth = below + std::min(k_thread_ratio * screw_->nominal, room);
     slot.head_diameter = screw_->head;

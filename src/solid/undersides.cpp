@@ -9,13 +9,13 @@ namespace fusee {
 namespace {
 
 // Far above the rounding of sections and normals, far below what matters.
-constexpr double k_grain = 1e-6;
+constexpr double k_grain_of_plan = 1e-6;
 // What is steeper than asked for by less than this share counts as flat: where a way down crosses slivers, which have
 // no slope of their own, it may lead so much further; each of at most a quarter of that in width.
 constexpr double k_spare = 1e-2;
-constexpr double k_narrow = 0.25 * k_spare;
+constexpr double k_narrow_sliver = 0.25 * k_spare;
 
-bool looks_down(const Vec3& normal) { return normal.z() < k_grain * normal.norm(); }
+bool looks_down(const Vec3& normal) { return normal.z() < k_grain_of_plan * normal.norm(); }
 
 bool is_flat(const Vec3& normal, double steepness) {
   return normal.head<2>().norm() <= steepness * (1 + k_spare) * std::abs(normal.z());
@@ -28,7 +28,7 @@ bool is_flat_line(const Vec3& along, double steepness) {
 // From the line on, towards the corner.
 bool rises_from(const Vec3& along, const Vec3& to_corner) {
   const double slope = to_corner.z() * along.squaredNorm() - to_corner.dot(along) * along.z();
-  return slope >= -k_grain * to_corner.norm() * along.squaredNorm();
+  return slope >= -k_grain_of_plan * to_corner.norm() * along.squaredNorm();
 }
 
 // A facet that rises from one of its sides, which is flat.
@@ -37,7 +37,7 @@ struct RisingSide {
   bool looks_down;
 };
 
-bool in_order(const RisingSide& a, const RisingSide& b) {
+bool before(const RisingSide& a, const RisingSide& b) {
   return std::pair(a.low, a.high) < std::pair(b.low, b.high);
 }
 
@@ -46,8 +46,8 @@ class Undersides {
   Undersides(const TriangleMesh& mesh, const std::vector<double>& heights, double steepness)
       : mesh_(mesh), heights_(heights), steepness_(steepness) {
     const double reach = heights.size() < 2 ? 0.0 : (heights[1] - heights[0]) / steepness;
-    narrow_ = k_narrow * reach;
-    places_.assign(heights.size(), PlacesInPlan(bounds(mesh), reach + k_grain));
+    narrow_ = k_narrow_sliver * reach;
+    places_.assign(heights.size(), PlacesInPlan(bounds(mesh), reach + k_grain_of_plan));
   }
 
   std::vector<PlacesInPlan> found() && {
@@ -116,9 +116,9 @@ class Undersides {
   }
 
   void add_keels() {
-    std::sort(sides_.begin(), sides_.end(), in_order);
+    std::sort(sides_.begin(), sides_.end(), before);
     for (auto first = sides_.begin(); first != sides_.end();) {
-      const auto end = std::upper_bound(first, sides_.end(), *first, in_order);
+      const auto end = std::upper_bound(first, sides_.end(), *first, before);
       const bool is_under = std::any_of(first, end, [](const RisingSide& side) { return side.looks_down; });
       const Vec3 &a = mesh_.vertices[first->low], &b = mesh_.vertices[first->high];
       if (is_under && end - first > 1) add(a.cwiseMin(b), a.cwiseMax(b));
@@ -134,9 +134,9 @@ class Undersides {
 
   // To each layer that has a part of it between itself and the layer below.
   void add(const Vec3& low, const Vec3& high) {
-    const auto first = std::lower_bound(heights_.begin(), heights_.end(), low.z() - k_grain) - heights_.begin();
+    const auto first = std::lower_bound(heights_.begin(), heights_.end(), low.z() - k_grain_of_plan) - heights_.begin();
     for (auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 1));
-         k < heights_.size() && heights_[k - 1] <= high.z() + k_grain; ++k)
+         k < heights_.size() && heights_[k - 1] <= high.z() + k_grain_of_plan; ++k)
       places_[k].add(low.head<2>(), high.head<2>());
   }
 
@@ -153,7 +153,7 @@ class Undersides {
 
 PlacesInPlan::PlacesInPlan(const Bounds& part, double reach) : low_(part.low.head<2>()), reach_(reach) {
   const Vec2 size = (part.high - part.low).head<2>();
-  per_cell_ = k_cells * size.cwiseMax(k_grain).cwiseInverse();
+  per_cell_ = k_cells * size.cwiseMax(k_grain_of_plan).cwiseInverse();
 }
 
 int PlacesInPlan::cell(double at, int axis) const {

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double total(double added, const Mechanism& declared) {
+double whole_friction(double added, const Mechanism& declared) {
   const Guides& guides = declared.guides;
   const double there = guides.kind == GuideKind::idler ? guides.bearing_friction : guides.mu;
   return there + added > 0 ? there + added : 0.0;
@@ -43,7 +43,7 @@ Effect capstan_friction(JointKind kind) {
        .most = 2,
        .step = 5e-3,
        .prior = 0.15,  // steel or HMPE over metal pins 0.05 to 0.4, declared 0.1 to 0.2
-       .shown = total,
+       .shown = whole_friction,
        .key = key::plain("friction", "", -2, 2, "added to guides.friction, of idlers to guides.bearing_friction"),
        .again = WhenFoundAgain::added}};
   effect.starts = {{0.1}, {0.4}};

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double total(double added, const Mechanism& declared) {
+double whole_groove_friction(double added, const Mechanism& declared) {
   return declared.pulley.mu + added > 0 ? declared.pulley.mu + added : 0.0;
 }
 
@@ -26,7 +26,7 @@ Effect groove_friction(JointKind) {
                         .most = 2,
                         .step = 0.02,
                         .prior = 0.15,  // HMPE 0.05 to 0.15, steel to 0.3, more in a V: declared 0.2
-                        .shown = total,
+                        .shown = whole_groove_friction,
                         .key = key::plain("groove_friction", "", -2, 2, "added to pulley.friction"),
                         .again = WhenFoundAgain::added}};
   effect.starts = {{-0.1}, {0.2}};

@@ -4,11 +4,11 @@
 namespace fusee {
 namespace {
 
-double total(double added, const Mechanism& declared) {
+double whole_radius(double added, const Mechanism& declared) {
   return declared.guides.radius + added > 0 ? declared.guides.radius + added : 0.0;
 }
 
-std::vector<CaliperReading> by_caliper(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> radius_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.guide_radius, declared.guides.radius);
 }
 
@@ -30,11 +30,11 @@ Effect guide_radius(JointKind) {
        .most = 20,
        .step = 5e-3,
        .prior = 0.5,  // a bushing, a pin of the next size
-       .shown = total,
+       .shown = whole_radius,
        .key = key::plain("guide_radius_mm", "mm", -500, 500, "added to guides.radius_mm"),
        .again = WhenFoundAgain::added,
        .by_hand = {"measure the guide pins' diameter with a caliper and write half of it as [prior] guide_radius_mm",
-                   k_caliper, by_caliper},
+                   k_caliper, radius_by_caliper},
        .sign = {"pins thinner than declared", "pins thicker than declared"}}};
   return effect;
 }

@@ -4,9 +4,9 @@
 namespace fusee {
 namespace {
 
-double total(double added, const Mechanism& declared) { return declared.joint.R + added; }
+double whole_length(double added, const Mechanism& declared) { return declared.joint.R + added; }
 
-std::vector<CaliperReading> by_caliper(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> length_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.length, declared.joint.R);
 }
 
@@ -28,11 +28,11 @@ Effect joint_length(JointKind) {
        .most = 50,
        .step = 1e-2,
        .prior = 1,  // where a tendon is tied and bends
-       .shown = total,
+       .shown = whole_length,
        .key = key::plain("length_mm", "mm", -10000, 10000, "added to joint.length_mm"),
        .again = WhenFoundAgain::added,
        .by_hand = {"measure from the joint's axis to the tendons' attachment and write [prior] length_mm", k_caliper,
-                   by_caliper},
+                   length_by_caliper},
        .sign = {"shorter than declared", "longer than declared"}}};
   return effect;
 }

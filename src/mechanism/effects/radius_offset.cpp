@@ -4,7 +4,7 @@
 namespace fusee {
 namespace {
 
-std::vector<CaliperReading> by_caliper(const DeclaredMechanism& declared) {
+std::vector<CaliperReading> offset_by_caliper(const DeclaredMechanism& declared) {
   return hand_reading(declared.prior.radius_offset, 0);
 }
 
@@ -33,7 +33,7 @@ Effect radius_offset(JointKind) {
        .by_hand =
            {"measure the diameter of the pulley's groove floor and of the tendon with a caliper and write half of "
             "what both are too large together (too small: negative) as [prior] radius_offset_mm",
-            k_caliper, by_caliper},
+            k_caliper, offset_by_caliper},
        .sign = {"both pulleys too small", "both pulleys too large"}}};
   return effect;
 }

@@ -3,7 +3,7 @@
 namespace fusee {
 namespace {
 
-double total(double added, const Mechanism& declared) {
+double whole_pretension(double added, const Mechanism& declared) {
   return declared.tendon.pretension + added > 0 ? declared.tendon.pretension + added : 0.0;
 }
 
@@ -66,7 +66,7 @@ Effect slack(JointKind kind) {
        .most = 1000,
        .step = 0.1,
        .prior = 5,  // set by feel
-       .shown = total,
+       .shown = whole_pretension,
        .key = key::plain("pretension_N", "N", -100000, 100000, "added to tendon.pretension_N"),
        .again = WhenFoundAgain::added}};
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};
