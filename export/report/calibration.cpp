@@ -146,7 +146,8 @@ Json detectable_json(const Calibration& calibration) {
 }
 
 Json correctable_json(const Correction& correction) {
-  Json json = {{"by_pulley_rms_deg", fitted_angle(correction.by_pulley)}, {"by_table_rms_deg", fitted_angle(correction.by_table)}};
+  Json json = {{"by_pulley_rms_deg", fitted_angle(correction.by_pulley)},
+               {"by_table_rms_deg", fitted_angle(correction.by_table)}};
   if (correction.by_curve > 0) json["by_empirical_curve_rms_deg"] = fitted_angle(correction.by_curve);
   if (!correction.infeasible.empty()) json["infeasible"] = correction.infeasible;
   if (correction.tied_at != 0) json["tied_at_deg"] = fitted_angle(correction.tied_at);

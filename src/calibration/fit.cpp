@@ -244,7 +244,8 @@ Fit Fitter::fitted(const EffectSet& effects, const Imperfections& from, LooseRow
   Fit start = started(effects, from, rest);
   if (!start.usable) return start;
   if (start.x.size() == 0) return judged(std::move(start));
-  return settled(judged(descended(std::move(start), 0, k_most_steps_down, evidence().marginal->first_guess(), k_few_rounds)));
+  return settled(
+      judged(descended(std::move(start), 0, k_most_steps_down, evidence().marginal->first_guess(), k_few_rounds)));
 }
 
 Fit Fitter::settled(Fit fit) const {

@@ -56,7 +56,8 @@ std::string size_text(std::size_t bytes) {
 
 std::string files_text(const BuildResult& built, const BuildOptions& options) {
   if (options.dry_run) return built_line("files", "none written (--dry-run)");
-  if (!built.published) return built_line("files", "none written: " + options.folder.string() + " keeps its earlier run");
+  if (!built.published)
+    return built_line("files", "none written: " + options.folder.string() + " keeps its earlier run");
   std::string text = built_line("files", "in " + options.folder.string());
   for (const OutputFile& file : built.outputs) {
     std::string name = file.name;

@@ -72,9 +72,8 @@ void add_value(const OptimizeResult& result, Reply& reply) {
   if (now.possible) reply.fields["value_before"] = now.value;
   reply.fields["design"] = design_json(result.problem, result.design);
   const std::string before = now.possible ? "; the file as it is: " + value_text(objective, now.value) : "";
-  reply.text +=
-      found_line(std::string(info(objective).name),
-           value_text(objective, result.value) + " at theta = " + rounded(degrees(result.theta), 4) + " deg" + before);
+  reply.text += found_line(std::string(info(objective).name), value_text(objective, result.value) + " at theta = " +
+                                                                  rounded(degrees(result.theta), 4) + " deg" + before);
   add_joint(result, reply);
   reply.text += design_text(result.problem, result.design);
 }
@@ -157,7 +156,7 @@ void add_ties(const Problem& problem, const TieSet& ties, bool broken, Reply& re
 
 std::string then_line(Objective objective, const CertifiedResult& second) {
   return found_line("then", std::string(info(objective).name) + " " + value_text(objective, second.value) +
-                          " among the designs within 0.1 % (gap " + rounded(second.relative_gap, 2) + ")");
+                                " among the designs within 0.1 % (gap " + rounded(second.relative_gap, 2) + ")");
 }
 
 void add_then(Objective objective, const CertifiedResult& second, Reply& reply) {
@@ -182,13 +181,14 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
   reply.fields["relative_gap"] = search.relative_gap;
   reply.fields["proven"] = search.proven;
   reply.text += found_line(search.proven ? "proven" : "bound",
-                     "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
-  reply.text +=
-      found_line("searched", std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
+                           "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
+  reply.text += found_line(
+      "searched", std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
   if (result.problem.feasible)
-    reply.text += found_line("feasible",
-                       "the proof asks of every design that its curves are convex and its tendons on their pins; the "
-                       "best one can be made");
+    reply.text +=
+        found_line("feasible",
+                   "the proof asks of every design that its curves are convex and its tendons on their pins; the "
+                   "best one can be made");
   if (result.then) reply.text += then_line(*options.then, *result.then);
   add_ties(result.problem, search.ties, options.then.has_value(), reply);
   if (search.proven || options.then || result.stopped) return;
@@ -208,8 +208,9 @@ void add_genetic(const OptimizeOptions& options, const OptimizeResult& result, c
   reply.text = std::string(info(result.problem.objectives.front()).name) + " of " + result.problem.base.name +
                ", by the genetic algorithm (not proven)\n";
   add_value(result, reply);
-  reply.text += found_line("searched", progress_text(options, result) + ", seed " + std::to_string(options.genetic.seed) +
-                                     ", " + std::to_string(search.evaluations) + " evaluations");
+  reply.text +=
+      found_line("searched", progress_text(options, result) + ", seed " + std::to_string(options.genetic.seed) + ", " +
+                                 std::to_string(search.evaluations) + " evaluations");
   reply.fields["found"] = true;
   reply.fields["seed"] = options.genetic.seed;
   reply.fields["generations"] = Json::array();
@@ -277,7 +278,8 @@ void add_files(const OptimizeOptions& options, const OptimizeResult& result, Rep
   reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.published) return;
   if (!result.front_files.empty())
-    reply.text += found_line("files", std::to_string(result.front_files.size()) + " in " + options.front_folder.string());
+    reply.text +=
+        found_line("files", std::to_string(result.front_files.size()) + " in " + options.front_folder.string());
   if (options.new_file.empty()) return;
   reply.text += found_line("file", options.new_file.string());
   reply.fields["file"] = options.new_file.string();

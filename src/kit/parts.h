@@ -9,7 +9,7 @@
 namespace fusee {
 
 inline constexpr double k_leg_radius = 5;
-inline constexpr double k_wall = 1.2;           ///< three lines of a 0.4 mm nozzle
+inline constexpr double k_wall = 1.2;  ///< three lines of a 0.4 mm nozzle
 inline constexpr double k_collar_height = 2.5;
 inline constexpr double k_scale_reach = 10;  ///< from the pointer's tip to the edge of the scale
 

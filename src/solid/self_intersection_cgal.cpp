@@ -32,7 +32,8 @@ struct SharedCorners {
   std::array<bool, 3> of_first{}, of_second{};
 };
 
-// Of facets with an area, whose own corners are three vertices. Without branches: which corners they are nobody guesses.
+// Of facets with an area, whose own corners are three vertices. Without branches: which corners they are nobody
+// guesses.
 SharedCorners shared_corners(const Triangle& a, const Triangle& b) {
   SharedCorners shared;
   for (std::size_t i = 0; i < 3; ++i) {
