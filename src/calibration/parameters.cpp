@@ -4,6 +4,11 @@
 
 namespace fusee {
 
+bool is_searched(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& p) { return p.searched; });
+}
+
 const EffectParameter* free_offset(const Mechanism& declared) {
   static const EffectParameter offset{.name = "offset_deg",
                                       .number = [](Imperfections& at) -> double& { return at.sensor.zero; },

@@ -19,6 +19,9 @@ inline bool is_read_by(const EffectParameter& parameter, const HandReading& read
   return parameter.number == reading.parameter->number;
 }
 
+/// Whether where it acts has to be found: a look from where it begins says little of it.
+bool is_searched(const Effect& effect);
+
 /// θ = offset + α/ratio declares its offset free; null of any other joint.
 const EffectParameter* free_offset(const Mechanism& declared);
 /// What is fitted of these effects, behind the free offset.

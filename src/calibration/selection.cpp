@@ -236,12 +236,6 @@ std::vector<Look> Selector::looks_beside(const Fitter& fitter, const Fit& base, 
   return looks;
 }
 
-/// Whether where it acts has to be found: a look from where it begins says little of it.
-bool is_searched(const Effect& effect) {
-  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                     [](const EffectParameter& p) { return p.searched; });
-}
-
 /// Effects beside `base`, by a linear look the best first.
 std::vector<Addition> Selector::promising(const Fitter& fitter, const Fit& base, const Amplitudes& unnamed,
                                           std::size_t most) const {
@@ -624,9 +618,10 @@ void Selector::join_companions() {
   const Fit& best = selection_.best;
   if (best.effects.empty() || best.effects.size() >= k_thresholds.most_effects) return;
   const double least = score(best) - k_thresholds.as_good * selection_.temperature;
-  std::vector<Addition> likely = beside_best();
-  std::erase_if(likely, [&](const Addition& addition) { return !(addition.promise > least); });
-  likely.resize(std::min(likely.size(), k_thresholds.most_rivals));
+  std::vector<Addition> likely;
+  for (const Addition& addition : beside_best()) {
+    if (addition.promise > least && likely.size() < k_thresholds.most_rivals) likely.push_back(addition);
+  }
   std::vector<Fit> fits = fitted("looking at what may be there beside it", likely);
   for (Fit& fit : fits) {
     if (!fit.usable || !(score(fit) > least)) continue;

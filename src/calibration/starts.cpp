@@ -87,9 +87,7 @@ std::vector<std::vector<double>> starts_of(const Evidence& evidence, const Fit& 
         starts.push_back({size * effect.parameters.front().step, time});
     }
   }
-  const bool has_searched = std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                                        [](const EffectParameter& p) { return p.searched; });
-  if (!has_searched) starts.insert(starts.begin(), std::vector<double>(effect.parameters.size(), 0.0));
+  if (!is_searched(effect)) starts.insert(starts.begin(), std::vector<double>(effect.parameters.size(), 0.0));
   return starts;
 }
 
