@@ -28,7 +28,6 @@
 namespace fusee {
 namespace {
 
-constexpr double k_infinite = std::numeric_limits<double>::infinity();
 /// Where those who judge a design look: evaluate() of objectives.cpp, and feasibility.cpp.
 constexpr int k_places = 60;
 constexpr int k_places_of_drawing = 192;

@@ -10,8 +10,6 @@
 namespace fusee {
 namespace {
 
-constexpr double k_beyond_all = std::numeric_limits<double>::infinity();
-
 /// constant + slope · (x − lower), in intervals.
 struct Sum {
   Interval constant = 0.0;
@@ -49,7 +47,7 @@ Sum weighted(const Box& box, int count, const std::vector<LineBelow>& lines, con
 bool cut(Box& box, int count, const Sum& sum, double most) {
   const double least = least_over(sum, box, count);
   if (least > most) return false;
-  if (!(std::abs(least) < k_beyond_all)) return true;
+  if (!(std::abs(least) < k_infinite)) return true;
   const Box whole = box;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const Interval width = Interval(whole.upper[i]) - whole.lower[i];
@@ -79,7 +77,7 @@ bool cut(Box& box, int count, const Sum& sum, double most) {
   const Sum sum = weighted(box, count, lines, weights);
   const double least = least_over(sum, box, count);
   if (sum.of_objective.lower() > 0) return (Interval(least) / sum.of_objective).lower();
-  return least > 0 ? k_beyond_all : -k_beyond_all;
+  return least > 0 ? k_infinite : -k_infinite;
 }
 
 /// The lines over the unit cube, each of size 1.
@@ -93,7 +91,7 @@ Scaled scaled(const Box& box, int count, const std::vector<LineBelow>& lines, do
   Scaled result;
   result.program.variables = count;
   double objective_size = 0;
-  double least_of_rows = -k_beyond_all;
+  double least_of_rows = -k_infinite;
   for (const LineBelow& line : lines) {
     LinearProgram::Row row;
     row.b = line.constant;
@@ -113,7 +111,7 @@ Scaled scaled(const Box& box, int count, const std::vector<LineBelow>& lines, do
     result.program.rows.push_back(row);
   }
   if (!(objective_size > 0)) objective_size = 1;
-  if (least_of_rows == -k_beyond_all) least_of_rows = std::max(least, -objective_size);
+  if (least_of_rows == -k_infinite) least_of_rows = std::max(least, -objective_size);
   result.objective_scale = objective_size;
   for (std::size_t r = 0; r < lines.size(); ++r) {
     LinearProgram::Row& row = result.program.rows[r];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 // Every row has a slack, s t − a·y − b >= 0. At the start the slacks are basic, y and t stand at their lower ends; the
@@ -12,7 +11,6 @@
 namespace fusee {
 namespace {
 
-constexpr double k_unbounded = std::numeric_limits<double>::infinity();
 constexpr double k_kept = 1e-10;  ///< a violation of this size is none: rows are of size 1
 constexpr double k_pivot = 1e-9;  ///< smaller ones only spread rounding
 constexpr int k_most_steps = 100;
@@ -69,7 +67,7 @@ class Tableau {
 
   double& at(std::size_t row, std::size_t column) { return table_[row * columns_ + column]; }
   double lower(std::size_t variable) const { return variable == columns_ - 1 ? program_.least_t : 0.0; }
-  double upper(std::size_t variable) const { return variable < columns_ - 1 ? 1.0 : k_unbounded; }
+  double upper(std::size_t variable) const { return variable < columns_ - 1 ? 1.0 : k_infinite; }
   /// Below its lower end (< 0) or above its upper (> 0).
   double excess(std::size_t row) const {
     const double low = lower(basic_[row]), high = upper(basic_[row]);
@@ -89,7 +87,7 @@ class Tableau {
   std::size_t entering(std::size_t row) {
     const double wanted = excess(row) < 0 ? 1.0 : -1.0;
     std::size_t best = columns_;
-    double least = k_unbounded, pivot = 0;
+    double least = k_infinite, pivot = 0;
     for (std::size_t j = 0; j < columns_; ++j) {
       const double entry = at(row, j) * wanted * (nonbasic_[j].at_upper ? -1.0 : 1.0);
       if (!(entry > k_pivot)) continue;

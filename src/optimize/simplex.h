@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace fusee {
 
 constexpr int k_most_variables = 8;
+inline constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
 /// The least t over 0 <= y <= 1 and t >= least_t with  a·y + b <= s t  in every row.
 struct LinearProgram {
