@@ -27,10 +27,7 @@ std::string ranges_text(const std::vector<AlphaRange>& ranges) {
 
 // ---- what a person can act on ---------------------------------------------------------------------------------------
 
-std::string line(std::string title, const std::string& text) {
-  title.resize(18, ' ');
-  return "  " + title + text + "\n";
-}
+std::string line(const std::string& title, const std::string& text) { return titled(title, text, 18); }
 
 std::string tension_line(const AnalysisResult& result, const Mechanism& mechanism) {
   const TensionExtreme& most = result.largest_tension;

@@ -41,11 +41,6 @@ StrokeRanges ranges_of(const std::vector<TransmissionPoint>& stroke) {
           range_over(stroke, [](const TransmissionPoint& point) { return point.t2.p; })};
 }
 
-std::string built_line(std::string title, const std::string& text) {
-  title.resize(12, ' ');
-  return "  " + title + text + "\n";
-}
-
 std::string range_text(const Range& range, int decimals, const std::string& unit) {
   return "from " + fixed(range.least, decimals) + " to " + fixed(range.most, decimals) + " " + unit;
 }
@@ -55,10 +50,9 @@ std::string size_text(std::size_t bytes) {
 }
 
 std::string files_text(const BuildResult& built, const BuildOptions& options) {
-  if (options.dry_run) return built_line("files", "none written (--dry-run)");
-  if (!built.published)
-    return built_line("files", "none written: " + options.folder.string() + " keeps its earlier run");
-  std::string text = built_line("files", "in " + options.folder.string());
+  if (options.dry_run) return titled("files", "none written (--dry-run)");
+  if (!built.published) return titled("files", "none written: " + options.folder.string() + " keeps its earlier run");
+  std::string text = titled("files", "in " + options.folder.string());
   for (const OutputFile& file : built.outputs) {
     std::string name = file.name;
     name.resize(18, ' ');
@@ -70,14 +64,15 @@ std::string files_text(const BuildResult& built, const BuildOptions& options) {
 
 std::string checks_line(const std::vector<Check>& checks) {
   const auto passed = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.ok; });
-  return built_line("checks", std::to_string(passed) + " of " + std::to_string(checks.size()) + " passed");
+  return titled("checks", std::to_string(passed) + " of " + std::to_string(checks.size()) + " passed");
 }
 
 std::string tendons_text(const Product& product) {
   std::string text;
   for (const TendonLength& tendon : tendon_lengths(product))
-    text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == Side::left ? "1" : "2") + " at " + fixed(tendon.cut, 0) + " mm";
-  return text.empty() ? text : built_line("tendons", text + ", with knots and two 50 mm tails");
+    text += (text.empty() ? "cut " : ", ") + std::string(tendon.side == Side::left ? "1" : "2") + " at " +
+            fixed(tendon.cut, 0) + " mm";
+  return text.empty() ? text : titled("tendons", text + ", with knots and two 50 mm tails");
 }
 
 std::string knots_text(const Holding& holding) {
@@ -85,22 +80,22 @@ std::string knots_text(const Holding& holding) {
   for (const KnotHold& knot : holding.knots) {
     const std::optional<double> share = holding.share(knot);
     const std::string of_what = text.empty() ? " % of its strength)" : " %)";
-    text += (text.empty() ? "" : ", ") + std::string(knot.side == Side::left ? "1" : "2") + " up to " + rounded(knot.at_knot, 3) +
-            " N" + (share ? " (" + rounded(100.0 * *share, 2) + of_what : "");
+    text += (text.empty() ? "" : ", ") + std::string(knot.side == Side::left ? "1" : "2") + " up to " +
+            rounded(knot.at_knot, 3) + " N" + (share ? " (" + rounded(100.0 * *share, 2) + of_what : "");
   }
-  return text.empty() ? text : built_line("knots", text);
+  return text.empty() ? text : titled("knots", text);
 }
 
 std::string summary(const BuildResult& built, const BuildOptions& options, bool verbose) {
   const Product& product = built.product;
   const StrokeRanges ranges = ranges_of(product.synthesis.stroke);
   std::string text = product.joint.mechanism.name + "\n";
-  text += built_line("alpha", range_text(ranges.alpha, 2, "deg at the pulley"));
-  text += built_line("theta", range_text(ranges.theta, 2, "deg at the joint"));
-  text += built_line("r1", range_text(ranges.r1, 3, "mm"));
-  text += built_line("r2", range_text(ranges.r2, 3, "mm"));
+  text += titled("alpha", range_text(ranges.alpha, 2, "deg at the pulley"));
+  text += titled("theta", range_text(ranges.theta, 2, "deg at the joint"));
+  text += titled("r1", range_text(ranges.r1, 3, "mm"));
+  text += titled("r2", range_text(ranges.r2, 3, "mm"));
   text += tendons_text(product) + knots_text(product.holding);
-  text += built_line("as built", as_built_text(product.as_built));
+  text += titled("as built", as_built_text(product.as_built));
   text += checks_line(product.checks);
   text += files_text(built, options);
   return verbose ? text + "\n" + checks_table(product.checks) : text;

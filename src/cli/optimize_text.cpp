@@ -15,11 +15,6 @@ std::string value_text(Objective objective, double value) {
   return rounded(value, 7) + unit_text(info(objective).unit);
 }
 
-std::string found_line(std::string title, const std::string& text) {
-  title.resize(std::max<std::size_t>(12, title.size() + 1), ' ');
-  return "  " + title + text + "\n";
-}
-
 // ---- a design -------------------------------------------------------------------------------------------------------
 
 Json design_json(const Problem& problem, const Design& design) {
@@ -56,10 +51,10 @@ void add_joint(const OptimizeResult& result, Reply& reply) {
   const Problem& problem = result.problem;
   const Mechanism joint = judged(problem, mechanism_at(problem, result.design));
   reply.fields["pins"] = pins_json(joint);
-  reply.text += found_line("pins", pins_text(joint));
+  reply.text += titled("pins", pins_text(joint));
   if (!problem.as_it_is) return;
   reply.fields["joint"] = "as_it_is";
-  reply.text += found_line("joint", "as it is: [identified] is added to these numbers");
+  reply.text += titled("joint", "as it is: [identified] is added to these numbers");
 }
 
 void add_value(const OptimizeResult& result, Reply& reply) {
@@ -72,8 +67,8 @@ void add_value(const OptimizeResult& result, Reply& reply) {
   if (now.possible) reply.fields["value_before"] = now.value;
   reply.fields["design"] = design_json(result.problem, result.design);
   const std::string before = now.possible ? "; the file as it is: " + value_text(objective, now.value) : "";
-  reply.text += found_line(std::string(info(objective).name), value_text(objective, result.value) + " at theta = " +
-                                                                  rounded(degrees(result.theta), 4) + " deg" + before);
+  reply.text += titled(std::string(info(objective).name), value_text(objective, result.value) + " at theta = " +
+                                                              rounded(degrees(result.theta), 4) + " deg" + before);
   add_joint(result, reply);
   reply.text += design_text(result.problem, result.design);
 }
@@ -144,7 +139,7 @@ Json ties_json(const TieSet& ties) {
 void add_ties(const Problem& problem, const TieSet& ties, bool broken, Reply& reply) {
   reply.fields["ties"] = ties_json(ties);
   if (!ties.wide || broken) return;
-  reply.text += found_line("ties", "within 0.1 %: " + box_text(problem, ties));
+  reply.text += titled("ties", "within 0.1 %: " + box_text(problem, ties));
   const Objective first = problem.objectives.front();
   const Objective other = first != Objective::footprint && has_footprint(problem) ? Objective::footprint
                           : first != Objective::max_tension                       ? Objective::max_tension
@@ -155,8 +150,8 @@ void add_ties(const Problem& problem, const TieSet& ties, bool broken, Reply& re
 }
 
 std::string then_line(Objective objective, const CertifiedResult& second) {
-  return found_line("then", std::string(info(objective).name) + " " + value_text(objective, second.value) +
-                                " among the designs within 0.1 % (gap " + rounded(second.relative_gap, 2) + ")");
+  return titled("then", std::string(info(objective).name) + " " + value_text(objective, second.value) +
+                            " among the designs within 0.1 % (gap " + rounded(second.relative_gap, 2) + ")");
 }
 
 void add_then(Objective objective, const CertifiedResult& second, Reply& reply) {
@@ -180,15 +175,14 @@ void add_certified(const OptimizeOptions& options, const OptimizeResult& result,
   reply.fields["lower_bound"] = search.lower_bound;
   reply.fields["relative_gap"] = search.relative_gap;
   reply.fields["proven"] = search.proven;
-  reply.text += found_line(search.proven ? "proven" : "bound",
-                           "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
-  reply.text += found_line(
-      "searched", std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
+  reply.text += titled(search.proven ? "proven" : "bound",
+                       "no design is below " + rounded(search.lower_bound, 8) + unit_text(info(objective).unit));
+  reply.text += titled("searched",
+                       std::to_string(search.boxes) + " boxes, " + std::to_string(search.evaluations) + " evaluations");
   if (result.problem.feasible)
-    reply.text +=
-        found_line("feasible",
-                   "the proof asks of every design that its curves are convex and its tendons on their pins; the "
-                   "best one can be made");
+    reply.text += titled("feasible",
+                         "the proof asks of every design that its curves are convex and its tendons on their pins; the "
+                         "best one can be made");
   if (result.then) reply.text += then_line(*options.then, *result.then);
   add_ties(result.problem, search.ties, options.then.has_value(), reply);
   if (search.proven || options.then || result.stopped) return;
@@ -208,9 +202,8 @@ void add_genetic(const OptimizeOptions& options, const OptimizeResult& result, c
   reply.text = std::string(info(result.problem.objectives.front()).name) + " of " + result.problem.base.name +
                ", by the genetic algorithm (not proven)\n";
   add_value(result, reply);
-  reply.text +=
-      found_line("searched", progress_text(options, result) + ", seed " + std::to_string(options.genetic.seed) + ", " +
-                                 std::to_string(search.evaluations) + " evaluations");
+  reply.text += titled("searched", progress_text(options, result) + ", seed " + std::to_string(options.genetic.seed) +
+                                       ", " + std::to_string(search.evaluations) + " evaluations");
   reply.fields["found"] = true;
   reply.fields["seed"] = options.genetic.seed;
   reply.fields["generations"] = Json::array();
@@ -278,10 +271,9 @@ void add_files(const OptimizeOptions& options, const OptimizeResult& result, Rep
   reply.diagnostics.insert(reply.diagnostics.end(), result.warnings.begin(), result.warnings.end());
   if (!result.published) return;
   if (!result.front_files.empty())
-    reply.text +=
-        found_line("files", std::to_string(result.front_files.size()) + " in " + options.front_folder.string());
+    reply.text += titled("files", std::to_string(result.front_files.size()) + " in " + options.front_folder.string());
   if (options.new_file.empty()) return;
-  reply.text += found_line("file", options.new_file.string());
+  reply.text += titled("file", options.new_file.string());
   reply.fields["file"] = options.new_file.string();
 }
 

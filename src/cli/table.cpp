@@ -36,4 +36,9 @@ std::string table(const std::vector<Column>& columns, const std::vector<std::vec
   return text;
 }
 
+std::string titled(std::string title, const std::string& text, std::size_t column) {
+  title.resize(std::max(column, title.size() + 1), ' ');
+  return "  " + title + text + "\n";
+}
+
 }  // namespace fusee::cli

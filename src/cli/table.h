@@ -19,4 +19,7 @@ struct Column {
 /// bytes.
 std::string table(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 
+/// What a number or a finding is called, and behind it, from `column` on or after a blank, what it is.
+std::string titled(std::string title, const std::string& text, std::size_t column = 12);
+
 }  // namespace fusee::cli
