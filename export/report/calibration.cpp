@@ -14,15 +14,6 @@
 namespace fusee {
 namespace {
 
-/// JSON knows no NaN and no infinity. Nine digits: the last ones of a fit are noise.
-Json fitted(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  if (value == 0) return 0.0;
-  const double scale = std::pow(10.0, 8 - std::floor(std::log10(std::abs(value))));
-  return std::isfinite(scale) && scale > 0 ? Json(std::round(value * scale) / scale) : Json(value);
-}
-Json fitted_angle(double value) { return fitted(degrees(value)); }
-
 /// Null where no joints were simulated.
 Json audit_json(const Audit& audit) {
   return audit.worlds > 0 ? Json({{"worlds", audit.worlds}, {"named", audit.named}}) : Json();
@@ -31,20 +22,20 @@ Json audit_json(const Audit& audit) {
 Json effect_json(const FoundEffect& effect) {
   Json parameters = Json::object();
   for (const FittedParameter& parameter : effect.parameters) {
-    parameters[parameter.name] = {{"value", fitted(parameter.value)},
-                                  {"ci95", {fitted(parameter.low), fitted(parameter.high)}}};
+    parameters[parameter.name] = {{"value", nine_digits(parameter.value)},
+                                  {"ci95", {nine_digits(parameter.low), nine_digits(parameter.high)}}};
   }
   Json json = {{"name", effect.name},
                {"group", effect.group},
                {"place", word(effect.place)},
                {"parameters", parameters},
-               {"rms_drop_deg", fitted_angle(effect.rms_drop)},
-               {"evidence", fitted(effect.evidence)},
+               {"rms_drop_deg", angle_json(effect.rms_drop)},
+               {"evidence", nine_digits(effect.evidence)},
                {"audit", audit_json(effect.audit)},
                {"correctable_by", word(effect.correctable_by)}};
   // What is ahead of everything without a name keeps the keys it had.
   if (effect.group.back() == k_nameless) {
-    json["nameless"] = {{"behind", fitted(effect.nameless.behind)}, {"words", nameless_words(effect)}};
+    json["nameless"] = {{"behind", nine_digits(effect.nameless.behind)}, {"words", nameless_words(effect)}};
   }
   return json;
 }
@@ -54,10 +45,10 @@ Json unknown_json(const std::vector<Unknown>& unknown) {
   Json list = Json::array();
   for (const Unknown& part : unknown) {
     Json json = {{"factor", part.factor},
-                 {"rms_deg", fitted_angle(part.rms)},
-                 {"evidence", fitted(part.evidence)},
+                 {"rms_deg", angle_json(part.rms)},
+                 {"evidence", nine_digits(part.evidence)},
                  {"words", part.words}};
-    if (part.order > 0) json["order"] = fitted(part.order);
+    if (part.order > 0) json["order"] = nine_digits(part.order);
     list.push_back(json);
   }
   return list;
@@ -65,7 +56,7 @@ Json unknown_json(const std::vector<Unknown>& unknown) {
 
 Json angles_json(const std::vector<double>& angles) {
   Json list = Json::array();
-  for (const double one : angles) list.push_back(fitted_angle(one));
+  for (const double one : angles) list.push_back(angle_json(one));
   return list;
 }
 
@@ -76,9 +67,9 @@ Json covered_json(const CalibrationProduct& product) {
   Json json = {{"used", curve.used}, {"words", curve_words(product)}};
   if (!curve.used) json["why"] = curve.why;
   if (curve.alpha.empty()) return json;
-  json["gain_rms_deg"] = fitted_angle(curve.gain);
-  json["held_out_rms_deg"] = {{"effects_alone", fitted_angle(curve.held_out_effects)},
-                              {"with_curve", fitted_angle(curve.held_out_rms)}};
+  json["gain_rms_deg"] = angle_json(curve.gain);
+  json["held_out_rms_deg"] = {{"effects_alone", angle_json(curve.held_out_effects)},
+                              {"with_curve", angle_json(curve.held_out_rms)}};
   json["curve"] = {{"alpha_deg", angles_json(curve.alpha)},
                    {"theta_up_deg", angles_json(curve.up)},
                    {"theta_down_deg", angles_json(curve.down)}};
@@ -86,24 +77,24 @@ Json covered_json(const CalibrationProduct& product) {
 }
 
 Json figures_json(const ErrorFigures& figures) {
-  return {{"rms_deg", fitted_angle(figures.rms)},
-          {"max_deg", fitted_angle(figures.max)},
-          {"held_out_rms_deg", fitted_angle(figures.held_out_rms)}};
+  return {{"rms_deg", angle_json(figures.rms)},
+          {"max_deg", angle_json(figures.max)},
+          {"held_out_rms_deg", angle_json(figures.held_out_rms)}};
 }
 
 Json iso_json(const Iso230& iso) {
-  return {{"A_deg", fitted_angle(iso.A)},
-          {"R_deg", fitted_angle(iso.R)},
-          {"B_deg", fitted_angle(iso.B)},
-          {"E_deg", fitted_angle(iso.E)},
-          {"M_deg", fitted_angle(iso.M)}};
+  return {{"A_deg", angle_json(iso.A)},
+          {"R_deg", angle_json(iso.R)},
+          {"B_deg", angle_json(iso.B)},
+          {"E_deg", angle_json(iso.E)},
+          {"M_deg", angle_json(iso.M)}};
 }
 
 Json tried_json(const std::vector<Candidate>& tried) {
   Json list = Json::array();
   for (const Candidate& candidate : tried) {
     list.push_back({{"name", candidate.name},
-                    {"evidence", fitted(candidate.evidence)},
+                    {"evidence", nine_digits(candidate.evidence)},
                     {"accepted", candidate.accepted},
                     {"why", candidate.why}});
   }
@@ -118,9 +109,9 @@ Json effects_json(const Calibration& calibration) {
 
 /// A list where two keys have a number each.
 Json numbers_json(const std::vector<double>& values) {
-  if (values.size() == 1) return fitted(values.front());
+  if (values.size() == 1) return nine_digits(values.front());
   Json list = Json::array();
-  for (const double value : values) list.push_back(fitted(value));
+  for (const double value : values) list.push_back(nine_digits(value));
   return list;
 }
 
@@ -130,7 +121,7 @@ Json slips_json(const std::vector<UndoneSlip>& slips) {
     list.push_back({{"key", slip.key},
                     {"declared", numbers_json(slip.declared)},
                     {"would_be", numbers_json(slip.would_be)},
-                    {"rms_deg", fitted_angle(slip.rms)},
+                    {"rms_deg", angle_json(slip.rms)},
                     {"pulley_as_declared", slip.pulley_as_declared},
                     {"beside", slip.beside},
                     {"words", slip_words(slip)}});
@@ -141,19 +132,19 @@ Json slips_json(const std::vector<UndoneSlip>& slips) {
 Json detectable_json(const Calibration& calibration) {
   Json list = Json::array();
   for (const Detectable& detectable : calibration.detectable)
-    list.push_back({{"name", detectable.name}, {"smallest_deg", fitted_angle(detectable.smallest)}});
+    list.push_back({{"name", detectable.name}, {"smallest_deg", angle_json(detectable.smallest)}});
   return list;
 }
 
 Json correctable_json(const Correction& correction) {
-  Json json = {{"by_pulley_rms_deg", fitted_angle(correction.by_pulley)},
-               {"by_table_rms_deg", fitted_angle(correction.by_table)}};
-  if (correction.by_curve > 0) json["by_empirical_curve_rms_deg"] = fitted_angle(correction.by_curve);
+  Json json = {{"by_pulley_rms_deg", angle_json(correction.by_pulley)},
+               {"by_table_rms_deg", angle_json(correction.by_table)}};
+  if (correction.by_curve > 0) json["by_empirical_curve_rms_deg"] = angle_json(correction.by_curve);
   if (!correction.infeasible.empty()) json["infeasible"] = correction.infeasible;
-  if (correction.tied_at != 0) json["tied_at_deg"] = fitted_angle(correction.tied_at);
+  if (correction.tied_at != 0) json["tied_at_deg"] = angle_json(correction.tied_at);
   if (correction.round.r1 > 0) {
-    json["p1_round"] = {{"best_r1_mm", fitted(correction.round.r1)},
-                        {"max_error_deg", fitted_angle(correction.round.max_error)},
+    json["p1_round"] = {{"best_r1_mm", nine_digits(correction.round.r1)},
+                        {"max_error_deg", angle_json(correction.round.max_error)},
                         {"suffices", correction.round.suffices}};
   }
   return json;
@@ -165,16 +156,16 @@ std::string calibration_json(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   Json json = {{"schema", 1}, {"verdict", word(calibration.verdict)}, {"summary", calibration.summary}};
   json["effects"] = effects_json(calibration);
-  json["noise_floor_deg"] = fitted_angle(calibration.noise.rms);
-  json["noise_floor"] = {{"degrees_of_freedom", fitted(calibration.noise.degrees_of_freedom)},
+  json["noise_floor_deg"] = angle_json(calibration.noise.rms);
+  json["noise_floor"] = {{"degrees_of_freedom", nine_digits(calibration.noise.degrees_of_freedom)},
                          {"from_repeats", calibration.noise.from_repeats}};
   json["before"] = figures_json(calibration.before);
   json["after"] = figures_json(calibration.after);
   json["after_per_noise_floor"] =
-      calibration.noise.rms > 0 ? fitted(calibration.after.rms / calibration.noise.rms) : Json();
+      calibration.noise.rms > 0 ? nine_digits(calibration.after.rms / calibration.noise.rms) : Json();
   json["held_out"] = {{"factors", calibration.held_out_factors}, {"runs", calibration.held_out_runs}};
-  json["rest_autocorrelation"] = fitted(calibration.rest_autocorrelation);
-  json["unexplained_rms_deg"] = fitted_angle(calibration.unexplained_rms);
+  json["rest_autocorrelation"] = nine_digits(calibration.rest_autocorrelation);
+  json["unexplained_rms_deg"] = angle_json(calibration.unexplained_rms);
   json["unexplained_where"] = calibration.unexplained_where;
   json["unknown"] = unknown_json(calibration.unknown);
   json["covered"] = covered_json(product);

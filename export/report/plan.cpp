@@ -19,12 +19,6 @@ namespace {
 /// Enough for every stroke's shape, and for a person who sets them one by one.
 constexpr int k_rows_a_stroke = 120;
 
-/// Nine digits: the last ones of a simulation are noise.
-Json nine_digits(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::stod(rounded(value, 9));
-}
-Json angle_json(double value) { return nine_digits(degrees(value)); }
 /// Four digits: what is right to some tens of per cent.
 Json size(double value) { return std::isfinite(value) ? Json(std::stod(rounded(value, 4))) : Json(); }
 

@@ -1,10 +1,22 @@
 #include "base/json.h"
 
+#include <cmath>
+
+#include "fusee/base/text.h"
+#include "fusee/base/units.h"
+
 namespace fusee {
 
 std::string json_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
+
+Json nine_digits(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value == 0 ? 0.0 : std::stod(rounded(value, 9));
+}
+
+Json angle_json(double angle) { return nine_digits(degrees(angle)); }
 
 Json parse_json(std::string_view text) { return Json::parse(text); }
 

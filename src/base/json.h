@@ -15,6 +15,11 @@ using Json = nlohmann::ordered_json;
 /// UTF-8 is replaced.
 std::string json_text(const Json& json, int indent);
 
+/// JSON knows no NaN and no infinity: null. The last digits of a fit or a simulation are noise, and nine are kept.
+Json nine_digits(double value);
+/// The same of an angle, in degrees.
+Json angle_json(double angle);
+
 /// Of fusee's own text. Throws nlohmann's error where it is no JSON.
 Json parse_json(std::string_view text);
 
