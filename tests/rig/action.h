@@ -12,8 +12,8 @@
 
 namespace fusee::rig {
 
-/// How the joint stands: θ and tensions are those of the step itself where a torque acts or a tendon gets longer by
-/// them, those of the step before elsewhere.
+/// How the joint stands. What follows from the solution is that of the step itself where a tendon gets longer by it,
+/// and θ where a torque acts; all else is that of the step before.
 struct Moment {
   double time = 0;      ///< on the session's clock
   double run_time = 0;  ///< since the first row of the run

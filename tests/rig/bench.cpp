@@ -18,7 +18,8 @@ constexpr double k_knot_beyond = 5.0;
 /// Of the quickest part of creep: the middle of the first decade. s
 constexpr double k_first_decade = 3.16;
 
-Vec2 mirrored(const Vec2& point) { return {-point.x(), point.y()}; }
+/// Of a tendon's image and back: tendon 1 is seen in the mirror.
+Vec2 in_image(std::size_t side, const Vec2& point) { return side == 0 ? Vec2(-point.x(), point.y()) : point; }
 
 /// Where a falling function that is positive at `low` first is not: false position with the Illinois rule.
 template <typename Function>
@@ -75,7 +76,7 @@ Vec2 printed_at(const OutlinePoint& point, std::size_t side, const Hidden& hidde
   const double wave = hidden.profile_error * std::cos(hidden.profile_harmonic * point.psi + hidden.profile_phase);
   const Vec2 moved = (1.0 + hidden.pulley_scale) * point.position + (hidden.radius_offset + wave) * point.normal +
                      Vec2(hidden.runout_x, hidden.runout_y);
-  return side == 0 ? mirrored(moved) : moved;
+  return in_image(side, moved);
 }
 
 Hull printed(const Outline& outline, std::size_t side, const Hidden& hidden) {
@@ -194,7 +195,7 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
     const Vec2 pull = hang(tendon, side == 0 ? pretension : pretension * arm / own_arm, hidden.slack,
                            side == 0 ? -joint.alpha_max : joint.alpha_min);
     now_.tension[side] = tendon.upper_tension;
-    now_.pull[side] = side == 0 ? mirrored(pull) : pull;
+    now_.pull[side] = in_image(side, pull);
     arm = own_arm;
   }
   // What acts remembers home.
@@ -206,7 +207,7 @@ Bench::Bench(const MadeJoint& joint, const Hidden& hidden)
 void Bench::build_link(BenchTendon& tendon, std::size_t side, const DeclaredMechanism& declared) const {
   const Joint& joint = declared.joint;
   const auto& own = side == 0 ? joint.attachment1 : joint.attachment2;
-  const auto seen = [side](const Vec2& place) { return side == 0 ? mirrored(place) : place; };
+  const auto seen = [side](const Vec2& place) { return in_image(side, place); };
   tendon.end = own ? seen(Vec2(own->across, own->along) + hidden_.end_moved[side]) : Vec2(0.0, R_);
   if (!(joint.drum_radius > 0)) return;
   const double radius = joint.drum_radius + hidden_.drum_radius + 0.5 * declared.tendon.diameter;
@@ -527,7 +528,7 @@ double Bench::to(double pulley, double alpha, const Conditions& conditions) {
     for (std::size_t side = 0; side < 2; ++side) {
       now[side] = tried(side, lower[side], theta);
       at.tension[side] = now[side].upper_tension;
-      at.pull[side] = side == 0 ? mirrored(now[side].pull) : now[side].pull;
+      at.pull[side] = in_image(side, now[side].pull);
     }
     at.theta = theta;
     at.theta_speed = (theta - theta_) / std::max(1e-9, at.seconds);
