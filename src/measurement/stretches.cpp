@@ -39,11 +39,19 @@ SeenSpan seen_span_of(const std::vector<Sample>& samples, double Sample::*value)
   return span;
 }
 
+/// Of what goes on steadily between its stands.
 double noise_of(const std::vector<Sample>& samples, double Sample::*value) {
   std::vector<double> bends;
   for (std::size_t i = 2; i < samples.size(); ++i)
     bends.push_back(std::abs(samples[i].*value - 2 * samples[i - 1].*value + samples[i - 2].*value));
   return white_noise_of(std::move(bends));
+}
+
+/// Of what mostly stands: of three rows a stand two bends in three are those of a step.
+double noise_of_stands(const std::vector<Sample>& samples, double Sample::*value) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(std::abs(samples[i].*value - samples[i - 1].*value));
+  return white_noise_of_steps(std::move(steps));
 }
 
 double mean_of(const std::vector<Sample>& samples, double Sample::*value, const Hold& rows) {
@@ -83,10 +91,9 @@ double sensor_step(const std::vector<Sample>& samples, double quantum) {
   return k_steps_of_a_sensor * quantum < seen_span_of(samples, &Sample::alpha).size() ? quantum : 0;
 }
 
-std::vector<Hold> standing(const std::vector<Sample>& samples, double step) {
+std::vector<Hold> standing(const std::vector<Sample>& samples, double step, double noise) {
   double way = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) way += std::abs(samples[i].alpha - samples[i - 1].alpha);
-  const double noise = noise_of(samples, &Sample::alpha);
   const double width =
       std::max({k_wander * seen_span_of(samples, &Sample::alpha).size(), 1.5 * step, 2 * k_beyond_noise * noise});
   // What noise adds to the way is none: 2/√π of its spread from row to row.
@@ -274,10 +281,14 @@ class Cutter {
 
 std::vector<Hold> holds_in(const std::vector<Sample>& samples, double alpha_quantum) {
   if (samples.size() < k_fewest_held) return {};
-  std::vector<Hold> holds = standing(samples, sensor_step(samples, alpha_quantum));
-  std::size_t rows = 0;
-  for (const Hold& hold : holds) rows += count_of(hold);
-  return 2 * rows >= samples.size() && !goes_on_meanwhile(samples, holds) ? holds : std::vector<Hold>{};
+  const double step = sensor_step(samples, alpha_quantum);
+  for (const double noise : {noise_of(samples, &Sample::alpha), noise_of_stands(samples, &Sample::alpha)}) {
+    std::vector<Hold> holds = standing(samples, step, noise);
+    std::size_t rows = 0;
+    for (const Hold& hold : holds) rows += count_of(hold);
+    if (2 * rows >= samples.size() && !goes_on_meanwhile(samples, holds)) return holds;
+  }
+  return {};
 }
 
 double quantum_beside(const std::vector<Hold>& holds, const std::vector<Sample>& samples, double Sample::*angle,

@@ -8,16 +8,17 @@
 namespace fusee {
 namespace {
 
-/// How far α must come back before it counts as a reversal.
-double reversal_threshold(const std::vector<Sample>& samples, double quantum) {
+/// How far α must come back before it counts as a reversal. `stands`: in most rows.
+double reversal_threshold(const std::vector<Sample>& samples, double quantum, bool stands) {
   double least = samples.front().alpha, most = least;
-  std::vector<double> bends;
+  std::vector<double> steps, bends;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     least = std::min(least, samples[i].alpha);
     most = std::max(most, samples[i].alpha);
+    if (i > 0) steps.push_back(std::abs(samples[i].alpha - samples[i - 1].alpha));
     if (i > 1) bends.push_back(std::abs(samples[i].alpha - 2 * samples[i - 1].alpha + samples[i - 2].alpha));
   }
-  const double noise = white_noise_of(std::move(bends));
+  const double noise = stands ? white_noise_of_steps(std::move(steps)) : white_noise_of(std::move(bends));
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
@@ -131,9 +132,13 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Second differences of white noise have √6 of its spread; a median of their size is .674 of that.
+// Second differences of white noise have √6 of its spread, first ones √2; a median of their size is .674 of that.
 double white_noise_of(std::vector<double> second_differences) {
   return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0));
+}
+
+double white_noise_of_steps(std::vector<double> differences) {
+  return median_of(std::move(differences)) / (0.6745 * std::sqrt(2.0));
 }
 
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time) {
@@ -161,8 +166,9 @@ std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_ti
 
 std::vector<Stroke> split_strokes(const std::vector<Sample>& samples, const std::vector<Hold>& holds,
                                   double alpha_quantum, bool has_time) {
-  if (samples.size() < 3 || only_jitters(samples)) return {};
-  const double threshold = reversal_threshold(samples, alpha_quantum);
+  // A motor that is held at one angle after another moves, though its joint follow it not at all.
+  if (samples.size() < 3 || (holds.empty() && only_jitters(samples))) return {};
+  const double threshold = reversal_threshold(samples, alpha_quantum, !holds.empty());
   if (!(threshold > 0)) return {};
   const std::vector<std::size_t> gaps = holds.empty() ? gaps_in(samples, has_time) : std::vector<std::size_t>{};
   const std::vector<Sample> standing = settled(samples, holds);

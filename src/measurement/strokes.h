@@ -24,5 +24,7 @@ double median_of(std::vector<double> values);
 
 /// Spread of white noise, from the sizes of second differences of a smooth curve that it lies on.
 double white_noise_of(std::vector<double> second_differences);
+/// The same from first ones, of what stands.
+double white_noise_of_steps(std::vector<double> differences);
 
 }  // namespace fusee

@@ -34,8 +34,9 @@ std::vector<Row> held_at(const std::vector<double>& angles, int rows, int betwee
   return log;
 }
 
-/// θ is a quarter of α, less .05° a newton; both sensors scatter.
-Measurement read(const std::vector<Row>& log, double noise = 0.01, double alpha_quantum = 0, bool has_load = true) {
+/// θ is a quarter of α, less .05° a newton, up to `stop`; both sensors scatter.
+Measurement read(const std::vector<Row>& log, double noise = 0.01, double alpha_quantum = 0, bool has_load = true,
+                 double stop = 90) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   std::string text = has_load ? "time_s,alpha_deg,theta_deg,load_N\n" : "time_s,alpha_deg,theta_deg\n";
@@ -43,7 +44,7 @@ Measurement read(const std::vector<Row>& log, double noise = 0.01, double alpha_
     double alpha = log[i].alpha + noise * normal(random);
     if (alpha_quantum > 0) alpha = alpha_quantum * std::round(alpha / alpha_quantum);
     text += shortest(0.1 * static_cast<double>(i)) + "," + shortest(alpha) + "," +
-            shortest(0.25 * log[i].alpha - 0.05 * log[i].load + noise * normal(random)) +
+            shortest(std::min(stop, 0.25 * log[i].alpha - 0.05 * log[i].load) + noise * normal(random)) +
             (has_load ? "," + shortest(log[i].load) : "") + "\n";
   }
   Measurement measurement;
@@ -103,6 +104,14 @@ TEST(Stretches, EndsInTurnAreStrokesOfOneStandEach) {
   EXPECT_EQ(m.runs[0].speed, 0);
   EXPECT_EQ(m.alpha_quantum, 0) << "held angles are no steps of a sensor";
   EXPECT_THAT(m.notes, ElementsAre(HasSubstr("alpha is held 6 times")));
+}
+
+/// Three rows an end scatter about one place as jitter does, and a joint that stops early does not follow.
+TEST(Stretches, EndsInTurnAreAMotionThoughTheJointStopsEarly) {
+  const std::vector<double> ends = {-95, 94, -72, 70, -48, 46, -24, 23};
+  const Measurement stopped = read(held_at(ends, 3), 0.002, 0, true, -10);
+  EXPECT_THAT(reasons_of(stopped), IsEmpty());
+  EXPECT_EQ(stands_of(stopped.runs.front()), "+-95 +94 --72 +70 --48 +46 --24 +23");
 }
 
 TEST(Stretches, OneRowAtEachEndIsAMotionToo) {
