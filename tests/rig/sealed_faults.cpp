@@ -185,8 +185,8 @@ double rubbing_wheel(const Moment& now, const N& n, N& memory) {
 // ---- joint's sensor, log --------------------------------------------------------------------------------------------
 
 /// A bit of the joint's sensor that is always nought: every second interval of n[0] is shown too low by n[0]. In
-/// practice 0.1 … 1.5 deg (a tenth to seventh bit of twelve or fourteen). A square wave of high order with nothing
-/// smooth about it, the same under any load.
+/// practice 0.1 … 1.4 deg (the last to the fifth-last of twelve). A square wave of high order with nothing smooth about
+/// it, the same under any load.
 double stuck_bit(const Moment& now, const N& n, N&) {
   if (!(n[0] > 0)) return 0.0;
   const bool set = std::fmod(std::abs(std::floor(now.theta / n[0])), 2.0) == 1.0;
@@ -246,9 +246,13 @@ double bowed_bracket(const Moment& now, const N& n, N& memory) {
 std::vector<Fault> drive_faults() {
   return {
       {.name = "weak_supply", .first = 0.02, .most = 0.2,
-       .set = [](H& h, double s, const C& c, const J& j) { h.shaft.push_back({"weak_supply", {s, 0.1 + 0.2 * c.share, pretension(j)}, weak_supply}); }},
+       .set = [](H& h, double s, const C& c, const J& j) {
+         h.shaft.push_back({"weak_supply", {s, 0.1 + 0.2 * c.share, pretension(j)}, weak_supply});
+       }},
       {.name = "idle_current", .first = 0.02, .most = 0.15,
-       .set = [](H& h, double s, const C& c, const J& j) { h.shaft.push_back({"idle_current", {s, 0.2 + 0.4 * c.share, pretension(j)}, idle_current}); }},
+       .set = [](H& h, double s, const C& c, const J& j) {
+         h.shaft.push_back({"idle_current", {s, 0.2 + 0.4 * c.share, pretension(j)}, idle_current});
+       }},
       {.name = "full_steps", .first = 0.02, .most = 0.15,
        .set = [](H& h, double s, const C&, const J&) { h.shaft.push_back({"full_steps", {s}, full_steps}); }},
       {.name = "worn_gear_sector", .first = 0.04, .most = 0.3,
@@ -279,12 +283,17 @@ std::vector<Fault> tendon_faults() {
        },
        .kin = {"tendon_slip"}},  // a step of a tendon's length, where nothing pulls it back
       {.name = "fraying_tendon", .first = 0.03, .most = 0.4,
-       .set = [](H& h, double s, const C& c, const J& j) { h.longer[1].push_back({"fraying", {s, alpha_within(c, j)}, fraying}); }},
+       .set = [](H& h, double s, const C& c, const J& j) {
+         h.longer[1].push_back({"fraying", {s, alpha_within(c, j)}, fraying});
+       }},
       {.name = "sawn_pin", .first = 3e-3, .most = 0.05,
-       .set = [](H& h, double s, const C&, const J& j) { h.longer[1].push_back({"sawn_pin", {s, pretension(j)}, sawn_pin}); }},
+       .set = [](H& h, double s, const C&, const J& j) {
+         h.longer[1].push_back({"sawn_pin", {s, pretension(j)}, sawn_pin});
+       }},
       {.name = "tendon_on_edge", .first = 3.0, .most = 100.0,
        .set = [](H& h, double s, const C& c, const J& j) {
-         h.longer[c.angle < k_pi ? 0 : 1].push_back({"on_edge", {s, (0.15 + 0.3 * c.share) * end_of_range(c, j)}, on_edge});
+         const N numbers = {s, (0.15 + 0.3 * c.share) * end_of_range(c, j)};
+         h.longer[c.angle < k_pi ? 0 : 1].push_back({"on_edge", numbers, on_edge});
        }},
       {.name = "sagging_bracket", .first = 0.5, .most = 4.0,
        .set = [](H& h, double s, const C& c, const J& j) {
@@ -306,12 +315,16 @@ std::vector<Fault> tendon_faults() {
 std::vector<Fault> link_faults() {
   return {
       {.name = "dented_bearing", .first = 100.0, .most = 8000.0,
-       .set = [](H& h, double s, const C& c, const J&) { h.torque.push_back({"dents", {s, 9.0 + 9.0 * c.share, c.angle}, dents}); }},
+       .set = [](H& h, double s, const C& c, const J&) {
+         h.torque.push_back({"dents", {s, 9.0 + 9.0 * c.share, c.angle}, dents});
+       }},
       {.name = "cold_bushing", .first = 200.0, .most = 10000.0,
        .set = [](H& h, double s, const C&, const J&) { h.dry.push_back({"cold_bushing", {s}, cold_bushing}); },
        .kin = {"joint_friction"}},  // dry friction of the same bearing, once it is cold
       {.name = "relaxing_glove", .first = 500.0, .most = 50000.0,
-       .set = [](H& h, double s, const C& c, const J&) { h.torque.push_back({"glove", {s, 1.0 + 7.0 * c.share}, glove}); }},
+       .set = [](H& h, double s, const C& c, const J&) {
+         h.torque.push_back({"glove", {s, 1.0 + 7.0 * c.share}, glove});
+       }},
       {.name = "landing_weight", .first = 0.1, .most = 1.0,
        .set = [](H& h, double s, const C& c, const J& j) {
          const Joint& joint = j.declared.joint;
@@ -319,7 +332,9 @@ std::vector<Fault> link_faults() {
          h.torque.push_back({"landing", {s, joint.R, at * joint.theta_min, at * joint.theta_max}, landing});
        }},
       {.name = "sliding_hook", .first = 0.1, .most = 0.5,
-       .set = [](H& h, double s, const C& c, const J& j) { h.load.push_back({"hook", {s, (0.1 + 0.25 * c.share) * nearer_end(j)}, hook}); }},
+       .set = [](H& h, double s, const C& c, const J& j) {
+         h.load.push_back({"hook", {s, (0.1 + 0.25 * c.share) * nearer_end(j)}, hook});
+       }},
       {.name = "hand_on_load", .first = 0.3, .most = 0.9,
        .set = [](H& h, double s, const C& c, const J&) { h.load.push_back({"hand", {s, 1.0 + 4.0 * c.share}, hand}); }},
       {.name = "load_over_rubbing_wheel", .first = 0.1, .most = 0.5,
@@ -333,16 +348,22 @@ std::vector<Fault> sensor_faults() {
       {.name = "stuck_bit", .first = 0.004, .most = 0.05,
        .set = [](H& h, double s, const C&, const J&) { h.reading.push_back({"stuck_bit", {s}, stuck_bit}); }},
       {.name = "sagging_reference", .first = 0.01, .most = 0.08,
-       .set = [](H& h, double s, const C& c, const J& j) { h.reading.push_back({"sagging_reference", {s, end_of_range(c, j), pretension(j)}, sagging_reference}); }},
+       .set = [](H& h, double s, const C& c, const J& j) {
+         h.reading.push_back({"sagging_reference", {s, end_of_range(c, j), pretension(j)}, sagging_reference});
+       }},
       {.name = "aliased_hum", .first = 0.002, .most = 0.02,
-       .set = [](H& h, double s, const C& c, const J&) { h.reading.push_back({"hum", {s, k_two_pi * (0.05 + 0.45 * c.share), c.angle}, hum}); }},
+       .set = [](H& h, double s, const C& c, const J&) {
+         h.reading.push_back({"hum", {s, k_two_pi * (0.05 + 0.45 * c.share), c.angle}, hum});
+       }},
       {.name = "brush_sparks", .first = 0.01, .most = 0.2,
        .set = [](H& h, double s, const C&, const J&) { h.reading.push_back({"sparks", {s}, sparks}); }},
       {.name = "drifting_clock", .first = 5e-4, .most = 0.02,
        .set = [](H& h, double s, const C&, const J&) { h.reading.push_back({"drifting_clock", {s}, drifting_clock}); },
        .kin = {"sensor_lag"}},  // shown late
       {.name = "bowed_bracket", .first = 2e-3, .most = 0.02,
-       .set = [](H& h, double s, const C& c, const J&) { h.reading.push_back({"bowed_bracket", {c.sign * s, 15.0 + 45.0 * c.share}, bowed_bracket}); }},
+       .set = [](H& h, double s, const C& c, const J&) {
+         h.reading.push_back({"bowed_bracket", {c.sign * s, 15.0 + 45.0 * c.share}, bowed_bracket});
+       }},
   };
 }
 // clang-format on
