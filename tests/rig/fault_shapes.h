@@ -1,7 +1,8 @@
 /// \file
-/// Where a fault sits and what it looks like there: for every list of faults. rad.
+/// Where a fault sits and what it looks like there: for every list of faults. rad, mm, N.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "rig/faults.h"
@@ -18,6 +19,25 @@ inline double alpha_within(const Character& character, const MadeJoint& joint) {
 inline double theta_within(const Character& character, const MadeJoint& joint) {
   const Joint& declared = joint.declared.joint;
   return declared.theta_min + (0.2 + 0.6 * character.share) * (declared.theta_max - declared.theta_min);
+}
+
+/// The end of the range to either side of home.
+inline double end_of_range(const Character& character, const MadeJoint& joint) {
+  const Joint& declared = joint.declared.joint;
+  return character.sign > 0 ? declared.theta_max : declared.theta_min;
+}
+
+inline double pretension(const MadeJoint& joint) { return joint.declared.tendon.pretension; }
+/// mm by which a tendon is longer for a newton, roughly: over the link and down to the pulley.
+inline double give(const MadeJoint& joint) {
+  const Tendon& tendon = joint.declared.tendon;
+  return (joint.declared.joint.R + joint.declared.pulley.EF) /
+         (tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter);
+}
+
+/// What lags behind `x` by up to `width` to either side (play); `where` is its memory.
+inline double behind(double x, double width, double& where) {
+  return where = std::clamp(where, x - width, x + width);
 }
 
 }  // namespace fusee::rig

@@ -49,6 +49,8 @@ std::vector<Fault> wide_faults();
 std::vector<Fault> tuning_faults();
 /// Without a name, and by another hand: kept aside, nothing is tuned on them and they are run once.
 std::vector<Fault> unseen_faults();
+/// Without a name, by a third hand: kept aside as the unseen ones are, and run once after all else is settled.
+std::vector<Fault> sealed_faults();
 
 /// The faults of several lists as one, in their order.
 std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists);

@@ -15,23 +15,6 @@ using C = Character;
 using J = MadeJoint;
 using N = std::vector<double>;
 
-double pretension(const J& j) { return j.declared.tendon.pretension; }
-
-/// mm by which a tendon is longer for a newton, roughly: over the link and down to the pulley.
-double give(const J& j) {
-  const Tendon& tendon = j.declared.tendon;
-  return (j.declared.joint.R + j.declared.pulley.EF) /
-         (tendon.modulus * 0.25 * k_pi * tendon.diameter * tendon.diameter);
-}
-
-/// The end of the range to either side of home.
-double end_of_range(const C& c, const J& j) {
-  return c.sign > 0 ? j.declared.joint.theta_max : j.declared.joint.theta_min;
-}
-
-/// What lags behind `x` by up to `width` to either side (play); `where` is its memory.
-double behind(double x, double width, double& where) { return where = std::clamp(where, x - width, x + width); }
-
 // ---- motor and shaft ------------------------------------------------------------------------------------------------
 
 /// The log holds the angle that was commanded. At a reversal friction turns round, and the integrator of the motor's
