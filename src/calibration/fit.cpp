@@ -118,6 +118,16 @@ void hold_at_bounds(Fit& fit) {
   }
 }
 
+std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect) {
+  std::vector<Eigen::Index> own;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const bool is_own = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                    [&](const EffectParameter& p) { return &p == fit.parameters[k]; });
+    if (is_own) own.push_back(static_cast<Eigen::Index>(k));
+  }
+  return own;
+}
+
 Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
   const std::vector<Eigen::Index> rows = evidence.rows();
   Tangent tangent;

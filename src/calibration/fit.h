@@ -44,6 +44,9 @@ inline double held_out_rms(const Fit& fit) { return std::sqrt(held_out_square(fi
 /// At its bound a parameter stays there, whatever part of the data it is fitted to: its slopes become nothing.
 void hold_at_bounds(Fit& fit);
 
+/// Of an effect's numbers among the fit's.
+std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect);
+
 /// Fits the joint to the evidence, the discrepancy beside it. For one thread.
 class Fitter {
  public:

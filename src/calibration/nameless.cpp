@@ -37,11 +37,27 @@ constexpr int k_shape_places = 13;
 constexpr std::array k_widths = {0.04, 0.10};
 /// Times of a jump, over all runs.
 constexpr int k_times = 24;
+/// Of the session: in how much of it a drift dies away, from what settles in the first run to what hardly slows down,
+/// and how many times at which one sets in.
+constexpr std::array k_settling = {0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 4.0};
+constexpr int k_late = 6;
 
 /// Ways over which what a reversal leaves is gone, of the span.
 constexpr std::array k_shape_ways = {0.01, 0.02, 0.04, 0.08, 0.15, 0.3};
 
-enum class Dependence { motor_wave, joint_wave, place, direction, reversal, load, load_size, load_direction, speed, time };
+enum class Dependence {
+  motor_wave,
+  joint_wave,
+  place,
+  direction,
+  reversal,
+  load,
+  load_size,
+  load_direction,
+  speed,
+  time,
+  drift
+};
 
 /// A family of shapes of which one is chosen by a searched number or two.
 struct Shape {
@@ -75,6 +91,9 @@ const char* separating_run(Dependence dependence) {
       return "repeat one run at a tenth of its speed and one at five times";
     case Dependence::time:
       return "repeat the first run as the last, touching nothing in between, and mark the tendon at the pulley";
+    case Dependence::drift:
+      return "mark both tendons at knots and pulleys, stand at one place for as long as the session took, then move "
+             "without load, then load without moving: what goes on in one of these alone is what it goes on with";
   }
   return "";
 }
@@ -84,7 +103,8 @@ using Part = std::function<double(const RowFacts&)>;
 /// Shapes over the rows in use, columns of rms 1.
 class Shapes {
  public:
-  explicit Shapes(const Evidence& evidence) : facts_(row_facts(evidence)) {
+  explicit Shapes(const Evidence& evidence)
+      : facts_(row_facts(evidence)), has_loads_(varies(facts_, &RowFacts::load, 0.05)) {
     const auto one = [](const RowFacts&) { return 1.0; };
     const auto direction = [](const RowFacts& r) { return r.direction; };
     const auto load = [](const RowFacts& r) { return r.load; };
@@ -95,7 +115,7 @@ class Shapes {
     add_places(one, Dependence::place, "whatever load and direction");
     add_places(direction, Dependence::direction, "that turns over with the direction");
     add_ways(one, "");
-    if (varies(facts_, &RowFacts::load, 0.05)) {
+    if (has_loads_) {
       add_ways(load_size, ", with the size of the load");
       add_places(load, Dependence::load, "in proportion to the load");
       add_places(load_size, Dependence::load_size, "with the size of the load");
@@ -106,6 +126,9 @@ class Shapes {
       add_places([](const RowFacts& r) { return r.speed * r.direction; }, Dependence::speed, "of a loop that grows "
                  "with speed");
     add_times();
+    add_drifts(&RowFacts::session, "time");
+    add_drifts(&RowFacts::way, "way");
+    add_drifts(&RowFacts::loading, "load put on and off");
     columns_.conservativeResize(Eigen::NoChange, used_);
   }
 
@@ -205,7 +228,29 @@ class Shapes {
     }
   }
 
+  /// What ages with time, wears with the way or sets with each load, ever slower or from some time on.
+  void add_drifts(double RowFacts::*by, const std::string& what) {
+    for (const double settling : k_settling) {
+      add_drift("a drift that dies away in " + rounded(100 * settling, 2) + " % of the session, by " + what,
+                [=](const RowFacts& r) { return std::exp(-(r.*by) / settling); });
+    }
+    for (int i = 1; i < k_late; ++i) {
+      const double from = static_cast<double>(i) / k_late;
+      add_drift("a drift from " + rounded(100 * from, 2) + " % of the session on, by " + what,
+                [=](const RowFacts& r) { return std::max(0.0, r.*by - from); });
+    }
+  }
+
+  /// Alike at all places, or more to one end, or where there is load: a longer tendon turns the joint by its arm, and
+  /// lets go of its pretension.
+  void add_drift(std::string words, const Part& drift) {
+    std::vector<Part> parts = {drift, [=](const RowFacts& r) { return drift(r) * (2 * r.place - 1); }};
+    if (has_loads_) parts.push_back([=](const RowFacts& r) { return drift(r) * r.load; });
+    add(Dependence::drift, 1, std::move(words), parts, true);
+  }
+
   std::vector<RowFacts> facts_;
+  bool has_loads_ = false;
   Eigen::MatrixXd columns_;
   Eigen::Index used_ = 0;
   std::vector<Shape> shapes_;
@@ -336,6 +381,26 @@ class Reader {
   double size_ = 0;
 };
 
+/// `fit` as its slopes have it without one of its effects: the others are where they were. Where a fit of them had to
+/// do its part as well, they have gone from where what has no name would leave them.
+Fit leaving_out(const Fit& fit, const Effect& effect) {
+  Fit others = fit;
+  others.effects = without(fit.effects, effect);
+  others.at = without(fit.at, effect);
+  const std::vector<Eigen::Index> own = places_of(fit, effect);
+  others.residual += fit.J(Eigen::all, own) * fit.x(own);
+  std::vector<Eigen::Index> kept;
+  others.parameters.clear();
+  for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
+    if (std::count(own.begin(), own.end(), k)) continue;
+    kept.push_back(k);
+    others.parameters.push_back(fit.parameters[static_cast<std::size_t>(k)]);
+  }
+  others.x = fit.x(kept);
+  others.J = fit.J(Eigen::all, kept);
+  return others;
+}
+
 }  // namespace
 
 std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection) {
@@ -346,7 +411,11 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
   std::vector<Reading> readings(rivals.size() + 1);
   workers.each(readings.size(), [&](const Fitter&, std::size_t i) {
     const Fit& base = i == 0 ? best : selection.without[i - 1];
-    if (base.usable) readings[i] = reader.read(base, best.explained.amplitudes);
+    if (!base.usable) return;
+    readings[i] = reader.read(base, best.explained.amplitudes);
+    if (i == 0) return;
+    Reading stayed = reader.read(leaving_out(best, *best.effects[i - 1]), best.explained.amplitudes);
+    if (stayed.score > readings[i].score) readings[i] = std::move(stayed);
   });
   const std::vector<UnderOtherLoads> loads = under_other_loads(evidence, workers, selection);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
@@ -369,10 +438,12 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
   return rivals;
 }
 
-void take_nameless(bool is_something_left, std::vector<FoundEffect>& effects) {
+void take_nameless(bool is_something_left, const std::vector<CredibleGroup>& groups,
+                   std::vector<FoundEffect>& effects) {
   const double least = is_something_left ? k_thresholds.ahead_beside_rest : k_thresholds.ahead_of_nameless;
-  for (FoundEffect& effect : effects) {
-    if (effect.nameless.behind < least) effect.group.emplace_back(k_nameless);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const bool is_doubtful = groups[i].doubt > k_thresholds.most_mistaken;
+    if (is_doubtful || effects[i].nameless.behind < least) effects[i].group.emplace_back(k_nameless);
   }
 }
 

@@ -14,7 +14,7 @@ namespace fusee {
 /// Of every accepted effect, in their order.
 std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection);
 
-/// Groups that may hold nothing with a name say so. `is_something_left`: beside all effects.
-void take_nameless(bool is_something_left, std::vector<FoundEffect>& effects);
+/// Groups that may hold nothing with a name say so. `is_something_left`: beside all effects; `groups`: of each.
+void take_nameless(bool is_something_left, const std::vector<CredibleGroup>& groups, std::vector<FoundEffect>& effects);
 
 }  // namespace fusee

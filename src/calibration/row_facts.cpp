@@ -3,12 +3,52 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusee/joint/bench_log.h"
 #include "measurement/seen_span.h"
 
 namespace fusee {
+namespace {
+
+/// What went on by a row.
+struct GoneOn {
+  double time = 0, way = 0, loading = 0;
+};
+
+/// Of each row of each run, in shares of what the whole session has.
+std::vector<std::vector<GoneOn>> gone_on(const Evidence& evidence) {
+  const std::vector<double> clock = bench_clock(evidence.log);
+  std::vector<std::vector<GoneOn>> all;
+  const Sample* before = nullptr;
+  GoneOn so_far;
+  double begin = 0;
+  for (std::size_t i = 0; i < clock.size(); ++i) {
+    std::vector<GoneOn>& run = all.emplace_back();
+    for (const Sample& sample : evidence.measurement.runs[i].samples) {
+      const double now = clock[i] + sample.time;
+      if (before == nullptr) {
+        begin = now;
+      } else {
+        so_far.way += std::abs(sample.alpha - before->alpha);
+        so_far.loading += std::abs(sample.load - before->load);
+      }
+      so_far.time = now - begin;
+      run.push_back(so_far);
+      before = &sample;
+    }
+  }
+  const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
+  for (std::vector<GoneOn>& run : all) {
+    for (GoneOn& by : run)
+      by = {share(by.time, so_far.time), share(by.way, so_far.way), share(by.loading, so_far.loading)};
+  }
+  return all;
+}
+
+}  // namespace
 
 std::vector<RowFacts> row_facts(const Evidence& evidence) {
   const SeenSpan span = seen_span(evidence.measurement, &Sample::alpha);
+  const std::vector<std::vector<GoneOn>> gone = gone_on(evidence);
   double most_load = 0;
   double most_speed = 0;
   std::vector<std::size_t> offset;
@@ -27,14 +67,17 @@ std::vector<RowFacts> row_facts(const Evidence& evidence) {
     const double begin = run.samples.front().time;
     const double half = std::max(1e-9, 0.5 * (run.samples.back().time - begin));
     for (const std::size_t row : block.rows) {
-      const Sample& sample = run.samples[row - offset[block.run]];
+      const std::size_t place = row - offset[block.run];
+      const Sample& sample = run.samples[place];
+      const GoneOn& by = gone[block.run][place];
       const double begun = run.samples[run.strokes[block.stroke].first].alpha;
       facts.push_back({sample.alpha, sample.theta, span.any() ? (sample.alpha - span.least) / span.size() : 0.0,
                        static_cast<double>(run.strokes[block.stroke].direction),
                        span.any() ? std::abs(sample.alpha - begun) / span.size() : 0.0,
                        run.has_load && most_load > 0 ? sample.load / most_load : 0.0,
                        run.has_time && most_speed > 0 ? run.speed / most_speed : 0.0,
-                       run.has_time ? (sample.time - begin) / half - 1.0 : 0.0, block.run, b});
+                       run.has_time ? (sample.time - begin) / half - 1.0 : 0.0, by.time, by.way, by.loading, block.run,
+                       b});
     }
   }
   return facts;

@@ -17,6 +17,9 @@ struct RowFacts {
   double load = 0;   ///< by the largest
   double speed = 0;  ///< of its run, by the largest
   double time = 0;   ///< within its run, −1 … 1
+  /// What went on by then of all that the session has, each 0 … 1, or 0 throughout where there is none of it: time by
+  /// the bench's clock, way of the motor there and back, load put on and off.
+  double session = 0, way = 0, loading = 0;
   std::size_t run = 0;
   std::size_t block = 0;
 };

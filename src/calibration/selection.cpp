@@ -519,16 +519,6 @@ bool Selector::exchange() {
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
-std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect) {
-  std::vector<Eigen::Index> own;
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
-    const bool is_own = std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                                    [&](const EffectParameter& p) { return &p == fit.parameters[k]; });
-    if (is_own) own.push_back(static_cast<Eigen::Index>(k));
-  }
-  return own;
-}
-
 /// Whether all its numbers may as well be nothing.
 bool has_no_size(const Fit& fit, const Effect& effect, double temperature) {
   const std::vector<Eigen::Index> own = places_of(fit, effect);

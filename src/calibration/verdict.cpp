@@ -159,7 +159,7 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     calibration.unexplained_where = rest.where;
     calibration.unknown = unnamed.parts;
   }
-  take_nameless(unexplained || is_walking(scatter), calibration.effects);
+  take_nameless(unexplained || is_walking(scatter), selection.groups, calibration.effects);
   calibration.verdict = verdict_of(is_walking(scatter), unexplained, calibration.effects);
   if (calibration.verdict == CalibrationVerdict::unexplained)
     calibration.curve = empirical_curve(evidence, selection.best, unnamed);

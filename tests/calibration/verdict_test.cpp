@@ -42,6 +42,7 @@ class Concluded : public testing::Test {
     Amplitudes any = evidence.marginal->nothing_unnamed();
     any.families.setConstant(k_floor);
     selection.best.explained = evidence.marginal->best(tangent_of(evidence, selection.best), any);
+    selection.groups.resize(calibration.effects.size());
     conclude(evidence, selection, calibration);
     return calibration.verdict;
   }
@@ -91,6 +92,15 @@ TEST_F(Concluded, WhatIsFarAheadOfEverythingWithoutANameIs) {
   calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1)};
   EXPECT_EQ(verdict(), CalibrationVerdict::explained);
   EXPECT_THAT(calibration.next_runs, testing::Not(testing::Contains("come from both sides")));
+}
+
+TEST_F(Concluded, WhatIsDoubtfulMayBeSomethingWithoutANameHoweverFarAhead) {
+  leave(1);
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1), ahead_by(k_thresholds.ahead_of_nameless + 1)};
+  selection.groups = {{{}, k_thresholds.most_mistaken / 2}, {{}, k_thresholds.most_mistaken * 2}};
+  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash"));
+  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "nameless"));
 }
 
 TEST_F(Concluded, BesideSomethingUnexplainedANameNeedsMore) {

@@ -89,6 +89,14 @@ TEST(Judge, a_wave_without_a_name_is_not_given_one) {
   EXPECT_EQ(one.false_names, 0u) << one.words;
 }
 
+// A bench that cools down while a knot gives a little with every load was read as thermal_expansion, by 79 nats.
+TEST(Judge, a_knot_that_lets_go_with_the_loads_is_no_warmth) {
+  const Case made = make_case(random_truth(Kind::unknown, "unseen", 92053), 92053, {Protocol::random, true});
+  ASSERT_EQ(made.truth, "creeping_knot");
+  const Judgement one = calibrate_case(made, std::filesystem::path(::testing::TempDir()) / "knot");
+  EXPECT_EQ(one.false_names, 0u) << one.words;
+}
+
 // A load cell that shows too little was named slack, alone and by 76 nats: a tendon goes slack where the load is larger
 // than logged. Slack that is there keeps its name.
 TEST(Judge, a_load_that_is_not_as_logged_is_no_slack) {
