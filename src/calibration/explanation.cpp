@@ -61,9 +61,11 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     found.correctable_by = effect->correctable_by;
     found.parameters = fitted_parameters(evidence, best, ranges, *effect);
     for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
+    const Fit& others = selection.without[all.size()];
     for (const Rival& rival : selection.rivals) {
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
-      if (rival.accepted == effect && !in_group && as_good(evidence, rival.fit, best))
+      const bool does_nothing = others.usable && score(rival.fit) < score(others);
+      if (rival.accepted == effect && !in_group && !does_nothing && as_good(evidence, rival.fit, best))
         found.group.push_back(rival.rival->name);
     }
     found.rms_drop = rms_drop(selection, all.size());

@@ -55,7 +55,7 @@ const Effect* in_their_place(const std::vector<Weighed>& sets, const std::vector
 }  // namespace
 
 CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const Effect& named,
-                             double most_doubt) {
+                             double most_doubt, double least_gain) {
   const std::vector<double> weights = weights_of(sets);
   CredibleGroup group{{&named}, doubt_of(sets, weights, {&named})};
   while (group.doubt > most_doubt) {
@@ -64,7 +64,7 @@ CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& 
     EffectSet wider = group.members;
     wider.push_back(other);
     const double doubt = doubt_of(sets, weights, wider);
-    if (!(doubt < group.doubt)) break;
+    if (!(doubt < (1.0 - least_gain) * group.doubt)) break;
     group = {std::move(wider), doubt};
   }
   return group;

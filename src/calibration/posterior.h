@@ -22,8 +22,9 @@ struct CredibleGroup {
 };
 
 /// `named` of the set `best`, with as many others that stand in its place as it takes to be sure to within
-/// `most_doubt`; where what speaks against it has nothing in its place the doubt stays larger.
+/// `most_doubt`; where what speaks against it has nothing in its place the doubt stays larger. `least_gain`: each other
+/// takes more than this part of the doubt away.
 CredibleGroup credible_group(const std::vector<Weighed>& sets, const EffectSet& best, const Effect& named,
-                             double most_doubt);
+                             double most_doubt, double least_gain = 0);
 
 }  // namespace fusee

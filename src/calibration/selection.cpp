@@ -11,6 +11,7 @@
 #include "base/decompositions.h"
 #include "calibration/catalogue.h"
 #include "calibration/thresholds.h"
+#include "calibration/unknown.h"
 
 // Sets of effects by plain squares first, then a beam over sets by evidence. A set is as good as its evidence, beside a
 // discrepancy that may take any smooth shape, and as its effects are common; the best set ever seen is what is looked
@@ -130,6 +131,8 @@ class Selector {
   std::optional<double> square_about_best(const Fit& fit, Eigen::Index place) const;
   void look_at_variance();
   bool is_without_size(const Effect& effect) const;
+  CredibleGroup group_of(const std::vector<Weighed>& sets, const Effect& effect) const;
+  bool completes(const Effect& effect) const;
   bool drop_doubtful();
   void write_down();
 
@@ -384,7 +387,7 @@ void Selector::settle_best() {
   take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
-/// Every member is left out, and held against every effect in its place that promises something, and against those
+/// Every member is left out, and held against every effect in its place that a look does not give up, and against those
 /// whose place is searched for: of a profile's wave in the place of a runout a look promised nothing, and it was 13
 /// nats likelier (matrix, seed 41022). Whether a better set was found.
 bool Selector::challenge() {
@@ -402,12 +405,9 @@ bool Selector::challenge() {
   selection_.rivals.clear();
   std::vector<Addition> added;
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    std::size_t taken = 0;
     for (const Addition& addition : looks[i]) {
-      const bool hopeless = addition.promise < score(best) - k_thresholds.hopeless;
-      const bool looked_through = hopeless || taken >= k_thresholds.most_rivals;
-      if (contains(best.effects, *addition.effect) || (looked_through && !is_searched(*addition.effect))) continue;
-      ++taken;
+      const bool given_up = addition.promise < score(best) - k_thresholds.far && !is_searched(*addition.effect);
+      if (given_up || contains(best.effects, *addition.effect)) continue;
       selection_.rivals.push_back({best.effects[i], addition.effect, {}});
       added.push_back(addition);
     }
@@ -416,8 +416,7 @@ bool Selector::challenge() {
   workers_.each(added.size(), [&](const Fitter& fitter, std::size_t i) {
     Fit& fit = selection_.rivals[i].fit;
     fit = fitter.with_effect(*added[i].base, *added[i].effect);
-    if (fit.usable && fit.log_evidence > best.log_evidence - 3.0 * k_thresholds.as_good)
-      fit = fitter.fit(fit.effects, fit.at);
+    if (fit.usable && score(fit) > score(best) - k_thresholds.far) fit = fitter.fit(fit.effects, fit.at);
   });
   std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
   const double before = score(best);
@@ -557,22 +556,47 @@ bool Selector::is_without_size(const Effect& effect) const {
          rms_apart(evidence_, others.residual, best.residual) < k_thresholds.least_moved * evidence_.floor;
 }
 
+/// Where nothing in its place may be there as well, each of all others takes a little of the doubt away, and says
+/// nothing.
+CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const Effect& effect) const {
+  const EffectSet& best = selection_.best.effects;
+  CredibleGroup group = credible_group(sets, best, effect, k_thresholds.least_of_a_group);
+  if (group.doubt <= k_thresholds.most_mistaken) return group;
+  return credible_group(sets, best, effect, k_thresholds.least_of_a_group, k_thresholds.least_gain);
+}
+
+/// Whether all is explained with an effect and not without it.
+bool Selector::completes(const Effect& effect) const {
+  const Fit& best = selection_.best;
+  const auto leaves_something = [&](const Fit& fit) {
+    return is_unexplained(unnamed_beside(evidence_, fit), evidence_.floor);
+  };
+  if (leaves_something(best) || is_walking(stroke_scatter(evidence_, best))) return false;
+  const Fit others = workers_.one().fit(without(best.effects, effect), without(best.at, effect));
+  return others.usable && score(best) > score(others) && leaves_something(others);
+}
+
 /// What is not sure enough to be named, with all that could stand in its place, or has no size to name, goes, the most
-/// doubtful first. Whether something went.
+/// doubtful first. What completes an explanation may stay with more doubt: its group will say that it may be nothing
+/// with a name. Whether something went.
 bool Selector::drop_doubtful() {
   const std::vector<Weighed> sets = weighed();
   selection_.groups.clear();
-  for (const Effect* effect : selection_.best.effects)
-    selection_.groups.push_back(credible_group(sets, selection_.best.effects, *effect, k_thresholds.least_of_a_group));
+  for (const Effect* effect : selection_.best.effects) selection_.groups.push_back(group_of(sets, *effect));
+  std::vector<const CredibleGroup*> doubtful;
   for (CredibleGroup& group : selection_.groups) {
     if (is_without_size(*group.members.front())) group.doubt = 1;
+    if (group.doubt > k_thresholds.most_mistaken) doubtful.push_back(&group);
   }
-  const auto worst = std::max_element(selection_.groups.begin(), selection_.groups.end(),
-                                      [](const CredibleGroup& a, const CredibleGroup& b) { return a.doubt < b.doubt; });
-  if (worst == selection_.groups.end() || worst->doubt <= k_thresholds.most_mistaken) return false;
-  const Effect& doubtful = *worst->members.front();
-  take_best(workers_.one().fit(without(selection_.best.effects, doubtful), without(selection_.best.at, doubtful)));
-  return true;
+  std::stable_sort(doubtful.begin(), doubtful.end(),
+                   [](const CredibleGroup* a, const CredibleGroup* b) { return a->doubt > b->doubt; });
+  for (const CredibleGroup* group : doubtful) {
+    const Effect& effect = *group->members.front();
+    if (group->doubt < k_thresholds.most_doubtful && completes(effect)) continue;
+    take_best(workers_.one().fit(without(selection_.best.effects, effect), without(selection_.best.at, effect)));
+    return true;
+  }
+  return false;
 }
 
 /// Root mean square over the rows of what a Gaussian of covariance `C` does by the slopes `J`, rad.

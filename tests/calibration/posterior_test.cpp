@@ -69,6 +69,14 @@ TEST_F(Groups, StayInDoubtWhereNothingTakesThePlace) {
   EXPECT_NEAR(found.doubt, 0.1, 1e-12);
 }
 
+TEST_F(Groups, InDoubtHoldWhatTakesMuchOfItAway) {
+  const std::vector<Weighed> sets = {set("a", 60), set("b", 30), set("c", 1), set("d", 1), set("", 8)};
+  EXPECT_EQ(names(group(sets, "a", 'a').members), "abcd");
+  const CredibleGroup found = credible_group(sets, of("a"), *of("a").front(), 0.02, 0.2);
+  EXPECT_EQ(names(found.members), "ab");
+  EXPECT_NEAR(found.doubt, 0.1, 1e-12);
+}
+
 TEST_F(Groups, DoNotHoldOtherMembersOfTheSet) {
   const CredibleGroup found = group({set("ab", 50), set("bc", 50)}, "ab", 'a');
   EXPECT_EQ(names(found.members), "ac");
