@@ -344,6 +344,9 @@ void Fitter::judge(Fit& fit) const {
   const Marginal& marginal = *evidence().marginal;
   fit.explained = marginal.best(tangent_of(evidence(), fit), marginal.first_guess());
   fit.log_evidence = fit.explained.log_evidence_here - cost_of_play(evidence(), fit);
+  // Two waves of one order are one column twice: a set that cannot be weighed would take all others' weight with it.
+  fit.usable = std::isfinite(fit.log_evidence);
+  if (!fit.usable) return;
   fit.readings = sums_of_readings(evidence(), fit);
   fit.against_readings = against_readings(evidence(), fit.at);
   fit.sums.clear();

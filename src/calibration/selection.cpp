@@ -224,7 +224,8 @@ double Selector::promised(const Fit& base, const EffectSet& added, const std::ve
     SharedLooks::add(*of_one, tangent);
   }
   const double loose = base.explained.log_evidence - base.log_evidence;
-  return evidence_.marginal->best(tangent, unnamed, k_look_rounds).log_evidence - loose - cost;
+  const double promise = evidence_.marginal->best(tangent, unnamed, k_look_rounds).log_evidence - loose - cost;
+  return std::isfinite(promise) ? promise : -std::numeric_limits<double>::infinity();
 }
 
 /// By chords over the effect's size in practice, and to each of its starts.
