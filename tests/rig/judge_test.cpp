@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "calibration/contract_effects.h"
@@ -89,8 +90,10 @@ TEST(Judge, a_wave_without_a_name_is_not_given_one) {
   EXPECT_EQ(one.false_names, 0u) << one.words;
 }
 
-// A bench that cools down while a knot gives a little with every load was read as thermal_expansion, by 79 nats.
+// A bench that cools down while a knot gives a little with every load was read as thermal_expansion, by 79 nats. Half
+// a minute: FUSEE_LONG_TESTS=1.
 TEST(Judge, a_knot_that_lets_go_with_the_loads_is_no_warmth) {
+  if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
   const Case made = make_case(random_truth(Kind::unknown, "unseen", 92053), 92053, {Protocol::random, true});
   ASSERT_EQ(made.truth, "creeping_knot");
   const Judgement one = calibrate_case(made, std::filesystem::path(::testing::TempDir()) / "knot");
