@@ -39,21 +39,6 @@ SeenSpan seen_span_of(const std::vector<Sample>& samples, double Sample::*value)
   return span;
 }
 
-/// Of what goes on steadily between its stands.
-double noise_of(const std::vector<Sample>& samples, double Sample::*value) {
-  std::vector<double> bends;
-  for (std::size_t i = 2; i < samples.size(); ++i)
-    bends.push_back(std::abs(samples[i].*value - 2 * samples[i - 1].*value + samples[i - 2].*value));
-  return white_noise_of(std::move(bends));
-}
-
-/// Of what mostly stands: of three rows a stand two bends in three are those of a step.
-double noise_of_stands(const std::vector<Sample>& samples, double Sample::*value) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(std::abs(samples[i].*value - samples[i - 1].*value));
-  return white_noise_of_steps(std::move(steps));
-}
-
 double mean_of(const std::vector<Sample>& samples, double Sample::*value, const Hold& rows) {
   double sum = 0;
   for (std::size_t i = rows.first; i <= rows.last; ++i) sum += samples[i].*value;

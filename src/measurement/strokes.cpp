@@ -11,14 +11,11 @@ namespace {
 /// How far α must come back before it counts as a reversal. `stands`: in most rows.
 double reversal_threshold(const std::vector<Sample>& samples, double quantum, bool stands) {
   double least = samples.front().alpha, most = least;
-  std::vector<double> steps, bends;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    least = std::min(least, samples[i].alpha);
-    most = std::max(most, samples[i].alpha);
-    if (i > 0) steps.push_back(std::abs(samples[i].alpha - samples[i - 1].alpha));
-    if (i > 1) bends.push_back(std::abs(samples[i].alpha - 2 * samples[i - 1].alpha + samples[i - 2].alpha));
+  for (const Sample& sample : samples) {
+    least = std::min(least, sample.alpha);
+    most = std::max(most, sample.alpha);
   }
-  const double noise = stands ? white_noise_of_steps(std::move(steps)) : white_noise_of(std::move(bends));
+  const double noise = stands ? noise_of_stands(samples, &Sample::alpha) : noise_of(samples, &Sample::alpha);
   return std::min(std::max({0.01 * (most - least), 2.5 * quantum, 5.0 * noise}), 0.25 * (most - least));
 }
 
@@ -137,8 +134,17 @@ double white_noise_of(std::vector<double> second_differences) {
   return median_of(std::move(second_differences)) / (0.6745 * std::sqrt(6.0));
 }
 
-double white_noise_of_steps(std::vector<double> differences) {
-  return median_of(std::move(differences)) / (0.6745 * std::sqrt(2.0));
+double noise_of(const std::vector<Sample>& samples, double Sample::*value) {
+  std::vector<double> bends;
+  for (std::size_t i = 2; i < samples.size(); ++i)
+    bends.push_back(std::abs(samples[i].*value - 2 * samples[i - 1].*value + samples[i - 2].*value));
+  return white_noise_of(std::move(bends));
+}
+
+double noise_of_stands(const std::vector<Sample>& samples, double Sample::*value) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(std::abs(samples[i].*value - samples[i - 1].*value));
+  return median_of(std::move(steps)) / (0.6745 * std::sqrt(2.0));
 }
 
 std::vector<std::size_t> gaps_in(const std::vector<Sample>& samples, bool has_time) {

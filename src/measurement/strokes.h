@@ -24,7 +24,9 @@ double median_of(std::vector<double> values);
 
 /// Spread of white noise, from the sizes of second differences of a smooth curve that it lies on.
 double white_noise_of(std::vector<double> second_differences);
-/// The same from first ones, of what stands.
-double white_noise_of_steps(std::vector<double> differences);
+/// The same of a logged number that goes on steadily between its stands …
+double noise_of(const std::vector<Sample>& samples, double Sample::*value);
+/// … and of one that mostly stands: of three rows a stand two bends in three are those of a step.
+double noise_of_stands(const std::vector<Sample>& samples, double Sample::*value);
 
 }  // namespace fusee
