@@ -132,7 +132,8 @@ class Selector {
   void look_at_variance();
   bool is_without_size(const Effect& effect) const;
   CredibleGroup group_of(const std::vector<Weighed>& sets, const Effect& effect) const;
-  bool completes(const Effect& effect) const;
+  Fit best_without(const Effect& effect) const;
+  bool is_completed_beside(const Fit& others) const;
   bool drop_doubtful();
   void write_down();
 
@@ -547,12 +548,17 @@ std::vector<Weighed> Selector::weighed() {
   return sets;
 }
 
+/// The other members, fitted anew.
+Fit Selector::best_without(const Effect& effect) const {
+  return workers_.one().fit(without(selection_.best.effects, effect), without(selection_.best.at, effect));
+}
+
 /// Whether the data say of its numbers that they may as well be nothing, and the readings that it hardly moves them. A
 /// friction that holds a joint fast moves it by all there is, and its slope is nothing then.
 bool Selector::is_without_size(const Effect& effect) const {
   const Fit& best = selection_.best;
   if (!has_no_size(best, effect, selection_.temperature)) return false;
-  const Fit others = workers_.one().fit(without(best.effects, effect), without(best.at, effect));
+  const Fit others = best_without(effect);
   return others.usable &&
          rms_apart(evidence_, others.residual, best.residual) < k_thresholds.least_moved * evidence_.floor;
 }
@@ -566,14 +572,13 @@ CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const Effect&
   return credible_group(sets, best, effect, k_thresholds.least_of_a_group, k_thresholds.least_gain);
 }
 
-/// Whether all is explained with an effect and not without it.
-bool Selector::completes(const Effect& effect) const {
+/// Whether all is explained by the best, and not by these of its members.
+bool Selector::is_completed_beside(const Fit& others) const {
   const Fit& best = selection_.best;
   const auto leaves_something = [&](const Fit& fit) {
     return is_unexplained(unnamed_beside(evidence_, fit), evidence_.floor);
   };
   if (leaves_something(best) || is_walking(stroke_scatter(evidence_, best))) return false;
-  const Fit others = workers_.one().fit(without(best.effects, effect), without(best.at, effect));
   return others.usable && score(best) > score(others) && leaves_something(others);
 }
 
@@ -592,9 +597,9 @@ bool Selector::drop_doubtful() {
   std::stable_sort(doubtful.begin(), doubtful.end(),
                    [](const CredibleGroup* a, const CredibleGroup* b) { return a->doubt > b->doubt; });
   for (const CredibleGroup* group : doubtful) {
-    const Effect& effect = *group->members.front();
-    if (group->doubt < k_thresholds.most_doubtful && completes(effect)) continue;
-    take_best(workers_.one().fit(without(selection_.best.effects, effect), without(selection_.best.at, effect)));
+    Fit others = best_without(*group->members.front());
+    if (group->doubt < k_thresholds.most_doubtful && is_completed_beside(others)) continue;
+    take_best(std::move(others));
     return true;
   }
   return false;
