@@ -211,16 +211,26 @@ bool slide_found(AtAlpha& at, const WoundProfile& wound, double now, double next
   return same || (!swings && missed <= model.last_step * at.path.p);
 }
 
-/// A tendon at a trial θ.
+/// Spans with what lies in a sheath of friction.
+struct Threaded {
+  ThreadedSpans spans;
+  ThreadedBalance slid;
+};
+
+/// What rubs on the joint's drum.
+struct Rubbing {
+  Turned turned;
+  Slide slide;
+};
+
+/// A tendon at a trial θ. What few joints have is not copied with those of the others.
 struct Trial {
   UpperSpanTable::Look span;
   double upper_length = 0;  ///< of the path
   Spans spans;
-  ThreadedSpans threaded;  ///< the same with what lies in a sheath of friction
-  ThreadedBalance slid;
+  std::unique_ptr<Threaded> threaded;  ///< the same spans, where friction in a sheath holds
+  std::unique_ptr<Rubbing> on_drum;    ///< where the tendon rubs there
   TendonBalance balance;
-  Turned drum_turned;  ///< where the tendon rubs on the drum
-  Slide drum_slide;
   double wrap = 0;
   double pull = 0;         ///< on the joint, towards the tendon's own side: T_up m
   double slope = 0;        ///< of pull with respect to the image's θ
@@ -259,11 +269,10 @@ void rub_on_drum(Trial& trial, const TendonHistory& tendon, const AtAlpha& at, c
   trial.upper_length -= takes_off.arc + tendon.behind_drum;
   const double length = trial.spans.upper_length - takes_off.arc - tendon.behind_drum;
   const double material = trial.spans.upper_material;
-  trial.drum_turned = tendon.on_drum->turned_to(takes_off, at.swelling);
+  trial.on_drum = std::make_unique<Rubbing>(Rubbing{tendon.on_drum->turned_to(takes_off, at.swelling), {}});
   double strain = tendon.on_drum->strain(at.swelling), moved = 0;
   for (int i = 0; i < k_rounds; ++i) {
-    const Slide slide = tendon.on_drum->slide(trial.drum_turned, strain, at.swelling);
-    trial.drum_slide = slide;
+    const Slide& slide = trial.on_drum->slide = tendon.on_drum->slide(trial.on_drum->turned, strain, at.swelling);
     trial.spans.upper_length = length + slide.length;
     trial.spans.upper_material = material + at.swelling * slide.freed + slide.length / (1.0 + strain);
     double by = balanced() - strain;
@@ -288,13 +297,13 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   if (model.sheath.give > 0) give_way(trial.spans, sheath);
   trial.wrap = trial.span.normal - off_pin;
   const double on_pin = model.guide.log_ratio(trial.wrap);
-  const bool is_threaded = bends_of(model.sheath) > 1;
+  if (bends_of(model.sheath) > 1) trial.threaded = std::make_unique<Threaded>();
   const auto balanced = [&] {
-    if (is_threaded) {
-      trial.threaded = threaded(trial.spans, tendon, model, at.swelling);
-      trial.threaded.holds.front() += on_pin;
-      trial.slid = balance(trial.threaded, tendon.sheath.slides);
-      trial.balance = from_ends(trial.slid);
+    if (trial.threaded) {
+      ThreadedSpans& spans = trial.threaded->spans = threaded(trial.spans, tendon, model, at.swelling);
+      spans.holds.front() += on_pin;
+      trial.threaded->slid = balance(spans, tendon.sheath.slides);
+      trial.balance = from_ends(trial.threaded->slid);
     } else {
       trial.spans.capstan = std::exp(on_pin);
       trial.balance = balance(trial.spans);
@@ -310,8 +319,8 @@ Trial tried(const TendonHistory& tendon, const AtAlpha& at, const UpperSpanTable
   double rate = -m * trial.balance.per_length;  // dL/dθ = −m
   if (trial.wrap > 0) rate += trial.balance.per_capstan * model.guide.slope(trial.wrap) * trial.span.dnormal;
   trial.slope = rate * m + trial.balance.upper * trial.span.dm;
-  if (is_threaded)
-    trial.lower_slope = rate * trial.slid.lower_per_upper;
+  if (trial.threaded)
+    trial.lower_slope = rate * trial.threaded->slid.lower_per_upper;
   else if (trial.balance.crossed != 0 && trial.balance.upper > 0)
     trial.lower_slope = rate * trial.balance.lower / trial.balance.upper;
   return trial;
@@ -440,9 +449,9 @@ Wound wind(WoundProfile& wound, const Turned& turned, const Slide& slide, double
 double head(double t, double EA) { return t + energy_per_material(t, EA); }
 
 /// What is lost at every bend of a sheath, and what its pieces then are.
-double pull_through(TendonHistory& tendon, const Trial& trial, double swelling) {
-  const double EA = trial.threaded.EA;
-  const ThreadedBalance& now = trial.slid;
+double pull_through(TendonHistory& tendon, const Threaded& threaded, double swelling) {
+  const double EA = threaded.spans.EA;
+  const ThreadedBalance& now = threaded.slid;
   InSheath& sheath = tendon.sheath;
   std::array<double, ThreadedSpans::k_bends + 1> before{};
   before.front() = tendon.upper;
@@ -472,20 +481,19 @@ struct Spent {
 Spent settle(TendonHistory& tendon, AtAlpha& at, const Trial& trial, double near) {
   const double EA = at.spans.EA;
   const TendonBalance& now = trial.balance;
-  const bool is_threaded = trial.threaded.EA > 0;
-  const double to_joint = is_threaded ? trial.slid.crossed.back() : now.crossed;  // out of the lower span
+  const Threaded* threaded = trial.threaded.get();
+  const double to_joint = threaded ? threaded->slid.crossed.back() : now.crossed;  // out of the lower span
   if (std::abs(at.slide.strain - now.lower / EA) > near)
     at.slide = tendon.wound.slide(at.turned, now.lower / EA, at.swelling);
   const Wound on_pulley = wind(tendon.wound, at.turned, at.slide, at.swelling, EA);
   Spent spent{on_pulley.energy, 0, on_pulley.friction};
   const auto dropped = [EA](double upper, double lower) { return head(upper, EA) - head(lower, EA); };
-  spent.friction = is_threaded
-                       ? pull_through(tendon, trial, at.swelling)
-                       : 0.5 * (dropped(tendon.upper, tendon.lower) + dropped(now.upper, now.lower)) * now.crossed;
+  spent.friction = threaded ? pull_through(tendon, *threaded, at.swelling)
+                            : 0.5 * (dropped(tendon.upper, tendon.lower) + dropped(now.upper, now.lower)) * now.crossed;
   tendon.upper_material += now.crossed / at.swelling;
   if (tendon.on_drum) {
-    const Wound on_drum = wind(*tendon.on_drum, trial.drum_turned, trial.drum_slide, at.swelling, EA);
-    tendon.upper_material += trial.drum_slide.freed;
+    const Wound on_drum = wind(*tendon.on_drum, trial.on_drum->turned, trial.on_drum->slide, at.swelling, EA);
+    tendon.upper_material += trial.on_drum->slide.freed;
     spent.wound += on_drum.energy;
     spent.friction += on_drum.friction;
   }
@@ -707,8 +715,9 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
     const double m = now[i].span.m;
     const double geometric = now[i].balance.upper * now[i].span.dm;
     point.stiffness_stuck += stuck_rate(now[i].spans, now[i].balance) * m * m - geometric;
-    const double passing = bends_of(model.sheath) > 1 ? sliding_rate(now[i].threaded, now[i].slid)
-                                                      : sliding_rate(now[i].spans, now[i].balance);
+    const Threaded* threaded = now[i].threaded.get();
+    const double passing =
+        threaded ? sliding_rate(threaded->spans, threaded->slid) : sliding_rate(now[i].spans, now[i].balance);
     point.stiffness += passing * m * m - geometric;
   }
   point.motor_torque = point.t2.lower * at[1].path.p - point.t1.lower * at[0].path.p;
