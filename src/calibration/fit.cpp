@@ -1,6 +1,7 @@
 #include "calibration/fit.h"
 
 #include <limits>
+#include <optional>
 
 #include "calibration/starts.h"
 #include "calibration/thresholds.h"
@@ -107,6 +108,23 @@ bool leaves_much(const Evidence& evidence, const Fit& fit) {
   return false;
 }
 
+/// A discrepancy by the amplitudes that were asked for last: on the way down the same are asked for several times.
+class LastSized {
+ public:
+  explicit LastSized(const Marginal& marginal) : marginal_(marginal) {}
+
+  const SizedDiscrepancy& of(const Amplitudes& amplitudes, double give) {
+    if (!last_ || give_ != give || !(last_->amplitudes == amplitudes)) last_ = marginal_.sized(amplitudes, give);
+    give_ = give;
+    return *last_;
+  }
+
+ private:
+  const Marginal& marginal_;
+  double give_ = 0;
+  std::optional<SizedDiscrepancy> last_;
+};
+
 /// Whether the slopes promise a better place than this.
 bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5; }
 
@@ -194,6 +212,10 @@ Fit Fitter::at(const Fit& base, const EffectSet& effects, const Imperfections& a
 /// Steps while they gain, or promise to; slopes before `from` stay what they are.
 Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const {
   const Marginal& marginal = *evidence().marginal;
+  LastSized sized(marginal);
+  const auto summit = [&](const Tangent& tangent, const Amplitudes& given) {
+    return marginal.summit(tangent, sized.of(given, tangent.give));
+  };
   Tangent here = tangent_of(evidence(), fit);
   const bool stated = rounds == 1;
   Explained known = marginal.best(here, amplitudes, rounds);
@@ -205,22 +227,26 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
       there = stepped(fit, share * known.step);
       const Eigen::VectorXd x = numbers_of(fit.parameters, there);
       const bool whole = (fit.x + known.step - x).isZero(1e-9 * known.step.norm());
-      return (whole ? known.height_ahead : marginal.summit(said_of(here, x), known.amplitudes)) - known.height;
+      return (whole ? known.height_ahead : summit(said_of(here, x), known.amplitudes)) - known.height;
     };
-    if (promised() < k_worth_a_step) {
+    double promise = promised();
+    if (promise < k_worth_a_step) {
       if (estimated) break;
       known = marginal.best(here, known.amplitudes, rounds);
       estimated = true;
-      if (promised() < k_worth_a_step) break;
+      promise = promised();
+      if (promise < k_worth_a_step) break;
     }
     const double height = known.height - price_of(evidence(), fit);
     Fit next = placed(fit.effects, there, fit.rest);
     next.J = fit.J;
     next.usable = is_finite(evidence(), next);
-    const double reached =
-        next.usable ? marginal.summit(tangent_of(evidence(), next), known.amplitudes) - price_of(evidence(), next)
-                    : -std::numeric_limits<double>::infinity();
-    if (reached > height) {  // slopes cost most, and a step that is not taken needs none
+    const double reached = next.usable
+                               ? summit(tangent_of(evidence(), next), known.amplitudes) - price_of(evidence(), next)
+                               : -std::numeric_limits<double>::infinity();
+    // Slopes cost most: a step that is not taken needs none, and one that gained what they promised has left them.
+    const bool straight = std::abs(reached - height - promise) < k_least_gain;
+    if (reached > height && !straight) {
       take_slopes(next, from);
       next.usable = is_finite(evidence(), next);
     }
@@ -232,7 +258,8 @@ Fit Fitter::descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& a
     fit = std::move(next);
     here = tangent_of(evidence(), fit);
     estimated = i % 2 == 1 || stated;
-    known = estimated && !stated ? marginal.best(here, known.amplitudes, rounds) : marginal.at(here, known.amplitudes);
+    known = estimated && !stated ? marginal.best(here, known.amplitudes, rounds)
+                                 : marginal.at(here, sized.of(known.amplitudes, here.give));
     share = 1.0;
     if (settled) break;
   }

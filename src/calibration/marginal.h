@@ -13,6 +13,8 @@ namespace fusee {
 struct Amplitudes {
   Eigen::VectorXd families;
   double noise = 0;
+
+  bool operator==(const Amplitudes& other) const { return noise == other.noise && families == other.families; }
 };
 
 /// A place in the space of the parameters and what is known there: rows in use alone.
@@ -111,13 +113,14 @@ class Marginal {
     return at(sums, sized(amplitudes, sums.give));
   }
   Explained at(const Tangent& tangent, const Amplitudes& amplitudes) const { return at(sums_of(tangent), amplitudes); }
+  Explained at(const Tangent& tangent, const SizedDiscrepancy& beside) const { return at(sums_of(tangent), beside); }
   /// With those that make the data likeliest, sought from there; a family of none there has none.
   Explained best(const TangentSums& sums, Amplitudes from, int rounds = k_rounds) const;
   Explained best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const {
     return best(sums_of(tangent), std::move(from), rounds);
   }
   /// Log of posterior density at x itself but for a constant.
-  double summit(const Tangent& tangent, const Amplitudes& amplitudes) const;
+  double summit(const Tangent& tangent, const SizedDiscrepancy& beside) const;
 
  private:
   struct Solved;

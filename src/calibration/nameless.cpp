@@ -440,9 +440,11 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
 
 void take_nameless(bool is_something_left, const std::vector<CredibleGroup>& groups,
                    std::vector<FoundEffect>& effects) {
-  const double least = is_something_left ? k_thresholds.ahead_beside_rest : k_thresholds.ahead_of_nameless;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const bool is_doubtful = groups[i].doubt > k_thresholds.most_mistaken;
+    const double least = is_something_left              ? k_thresholds.ahead_beside_rest
+                         : effects[i].group.size() == 1 ? k_thresholds.ahead_of_nameless
+                                                        : k_thresholds.ahead_in_a_group;
     if (is_doubtful || effects[i].nameless.behind < least) effects[i].group.emplace_back(k_nameless);
   }
 }

@@ -94,6 +94,15 @@ TEST_F(Concluded, WhatIsFarAheadOfEverythingWithoutANameIs) {
   EXPECT_THAT(calibration.next_runs, testing::Not(testing::Contains("come from both sides")));
 }
 
+TEST_F(Concluded, OneOfSeveralHasToBeFurtherAhead) {
+  leave(1);
+  calibration.effects = {ahead_by(k_thresholds.ahead_in_a_group - 1), ahead_by(k_thresholds.ahead_in_a_group + 1)};
+  for (FoundEffect& effect : calibration.effects) effect.group.emplace_back("slack");
+  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "slack", "nameless"));
+  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "slack"));
+}
+
 TEST_F(Concluded, WhatIsDoubtfulMayBeSomethingWithoutANameHoweverFarAhead) {
   leave(1);
   calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1), ahead_by(k_thresholds.ahead_of_nameless + 1)};
