@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "fusee/base/text.h"
@@ -224,7 +225,9 @@ TEST(UndoneSlips, leave_room_for_an_effect_beside_them) {
   EXPECT_THAT(said(bench.right, bench.data), ElementsAre(HasSubstr("with tendon_stretch beside it")));
 }
 
+// Most of a minute: FUSEE_LONG_TESTS=1.
 TEST(UndoneSlips, leave_room_for_a_cause_without_a_name) {
+  if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
   Bench bench = rig_data("f_not_in_any_catalogue");
   const double left = left_by(bench.right, bench.data);
   bench.right.guides.OE *= -1;
