@@ -88,11 +88,13 @@ void for_each_known(const Measurement& measurement, Visit visit) {
   }
 }
 
-double rms(const Measurement& measurement, const Angles& error) {
+/// About `zero`.
+double rms(const Measurement& measurement, const Angles& error, double zero) {
   double squares = 0, count = 0;
   for_each_known(measurement, [&](std::size_t r, std::size_t i, const Stroke&) {
     if (!std::isfinite(error[r][i])) return;
-    squares += error[r][i] * error[r][i];
+    const double off = error[r][i] - zero;
+    squares += off * off;
     count += 1;
   });
   return count > 0 ? std::sqrt(squares / count) : 0;
@@ -278,9 +280,11 @@ Correction correct(const DeclaredMechanism& declared, const Measurement& measure
     then =
         errors(measurement, law, predict(expected_joint(corrected), beyond_mechanism(found, kind_of(declared)), log));
   const BothWays table = both_ways(measurement, then, 2 * (found.shaft.backlash + found.ratio_joint.slack));
-  correction.error_now = rms(measurement, now);
-  correction.error_with_pulley = rms(measurement, then);
-  correction.error_with_table = rms(measurement, tabled(measurement, then, table));
+  // A ratio says nothing of where the joint's zero is: to stand there is no error.
+  const double zero = declared.transmission ? found.sensor.zero : 0.0;
+  correction.error_now = rms(measurement, now, zero);
+  correction.error_with_pulley = rms(measurement, then, zero);
+  correction.error_with_table = rms(measurement, tabled(measurement, then, table), 0.0);
   correction.by_pulley = gone(correction.error_now, correction.error_with_pulley);
   correction.by_table = gone(correction.error_with_pulley, correction.error_with_table);
   const EmpiricalCurve* curve = calibration.curve.used ? &calibration.curve : nullptr;

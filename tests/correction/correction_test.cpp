@@ -282,6 +282,15 @@ TEST(Correct, ARatioHasATableOnly) {
     EXPECT_NEAR(row.alpha_up, -1.1 * (row.theta - radians(0.5)), 1e-3);
     EXPECT_NEAR(row.alpha_down, -1.1 * (row.theta + radians(0.5)), 1e-3);
   }
+  // A ratio says nothing of where θ is 0. Of a real jaw that stands at 77° then it was said that the table takes 76.7°
+  // away.
+  data.calibration.identified.sensor.zero = radians(77);
+  const Correction elsewhere = correct(jaw, data.measurement, data.calibration);
+  EXPECT_NEAR(elsewhere.error_now, correction.error_now, 1e-9);
+  EXPECT_NEAR(elsewhere.by_table, correction.by_table, 1e-9);
+  ASSERT_EQ(elsewhere.table.size(), correction.table.size());
+  for (std::size_t i = 0; i < correction.table.size(); ++i)
+    EXPECT_NEAR(elsewhere.table[i].theta, correction.table[i].theta + radians(77), 1e-9);
 }
 
 }  // namespace

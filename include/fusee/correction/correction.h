@@ -27,7 +27,8 @@ struct Correction {
   std::string infeasible;    ///< why it cannot; empty when it can or none is needed
   RoundChoice round;
   double tied_at = 0;  ///< of the corrected pulley, rad
-  // By how much the joint as found misses the declared law over the measured strokes, rms, rad, by simulation …
+  // By how much the joint as found misses the declared law over the measured strokes, rms, rad, by simulation; of a
+  // joint declared by a ratio its zero, which is found, is no part of it …
   double error_now = 0;
   double error_with_pulley = 0;  ///< … with the corrected pulley, tendons tied at α = 0
   double error_with_table = 0;   ///< … and the motor where the table says
