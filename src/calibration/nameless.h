@@ -14,7 +14,14 @@ namespace fusee {
 /// Of every accepted effect, in their order.
 std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection);
 
-/// Groups that may hold nothing with a name say so. `is_something_left`: beside all effects; `groups`: of each.
-void take_nameless(bool is_something_left, const std::vector<CredibleGroup>& groups, std::vector<FoundEffect>& effects);
+/// What stays beside all effects.
+struct Left {
+  bool anything = false;
+  bool in_time = false;  ///< and it walks, or differs from run to run
+};
+
+/// Groups that may hold nothing with a name say so. `groups`: of each effect.
+void take_nameless(const Left& left, JointKind kind, const std::vector<CredibleGroup>& groups,
+                   std::vector<FoundEffect>& effects);
 
 }  // namespace fusee

@@ -245,6 +245,14 @@ double noise_beyond_floor(const Evidence& evidence, double noise) {
 
 }  // namespace
 
+bool goes_with_time(const Unnamed& unnamed) {
+  return std::any_of(std::begin(k_words), std::end(k_words), [&](const FactorWords& words) {
+    const bool of_time = words.factor == Factor::run || words.factor == Factor::drift || words.factor == Factor::stroke;
+    return of_time && std::any_of(unnamed.parts.begin(), unnamed.parts.end(),
+                                  [&](const Unknown& part) { return part.factor == words.name; });
+  });
+}
+
 bool is_of_place(Factor factor) { return factor == Factor::place || factor == Factor::direction; }
 
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit) {

@@ -19,6 +19,9 @@ struct Unnamed {
 /// Whether nothing but where the motor is and which way it came matters.
 bool is_of_place(Factor factor);
 
+/// Whether a part of it differs from run to run or from stroke to stroke, or goes on in time.
+bool goes_with_time(const Unnamed& unnamed);
+
 /// Parts that the data hardly need are not among them.
 Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit);
 

@@ -159,8 +159,10 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
     calibration.unexplained_where = rest.where;
     calibration.unknown = unnamed.parts;
   }
-  take_nameless(unexplained || is_walking(scatter), selection.groups, calibration.effects);
-  calibration.verdict = verdict_of(is_walking(scatter), unexplained, calibration.effects);
+  const bool walks = is_walking(scatter);
+  take_nameless({unexplained || walks, walks || (unexplained && goes_with_time(unnamed))}, kind_of(*evidence.declared),
+                selection.groups, calibration.effects);
+  calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
   if (calibration.verdict == CalibrationVerdict::unexplained)
     calibration.curve = empirical_curve(evidence, selection.best, unnamed);
   calibration.summary =

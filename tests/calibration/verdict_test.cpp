@@ -120,6 +120,23 @@ TEST_F(Concluded, BesideSomethingUnexplainedANameNeedsMore) {
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash"));
 }
 
+TEST_F(Concluded, WhatIsToldByTimeIsUnsureBesideWhatDiffersFromRunToRun) {
+  for (const bool by_run : {false, true}) {
+    leave(by_run ? 1 : 5);
+    for (const Block& block : evidence.blocks) {
+      for (const std::size_t row : block.rows)
+        selection.best.residual[static_cast<Eigen::Index>(row)] += by_run ? (block.run == 0 ? 3 : -3) * k_floor : 0.0;
+    }
+    calibration = {};
+    calibration.effects = {ahead_by(k_thresholds.ahead_beside_rest + 50),
+                           ahead_by(k_thresholds.ahead_beside_rest + 50)};
+    calibration.effects.front().name = calibration.effects.front().group.front() = "thermal_expansion";
+    EXPECT_EQ(verdict(), CalibrationVerdict::unexplained) << by_run;
+    EXPECT_EQ(calibration.effects.front().group.size(), by_run ? 2u : 1u);
+    EXPECT_EQ(calibration.effects.back().group.size(), 1u) << by_run;
+  }
+}
+
 TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   leave(1);
   find({{"zero_offset", "motor_offset"}});
