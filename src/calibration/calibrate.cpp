@@ -129,6 +129,15 @@ Measurement about_declared(const Mechanism& declared, const Measurement& measure
   return about;
 }
 
+/// A number that does nothing is as declared.
+Imperfections without_idle_numbers(const Fit& fit) {
+  Imperfections at = fit.at;
+  for (const EffectParameter* parameter : fit.parameters) {
+    if (parameter->is_idle != nullptr && parameter->is_idle(fit.at)) reset(at, *parameter);
+  }
+  return at;
+}
+
 /// A name that simulated joints without it bear too often is none to stand alone: what was read as it joins the group.
 void take_audit(const std::vector<Audited>& audited, Calibration& calibration) {
   for (std::size_t i = 0; i < audited.size(); ++i) {
@@ -176,7 +185,7 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   ask_for_both_sides(learnt_from, calibration.next_runs);
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
-  calibration.identified = selection.best.at;
+  calibration.identified = without_idle_numbers(selection.best);
   describe_errors(declared, measurement, selection, calibration);
   name_held_out(evidence, calibration);
   validate(declared, part(measurement, options.hold_out, true), selection, calibration);

@@ -14,6 +14,10 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
                                                const std::vector<ConfidenceInterval>& ranges, const Effect& effect) {
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
+    if (own.is_idle && own.is_idle(fit.at)) {
+      fitted.push_back({own.name, 0, 0, 0, ""});
+      continue;
+    }
     const double value = value_of(fit.at, own);
     double low = value;
     double high = value;
@@ -33,8 +37,8 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
 std::string with_numbers(const Evidence& evidence, const Fit& fit, const Effect& effect) {
   std::string numbers;
   for (const EffectParameter& own : effect.parameters) {
-    numbers += (numbers.empty() ? "" : ", ") + own.name + " = " +
-               rounded(own.shown(value_of(fit.at, own), *evidence.declared), 4);
+    numbers +=
+        (numbers.empty() ? "" : ", ") + own.name + " = " + rounded(shown_value(own, fit.at, *evidence.declared), 4);
   }
   return effect.name + " (" + numbers + ")";
 }

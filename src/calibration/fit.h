@@ -61,6 +61,9 @@ class Fitter {
   /// The same as if all that is left were the effect's.
   Fit with_effect_alone(const Fit& base, const Effect& effect) const;
 
+  /// What `at` leaves of the readings, as Said.
+  Eigen::VectorXd residual(const Imperfections& at, LooseRow rest) const { return model_.said(at, rest).residual; }
+
   /// `fit` with `effect` added where it does nothing: what the data would say of it. No fit.
   Fit with_direction(const Fit& fit, const Effect& effect) const;
 

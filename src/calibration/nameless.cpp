@@ -381,14 +381,15 @@ class Reader {
   double size_ = 0;
 };
 
-/// `fit` as its slopes have it without one of its effects: the others are where they were. Where a fit of them had to
-/// do its part as well, they have gone from where what has no name would leave them.
-Fit leaving_out(const Fit& fit, const Effect& effect) {
+/// `fit` without one of its effects: the others are where they were. Where a fit of them had to do its part as well,
+/// they have gone from where what has no name would leave them.
+Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   Fit others = fit;
   others.effects = without(fit.effects, effect);
   others.at = without(fit.at, effect);
   const std::vector<Eigen::Index> own = places_of(fit, effect);
-  others.residual += fit.J(Eigen::all, own) * fit.x(own);
+  others.residual = fitter.residual(others.at, fit.rest);
+  others.usable = others.residual.allFinite();
   std::vector<Eigen::Index> kept;
   others.parameters.clear();
   for (Eigen::Index k = 0; k < fit.x.size(); ++k) {
@@ -418,12 +419,14 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
   if (rivals.empty()) return rivals;
   const Reader reader(evidence, selection);
   std::vector<Reading> readings(rivals.size() + 1);
-  workers.each(readings.size(), [&](const Fitter&, std::size_t i) {
+  workers.each(readings.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& base = i == 0 ? best : selection.without[i - 1];
     if (!base.usable) return;
     readings[i] = reader.read(base, best.explained.amplitudes);
     if (i == 0) return;
-    Reading stayed = reader.read(leaving_out(best, *best.effects[i - 1]), best.explained.amplitudes);
+    const Fit others = leaving_out(fitter, best, *best.effects[i - 1]);
+    if (!others.usable) return;
+    Reading stayed = reader.read(others, best.explained.amplitudes);
     if (stayed.score > readings[i].score) readings[i] = std::move(stayed);
   });
   const std::vector<UnderOtherLoads> loads = under_other_loads(evidence, workers, selection);

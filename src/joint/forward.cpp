@@ -31,6 +31,7 @@ Imperfections that_move(Imperfections at) {
   forget_idle_order(at.motor);
   forget_idle_order(at.pulley.outline);
   if (at.tendon.slip == 0 && at.ratio_joint.step == 0) at.tendon.slip_time = 0;
+  if (at.tendon.pretension_share() == 0) at.tendon.pretension = 0;
   return at;
 }
 

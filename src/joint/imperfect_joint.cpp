@@ -75,7 +75,8 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   mount_sheath(mechanism.sheath, at.sheath);
   mechanism.pulley.mu = std::max(0.0, mechanism.pulley.mu + at.tendon.groove_friction);
   mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.tendon.stretch);
-  mechanism.tendon.pretension = std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);
+  mechanism.tendon.pretension =
+      at.tendon.pretension_share() * std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);
   return {std::move(mechanism)};
 }
 

@@ -109,6 +109,21 @@ TEST(Simulate, SaysWhereNothingHoldsTheJoint) {
   EXPECT_TRUE(loose);
 }
 
+// Slack is what pretension does not take up: who finds some finds tendons without pretension, and no second number does
+// what the first one does.
+TEST(Simulate, WhereTendonsHangLooseThereIsNoPretension) {
+  Imperfections at;
+  at.tendon.slack = 0.3;
+  const DeclaredMechanism joint = testing::forearm();
+  const Readings loose = predict(joint, at, swept(10));
+  for (const double more : {-joint.tendon.pretension, 7.0}) {
+    at.tendon.pretension = more;
+    EXPECT_EQ(predict(joint, at, swept(10)), loose) << more;
+  }
+  at.tendon.slack = 0;
+  EXPECT_NE(predict(joint, at, swept(10)), predict(joint, {}, swept(10))) << "taut, 7 N more";
+}
+
 TEST(Simulate, OfAGearedJointKnowsAnglesAlone) {
   DeclaredMechanism joint;
   joint.transmission = RatioTransmission{4.0};

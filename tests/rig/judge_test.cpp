@@ -114,6 +114,16 @@ TEST(Judge, a_load_that_is_not_as_logged_is_no_slack) {
   EXPECT_EQ(other.held_by_names, 1u) << other.words;
 }
 
+// A joint that had lost its pretension and little more was given 0.52 mm of slack (0.39 … 0.65) and 5 N of pretension,
+// which together do what neither does.
+TEST(Judge, slack_that_is_hardly_there_is_said_to_be_that) {
+  const Case made = make_case(random_truth(Kind::two, "sealed", 131147), 131147, {Protocol::random, true});
+  ASSERT_THAT(made.faults, ::testing::UnorderedElementsAre("slack", "gravity"));
+  const Judgement one = calibrate_case(made, std::filesystem::path(::testing::TempDir()) / "hardly");
+  EXPECT_EQ(one.held, 2u) << one.words;
+  for (const Covered& number : one.numbers) EXPECT_TRUE(number.within) << number.name << one.words;
+}
+
 TEST(Judge, kin_of_a_fault_without_a_name_is_no_false_blame) {
   const Judgement kin = judge(with({"grease"}), answer(CalibrationVerdict::explained, {{"sensor_lag"}}));
   EXPECT_FALSE(kin.outside.empty());

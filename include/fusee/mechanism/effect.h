@@ -85,7 +85,12 @@ struct EffectParameter {
   ByHand by_hand = {};
   SignWords sign = {};
   bool searched = false;  ///< not fitted: only the values in Effect::starts are tried
+  /// Whether the effect's other numbers leave it nothing to do, whatever it is: it is then reported as 0; null: never.
+  bool (*is_idle)(const Imperfections& joint) = nullptr;
 };
+
+/// As reported, of that joint.
+double shown_value(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared);
 
 /// The number of `joint` that a parameter is.
 double value_of(const Imperfections& joint, const EffectParameter& parameter);

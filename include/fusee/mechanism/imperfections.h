@@ -6,6 +6,8 @@
 /// numbers belong to which cause says effect.h.
 #pragma once
 
+#include <algorithm>
+
 namespace fusee {
 
 /// The shaft stands at α + offset + sin · sin α + cos · (cos α − 1), and a wave of the same kind in nα, where the
@@ -50,7 +52,7 @@ struct PulleyError {
 
 struct TendonError {
   double stretch = 0;          ///< added compliance as a fraction of the declared one: EA = EA0/(1 + stretch)
-  double pretension = 0;       ///< added to that of tendon 1 at home, N
+  double pretension = 0;       ///< added to that of tendon 1 at home, N; nothing where tendons hang loose
   double slack = 0;            ///< of both tendons together, beyond what pretension takes up, mm
   double creep = 0;            ///< compliance added in every decade of time that a tension acts, as a fraction
   double slip = 0;             ///< let go by the anchor of tendon 1 (of tendon 2 where negative) at `slip_time`, mm
@@ -58,6 +60,9 @@ struct TendonError {
   double thermal1 = 0;         ///< unloaded length of tendon 1 added per kelvin, as a fraction
   double thermal2 = 0;         ///< of tendon 2: one may lie nearer to what is warm
   double groove_friction = 0;  ///< added to the coefficient between tendon and groove
+
+  /// What slack leaves of the pretension: nothing, but for the last micrometre, over which a fit finds no jump.
+  double pretension_share() const { return std::clamp(1.0 - slack / 1e-3, 0.0, 1.0); }
 
   bool operator==(const TendonError&) const = default;
 };

@@ -7,6 +7,8 @@ double whole_pretension(double added, const Mechanism& declared) {
   return declared.tendon.pretension + added > 0 ? declared.tendon.pretension + added : 0.0;
 }
 
+bool has_no_pretension(const Imperfections& joint) { return joint.tendon.pretension_share() == 0; }
+
 /// Of a joint whose tendons are not known: a cable that lies wavy between its guides lacks w of its length; tension
 /// pulls the waves straight, their amplitude falls by 1/(1 + T/T0) as that of a bent beam under tension does, and with
 /// it the play that they make. The larger the load, the smaller the loop: play and stretch know no such thing.
@@ -68,7 +70,8 @@ Effect slack(JointKind kind) {
        .prior = 5,  // set by feel
        .shown = whole_pretension,
        .key = key::plain("pretension_N", "N", -100000, 100000, "added to tendon.pretension_N"),
-       .again = WhenFoundAgain::added}};
+       .again = WhenFoundAgain::added,
+       .is_idle = has_no_pretension}};
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};
   return effect;
 }
