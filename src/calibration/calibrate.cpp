@@ -133,7 +133,7 @@ Measurement about_declared(const Mechanism& declared, const Measurement& measure
 Imperfections without_idle_numbers(const Fit& fit) {
   Imperfections at = fit.at;
   for (const EffectParameter* parameter : fit.parameters) {
-    if (parameter->is_idle != nullptr && parameter->is_idle(fit.at)) reset(at, *parameter);
+    if (is_idle(*parameter, fit.at)) reset(at, *parameter);
   }
   return at;
 }

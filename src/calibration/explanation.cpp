@@ -14,7 +14,7 @@ std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const F
                                                const std::vector<ConfidenceInterval>& ranges, const Effect& effect) {
   std::vector<FittedParameter> fitted;
   for (const EffectParameter& own : effect.parameters) {
-    if (own.is_idle && own.is_idle(fit.at)) {
+    if (is_idle(own, fit.at)) {
       fitted.push_back({own.name, 0, 0, 0, ""});
       continue;
     }

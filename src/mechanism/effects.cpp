@@ -76,9 +76,12 @@ double value_of(const Imperfections& joint, const EffectParameter& parameter) {
   return parameter.number(copy);
 }
 
+bool is_idle(const EffectParameter& parameter, const Imperfections& joint) {
+  return parameter.idle != nullptr && parameter.idle(joint);
+}
+
 double shown_value(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared) {
-  const bool is_idle = parameter.is_idle != nullptr && parameter.is_idle(joint);
-  return is_idle ? 0.0 : parameter.shown(value_of(joint, parameter), declared);
+  return is_idle(parameter, joint) ? 0.0 : parameter.shown(value_of(joint, parameter), declared);
 }
 
 void set_value(Imperfections& joint, const EffectParameter& parameter, double value) {

@@ -86,9 +86,10 @@ struct EffectParameter {
   SignWords sign = {};
   bool searched = false;  ///< not fitted: only the values in Effect::starts are tried
   /// Whether the effect's other numbers leave it nothing to do, whatever it is: it is then reported as 0; null: never.
-  bool (*is_idle)(const Imperfections& joint) = nullptr;
+  bool (*idle)(const Imperfections& joint) = nullptr;
 };
 
+bool is_idle(const EffectParameter& parameter, const Imperfections& joint);
 /// As reported, of that joint.
 double shown_value(const EffectParameter& parameter, const Imperfections& joint, const Mechanism& declared);
 

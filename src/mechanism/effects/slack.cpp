@@ -71,7 +71,7 @@ Effect slack(JointKind kind) {
        .shown = whole_pretension,
        .key = key::plain("pretension_N", "N", -100000, 100000, "added to tendon.pretension_N"),
        .again = WhenFoundAgain::added,
-       .is_idle = has_no_pretension}};
+       .idle = has_no_pretension}};
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};
   return effect;
 }
