@@ -403,8 +403,8 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
 }
 
 /// By what the joint does while the bench warms up, or from some moment on. Something without a name that walks beside
-/// it walks as it likes: sealed split, seeds 131078 and 131119: thermal_expansion by 101 and 71 nats, beside a rest that
-/// differed from run to run, where a press fit slipped and a pin wore.
+/// it walks as it likes: sealed split, seeds 131078 and 131119: thermal_expansion by 101 and 71 nats, beside a rest
+/// that differed from run to run, where a press fit slipped and a pin wore.
 bool is_told_by_time(const std::string& name, JointKind kind) {
   const Effect* effect = find_effect(name, kind);
   return effect != nullptr && (effect->needs.temperature || effect->starts_in_time);

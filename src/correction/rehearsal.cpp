@@ -107,10 +107,9 @@ Imperfections share_of(const Effect& effect, const Imperfections& found, double 
 std::vector<FittedParameter> numbers_of(const Effect& effect, const Imperfections& joint, const Mechanism& expected) {
   std::vector<FittedParameter> numbers;
   for (const EffectParameter& parameter : effect.parameters) {
-    const double value = value_of(joint, parameter);
     FittedParameter number;
     number.name = parameter.name;
-    number.value = parameter.shown == nullptr ? value : parameter.shown(value, expected);
+    number.value = shown_value(parameter, joint, expected);
     numbers.push_back(number);
   }
   return numbers;

@@ -51,6 +51,20 @@ TEST(Rehearse, PlayLagsByHalfItsWidthEachWay) {
   }
 }
 
+// The page said "slack 0.004 mm, pretension 5 N" under a slider of a joint that was found without pretension.
+TEST(Rehearse, WhatDoesNothingIsShownAsNothing) {
+  Calibration calibration = with_play(0);
+  calibration.effects.back().name = "slack";
+  calibration.identified.tendon.slack = 0.3;
+  const Rehearsal rehearsal = rehearse(stiff(), {}, calibration);
+  ASSERT_THAT(rehearsal.effects, SizeIs(1));
+  for (std::size_t s = 0; s < k_rehearsed_shares.size(); ++s) {
+    const auto& numbers = rehearsal.effects[0].shares[s].parameters;
+    EXPECT_NEAR(numbers.at(0).value, k_rehearsed_shares[s] * 0.3, 1e-9);
+    EXPECT_EQ(numbers.at(1).value, k_rehearsed_shares[s] > 0 ? 0.0 : stiff().tendon.pretension);
+  }
+}
+
 TEST(Rehearse, UnderTheLoadsThatWereLogged) {
   Measurement measurement;
   measurement.load_unit = "N";
