@@ -3,7 +3,7 @@
 
 #include "calibration/audit.h"
 #include "calibration/catalogue.h"
-#include "calibration/empirical.h"
+#include "calibration/delivered.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
 #include "calibration/nameless.h"
@@ -80,14 +80,14 @@ Measurement part(const Measurement& measurement, const std::vector<std::string>&
 }
 
 /// Where runs were named, theirs are the held-out figures.
-void validate(const Mechanism& declared, const Measurement& kept, const Selection& selection,
+void validate(const Mechanism& declared, const Measurement& kept, const Fit& none, const Fit& numbers,
               Calibration& calibration) {
   if (kept.runs.empty()) return;
   const auto rms = [&](const Imperfections& at) {
     return figures(kept, residuals(kept, predict(declared, at, bench_log(kept))), 0).rms;
   };
-  calibration.before.held_out_rms = rms(selection.none.at);
-  calibration.after.held_out_rms = rms(selection.best.at);
+  calibration.before.held_out_rms = rms(none.at);
+  calibration.after.held_out_rms = rms(numbers.at);
   calibration.held_out_runs.clear();
   for (const Run& run : kept.runs) calibration.held_out_runs.push_back(run.name);
 }
@@ -104,13 +104,13 @@ std::vector<std::string> why_not_testable(const Mechanism& declared, const Measu
   return measurement.not_testable;
 }
 
-void describe_errors(const Mechanism& declared, const Measurement& measurement, const Selection& selection,
+void describe_errors(const Mechanism& declared, const Measurement& measurement, const Fit& none, const Fit& numbers,
                      Calibration& calibration) {
   const BenchLog log = bench_log(measurement);
-  calibration.residuals_before = residuals(measurement, predict(declared, selection.none.at, log));
-  calibration.residuals_after = residuals(measurement, predict(declared, selection.best.at, log));
-  calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(selection.none));
-  calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(selection.best));
+  calibration.residuals_before = residuals(measurement, predict(declared, none.at, log));
+  calibration.residuals_after = residuals(measurement, predict(declared, numbers.at, log));
+  calibration.before = figures(measurement, calibration.residuals_before, held_out_rms(none));
+  calibration.after = figures(measurement, calibration.residuals_after, held_out_rms(numbers));
   calibration.iso_before = iso230(measurement, calibration.residuals_before);
   calibration.iso_after = iso230(measurement, calibration.residuals_after);
 }
@@ -174,7 +174,9 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
          "of one joint."});
   Calibration calibration;
   calibration.noise = noise;
-  calibration.effects = found_effects(evidence, selection);
+  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
+  const Delivered made = delivered(evidence, workers, selection, unnamed);
+  calibration.effects = found_effects(evidence, selection, made.fit);
   if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   if (options.audit) {
     const std::vector<Nameless> nameless = nameless_rivals(evidence, workers, selection);
@@ -185,11 +187,12 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   ask_for_both_sides(learnt_from, calibration.next_runs);
   calibration.tried = selection.tried;
   calibration.detectable = detectable_sizes(evidence, workers, selection);
-  calibration.identified = without_idle_numbers(selection.best);
-  describe_errors(declared, measurement, selection, calibration);
+  calibration.identified = without_idle_numbers(made.fit);
+  describe_errors(declared, measurement, selection.none, made.fit, calibration);
   name_held_out(evidence, calibration);
-  validate(declared, part(measurement, options.hold_out, true), selection, calibration);
-  conclude(evidence, selection, calibration);
+  validate(declared, part(measurement, options.hold_out, true), selection.none, made.fit, calibration);
+  calibration.curve = made.curve;
+  conclude(evidence, selection, unnamed, calibration);
   hold_against(measurement, calibration.residuals_after, options.hold_out, calibration.curve);
   return calibration;
 }

@@ -206,16 +206,6 @@ void give_up(EmpiricalCurve& curve, const std::string& why) {
   curve.why = why;
 }
 
-/// What the model is trusted to grows with what the fitted joint gives.
-Amplitudes of_fit(const Evidence& evidence, const Fit& fit, Amplitudes amplitudes) {
-  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
-  const double give = tangent_of(evidence, fit).give;
-  for (std::size_t f = 0; f < families.size(); ++f) {
-    if (families[f].fixed > 0) amplitudes.families[static_cast<Eigen::Index>(f)] *= give;
-  }
-  return amplitudes;
-}
-
 bool depends_on_place(const Discrepancy& discrepancy, const Amplitudes& amplitudes) {
   for (std::size_t f = 0; f < discrepancy.families.size(); ++f) {
     if (is_of_place(discrepancy.families[f].factor) && amplitudes.families[static_cast<Eigen::Index>(f)] > 0)
@@ -234,6 +224,16 @@ double EmpiricalCurve::at(double place, bool rising) const {
   return values[i] + share * (values[i + 1] - values[i]);
 }
 
+Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed) {
+  Amplitudes amplitudes = unnamed.explained.amplitudes;
+  const std::vector<Family>& families = evidence.marginal->discrepancy().families;
+  const double give = tangent_of(evidence, fit).give;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    if (families[f].fixed > 0) amplitudes.families[static_cast<Eigen::Index>(f)] *= give;
+  }
+  return amplitudes;
+}
+
 EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed) {
   const Discrepancy& discrepancy = evidence.marginal->discrepancy();
   EmpiricalCurve curve;
@@ -248,7 +248,7 @@ EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const U
     curve.why = "there are places between which nothing was measured both ways";
     return curve;
   }
-  const Amplitudes amplitudes = of_fit(evidence, fit, unnamed.explained.amplitudes);
+  const Amplitudes amplitudes = amplitudes_beside(evidence, fit, unnamed);
   const HeldOutBeside by_run = hold_out_beside(evidence, fit, amplitudes, evidence.run_folds);
   const HeldOutBeside by_factor = hold_out_beside(evidence, fit, amplitudes, evidence.factor_folds);
   const Gain gain = gain_in(evidence, by_run, all_blocks(evidence));

@@ -7,6 +7,9 @@
 
 namespace fusee {
 
+/// Of what stays without a name beside `fit`; what the model is trusted to grows with what the fitted joint gives.
+Amplitudes amplitudes_beside(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed);
+
 EmpiricalCurve empirical_curve(const Evidence& evidence, const Fit& fit, const Unnamed& unnamed);
 
 /// Holds a curve against every logged row, of which it was made from a few, and against runs that were kept for

@@ -10,6 +10,7 @@
 namespace fusee {
 namespace {
 
+/// `ranges`: of the numbers of `fit`.
 std::vector<FittedParameter> fitted_parameters(const Evidence& evidence, const Fit& fit,
                                                const std::vector<ConfidenceInterval>& ranges, const Effect& effect) {
   std::vector<FittedParameter> fitted;
@@ -54,7 +55,7 @@ double rms_drop(const Selection& selection, std::size_t place) {
 
 }  // namespace
 
-std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection) {
+std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers) {
   const Fit& best = selection.best;
   const std::vector<ConfidenceInterval> ranges = intervals(selection);
   std::vector<FoundEffect> all;
@@ -63,7 +64,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     found.name = effect->name;
     found.place = effect->place;
     found.correctable_by = effect->correctable_by;
-    found.parameters = fitted_parameters(evidence, best, ranges, *effect);
+    found.parameters = fitted_parameters(evidence, numbers, ranges, *effect);
     for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
     const Fit& others = selection.without[all.size()];
     for (const Rival& rival : selection.rivals) {

@@ -10,8 +10,8 @@
 
 namespace fusee {
 
-/// In the order of selection.best.effects.
-std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection);
+/// In the order of selection.best.effects. `numbers`: the same set with the numbers that are handed over.
+std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers);
 
 /// "pulley_scale (scale_percent = −2.01) or slack (slack_mm = 0.31): 0.004° rms apart in these runs", one for each
 /// rival that does as well.

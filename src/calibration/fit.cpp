@@ -27,6 +27,8 @@ constexpr double k_least_gain = 0.05;
 /// … and one that promises less, a seventieth of a standard error, is not simulated. Matrix, random joints: at 2e-3 a
 /// group of one joint in six that were looked at took in four members more.
 constexpr double k_worth_a_step = 1e-4;
+/// Of the squares: a step that takes no more away is the last.
+constexpr double k_least_of_squares = 1e-4;
 /// Of a number that no practice is known of, in its steps.
 constexpr double k_steps_in_practice = 100.0;
 
@@ -57,6 +59,31 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
     set_value(at, parameter, std::clamp(value, parameter.least, parameter.most));
   }
   return at;
+}
+
+/// `step` shortened, number by number, to where the ranges end; what is held stays. The free offset has no range.
+Eigen::VectorXd kept_within(const std::vector<ConfidenceInterval>& ranges, const Fit& fit, Eigen::VectorXd step) {
+  for (Eigen::Index k = 0; k < step.size(); ++k) {
+    if (fit.J.col(k).isZero(0)) step[k] = 0;
+  }
+  for (const Effect* effect : fit.effects) {
+    for (const Eigen::Index k : places_of(fit, *effect)) {
+      const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
+      step[k] = std::clamp(fit.x[k] + step[k], range.low, range.high) - fit.x[k];
+    }
+  }
+  return step;
+}
+
+/// A number that has come to an end of its range stays there, and the others go where they are best with it.
+void hold_at_ends(const std::vector<ConfidenceInterval>& ranges, Fit& fit) {
+  for (const Effect* effect : fit.effects) {
+    for (const Eigen::Index k : places_of(fit, *effect)) {
+      const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
+      const double near = 1e-9 * (range.high - range.low);
+      if (fit.x[k] <= range.low + near || fit.x[k] >= range.high - near) fit.J.col(k).setZero();
+    }
+  }
 }
 
 /// Each by its step.
@@ -275,6 +302,33 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   const Amplitudes alone = all_error_named(start);
   Fit named = settled(judged(descended(std::move(start), 0, k_chords, alone, 1)));
   return named.usable && named.log_evidence > beside.log_evidence ? named : beside;
+}
+
+Fit Fitter::by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& within) const {
+  const double ridge = wide_prior(evidence().floor);
+  const auto sums_at = [&](Fit& place) {
+    place.readings = sums_of_readings(evidence(), place);
+    return sums_of_all(evidence(), place);
+  };
+  Fit best = started(fit.effects, fit.at, fit.rest);
+  double share = 1.0;
+  for (int i = 0; i < k_most_steps_down && best.usable; ++i) {
+    hold_at_bounds(best);
+    hold_at_ends(within, best);
+    const NormalEquations sums = sums_at(best);
+    const Eigen::VectorXd step = least_squares_step(sums, best.x, ridge);
+    Fit next = placed(best.effects, stepped(best, kept_within(within, best, share * step)), best.rest);
+    next.J = best.J;
+    const double left = is_finite(evidence(), next) ? sums_at(next).rr : sums.rr;
+    if (left >= sums.rr) {
+      share *= k_shorter;
+      continue;
+    }
+    best = started(next.effects, next.at, next.rest);
+    share = 1.0;
+    if (left > (1.0 - k_least_of_squares) * sums.rr) break;
+  }
+  return judged(std::move(best));
 }
 
 Fit Fitter::fitted(const EffectSet& effects, const Imperfections& from, LooseRow rest) const {

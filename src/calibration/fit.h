@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "calibration/confidence_interval.h"
 #include "calibration/held_out.h"
 #include "calibration/marginal.h"
 #include "calibration/model.h"
@@ -54,6 +55,10 @@ class Fitter {
 
   /// To the end, from where the parameters stand in `from`.
   Fit fit(const EffectSet& effects, const Imperfections& from) const;
+
+  /// The same set from there to the least squares, as hold_out() fits: no sizes in practice, nothing without a name.
+  /// Its effects' numbers stay in `within`, a range for each number of `fit`.
+  Fit by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& within) const;
 
   /// `base` with one effect more, from the best of its starts, close to its optimum: what candidates are compared by.
   Fit with_effect(const Fit& base, const Effect& effect) const;

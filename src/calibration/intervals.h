@@ -4,16 +4,10 @@
 
 #include <vector>
 
+#include "calibration/confidence_interval.h"
 #include "calibration/selection.h"
 
 namespace fusee {
-
-/// Of one fitted x, in its own steps.
-struct ConfidenceInterval {
-  double low = 0;  ///< 95 %
-  double high = 0;
-  double deviation = 0;  ///< standard
-};
 
 /// Of every fitted x, in their order: beside a discrepancy that may take any shape, and what is known from practice and
 /// from calipers.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/empirical.h"
 #include "calibration/nameless.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
@@ -148,10 +147,9 @@ Rest look_at_rest(const Evidence& evidence, const Fit& fit) {
   return rest;
 }
 
-void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration) {
+void conclude(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed, Calibration& calibration) {
   const Rest rest = look_at_rest(evidence, selection.best);
   const StrokeScatter scatter = stroke_scatter(evidence, selection.best);
-  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
   const bool unexplained = is_unexplained(unnamed, evidence.floor);
   calibration.rest_autocorrelation = rest.autocorrelation;
   if (unexplained) {
@@ -163,8 +161,6 @@ void conclude(const Evidence& evidence, const Selection& selection, Calibration&
   take_nameless({unexplained || walks, walks || (unexplained && goes_with_time(unnamed))}, kind_of(*evidence.declared),
                 selection.groups, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
-  if (calibration.verdict == CalibrationVerdict::unexplained)
-    calibration.curve = empirical_curve(evidence, selection.best, unnamed);
   calibration.summary =
       finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
   ask_for_runs(calibration);

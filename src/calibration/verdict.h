@@ -5,6 +5,7 @@
 #include <string>
 
 #include "calibration/selection.h"
+#include "calibration/unknown.h"
 #include "fusee/calibration/calibration.h"
 
 namespace fusee {
@@ -16,7 +17,7 @@ struct Rest {
 };
 Rest look_at_rest(const Evidence& evidence, const Fit& fit);
 
-/// Fills verdict, summary, next_runs, unexplained_rms and unexplained_where.
-void conclude(const Evidence& evidence, const Selection& selection, Calibration& calibration);
+/// Fills verdict, summary, next_runs, unexplained_rms and unexplained_where. `unnamed`: beside selection.best.
+void conclude(const Evidence& evidence, const Selection& selection, const Unnamed& unnamed, Calibration& calibration);
 
 }  // namespace fusee

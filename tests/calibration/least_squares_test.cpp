@@ -1,9 +1,12 @@
 // Normal equations, held-out errors, fits and intervals against least squares done another way.
 #include <gmock/gmock.h>
 
+#include "calibration/delivered.h"
 #include "calibration/intervals.h"
 #include "calibration/linear_joint.h"
 #include "calibration/thresholds.h"
+#include "fusee/base/units.h"
+#include "fusee/calibration/calibration.h"
 
 namespace fusee::linear {
 namespace {
@@ -273,6 +276,131 @@ TEST_F(LinearFit, IntervalsHoldTheTruth) {
   const double step = stretch.parameters.front().step;
   EXPECT_LT(found[1].low * step, k_compliance);
   EXPECT_GT(found[1].high * step, k_compliance);
+}
+
+// ---- what is handed over where something has no name ----------------------------------------------------------------
+
+/// It bends with the load, which has no name.
+Evidence bending_with_the_load() {
+  return evidence_of(measured({0, 2, 5, -3}, [noise = white_noise(k_floor, 5)](const Sample& sample) mutable {
+    return k_offset - k_compliance * sample.load + 5e-3 * sample.load * std::pow(sample.alpha, 2) + noise(sample);
+  }));
+}
+
+class Handed : public testing::Test {
+ protected:
+  Evidence evidence = bending_with_the_load();
+  Workers workers{evidence};
+  const Effect& stretch = named("tendon_stretch");
+  Selection selection;
+
+  /// Stretch found, with intervals so many of its steps wide.
+  void find(double deviation) {
+    selection.none = workers.one().fit({}, {});
+    selection.best = workers.one().fit({&stretch}, {});
+    for (const EffectParameter* number : selection.best.parameters) selection.variance[number] = deviation * deviation;
+  }
+  std::vector<ConfidenceInterval> wide() const { return {2, {-1e9, 1e9, 1e8}}; }
+  double left(const Fit& fit) const { return fit.residual.norm(); }
+  double compliance(const Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
+};
+
+TEST_F(Handed, LeastSquaresAreThoseOfARegression) {
+  find(1);
+  const Fit squares = workers.one().by_squares(selection.best, wide());
+  const Eigen::VectorXd expected = regression(evidence);
+  EXPECT_NEAR(value_of(squares.at, *squares.parameters[0]), expected[0], 1e-6);
+  EXPECT_NEAR(compliance(squares), expected[1], 1e-6);
+  EXPECT_LT(left(squares), left(selection.best));
+}
+
+TEST_F(Handed, NumbersStayWithinTheirRangesAndTheOthersGoWithThem) {
+  find(1);
+  const double step = stretch.parameters.front().step;
+  const double end = regression(evidence)[1] - 1e-3;
+  std::vector<ConfidenceInterval> ranges = wide();
+  ranges[1] = {(end - 3e-3) / step, end / step, 1};
+  Fit from = selection.best;
+  set_value(from.at, stretch.parameters.front(), end - 2e-3);
+  const Fit squares = workers.one().by_squares(from, ranges);
+  EXPECT_NEAR(compliance(squares), end, 1e-12);
+  double mean = 0;  // the best offset beside it
+  for (const fusee::Run& run : evidence.measurement.runs) {
+    for (const Sample& sample : run.samples) mean += sample.theta - sample.alpha / k_ratio + end * sample.load;
+  }
+  mean /= static_cast<double>(evidence.theta.size());
+  EXPECT_NEAR(value_of(squares.at, *squares.parameters[0]), mean, 1e-9);
+}
+
+/// Of a cable joint (as the jaw in profiles/calibration.md): its loop shrinks with the load by no law that the
+/// catalogue has.
+Measurement loop_that_shrinks() {
+  const std::vector<double> loads = {0.01, 0.02, 0.03, 0.04}, loops = {3.5, 1, 0.7, 0.6};
+  Measurement all = measured(loads, white_noise(radians(0.02), 5));
+  all.load_unit = "Nm";
+  for (std::size_t r = 0; r < loads.size(); ++r) {
+    const double half = 0.5 * radians(loops[r]);
+    double lies = radians(180);  // the joint, in its play
+    for (Sample& sample : all.runs[r].samples) {
+      const double middle = sample.alpha / k_ratio;
+      lies = std::clamp(lies, middle - half, middle + half);
+      sample.theta += lies - middle - radians(90) * sample.load;
+    }
+  }
+  return all;
+}
+
+/// Stretch and a slack that load takes up in equal parts: found, and not all.
+class HandedOver : public testing::Test {
+ protected:
+  Evidence evidence = evidence_of(loop_that_shrinks());
+  Workers workers{evidence};
+  Selection selection;
+
+  /// Intervals are so many standard deviations times 1.96.
+  Delivered with_intervals(double deviations) {
+    const Effect& stretch = named("tendon_stretch");
+    const Effect& slack = named("slack");
+    Imperfections start;
+    set_value(start, stretch.parameters[0], radians(90));
+    set_value(start, slack.parameters[0], radians(3.5));
+    set_value(start, slack.parameters[1], radians(70));
+    selection.none = workers.one().fit({}, {});
+    selection.best = workers.one().fit({&stretch, &slack}, start);
+    for (std::size_t k = 0; k < selection.best.parameters.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      selection.variance[selection.best.parameters[k]] =
+          deviations * deviations * selection.best.explained.covariance(i, i);
+    }
+    return delivered(evidence, workers, selection, unnamed_beside(evidence, selection.best));
+  }
+};
+
+TEST_F(HandedOver, LeastSquaresWithinTheIntervalsWhereTheyForetellMore) {
+  const Delivered made = with_intervals(1.75);
+  EXPECT_LT(made.fit.mean_square, 0.8 * selection.best.mean_square);
+  EXPECT_LT(made.fit.by_run.mean_square, std::pow(radians(0.17), 2));
+  const std::vector<ConfidenceInterval> ranges = intervals(selection);
+  for (Eigen::Index k = 1; k < made.fit.x.size(); ++k) {  // but for the offset
+    EXPECT_GE(made.fit.x[k], ranges[static_cast<std::size_t>(k)].low - 1e-6) << k;
+    EXPECT_LE(made.fit.x[k], ranges[static_cast<std::size_t>(k)].high + 1e-6) << k;
+  }
+  EXPECT_FALSE(made.curve.used);
+}
+
+TEST_F(HandedOver, TheSummitWhereTheIntervalsLeaveNoRoom) {
+  const Delivered made = with_intervals(1e-6);
+  EXPECT_LT((made.fit.x - selection.best.x).tail(made.fit.x.size() - 1).norm(), 1e-3 * selection.best.x.norm());
+}
+
+TEST_F(LinearFit, TheSummitIsHandedOverWhereNothingStaysWithoutAName) {
+  Workers workers(evidence);
+  Selection selection;
+  selection.none = fitter.fit({}, {});
+  selection.best = fitter.fit({&stretch}, {});
+  const Unnamed unnamed = unnamed_beside(evidence, selection.best);
+  ASSERT_FALSE(is_unexplained(unnamed, evidence.floor));
+  EXPECT_EQ(delivered(evidence, workers, selection, unnamed).fit.at, selection.best.at);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class Concluded : public testing::Test {
     any.families.setConstant(k_floor);
     selection.best.explained = evidence.marginal->best(tangent_of(evidence, selection.best), any);
     selection.groups.resize(calibration.effects.size());
-    conclude(evidence, selection, calibration);
+    conclude(evidence, selection, unnamed_beside(evidence, selection.best), calibration);
     return calibration.verdict;
   }
 };
@@ -221,7 +221,7 @@ TEST(RmsDrop, IsNeverBelowNothing) {
   selection.best = workers.one().fit({&stretch}, {});
   selection.groups = {{{&stretch}, 0.0}};
   selection.best.by_factor.mean_square = 2 * selection.none.by_factor.mean_square;  // held out, it does harm
-  const std::vector<FoundEffect> found = found_effects(evidence, selection);
+  const std::vector<FoundEffect> found = found_effects(evidence, selection, selection.best);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].rms_drop, 0);
 }
@@ -238,7 +238,7 @@ TEST(FoundEffects, SayWhatTheirSignMeans) {
     selection.best = workers.one().fit({&named("joint_sensor_gain")}, {});
     selection.groups = {{{&named("joint_sensor_gain")}, 0.0}};
     selection.best.at.sensor.gain = gain;
-    const std::vector<FoundEffect> found = found_effects(evidence, selection);
+    const std::vector<FoundEffect> found = found_effects(evidence, selection, selection.best);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].parameters[0].sense, words);
   }
