@@ -328,6 +328,7 @@ Fit Fitter::by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& wi
     share = 1.0;
     if (left > (1.0 - k_least_of_squares) * sums.rr) break;
   }
+  hold_at_ends(within, best);
   return judged(std::move(best));
 }
 

@@ -6,7 +6,6 @@
 #include "calibration/linear_joint.h"
 #include "calibration/thresholds.h"
 #include "fusee/base/units.h"
-#include "fusee/calibration/calibration.h"
 
 namespace fusee::linear {
 namespace {
@@ -287,40 +286,32 @@ Evidence bending_with_the_load() {
   }));
 }
 
-class Handed : public testing::Test {
+class BySquares : public testing::Test {
  protected:
   Evidence evidence = bending_with_the_load();
   Workers workers{evidence};
   const Effect& stretch = named("tendon_stretch");
-  Selection selection;
+  const Fit summit = workers.one().fit({&stretch}, {});
 
-  /// Stretch found, with intervals so many of its steps wide.
-  void find(double deviation) {
-    selection.none = workers.one().fit({}, {});
-    selection.best = workers.one().fit({&stretch}, {});
-    for (const EffectParameter* number : selection.best.parameters) selection.variance[number] = deviation * deviation;
-  }
   std::vector<ConfidenceInterval> wide() const { return {2, {-1e9, 1e9, 1e8}}; }
   double left(const Fit& fit) const { return fit.residual.norm(); }
   double compliance(const Fit& fit) const { return value_of(fit.at, stretch.parameters.front()); }
 };
 
-TEST_F(Handed, LeastSquaresAreThoseOfARegression) {
-  find(1);
-  const Fit squares = workers.one().by_squares(selection.best, wide());
+TEST_F(BySquares, AreThoseOfARegression) {
+  const Fit squares = workers.one().by_squares(summit, wide());
   const Eigen::VectorXd expected = regression(evidence);
   EXPECT_NEAR(value_of(squares.at, *squares.parameters[0]), expected[0], 1e-6);
   EXPECT_NEAR(compliance(squares), expected[1], 1e-6);
-  EXPECT_LT(left(squares), left(selection.best));
+  EXPECT_LT(left(squares), left(summit));
 }
 
-TEST_F(Handed, NumbersStayWithinTheirRangesAndTheOthersGoWithThem) {
-  find(1);
+TEST_F(BySquares, NumbersStayWithinTheirRangesAndTheOthersGoWithThem) {
   const double step = stretch.parameters.front().step;
   const double end = regression(evidence)[1] - 1e-3;
   std::vector<ConfidenceInterval> ranges = wide();
   ranges[1] = {(end - 3e-3) / step, end / step, 1};
-  Fit from = selection.best;
+  Fit from = summit;
   set_value(from.at, stretch.parameters.front(), end - 2e-3);
   const Fit squares = workers.one().by_squares(from, ranges);
   EXPECT_NEAR(compliance(squares), end, 1e-12);
@@ -335,7 +326,7 @@ TEST_F(Handed, NumbersStayWithinTheirRangesAndTheOthersGoWithThem) {
 /// Of a cable joint (as the jaw in profiles/calibration.md): its loop shrinks with the load by no law that the
 /// catalogue has.
 Measurement loop_that_shrinks() {
-  const std::vector<double> loads = {0.01, 0.02, 0.03, 0.04}, loops = {3.5, 1, 0.7, 0.6};
+  const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, loops = {3.5, 2, 0.5, 0.5};
   Measurement all = measured(loads, white_noise(radians(0.02), 5));
   all.load_unit = "Nm";
   for (std::size_t r = 0; r < loads.size(); ++r) {
@@ -377,9 +368,9 @@ class HandedOver : public testing::Test {
 };
 
 TEST_F(HandedOver, LeastSquaresWithinTheIntervalsWhereTheyForetellMore) {
-  const Delivered made = with_intervals(1.75);
-  EXPECT_LT(made.fit.mean_square, 0.8 * selection.best.mean_square);
-  EXPECT_LT(made.fit.by_run.mean_square, std::pow(radians(0.17), 2));
+  const Delivered made = with_intervals(3);
+  EXPECT_LT(made.fit.mean_square, 0.7 * selection.best.mean_square);
+  EXPECT_LT(made.fit.by_run.mean_square, std::pow(radians(0.21), 2));
   const std::vector<ConfidenceInterval> ranges = intervals(selection);
   for (Eigen::Index k = 1; k < made.fit.x.size(); ++k) {  // but for the offset
     EXPECT_GE(made.fit.x[k], ranges[static_cast<std::size_t>(k)].low - 1e-6) << k;
