@@ -2,6 +2,7 @@
 
 #include "calibration/held_out.h"
 #include "calibration/intervals.h"
+#include "calibration/thresholds.h"
 
 // Beside something without a name the summit says what the numbers are, and leaves to what has no name what that may
 // explain as well. What a file hands over is to foretell: where runs that were left out are foretold better by numbers
@@ -9,9 +10,6 @@
 
 namespace fusee {
 namespace {
-
-/// Of the mean squares that the summit leaves of runs, the most that numbers may leave that are taken in its place.
-constexpr double k_less = 0.95;
 
 /// Mean squares of what was left out, rad²: whole runs, and levels of load or speed.
 struct Foretold {
@@ -38,8 +36,8 @@ Delivered delivered(const Evidence& evidence, Workers& workers, const Selection&
   Fit squares = workers.one().by_squares(selection.best, intervals(selection));
   if (!squares.usable) return all;
   const Foretold summit = foretold_by_summit(evidence, selection.best, unnamed, all.curve.used);
-  const bool is_better =
-      squares.by_run.mean_square < k_less * summit.runs && squares.by_factor.mean_square < summit.levels;
+  const bool is_better = squares.by_run.mean_square < k_thresholds.least_squares_left * summit.runs &&
+                         squares.by_factor.mean_square < summit.levels;
   if (!is_better) return all;
   all.fit = std::move(squares);
   all.curve.used = false;

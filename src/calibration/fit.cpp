@@ -61,28 +61,34 @@ Imperfections stepped(const Fit& fit, const Eigen::VectorXd& step) {
   return at;
 }
 
+/// Of all its effects: the free offset belongs to none.
+std::vector<Eigen::Index> places_of_effects(const Fit& fit) {
+  std::vector<Eigen::Index> all;
+  for (const Effect* effect : fit.effects) {
+    const std::vector<Eigen::Index> own = places_of(fit, *effect);
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return all;
+}
+
 /// `step` shortened, number by number, to where the ranges end; what is held stays. The free offset has no range.
 Eigen::VectorXd kept_within(const std::vector<ConfidenceInterval>& ranges, const Fit& fit, Eigen::VectorXd step) {
   for (Eigen::Index k = 0; k < step.size(); ++k) {
     if (fit.J.col(k).isZero(0)) step[k] = 0;
   }
-  for (const Effect* effect : fit.effects) {
-    for (const Eigen::Index k : places_of(fit, *effect)) {
-      const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
-      step[k] = std::clamp(fit.x[k] + step[k], range.low, range.high) - fit.x[k];
-    }
+  for (const Eigen::Index k : places_of_effects(fit)) {
+    const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
+    step[k] = std::clamp(fit.x[k] + step[k], range.low, range.high) - fit.x[k];
   }
   return step;
 }
 
 /// A number that has come to an end of its range stays there, and the others go where they are best with it.
 void hold_at_ends(const std::vector<ConfidenceInterval>& ranges, Fit& fit) {
-  for (const Effect* effect : fit.effects) {
-    for (const Eigen::Index k : places_of(fit, *effect)) {
-      const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
-      const double near = 1e-9 * (range.high - range.low);
-      if (fit.x[k] <= range.low + near || fit.x[k] >= range.high - near) fit.J.col(k).setZero();
-    }
+  for (const Eigen::Index k : places_of_effects(fit)) {
+    const ConfidenceInterval& range = ranges[static_cast<std::size_t>(k)];
+    const double near = 1e-9 * (range.high - range.low);
+    if (fit.x[k] <= range.low + near || fit.x[k] >= range.high - near) fit.J.col(k).setZero();
   }
 }
 

@@ -69,7 +69,8 @@ Effect slack(JointKind kind) {
        .step = 0.1,
        .prior = 5,  // set by feel
        .shown = whole_pretension,
-       .key = key::plain("pretension_N", "N", -100000, 100000, "added to tendon.pretension_N; tendons with slack have none"),
+       .key = key::plain("pretension_N", "N", -100000, 100000,
+                         "added to tendon.pretension_N; tendons with slack have none"),
        .again = WhenFoundAgain::added,
        .idle = has_no_pretension}};
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};
