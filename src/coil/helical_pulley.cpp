@@ -287,7 +287,7 @@ class Planner {
     const bool is_given = mechanism_.body.bore_diameter > 0 || mechanism_.body.bore == Bore::horn;
     for (const double diameter : k_bore_diameters) {
       layout.bore = bore_layout(mechanism_, is_given ? std::max(mechanism_.body.bore_diameter, 0.0) : diameter);
-      if (is_given || reach() <= room_for_bore()) {
+      if (is_given || (reach() <= room_for_bore() && !flat_off_shaft(mechanism_.body, layout.bore.shaft))) {
         if (!is_given && diameter < k_bore_diameters.front())
           layout.notes.push_back(
               fmt::format("no room for a bore of {} mm: made {} mm", k_bore_diameters.front(), diameter));
@@ -313,6 +313,7 @@ class Planner {
     add("bore_wall", bore_wall, layout.min_wall,
         fmt::format("the bore leaves {} to a groove's floor or a face's rim, it takes {} (body.min_wall_mm)",
                     wall_words(bore_wall), mm(layout.min_wall)));
+    if (auto flat = flat_off_shaft(mechanism_.body, layout.bore.shaft)) pulley_.conditions.push_back(std::move(*flat));
     for (Condition& condition : hub_conditions(mechanism_, layout, upper_rim()))
       pulley_.conditions.push_back(std::move(condition));
     if (auto tall = too_tall(layout)) pulley_.conditions.push_back(std::move(*tall));

@@ -100,7 +100,6 @@ class MechanismReader {
   void check_drum();
   void check_idlers();
   void check_sheath();
-  void check_bore();
   void check_horn();
   void check_optimize();
   void check_prior();
@@ -559,17 +558,6 @@ void MechanismReader::check_method() {
   }
 }
 
-void MechanismReader::check_bore() {
-  const Body& body = mechanism_.body;
-  if (body.bore == Bore::d && body.bore_flat > 0 && body.bore_diameter > 0 &&
-      (body.bore_flat <= 0.5 * body.bore_diameter || body.bore_flat > body.bore_diameter) && has("body.bore_flat_mm")) {
-    fail(entries_["body.bore_flat_mm"].place,
-         "body.bore_flat_mm = " + shortest(body.bore_flat) +
-             " mm does not go with bore_diameter_mm = " + shortest(body.bore_diameter) + " mm",
-         "from the flat to the far side: more than half the diameter and at most all of it");
-  }
-}
-
 void MechanismReader::check_horn() {
   const Body& body = mechanism_.body;
   if (body.bore != Bore::horn || !good_["body.bore"]) return;
@@ -740,7 +728,6 @@ DeclaredMechanism MechanismReader::read(std::string_view text, const std::vector
   check_drum();
   check_idlers();
   check_sheath();
-  check_bore();
   check_horn();
   check_optimize();
   check_prior();

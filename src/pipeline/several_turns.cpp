@@ -14,6 +14,7 @@
 #include "fusee/mechanism/fields.h"
 #include "fusee/pipeline.h"
 #include "fusee/solid/print.h"
+#include "fusee/solid/pulley.h"
 #include "pipeline/design.h"
 #include "solid/groove.h"
 
@@ -257,12 +258,11 @@ std::vector<Check> check_several_turns(const Product& product, const TriangleMes
 
 namespace {
 
-/// Numbers of the body that were written: what is automatic is fitted already.
 std::vector<std::string> keys_of_body(const DeclaredMechanism& mechanism) {
   std::vector<std::string> keys{"body.lead_mm", "body.spare_turns", "body.groove_depth_mm", "body.groove_angle_deg"};
-  for (const char* key : {"body.bore_diameter_mm", "body.knot_pocket_mm", "body.anchor_hole_mm", "body.min_wall_mm",
-                          "body.hub_diameter_mm"}) {
-    if (number_of(mechanism, *find_field(key)) > 0) keys.emplace_back(key);
+  for (const char* key : {"body.bore_diameter_mm", "body.bore_flat_mm", "body.knot_pocket_mm", "body.anchor_hole_mm",
+                          "body.min_wall_mm", "body.hub_diameter_mm"}) {
+    if (is_written(mechanism, key)) keys.emplace_back(key);
   }
   return keys;
 }

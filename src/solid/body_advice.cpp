@@ -14,8 +14,9 @@ namespace fusee {
 namespace {
 
 constexpr std::array k_body_keys{"body.groove_depth_mm", "body.flange_thickness_mm", "body.hub_diameter_mm",
-                                 "body.hub_height_mm",   "body.bore_diameter_mm",    "body.anchor_hole_mm",
-                                 "body.knot_pocket_mm",  "body.min_wall_mm",         "body.wrap_deg"};
+                                 "body.hub_height_mm",   "body.bore_diameter_mm",    "body.bore_flat_mm",
+                                 "body.anchor_hole_mm",  "body.knot_pocket_mm",      "body.min_wall_mm",
+                                 "body.wrap_deg"};
 // Of a horn of one's own; 0 is none of these and never "automatic".
 constexpr std::array k_horn_keys{"horn.bolt_circle_mm",   "horn.bolt_hole_mm",   "horn.centre_hole_mm",
                                  "horn.boss_diameter_mm", "horn.boss_height_mm", "horn.spline_length_mm"};
@@ -24,19 +25,12 @@ double number_of(const Mechanism& mechanism, const std::string& key) {
   return fusee::number_of(mechanism, *find_field(key));
 }
 
-// Numbers that were written: a change of what is automatic would be no advice, and 0 is not a small number but
-// "automatic".
 std::vector<std::string> written_keys(const Mechanism& mechanism) {
   std::vector<std::string> keys;
-  const Body& body = mechanism.body;
-  // What a shaft says, and what a written flat must go with, is not changed alone: the file would contradict itself.
-  const bool bore_is_tied = find_shaft(body.shaft) != nullptr || (body.bore == Bore::d && body.bore_flat > 0);
-  const auto is_written = [&](const std::string& key) {
-    return number_of(mechanism, key) > 0 && !(bore_is_tied && key == "body.bore_diameter_mm");
-  };
-  std::copy_if(k_body_keys.begin(), k_body_keys.end(), std::back_inserter(keys), is_written);
+  const auto counts = [&](std::string_view key) { return is_written(mechanism, key); };
+  std::copy_if(k_body_keys.begin(), k_body_keys.end(), std::back_inserter(keys), counts);
   if (mechanism.body.bore == Bore::horn && mechanism.body.horn == k_own_horn)
-    std::copy_if(k_horn_keys.begin(), k_horn_keys.end(), std::back_inserter(keys), is_written);
+    std::copy_if(k_horn_keys.begin(), k_horn_keys.end(), std::back_inserter(keys), counts);
   return keys;
 }
 
@@ -132,6 +126,13 @@ class BodyAdviser {
 };
 
 }  // namespace
+
+bool is_written(const Mechanism& mechanism, std::string_view key) {
+  // What a shaft says is not changed alone: the file would contradict itself.
+  if (key.starts_with("body.bore_") && find_shaft(mechanism.body.shaft) != nullptr) return false;
+  if (key == "body.bore_flat_mm" && mechanism.body.bore != Bore::d) return false;
+  return number_of(mechanism, std::string(key)) > 0;
+}
 
 std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis) {
   return failed_of(plan_body(mechanism, synthesis, {.wrap = WrapChoice::nearest, .conditions_alone = true}).conditions);

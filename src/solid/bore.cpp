@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "fusee/base/diagnostics.h"
+#include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
+#include "solid/condition_list.h"
 
 namespace fusee {
 namespace {
@@ -182,12 +184,25 @@ BoreLayout bore_layout(const Mechanism& mechanism, double diameter) {
   const double compensation = mechanism.material.hole_compensation;
   BoreLayout bore;
   bore.kind = mechanism.body.bore;
+  bore.shaft = diameter;
   if (bore.kind == Bore::horn)
     add_horn(bore, horn_of(mechanism), compensation);
   else
     fit_shaft(bore, mechanism.body, diameter, compensation);
   for (const Vec2& point : bore.outline) bore.radius = std::max(bore.radius, point.norm());
   return bore;
+}
+
+std::optional<Condition> flat_off_shaft(const Body& body, double shaft) {
+  if (body.bore != Bore::d || body.bore_flat <= 0) return std::nullopt;
+  const bool outside = body.bore_flat > shaft;
+  if (!outside && body.bore_flat > 0.5 * shaft) return std::nullopt;
+  ConditionList list;
+  list.add("bore_flat", body.bore_flat, outside ? shaft : 0.5 * shaft, false,
+           fmt::format("a D shaft of {0} mm (body.bore_diameter_mm) measures more than {1} mm from its flat to its far "
+                       "side and at most {0} mm, this one {2} mm (body.bore_flat_mm)",
+                       rounded(shaft), rounded(0.5 * shaft), rounded(body.bore_flat)));
+  return list.taken().front();
 }
 
 RecessCone recess_cone(const BoreLayout& bore) {

@@ -2,6 +2,9 @@
 /// Outlines of the holes along the axis. mm.
 #pragma once
 
+#include <optional>
+
+#include "fusee/profile/synthesis.h"
 #include "fusee/solid/layout.h"
 
 namespace fusee {
@@ -14,6 +17,9 @@ Polygon polyhole(double diameter, const Vec2& centre);
 /// one tooth of a toothed shaft face +y, towards the joint at home. Nothing is checked: make_pulley's conditions do
 /// that.
 BoreLayout bore_layout(const Mechanism& mechanism, double diameter);
+
+/// A written flat that lies outside a D shaft of this diameter, or not beyond its axis; nothing where there is none.
+std::optional<Condition> flat_off_shaft(const Body& body, double shaft);
 
 /// The cone in which a horn's recess narrows to the centre screw's hole. Both rims have a corner on each ray from the
 /// axis on which either polygon has one, so that the cone ends in the hole itself and leaves no ledge about it.

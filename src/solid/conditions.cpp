@@ -39,6 +39,7 @@ class Conditions {
     add_groove();
     add_bore_wall(synthesis_.p1);
     add_bore_wall(synthesis_.p2);
+    if (auto flat = flat_off_shaft(body_, layout_.bore.shaft)) list_.take(std::move(*flat));
     add_horn();
     for (Condition& condition : hub_conditions(mechanism_, layout_, inradius(rims_.upper)))
       list_.take(std::move(condition));

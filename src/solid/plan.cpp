@@ -89,7 +89,10 @@ class Planner {
   std::vector<double> bores() const {
     if (mechanism_.body.bore_diameter > 0) return {mechanism_.body.bore_diameter};
     if (mechanism_.body.bore == Bore::horn) return {k_bores.front()};
-    return {k_bores.begin(), k_bores.end()};
+    std::vector<double> bores;
+    std::copy_if(k_bores.begin(), k_bores.end(), std::back_inserter(bores),
+                 [this](double shaft) { return !flat_off_shaft(mechanism_.body, shaft); });
+    return bores.empty() ? std::vector<double>{k_bores.front()} : bores;
   }
 
   // Thick walls before large bores, both as large as leaves room for both tie-offs. Where the least of all has none,

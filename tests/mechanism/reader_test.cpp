@@ -269,9 +269,6 @@ TEST(Reader, BoreAndHorn) {
   EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion\"\n"),
               HasSubstr("17:8 body.horn = \"lynxmotion\" is not known | did you mean \"lynxmotion-ses\"?"));
   EXPECT_THAT(errors_of(k_good_file + "[body]\nbore = \"horn\"\nhorn = \"lynxmotion-ses\"\n"), IsEmpty());
-  EXPECT_THAT(only_error(k_good_file + "[body]\nbore = \"d\"\nbore_diameter_mm = 5\nbore_flat_mm = 5.5\n"),
-              HasSubstr("18:16 body.bore_flat_mm = 5.5 mm does not go with bore_diameter_mm = 5 mm"));
-  EXPECT_THAT(errors_of(k_good_file + "[body]\nbore = \"d\"\nbore_diameter_mm = 5\nbore_flat_mm = 4.5\n"), IsEmpty());
 }
 
 TEST(Reader, RatioStandsInPlaceOfTheMechanism) {

@@ -105,6 +105,29 @@ TEST(Conditions, HubOverTheFlangeAndHubWithoutWall) {
   expect_refused_for({"hub_wall", &Body::hub_diameter, 6, 12}, mechanism);
 }
 
+// From the flat of a D shaft to its far side there is more than its radius, and at most its diameter.
+TEST(Conditions, AFlatThatIsNoneOfItsShaft) {
+  Mechanism mechanism = plain_mechanism();
+  mechanism.body.bore = Bore::d;
+  mechanism.body.bore_diameter = 5;
+  expect_refused_for({"bore_flat", &Body::bore_flat, 5.5, 5.0}, mechanism);
+  expect_refused_for({"bore_flat", &Body::bore_flat, 2.5, 2.6}, mechanism);
+  mechanism.body.bore_flat = 2.5;
+  for (const char* key : {"body.bore_flat_mm", "body.bore_diameter_mm"}) {
+    const std::vector<Change> advice = body_advice(mechanism).alone;
+    const auto change = std::find_if(advice.begin(), advice.end(), [key](const Change& c) { return c.key == key; });
+    ASSERT_NE(change, advice.end()) << key;
+    Mechanism changed = mechanism;
+    set_number(changed, *find_field(key), 0, change->to);
+    EXPECT_TRUE(obstacles(changed).empty()) << change->text;
+  }
+  // Where the diameter is left to the program, it goes with the flat.
+  mechanism.body.bore_diameter = 0;
+  const Pulley made = make_pulley(mechanism, round_pulley());
+  EXPECT_TRUE(made.made()) << made.brief();
+  EXPECT_DOUBLE_EQ(made.layout.bore.shaft, 4.0);
+}
+
 TEST(Conditions, SetScrewThatIsAskedForMustFit) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.set_screw = "M4";

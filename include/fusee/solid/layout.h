@@ -54,6 +54,7 @@ struct DowelLayout {
 
 struct BoreLayout {
   Bore kind = Bore::round;
+  double shaft = 0;    ///< diameter of the shaft it is for, hole compensation left out; of no meaning for a horn
   Polygon outline;     ///< counter-clockwise about the axis, hole compensation included
   std::optional<RoundHole> circle;   ///< that the outline's sides touch from outside, where the bore is a circle
   std::size_t arc_points = 0;        ///< how many of the outline's first points lie on one arc about the axis (D, keyway)

@@ -109,6 +109,9 @@ Pulley make_pulley(const Mechanism& mechanism, const SynthesisResult& synthesis,
 std::vector<Condition> body_obstacles(const Mechanism& mechanism, const SynthesisResult& synthesis);
 /// The same of curves and body.
 std::vector<Condition> obstacles(const Mechanism& mechanism);
+/// A number of the body that was written and is used: a change of what is automatic would be no advice, and 0 is not a
+/// small number but "automatic".
+bool is_written(const Mechanism& mechanism, std::string_view key);
 /// What would make a refused mechanism possible: numbers of the joint or written for the body, screws of another size,
 /// what is written left to the program. Each was tried, as `judge` says; but for printing it in `refused` parts, which
 /// did not do.
