@@ -18,6 +18,16 @@
 namespace fusee::rig {
 
 constexpr Character k_middle{1.0, 1.0, 0.5};
+constexpr double k_slow = radians(12.0), k_fast = radians(90.0);
+
+/// Both loads, fast and slow, rest under load, and without a load again after it.
+inline std::vector<RunPlan> loads_and_rests() {
+  return {{0.0, k_slow, 1}, {25.0, k_fast, 2, 2.0}, {0.0, radians(25.0), 1}, {-25.0, radians(25.0), 1, 2.0}};
+}
+
+inline double acted(const Action& action, const Moment& now, std::vector<double>& memory) {
+  return action.act(now, action.numbers, memory);
+}
 
 inline SensorPlan silent() {
   SensorPlan sensors;

@@ -16,7 +16,7 @@ std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists) {
 const std::vector<FaultList>& fault_lists() {
   static const std::vector<FaultList> lists = {
       {"named", named_faults()},   {"wide", wide_faults()},     {"tuning", tuning_faults()},
-      {"unseen", unseen_faults()}, {"sealed", sealed_faults()},
+      {"unseen", unseen_faults()}, {"sealed", sealed_faults()}, {"withheld", withheld_faults()},
   };
   return lists;
 }

@@ -16,17 +16,6 @@
 namespace fusee::rig {
 namespace {
 
-constexpr double k_slow = radians(12.0), k_fast = radians(90.0);
-
-/// Both loads, fast and slow, rest under load, and without a load again after it.
-std::vector<RunPlan> every_condition() {
-  return {{0.0, k_slow, 1}, {25.0, k_fast, 2, 2.0}, {0.0, radians(25.0), 1}, {-25.0, radians(25.0), 1, 2.0}};
-}
-
-double acted(const Action& action, const Moment& now, std::vector<double>& memory) {
-  return action.act(now, action.numbers, memory);
-}
-
 // ---- all of them ----------------------------------------------------------------------------------------------------
 
 TEST(Sealed, twenty_kinds_that_no_other_list_holds) {
@@ -35,9 +24,9 @@ TEST(Sealed, twenty_kinds_that_no_other_list_holds) {
   EXPECT_GE(kinds_without_kin("sealed"), 12u);
 }
 
-TEST(Sealed, none_does_anything_at_size_nought) { expect_nothing_at_size_nought(sealed_faults(), every_condition()); }
+TEST(Sealed, none_does_anything_at_size_nought) { expect_nothing_at_size_nought(sealed_faults(), loads_and_rests()); }
 
-TEST(Sealed, each_moves_the_reading_more_by_its_size) { expect_more_by_size(sealed_faults(), every_condition()); }
+TEST(Sealed, each_moves_the_reading_more_by_its_size) { expect_more_by_size(sealed_faults(), loads_and_rests()); }
 
 TEST(Sealed, a_truth_drawn_from_the_split_is_of_the_split_and_stays_out_of_the_matrix) { expect_drawn_from("sealed"); }
 
