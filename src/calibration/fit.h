@@ -34,6 +34,7 @@ struct Fit {
   double against_readings = 0;  ///< sum of squares of what was measured by hand, each by its uncertainty
   Explained explained;          ///< what the data say there, discrepancy beside it
   double log_evidence = 0;      ///< of the set, with the price of play; of two sets the larger is the likelier
+  double rareness_of_rest = 0;  ///< nats: of what stays without a name beside it
   bool usable = false;
 };
 

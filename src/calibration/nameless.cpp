@@ -276,7 +276,7 @@ class Reader {
   Reading read(const Fit& base, const Amplitudes& open) const {
     const Beside beside(*this, base);
     const double loose = base.explained.log_evidence - base.log_evidence;
-    const double others = base.log_evidence - score(base);
+    const double others = rareness_of(base.effects);
     Reading best;
     double most = -std::numeric_limits<double>::infinity();
     for (const Amplitudes& start : {base.explained.amplitudes, open}) {
@@ -452,11 +452,11 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
 void take_nameless(const Left& left, JointKind kind, const std::vector<CredibleGroup>& groups,
                    std::vector<FoundEffect>& effects) {
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const bool is_doubtful =
-        groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(effects[i].name, kind));
-    const double least = left.anything                  ? k_thresholds.ahead_beside_rest
-                         : effects[i].group.size() == 1 ? k_thresholds.ahead_of_nameless
-                                                        : k_thresholds.ahead_in_a_group;
+    const bool by_time = is_told_by_time(effects[i].name, kind);
+    const bool is_doubtful = groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && by_time);
+    const double least = left.anything                              ? k_thresholds.ahead_beside_rest
+                         : effects[i].group.size() == 1 && !by_time ? k_thresholds.ahead_of_nameless
+                                                                    : k_thresholds.ahead_in_a_group;
     if (is_doubtful || effects[i].nameless.behind < least) effects[i].group.emplace_back(k_nameless);
   }
 }

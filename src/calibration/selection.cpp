@@ -26,6 +26,9 @@
 namespace fusee {
 namespace {
 
+/// score(), what stays without a name for nothing.
+double score_of_names(const Fit& fit) { return fit.log_evidence - rareness_of(fit.effects); }
+
 /// Of amplitudes, in a linear look.
 constexpr int k_look_rounds = 4;
 
@@ -130,8 +133,9 @@ class Selector {
   void join_companions();
   std::optional<double> square_about_best(const Fit& fit, Eigen::Index place) const;
   void look_at_variance();
-  bool is_without_size(const Effect& effect) const;
+  bool is_for_nothing(const Effect& effect) const;
   CredibleGroup group_of(const std::vector<Weighed>& sets, const Effect& effect) const;
+  bool is_some_name(const std::vector<Weighed>& sets, const Effect& effect) const;
   Fit best_without(const Effect& effect) const;
   bool is_completed_beside(const Fit& others) const;
   bool drop_doubtful();
@@ -218,14 +222,16 @@ void Selector::try_singles() {
 double Selector::promised(const Fit& base, const EffectSet& added, const std::vector<const Look*>& looks,
                           const Amplitudes& unnamed) const {
   Tangent tangent = tangent_of(evidence_, base);
-  double cost = base.log_evidence - score(base);
-  for (const Effect* effect : added) cost += rareness_of(*effect);
+  const double cost = rareness_of(base.effects) + rareness_of(added);
   for (const Look* of_one : looks) {
     if (of_one->J.size() == 0) return -std::numeric_limits<double>::infinity();
     SharedLooks::add(*of_one, tangent);
   }
   const double loose = base.explained.log_evidence - base.log_evidence;
-  const double promise = evidence_.marginal->best(tangent, unnamed, k_look_rounds).log_evidence - loose - cost;
+  const Marginal& marginal = *evidence_.marginal;
+  const Explained explained = marginal.best(tangent, unnamed, k_look_rounds);
+  const double rest = marginal.rareness_of_rest(explained, evidence_.rows_used());
+  const double promise = explained.log_evidence - rest - loose - cost;
   return std::isfinite(promise) ? promise : -std::numeric_limits<double>::infinity();
 }
 
@@ -292,7 +298,7 @@ Explained Selector::plainly(const Fit& fit) const {
 }
 
 double Selector::plain_score(const Fit& fit) const {
-  return score(fit) - fit.explained.log_evidence + plainly(fit).log_evidence;
+  return score_of_names(fit) - fit.explained.log_evidence + plainly(fit).log_evidence;
 }
 
 /// Each of the beam with one effect more, the best first.
@@ -338,7 +344,7 @@ void Selector::explain_plainly() {
   };
   for (const auto& [key, fit] : seen_) beam.push_back(fit);
   double reached = keep_best();
-  while (reached < score(beam.front()) - k_thresholds.little_unnamed &&
+  while (reached < score_of_names(beam.front()) - k_thresholds.little_unnamed &&
          beam.front().effects.size() < k_thresholds.most_effects) {
     std::vector<Fit> wider = wider_plainly(beam);
     for (const Fit& fit : wider) take_in(fit);
@@ -553,33 +559,40 @@ Fit Selector::best_without(const Effect& effect) const {
   return workers_.one().fit(without(selection_.best.effects, effect), without(selection_.best.at, effect));
 }
 
-/// Whether the data say of its numbers that they may as well be nothing, and the readings that it hardly moves them. A
-/// friction that holds a joint fast moves it by all there is, and its slope is nothing then.
-bool Selector::is_without_size(const Effect& effect) const {
+/// Whether the joint is likelier without it: two groups of which each holds what stands in the other's place may be
+/// sure of both. Or whether the data say of its numbers that they may as well be nothing, and the readings that it
+/// hardly moves them. A friction that holds a joint fast moves it by all there is, and its slope is nothing then.
+bool Selector::is_for_nothing(const Effect& effect) const {
   const Fit& best = selection_.best;
-  if (!has_no_size(best, effect, selection_.temperature)) return false;
   const Fit others = best_without(effect);
-  return others.usable &&
-         rms_apart(evidence_, others.residual, best.residual) < k_thresholds.least_moved * evidence_.floor;
+  if (!others.usable) return false;
+  return score(others) > score(best) ||
+         (has_no_size(best, effect, selection_.temperature) &&
+          rms_apart(evidence_, others.residual, best.residual) < k_thresholds.least_moved * evidence_.floor);
 }
 
 /// Where nothing in its place may be there as well, each of all others takes a little of the doubt away, and says
 /// nothing.
 CredibleGroup Selector::group_of(const std::vector<Weighed>& sets, const Effect& effect) const {
-  const EffectSet& best = selection_.best.effects;
-  CredibleGroup group = credible_group(sets, best, effect, k_thresholds.least_of_a_group);
-  if (group.doubt <= k_thresholds.most_mistaken) return group;
-  return credible_group(sets, best, effect, k_thresholds.least_of_a_group, k_thresholds.least_gain);
+  return credible_group(sets, selection_.best.effects, effect, k_thresholds.least_of_a_group, k_thresholds.least_gain);
 }
 
-/// Whether all is explained by the best, and not by these of its members.
+/// Whether it, or any effect of the catalogue in its place, is as sure as a name is: which it is may be less so.
+bool Selector::is_some_name(const std::vector<Weighed>& sets, const Effect& effect) const {
+  return credible_group(sets, selection_.best.effects, effect, k_thresholds.most_mistaken).doubt <=
+         k_thresholds.most_mistaken;
+}
+
+/// Whether all, or nearly all, is explained by the best, and not by these of its members.
 bool Selector::is_completed_beside(const Fit& others) const {
   const Fit& best = selection_.best;
-  const auto leaves_something = [&](const Fit& fit) {
-    return is_unexplained(unnamed_beside(evidence_, fit), evidence_.floor);
-  };
-  if (leaves_something(best) || is_walking(stroke_scatter(evidence_, best))) return false;
-  return others.usable && score(best) > score(others) && leaves_something(others);
+  if (is_walking(stroke_scatter(evidence_, best))) return false;
+  const Unnamed beside_others = unnamed_beside(evidence_, others);
+  if (!is_unexplained(beside_others, evidence_.floor)) return false;
+  const Unnamed beside_best = unnamed_beside(evidence_, best);
+  const double little =
+      std::min(k_thresholds.little_left * evidence_.floor, k_thresholds.part_left * beside_others.rms);
+  return beside_best.rms < little || !is_unexplained(beside_best, evidence_.floor);
 }
 
 /// What is not sure enough to be named, with all that could stand in its place, or has no size to name, goes, the most
@@ -591,14 +604,16 @@ bool Selector::drop_doubtful() {
   for (const Effect* effect : selection_.best.effects) selection_.groups.push_back(group_of(sets, *effect));
   std::vector<const CredibleGroup*> doubtful;
   for (CredibleGroup& group : selection_.groups) {
-    if (is_without_size(*group.members.front())) group.doubt = 1;
+    if (is_for_nothing(*group.members.front())) group.doubt = 1;
     if (group.doubt > k_thresholds.most_mistaken) doubtful.push_back(&group);
   }
   std::stable_sort(doubtful.begin(), doubtful.end(),
                    [](const CredibleGroup* a, const CredibleGroup* b) { return a->doubt > b->doubt; });
   for (const CredibleGroup* group : doubtful) {
-    Fit others = best_without(*group->members.front());
-    if (group->doubt < k_thresholds.most_doubtful && is_completed_beside(others)) continue;
+    const Effect& effect = *group->members.front();
+    Fit others = best_without(effect);
+    const bool may_stay = group->doubt < k_thresholds.most_doubtful && others.usable;
+    if (may_stay && (is_some_name(sets, effect) || is_completed_beside(others))) continue;
     take_best(std::move(others));
     return true;
   }
@@ -745,11 +760,13 @@ double rareness_of(const Effect& effect) { return k_thresholds.rareness + price_
 
 double cost_of(const Effect& effect) { return k_thresholds.price_of_a_name + price_of_search(effect); }
 
-double score(const Fit& fit) {
-  double score = fit.log_evidence;
-  for (const Effect* effect : fit.effects) score -= rareness_of(*effect);
-  return score;
+double rareness_of(const EffectSet& effects) {
+  double sum = 0;
+  for (const Effect* effect : effects) sum += rareness_of(*effect);
+  return sum;
 }
+
+double score(const Fit& fit) { return score_of_names(fit) - fit.rareness_of_rest; }
 
 Selection select_effects(const Evidence& evidence, Workers& workers, const CalibrationOptions& options) {
   return Selector(evidence, workers, options).run();

@@ -35,6 +35,7 @@ struct Selection {
 
 /// By how much an effect is rarer than none, nats.
 double rareness_of(const Effect& effect);
+double rareness_of(const EffectSet& effects);
 /// What a name costs, nats.
 double cost_of(const Effect& effect);
 
