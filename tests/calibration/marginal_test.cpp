@@ -122,6 +122,23 @@ TEST(Marginal, FindsAmplitudesAndLeavesOutWhatIsNot) {
   EXPECT_NEAR(found.amplitudes.noise, 0.1, 0.01);
 }
 
+// As rare as a name from a noise floor on; what the model itself is not trusted to is nothing that happened.
+TEST(Marginal, WhatHasNoNameIsTheRarerTheMoreItMoves) {
+  std::mt19937 random(5);
+  Discrepancy D = two_families(50, random);
+  D.families[1].fixed = 0.3;
+  const Marginal marginal(D, 0.1, 1.0);
+  Explained explained;
+  explained.unnamed = drawn(6, random);
+  const Eigen::VectorXd moved = D.columns.leftCols(3) * explained.unnamed.head(3);
+  const double rms = std::sqrt(moved.squaredNorm() / 50.0);
+  for (const double floors : {0.0, 0.3, 0.99, 1.01, 7.0}) {
+    Explained sized = explained;
+    sized.unnamed.head(3) *= floors * 0.1 / rms;
+    EXPECT_NEAR(marginal.rareness_of_rest(sized, 50), k_thresholds.rareness * std::min(1.0, floors * floors), 1e-9);
+  }
+}
+
 TEST(Marginal, IntervalsCoverAsOftenAsTheySay) {
   std::mt19937 random(4);
   const Discrepancy D = two_families(60, random);

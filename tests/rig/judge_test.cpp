@@ -124,6 +124,19 @@ TEST(Judge, slack_that_is_hardly_there_is_said_to_be_that) {
   for (const Covered& number : one.numbers) EXPECT_TRUE(number.within) << number.name << one.words;
 }
 
+// An encoder off its axis, 7 times what should show, was left without any name: a curve explained it as well, and cost
+// nothing. It cannot be told from its likes, and perhaps has no name; of all others there is no word.
+TEST(Judge, a_smooth_error_of_place_is_said_with_its_likes_and_that_it_may_have_no_name) {
+  const Case made = make_case(random_truth(Kind::two, "sealed", 131057), 131057, {Protocol::random, true});
+  ASSERT_THAT(made.faults, ::testing::UnorderedElementsAre("guide_radius", "joint_sensor_eccentricity"));
+  const Judgement one = calibrate_case(made, std::filesystem::path(::testing::TempDir()) / "smooth");
+  EXPECT_EQ(one.held, 2u) << one.words;
+  EXPECT_EQ(one.held_by_names, 0u) << one.words;
+  EXPECT_EQ(one.false_groups, 0u) << one.words;
+  for (const char* unlike : {"creep", "backlash", "tendon_stretch", "gravity"})
+    EXPECT_THAT(one.words, Not(HasSubstr(unlike)));
+}
+
 TEST(Judge, kin_of_a_fault_without_a_name_is_no_false_blame) {
   const Judgement kin = judge(with({"grease"}), answer(CalibrationVerdict::explained, {{"sensor_lag"}}));
   EXPECT_FALSE(kin.outside.empty());
