@@ -8,6 +8,7 @@
 
 #include "fusee/base/text.h"
 #include "fusee/mechanism/catalogue.h"
+#include "solid/bore.h"
 #include "solid/condition_list.h"
 #include "solid/hub.h"
 #include "solid/plane_distance.h"
