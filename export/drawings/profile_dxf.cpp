@@ -130,15 +130,6 @@ std::vector<DxfLayer> spiral_layers() {
   return all;
 }
 
-/// The shaft itself: a printer's holes come out smaller than they are made.
-BoreLayout bore_of_shaft(Mechanism mechanism, const BoreLayout& made) {
-  const double compensation = mechanism.material.hole_compensation;
-  mechanism.material.hole_compensation = 0;
-  const double reach =
-      made.arc_points > 0 ? made.outline.front().norm() : distance_to_edges(made.outline, Vec2::Zero());
-  return bore_layout(mechanism, (made.circle ? made.circle->diameter : 2 * reach) - compensation);
-}
-
 std::vector<Vec3> climbing(const Spiral& spiral, const SpiralPlace& place, std::size_t first, std::size_t last,
                            double outward) {
   std::vector<Vec3> points;

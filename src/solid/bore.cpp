@@ -193,6 +193,11 @@ BoreLayout bore_layout(const Mechanism& mechanism, double diameter) {
   return bore;
 }
 
+BoreLayout bore_of_shaft(Mechanism mechanism, const BoreLayout& made) {
+  mechanism.material.hole_compensation = 0;
+  return bore_layout(mechanism, made.shaft);
+}
+
 std::optional<Condition> flat_off_shaft(const Body& body, double shaft) {
   if (body.bore != Bore::d || body.bore_flat <= 0) return std::nullopt;
   const bool outside = body.bore_flat > shaft;

@@ -18,6 +18,9 @@ Polygon polyhole(double diameter, const Vec2& centre);
 /// that.
 BoreLayout bore_layout(const Mechanism& mechanism, double diameter);
 
+/// The bore for the same shaft as it is once printed: what a printer's holes come out smaller by is left out.
+BoreLayout bore_of_shaft(Mechanism mechanism, const BoreLayout& made);
+
 /// A written flat that lies outside a D shaft of this diameter, or not beyond its axis; nothing where there is none.
 std::optional<Condition> flat_off_shaft(const Body& body, double shaft);
 

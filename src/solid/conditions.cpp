@@ -84,8 +84,11 @@ class Conditions {
     return least;
   }
 
+  // Of what is made and of what it is once printed: where holes come out larger the latter is what a drawing cuts.
   void add_bore_wall(const Outline& outline) {
-    const Wall wall = wall_to(floor(outline), layout_.bore);
+    const Polygon ground = floor(outline);
+    const Wall made = wall_to(ground, layout_.bore), printed = wall_to(ground, bore_of_shaft(mechanism_, layout_.bore));
+    const Wall& wall = made.thickness <= printed.thickness ? made : printed;
     list_.add_least(fmt::format("bore_wall_{}", pulley_name(outline.side)), wall.thickness, layout_.min_wall,
                     fmt::format("the bore leaves {} to {}'s floor at {:.0f}°, it takes {} mm (body.min_wall_mm)",
                                 wall_words(wall.thickness), pulley_name(outline.side), degrees(wall.angle),

@@ -116,8 +116,11 @@ class Planner {
     return bore_fits(layout) && tie_offs_.has_room(layout, tie_offs_.wound(layout));
   }
   bool bore_fits(const BodyLayout& layout) const {
+    const BoreLayout printed = bore_of_shaft(mechanism_, layout.bore);
     const auto thick = [&](const Outline& outline) {
-      return wall_between(floor(outline), layout.bore.outline).thickness >= layout.min_wall;
+      const Polygon ground = floor(outline);
+      return std::min(wall_between(ground, layout.bore.outline).thickness,
+                      wall_between(ground, printed.outline).thickness) >= layout.min_wall;
     };
     return thick(synthesis_.p1) && thick(synthesis_.p2);
   }

@@ -128,6 +128,21 @@ TEST(Conditions, AFlatThatIsNoneOfItsShaft) {
   EXPECT_DOUBLE_EQ(made.layout.bore.shaft, 4.0);
 }
 
+// A printer whose holes come out larger is told to make them smaller: the wall is that of what comes out, which is also
+// what a drawing cuts (campaign, design 227 of seed 70114: a bore that broke through P2's floor in profile.dxf alone).
+TEST(Conditions, TheWallAboutABoreIsThatOfWhatIsPrinted) {
+  Mechanism mechanism = plain_mechanism();
+  const auto thinnest = [&](double compensation) {
+    mechanism.material.hole_compensation = compensation;
+    return condition_named(make_pulley(mechanism, round_pulley()), "bore_wall_P2").value;
+  };
+  mechanism.body.bore_diameter = 8;
+  mechanism.body.bore = Bore::hex;
+  const double even = thinnest(0);
+  EXPECT_NEAR(thinnest(-1), even, 1e-12);
+  EXPECT_NEAR(thinnest(1), even - 0.5 / std::cos(radians(30)), 0.05);
+}
+
 TEST(Conditions, SetScrewThatIsAskedForMustFit) {
   Mechanism mechanism = plain_mechanism();
   mechanism.body.set_screw = "M4";
