@@ -5,6 +5,7 @@
 
 #include "export/drawings/plane_shapes.h"
 #include "export/drawings/polygon_cgal.h"
+#include "solid/bore.h"
 
 namespace fusee {
 namespace {
@@ -64,11 +65,15 @@ BodyLayout layout_to_cut(Mechanism mechanism, const SynthesisResult& synthesis) 
   return resolve_layout(mechanism, synthesis);
 }
 
-// Its knots lie where the printed pulley's do, and there may be no room for larger pockets than that one has.
+// Its knots lie where the printed pulley's do: there may be no room for larger pockets than that one has, nor for the
+// bore of a larger shaft, which what is automatic would take where no bed widens a foot.
 BodyLayout layout_to_cut(const Product& product) {
   BodyLayout layout =
       product.cut_layout ? *product.cut_layout : layout_to_cut(product.joint.mechanism, product.synthesis);
   layout.pocket_radius = std::min(layout.pocket_radius, product.pulley.layout.pocket_radius);
+  const BoreLayout& printed = product.pulley.layout.bore;
+  if (printed.shaft > 0 && printed.shaft < layout.bore.shaft)
+    layout.bore = bore_of_shaft(product.joint.mechanism, printed);
   return layout;
 }
 

@@ -126,6 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
               {},
               0.01,
               BuildStatus::infeasible},
+        Repro{"bore_of_the_cut_plates", "tests/data/repro/bore_of_the_cut_plates.toml", {}},
         Repro{"bore_in_a_drawing_alone",
               "tests/data/repro/bore_in_a_drawing_alone.toml",
               {{"pulley.r1_mm", "65"}},
