@@ -432,7 +432,7 @@ void Fitter::judge(Fit& fit) const {
   const Marginal& marginal = *evidence().marginal;
   fit.explained = marginal.best(tangent_of(evidence(), fit), marginal.first_guess());
   fit.log_evidence = fit.explained.log_evidence_here - cost_of_play(evidence(), fit);
-  fit.rareness_of_rest = marginal.rareness_of_rest(fit.explained, evidence().rows_used());
+  fit.rareness_of_rest = marginal.rareness_of_rest(fit.explained);
   // Two waves of one order are one column twice: a set that cannot be weighed would take all others' weight with it.
   fit.usable = std::isfinite(fit.log_evidence);
   if (!fit.usable) return;

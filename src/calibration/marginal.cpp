@@ -280,12 +280,12 @@ Explained Marginal::best(const TangentSums& sums, Amplitudes from, int rounds) c
   return best;
 }
 
-double Marginal::rareness_of_rest(const Explained& explained, std::size_t rows) const {
+double Marginal::rareness_of_rest(const Explained& explained) const {
   Eigen::VectorXd unnamed = explained.unnamed;
   for (const Family& family : discrepancy_.families) {
     if (family.fixed > 0) unnamed.segment(family.first, family.count).setZero();
   }
-  const double mean_square = unnamed.dot(gram_ * unnamed) / static_cast<double>(rows);
+  const double mean_square = unnamed.dot(gram_ * unnamed) / static_cast<double>(discrepancy_.columns.rows());
   return k_thresholds.rareness * std::min(1.0, std::max(0.0, mean_square) / square(floor_));
 }
 

@@ -119,8 +119,8 @@ class Marginal {
   Explained best(const Tangent& tangent, Amplitudes from, int rounds = k_rounds) const {
     return best(sums_of(tangent), std::move(from), rounds);
   }
-  /// By how much what has no name is rarer than none, nats: of so many rows.
-  double rareness_of_rest(const Explained& explained, std::size_t rows) const;
+  /// By how much what has no name is rarer than none, nats.
+  double rareness_of_rest(const Explained& explained) const;
   /// Log of posterior density at x itself but for a constant.
   double summit(const Tangent& tangent, const SizedDiscrepancy& beside) const;
 

@@ -133,10 +133,10 @@ class Selector {
   void join_companions();
   std::optional<double> square_about_best(const Fit& fit, Eigen::Index place) const;
   void look_at_variance();
-  bool is_for_nothing(const Effect& effect) const;
+  bool is_for_nothing(const Effect& effect, const Fit& others) const;
   CredibleGroup group_of(const std::vector<Weighed>& sets, const Effect& effect) const;
   bool is_some_name(const std::vector<Weighed>& sets, const Effect& effect) const;
-  Fit best_without(const Effect& effect) const;
+  void leave_each_out();
   bool is_completed_beside(const Fit& others) const;
   bool drop_doubtful();
   void write_down();
@@ -230,8 +230,7 @@ double Selector::promised(const Fit& base, const EffectSet& added, const std::ve
   const double loose = base.explained.log_evidence - base.log_evidence;
   const Marginal& marginal = *evidence_.marginal;
   const Explained explained = marginal.best(tangent, unnamed, k_look_rounds);
-  const double rest = marginal.rareness_of_rest(explained, evidence_.rows_used());
-  const double promise = explained.log_evidence - rest - loose - cost;
+  const double promise = explained.log_evidence - marginal.rareness_of_rest(explained) - loose - cost;
   return std::isfinite(promise) ? promise : -std::numeric_limits<double>::infinity();
 }
 
@@ -395,16 +394,22 @@ void Selector::settle_best() {
   take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
-/// Every member is left out, and held against every effect in its place that a look does not give up, and against those
-/// whose place is searched for: of a profile's wave in the place of a runout a look promised nothing, and it was 13
-/// nats likelier (matrix, seed 41022). Whether a better set was found.
-bool Selector::challenge() {
+/// The best without each of its members, the others fitted anew.
+void Selector::leave_each_out() {
   const Fit& best = selection_.best;
   selection_.without.assign(best.effects.size(), {});
   workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
     const Effect& effect = *best.effects[i];
     selection_.without[i] = fitter.fit(without(best.effects, effect), without(best.at, effect));
   });
+}
+
+/// Every member is left out, and held against every effect in its place that a look does not give up, and against those
+/// whose place is searched for: of a profile's wave in the place of a runout a look promised nothing, and it was 13
+/// nats likelier (matrix, seed 41022). Whether a better set was found.
+bool Selector::challenge() {
+  const Fit& best = selection_.best;
+  leave_each_out();
   std::vector<std::vector<Addition>> looks(best.effects.size());
   workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
     const Fit& less = selection_.without[i];
@@ -554,17 +559,11 @@ std::vector<Weighed> Selector::weighed() {
   return sets;
 }
 
-/// The other members, fitted anew.
-Fit Selector::best_without(const Effect& effect) const {
-  return workers_.one().fit(without(selection_.best.effects, effect), without(selection_.best.at, effect));
-}
-
 /// Whether the joint is likelier without it: two groups of which each holds what stands in the other's place may be
 /// sure of both. Or whether the data say of its numbers that they may as well be nothing, and the readings that it
 /// hardly moves them. A friction that holds a joint fast moves it by all there is, and its slope is nothing then.
-bool Selector::is_for_nothing(const Effect& effect) const {
+bool Selector::is_for_nothing(const Effect& effect, const Fit& others) const {
   const Fit& best = selection_.best;
-  const Fit others = best_without(effect);
   if (!others.usable) return false;
   return score(others) > score(best) ||
          (has_no_size(best, effect, selection_.temperature) &&
@@ -600,21 +599,24 @@ bool Selector::is_completed_beside(const Fit& others) const {
 /// with a name. Whether something went.
 bool Selector::drop_doubtful() {
   const std::vector<Weighed> sets = weighed();
+  leave_each_out();
   selection_.groups.clear();
-  for (const Effect* effect : selection_.best.effects) selection_.groups.push_back(group_of(sets, *effect));
-  std::vector<const CredibleGroup*> doubtful;
-  for (CredibleGroup& group : selection_.groups) {
-    if (is_for_nothing(*group.members.front())) group.doubt = 1;
-    if (group.doubt > k_thresholds.most_mistaken) doubtful.push_back(&group);
+  std::vector<std::size_t> doubtful;
+  for (const Effect* effect : selection_.best.effects) {
+    const std::size_t place = selection_.groups.size();
+    CredibleGroup& group = selection_.groups.emplace_back(group_of(sets, *effect));
+    if (is_for_nothing(*effect, selection_.without[place])) group.doubt = 1;
+    if (group.doubt > k_thresholds.most_mistaken) doubtful.push_back(place);
   }
-  std::stable_sort(doubtful.begin(), doubtful.end(),
-                   [](const CredibleGroup* a, const CredibleGroup* b) { return a->doubt > b->doubt; });
-  for (const CredibleGroup* group : doubtful) {
-    const Effect& effect = *group->members.front();
-    Fit others = best_without(effect);
-    const bool may_stay = group->doubt < k_thresholds.most_doubtful && others.usable;
+  std::stable_sort(doubtful.begin(), doubtful.end(), [&](std::size_t a, std::size_t b) {
+    return selection_.groups[a].doubt > selection_.groups[b].doubt;
+  });
+  for (const std::size_t place : doubtful) {
+    const Effect& effect = *selection_.best.effects[place];
+    const Fit& others = selection_.without[place];
+    const bool may_stay = selection_.groups[place].doubt < k_thresholds.most_doubtful && others.usable;
     if (may_stay && (is_some_name(sets, effect) || is_completed_beside(others))) continue;
-    take_best(std::move(others));
+    take_best(others);
     return true;
   }
   return false;

@@ -135,7 +135,7 @@ TEST(Marginal, WhatHasNoNameIsTheRarerTheMoreItMoves) {
   for (const double floors : {0.0, 0.3, 0.99, 1.01, 7.0}) {
     Explained sized = explained;
     sized.unnamed.head(3) *= floors * 0.1 / rms;
-    EXPECT_NEAR(marginal.rareness_of_rest(sized, 50), k_thresholds.rareness * std::min(1.0, floors * floors), 1e-9);
+    EXPECT_NEAR(marginal.rareness_of_rest(sized), k_thresholds.rareness * std::min(1.0, floors * floors), 1e-9);
   }
 }
 
