@@ -53,6 +53,8 @@ std::vector<Fault> unseen_faults();
 std::vector<Fault> sealed_faults();
 /// Without a name, by a fourth hand: kept aside, and run once after all else is settled.
 std::vector<Fault> withheld_faults();
+/// Without a name, by a fifth hand: kept aside, and run once after all else is settled.
+std::vector<Fault> reserved_faults();
 
 /// The faults of several lists as one, in their order.
 std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists);
