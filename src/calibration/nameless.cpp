@@ -402,12 +402,17 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   return others;
 }
 
+bool is_told_by_warmth(const Effect& effect) { return effect.needs.temperature; }
+
 /// By what the joint does while the bench warms up, or from some moment on. Something without a name that walks beside
 /// it walks as it likes: sealed split, seeds 131078 and 131119: thermal_expansion by 101 and 71 nats, beside a rest
 /// that differed from run to run, where a press fit slipped and a pin wore.
-bool is_told_by_time(const std::string& name, JointKind kind) {
-  const Effect* effect = find_effect(name, kind);
-  return effect != nullptr && (effect->needs.temperature || effect->starts_in_time);
+bool is_told_by_time(const Effect& effect) { return is_told_by_warmth(effect) || effect.starts_in_time; }
+
+/// Nats by which a name must be ahead of what has none, where nothing stays unexplained.
+double least_ahead(const Effect& effect, bool alone) {
+  if (is_told_by_warmth(effect)) return k_thresholds.ahead_by_warmth;
+  return alone && !is_told_by_time(effect) ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
 }
 
 }  // namespace
@@ -452,11 +457,10 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
 void take_nameless(const Left& left, JointKind kind, const std::vector<CredibleGroup>& groups,
                    std::vector<FoundEffect>& effects) {
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const bool by_time = is_told_by_time(effects[i].name, kind);
-    const bool is_doubtful = groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && by_time);
-    const double least = left.anything                              ? k_thresholds.ahead_beside_rest
-                         : effects[i].group.size() == 1 && !by_time ? k_thresholds.ahead_of_nameless
-                                                                    : k_thresholds.ahead_in_a_group;
+    const Effect& effect = *find_effect(effects[i].name, kind);
+    const bool is_doubtful = groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(effect));
+    const double least =
+        left.anything ? k_thresholds.ahead_beside_rest : least_ahead(effect, effects[i].group.size() == 1);
     if (is_doubtful || effects[i].nameless.behind < least) effects[i].group.emplace_back(k_nameless);
   }
 }

@@ -64,9 +64,9 @@ TEST_F(Concluded, OneCauseAlone) {
 
 TEST_F(Concluded, OneOfTwo) {
   leave(1);
-  find({{"backlash"}, {"zero_offset", "motor_offset"}});
+  find({{"backlash"}, {"joint_sensor_gain", "motor_sensor_eccentricity"}});
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
+  EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {joint_sensor_gain, motor_sensor_eccentricity}, and cannot tell which"));
 }
 
 /// An effect that is so many nats ahead of what has no name.
@@ -101,6 +101,17 @@ TEST_F(Concluded, OneOfSeveralHasToBeFurtherAhead) {
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "slack", "nameless"));
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "slack"));
+}
+
+TEST_F(Concluded, WarmthHasToBeFurtherAhead) {
+  for (const double more : {-1.0, 1.0}) {
+    leave(1);
+    calibration = {};
+    calibration.effects = {ahead_by(k_thresholds.ahead_by_warmth + more)};
+    calibration.effects.front().name = calibration.effects.front().group.front() = "thermal_expansion";
+    EXPECT_EQ(verdict(), more < 0 ? CalibrationVerdict::confounded : CalibrationVerdict::explained);
+    EXPECT_EQ(calibration.effects.front().group.size(), more < 0 ? 2u : 1u);
+  }
 }
 
 TEST_F(Concluded, WhatIsDoubtfulMayBeSomethingWithoutANameHoweverFarAhead) {
@@ -139,7 +150,7 @@ TEST_F(Concluded, WhatIsToldByTimeIsUnsureBesideWhatDiffersFromRunToRun) {
 
 TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   leave(1);
-  find({{"zero_offset", "motor_offset"}});
+  find({{"joint_sensor_gain", "motor_sensor_eccentricity"}});
   calibration.next_runs = {"drive the joint to a mark", "something else"};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.summary,
@@ -153,7 +164,7 @@ TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
 
 TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
   leave(5);
-  find({{"zero_offset", "motor_offset"}});
+  find({{"joint_sensor_gain", "motor_sensor_eccentricity"}});
   // The largest mean: the last twelfth of the way down.
   for (std::size_t row = k_rows; row < k_rows + 2; ++row)
     selection.best.residual[static_cast<Eigen::Index>(row)] = 0.05;
