@@ -19,16 +19,20 @@ Json audit_json(const Audit& audit) {
   return audit.worlds > 0 ? Json({{"worlds", audit.worlds}, {"named", audit.named}}) : Json();
 }
 
-Json effect_json(const FoundEffect& effect) {
-  Json parameters = Json::object();
-  for (const FittedParameter& parameter : effect.parameters) {
-    parameters[parameter.name] = {{"value", nine_digits(parameter.value)},
-                                  {"ci95", {nine_digits(parameter.low), nine_digits(parameter.high)}}};
+Json parameters_json(const std::vector<FittedParameter>& parameters) {
+  Json json = Json::object();
+  for (const FittedParameter& parameter : parameters) {
+    json[parameter.name] = {{"value", nine_digits(parameter.value)},
+                            {"ci95", {nine_digits(parameter.low), nine_digits(parameter.high)}}};
   }
+  return json;
+}
+
+Json effect_json(const FoundEffect& effect) {
   Json json = {{"name", effect.name},
                {"group", effect.group},
                {"place", word(effect.place)},
-               {"parameters", parameters},
+               {"parameters", parameters_json(effect.parameters)},
                {"rms_drop_deg", angle_json(effect.rms_drop)},
                {"evidence", nine_digits(effect.evidence)},
                {"audit", audit_json(effect.audit)},
@@ -37,6 +41,8 @@ Json effect_json(const FoundEffect& effect) {
   if (effect.group.back() == k_nameless) {
     json["nameless"] = {{"behind", nine_digits(effect.nameless.behind)}, {"words", nameless_words(effect)}};
   }
+  for (const MemberBeside& member : effect.beside)
+    json["beside"].push_back({{"name", member.name}, {"parameters", parameters_json(member.parameters)}});
   return json;
 }
 

@@ -182,6 +182,8 @@ std::string effect_card(const FoundEffect& effect, const Signatures& known, cons
   if (const auto found = known.find(effect.name); found != known.end())
     html += "<p>How it shows: " + safe_text(found->second->signature) + ".</p>";
   if (const std::string audit = audit_words(effect); !audit.empty()) html += "<p>" + safe_text(audit) + "</p>";
+  if (const std::string words = beside_words(effect, load_unit); !words.empty())
+    html += "<p>" + safe_text(words) + "</p>";
   if (const std::string words = nameless_words(effect); !words.empty()) html += "<p>" + safe_text(words) + "</p>";
   std::vector<std::string> rivals = rivals_of(effect);
   std::erase(rivals, k_nameless);

@@ -71,6 +71,19 @@ std::string nameless_words(const FoundEffect& effect) {
   return words + (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 
+std::string beside_words(const FoundEffect& effect, const std::string& load_unit) {
+  std::vector<std::string> members;
+  for (const MemberBeside& member : effect.beside) {
+    std::vector<std::string> numbers;
+    for (const FittedParameter& own : member.parameters) numbers.push_back(parameter_words(own, load_unit));
+    members.push_back(open_words(member.name) + " (" + joined(numbers, "; ") + ")");
+  }
+  if (members.empty()) return "";
+  return "Perhaps " + joined(members, " and ") +
+         " beside it: with both, as they are in corrected.toml and compensation.csv, runs that were left out are "
+         "foretold best.";
+}
+
 std::string unknown_words(const Unknown& unknown) {
   return rounded(degrees(unknown.rms), 2) + "° rms, " + unknown.factor + ": " + unknown.words;
 }

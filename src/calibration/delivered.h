@@ -8,7 +8,7 @@
 namespace fusee {
 
 struct Delivered {
-  Fit fit;               ///< the set that was found, with the numbers of the joint's file
+  Fit fit;  ///< the set that was found, perhaps with a member of a group more, with the numbers of the joint's file
   EmpiricalCurve curve;  ///< as the verdict unexplained has it
 };
 

@@ -53,6 +53,19 @@ double rms_drop(const Selection& selection, std::size_t place) {
   return std::max(0.0, std::sqrt(before.by_factor.mean_square) - std::sqrt(selection.best.by_factor.mean_square));
 }
 
+/// What was handed over beside the set that was found, in the first group that holds it.
+void place_beside(const Evidence& evidence, const Selection& selection, const Fit& numbers,
+                  std::vector<FoundEffect>& found) {
+  const std::vector<ConfidenceInterval> ranges = intervals(numbers);
+  for (const Effect* effect : numbers.effects) {
+    if (contains(selection.best.effects, *effect)) continue;
+    const auto group = std::find_if(selection.groups.begin(), selection.groups.end(),
+                                    [&](const CredibleGroup& own) { return contains(own.members, *effect); });
+    found[static_cast<std::size_t>(group - selection.groups.begin())].beside.push_back(
+        {effect->name, fitted_parameters(evidence, numbers, ranges, *effect)});
+  }
+}
+
 }  // namespace
 
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers) {
@@ -78,6 +91,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
       if (candidate.accepted && candidate.name == effect->name) found.evidence = candidate.evidence;
     all.push_back(std::move(found));
   }
+  place_beside(evidence, selection, numbers, all);
   return all;
 }
 

@@ -49,9 +49,10 @@ std::string effect_text(const FoundEffect& effect, const std::string& load_unit)
   words += !rivals.empty()    ? "; as good: " + joined(rivals, ", ")
            : nameless.empty() ? "; nothing else does as well"
                               : "; no other name does as well";
-  const std::string audit = audit_words(effect);
-  return words + (audit.empty() ? "" : ". " + audit) +
-         (nameless.empty() ? "" : (audit.empty() ? ". " : " ") + nameless);
+  std::string sentences;
+  for (const std::string& more : {audit_words(effect), beside_words(effect, load_unit), nameless})
+    sentences += more.empty() ? "" : (sentences.empty() ? ". " : " ") + more;
+  return words + sentences;
 }
 
 std::vector<std::string> effect_texts(const Calibration& c, const std::string& load_unit) {

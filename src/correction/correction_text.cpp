@@ -17,18 +17,25 @@ std::string one_line(std::string text) {
   return text;
 }
 
+std::string number_text(const FittedParameter& parameter) {
+  return ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) + " to " +
+         rounded(parameter.high);
+}
+
 std::string found_text(const FoundEffect& effect) {
   std::string text = "# " + effect.name + " (" + std::string(word(effect.place)) + ")";
-  for (const FittedParameter& parameter : effect.parameters) {
-    text += ": " + parameter.name + " = " + rounded(parameter.value) + ", 95 % within " + rounded(parameter.low) +
-            " to " + rounded(parameter.high);
-  }
+  for (const FittedParameter& parameter : effect.parameters) text += number_text(parameter);
   if (effect.group.size() < 2) return text;
   text += "; or";
   for (const std::string& rival : effect.group) {
     if (rival != effect.name) text += " " + rival;
   }
-  return text + ": these data cannot tell";
+  text += ": these data cannot tell";
+  for (const MemberBeside& member : effect.beside) {
+    text += "; perhaps " + member.name + " beside it";
+    for (const FittedParameter& parameter : member.parameters) text += number_text(parameter);
+  }
+  return text;
 }
 
 /// Six digits are more than any bench gives, and shorter than all of a double.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "calibration/delivered.h"
+#include "calibration/explanation.h"
 #include "calibration/intervals.h"
 #include "calibration/linear_joint.h"
 #include "calibration/thresholds.h"
@@ -325,7 +326,7 @@ TEST_F(BySquares, NumbersStayWithinTheirRangesAndTheOthersGoWithThem) {
 
 /// Of a cable joint (as the jaw in profiles/calibration.md): its loop shrinks with the load by no law that the
 /// catalogue has.
-Measurement loop_that_shrinks() {
+Measurement loop_that_shrinks(double gain = 0) {
   const std::vector<double> loads = {0, 0.01, 0.02, 0.03}, loops = {3.5, 2, 0.5, 0.5};
   Measurement all = measured(loads, white_noise(radians(0.02), 5));
   all.load_unit = "Nm";
@@ -335,7 +336,7 @@ Measurement loop_that_shrinks() {
     for (Sample& sample : all.runs[r].samples) {
       const double middle = sample.alpha / k_ratio;
       lies = std::clamp(lies, middle - half, middle + half);
-      sample.theta += lies - middle - radians(90) * sample.load;
+      sample.theta += lies - middle - radians(90) * sample.load + gain * lies;
     }
   }
   return all;
@@ -344,7 +345,9 @@ Measurement loop_that_shrinks() {
 /// Stretch and a slack that load takes up in equal parts: found, and not all.
 class HandedOver : public testing::Test {
  protected:
-  Evidence evidence = evidence_of(loop_that_shrinks());
+  explicit HandedOver(double gain = 0) : evidence(evidence_of(loop_that_shrinks(gain))) {}
+
+  Evidence evidence;
   Workers workers{evidence};
   Selection selection;
 
@@ -383,6 +386,41 @@ TEST_F(HandedOver, TheSummitWhereTheIntervalsLeaveNoRoom) {
   const Delivered made = with_intervals(1e-6);
   EXPECT_LT((made.fit.x - selection.best.x).tail(made.fit.x.size() - 1).norm(), 1e-3 * selection.best.x.norm());
 }
+
+/// … and the joint's sensor shows more: a group says so, perhaps.
+class HandedOverBeside : public HandedOver {
+ protected:
+  explicit HandedOverBeside(double gain = 0.05) : HandedOver(gain) {
+    selection.groups = {{{&named("tendon_stretch"), &named("joint_sensor_gain")}, 0}, {{&named("slack")}, 0}};
+  }
+
+  bool holds_gain(const Delivered& made) { return contains(made.fit.effects, named("joint_sensor_gain")); }
+};
+
+TEST_F(HandedOverBeside, AMemberOfAGroupGoesWithTheSetWhereBothForetellMore) {
+  const Delivered made = with_intervals(3);
+  ASSERT_TRUE(holds_gain(made));
+  EXPECT_LT(made.fit.by_run.mean_square, std::pow(radians(0.25), 2));
+  selection.without.resize(2);
+  const std::vector<FoundEffect> found = found_effects(evidence, selection, made.fit);
+  ASSERT_EQ(found.size(), 2u);
+  ASSERT_EQ(found[0].beside.size(), 1u);
+  EXPECT_TRUE(found[1].beside.empty());
+  EXPECT_EQ(found[0].beside[0].name, "joint_sensor_gain");
+  EXPECT_NEAR(found[0].beside[0].parameters[0].value, 5.0, 0.5);
+}
+
+TEST_F(HandedOverBeside, WhatNoGroupHoldsStaysOut) {
+  selection.groups[0].members.pop_back();
+  EXPECT_FALSE(holds_gain(with_intervals(3)));
+}
+
+class NothingBeside : public HandedOverBeside {
+ protected:
+  NothingBeside() : HandedOverBeside(0) {}
+};
+
+TEST_F(NothingBeside, AMemberThatForetellsNothingStaysOut) { EXPECT_FALSE(holds_gain(with_intervals(3))); }
 
 TEST_F(LinearFit, TheSummitIsHandedOverWhereNothingStaysWithoutAName) {
   Workers workers(evidence);

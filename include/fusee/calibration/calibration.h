@@ -48,6 +48,12 @@ struct Nameless {
   std::string separating_run;  ///< what would tell it from the effect
 };
 
+/// A member of a group that may be there beside the effect, with the numbers that are handed over.
+struct MemberBeside {
+  std::string name;
+  std::vector<FittedParameter> parameters;
+};
+
 /// One effect that the data ask for, with all that would do as well.
 struct FoundEffect {
   std::string name;
@@ -56,6 +62,8 @@ struct FoundEffect {
   std::vector<std::string> group;
   ChainPlace place = ChainPlace::joint;
   std::vector<FittedParameter> parameters;
+  /// Members of `group` that foretell runs that were left out better where they are there too.
+  std::vector<MemberBeside> beside;
   double rms_drop = 0;  ///< of the held-out residual, rad; never below 0
   double evidence = 0;  ///< log of how many times less likely the data are without it
   Audit audit;
