@@ -158,7 +158,7 @@ void conclude(const Evidence& evidence, const Selection& selection, const Unname
     calibration.unknown = unnamed.parts;
   }
   const bool walks = is_walking(scatter);
-  take_nameless({unexplained || walks, walks || (unexplained && goes_with_time(unnamed))}, kind_of(*evidence.declared),
+  take_nameless({unexplained || walks, walks || (unexplained && goes_with_time(unnamed))}, selection.catalogue,
                 selection.groups, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
   calibration.summary =

@@ -20,6 +20,10 @@ class Concluded : public testing::Test {
   Selection selection;
   Calibration calibration;
 
+  Concluded() {
+    for (const Effect& effect : effects(kind_of(*evidence.declared))) selection.catalogue.push_back(&effect);
+  }
+
   /// A rest of so many squares of the floor that turns its sign from row to row.
   void leave(double squares) {
     Fit& fit = selection.best;
@@ -64,9 +68,9 @@ TEST_F(Concluded, OneCauseAlone) {
 
 TEST_F(Concluded, OneOfTwo) {
   leave(1);
-  find({{"backlash"}, {"joint_sensor_gain", "motor_sensor_eccentricity"}});
+  find({{"backlash"}, {"zero_offset", "motor_offset"}});
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {joint_sensor_gain, motor_sensor_eccentricity}, and cannot tell which"));
+  EXPECT_THAT(calibration.summary, HasSubstr("backlash, one of {zero_offset, motor_offset}, and cannot tell which"));
 }
 
 /// An effect that is so many nats ahead of what has no name.
@@ -150,7 +154,7 @@ TEST_F(Concluded, WhatIsToldByTimeIsUnsureBesideWhatDiffersFromRunToRun) {
 
 TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
   leave(1);
-  find({{"joint_sensor_gain", "motor_sensor_eccentricity"}});
+  find({{"zero_offset", "motor_offset"}});
   calibration.next_runs = {"drive the joint to a mark", "something else"};
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
   EXPECT_THAT(calibration.summary,
@@ -164,7 +168,7 @@ TEST_F(Concluded, OneOfTwoLeadsWithWhatToMeasure) {
 
 TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
   leave(5);
-  find({{"joint_sensor_gain", "motor_sensor_eccentricity"}});
+  find({{"zero_offset", "motor_offset"}});
   // The largest mean: the last twelfth of the way down.
   for (std::size_t row = k_rows; row < k_rows + 2; ++row)
     selection.best.residual[static_cast<Eigen::Index>(row)] = 0.05;
