@@ -74,6 +74,11 @@ std::string effects_words(const std::vector<FoundEffect>& effects) {
   return list(names);
 }
 
+/// Whether more is handed over than is named.
+bool any_beside(const std::vector<FoundEffect>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [](const FoundEffect& effect) { return !effect.beside.empty(); });
+}
+
 CalibrationVerdict verdict_of(bool walks, bool above_floor, const std::vector<FoundEffect>& effects) {
   const auto is_group = [](const FoundEffect& effect) { return effect.group.size() > 1; };
   if (walks) return CalibrationVerdict::not_repeatable;
@@ -92,6 +97,7 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
              " rms from stroke to stroke: look for something loose before any correction.";
     case CalibrationVerdict::unexplained:
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +
+             (any_beside(calibration.effects) ? "with these alone " : "") +
              in_degrees(std::hypot(calibration.unexplained_rms, floor)) + " rms are left and noise makes " +
              in_degrees(floor) + " of it: what is more stays unexplained, " + rest.where + "." +
              (calibration.unknown.empty() ? "" : " It depends on " + calibration.unknown.front().factor + ".");

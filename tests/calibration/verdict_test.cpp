@@ -180,6 +180,17 @@ TEST_F(Concluded, ARestAboveTheNoiseIsSaidWithItsPlace) {
   EXPECT_THAT(calibration.summary, HasSubstr("° rms are left and noise makes 0.0573° of it"));
 }
 
+TEST_F(Concluded, WhatIsLeftByNamesIsNotWhatIsLeftByAllThatIsHandedOver) {
+  for (const bool more : {false, true}) {
+    leave(5);
+    calibration = {};
+    find({{"backlash"}});
+    if (more) calibration.effects.front().beside = {{"joint_sensor_gain", {}}};
+    verdict();
+    EXPECT_EQ(calibration.summary.find("with these alone") != std::string::npos, more) << calibration.summary;
+  }
+}
+
 TEST_F(Concluded, ARestIsDescribedByWhatItDependsOn) {
   leave(1);
   for (const Block& block : evidence.blocks) {
