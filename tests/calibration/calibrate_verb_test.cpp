@@ -241,6 +241,20 @@ TEST(CalibrationPage, SaysWhereToTie) {
   EXPECT_THAT(calibration_json(product), HasSubstr("\"tied_at_deg\": -1.5"));
 }
 
+TEST(CalibrationPage, SaysWhatIsPerhapsBesideAName) {
+  CalibrationProduct product = explained();
+  FoundEffect stretch;
+  stretch.name = "tendon_stretch";
+  stretch.group = {"tendon_stretch", "joint_sensor_gain"};
+  product.calibration.effects = {stretch};
+  EXPECT_THAT(calibration_json(product), Not(HasSubstr("\"beside\"")));
+  EXPECT_THAT(calibration_report_html(product), Not(HasSubstr("Perhaps")));
+  product.calibration.effects.front().beside = {{"joint_sensor_gain", {{"gain_percent", 1.25, 1, 1.5}}}};
+  EXPECT_THAT(calibration_json(product), HasSubstr("\"beside\""));
+  EXPECT_THAT(calibration_report_html(product),
+              HasSubstr("Perhaps joint sensor gain (gain = 1.25 % (95 %: 1 … 1.5)) beside it"));
+}
+
 TEST(CalibrationPage, SaysNeitherWhereThereIsNothingToSay) {
   const std::string json = calibration_json(explained());
   EXPECT_THAT(json, Not(HasSubstr("infeasible")));

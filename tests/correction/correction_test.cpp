@@ -199,6 +199,15 @@ TEST(CorrectedToml, KeepsTheFileAndAddsWhatWasFound) {
   EXPECT_EQ(read, declared());
 }
 
+TEST(CorrectedToml, SaysWhatIsPerhapsBesideAName) {
+  Calibration calibration = found_guide_radius();
+  calibration.effects.front().group.emplace_back("joint_sensor_gain");
+  calibration.effects.front().beside = {{"joint_sensor_gain", {{"gain_percent", 1.25, 1, 1.5}}}};
+  EXPECT_THAT(
+      corrected_toml(k_declared, declared(), calibration, {}),
+      HasSubstr("cannot tell; perhaps joint_sensor_gain beside it: gain_percent = 1.25, 95 % within 1 to 1.5\n"));
+}
+
 TEST(CorrectedToml, ASecondCalibrationReplacesTheFirst) {
   Correction correction;
   correction.identified = found_guide_radius().identified;
