@@ -35,6 +35,14 @@ struct Fault {
   double least_seen = 3;                                          ///< in the noise's rms
 };
 
+/// Short names for the lists of faults, which are tables.
+namespace short_names {
+using H = Hidden;
+using C = Character;
+using J = MadeJoint;
+using N = std::vector<double>;
+}  // namespace short_names
+
 struct FaultList {
   std::string split;  ///< "named", "wide", or the split of faults without a name
   std::vector<Fault> faults;

@@ -5,9 +5,7 @@
 namespace fusee::rig {
 namespace {
 
-using H = Hidden;
-using C = Character;
-using J = MadeJoint;
+using namespace short_names;
 
 double percent(double share) { return 100.0 * share; }
 

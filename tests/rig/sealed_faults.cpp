@@ -10,10 +10,7 @@
 namespace fusee::rig {
 namespace {
 
-using H = Hidden;
-using C = Character;
-using J = MadeJoint;
-using N = std::vector<double>;
+using namespace short_names;
 
 /// How far home is from the nearer end of the range.
 double nearer_end(const J& j) { return std::min(j.declared.joint.theta_max, -j.declared.joint.theta_min); }

@@ -1,10 +1,8 @@
-// The second split that is kept aside: each fault is seen, does nothing at size nought, and is what it says, by hand.
+// The second split that is kept aside: each fault is what it says, by hand.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,26 +13,6 @@
 
 namespace fusee::rig {
 namespace {
-
-// ---- all of them ----------------------------------------------------------------------------------------------------
-
-TEST(Sealed, twenty_kinds_that_no_other_list_holds) {
-  const std::vector<std::string> sealed = names_in("sealed");
-  EXPECT_GE(std::set<std::string>(sealed.begin(), sealed.end()).size(), 20u);
-  EXPECT_GE(kinds_without_kin("sealed"), 12u);
-}
-
-TEST(Sealed, none_does_anything_at_size_nought) { expect_nothing_at_size_nought(sealed_faults(), loads_and_rests()); }
-
-TEST(Sealed, each_moves_the_reading_more_by_its_size) { expect_more_by_size(sealed_faults(), loads_and_rests()); }
-
-TEST(Sealed, a_truth_drawn_from_the_split_is_of_the_split_and_stays_out_of_the_matrix) { expect_drawn_from("sealed"); }
-
-/// Minutes: FUSEE_LONG_TESTS=1.
-TEST(Sealed, joints_on_which_each_is_well_seen_are_found) {
-  if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
-  expect_joints_on_which_each_is_well_seen("sealed");
-}
 
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 

@@ -10,10 +10,7 @@
 namespace fusee::rig {
 namespace {
 
-using H = Hidden;
-using C = Character;
-using J = MadeJoint;
-using N = std::vector<double>;
+using namespace short_names;
 
 // ---- motor and shaft ------------------------------------------------------------------------------------------------
 

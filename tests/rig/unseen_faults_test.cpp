@@ -1,10 +1,8 @@
-// The split that is kept aside: each fault is seen, does nothing at size nought, and is what it says, by hand.
+// The split that is kept aside: each fault is what it says, by hand.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <set>
 
 #include "fusee/transmission/transmission.h"
 #include "rig/bench.h"
@@ -12,31 +10,6 @@
 
 namespace fusee::rig {
 namespace {
-
-/// Both loads, fast and slow, rest and motion: whatever a fault needs to show itself.
-std::vector<RunPlan> every_condition() {
-  return {{0.0, radians(12.0), 1, 3.0}, {25.0, radians(90.0), 2, 0.0}, {-25.0, radians(25.0), 1, 0.0}};
-}
-
-// ---- all of them ----------------------------------------------------------------------------------------------------
-
-TEST(Unseen, twelve_kinds_that_no_other_list_holds) {
-  const std::vector<std::string> unseen = names_in("unseen");
-  EXPECT_GE(std::set<std::string>(unseen.begin(), unseen.end()).size(), 12u);
-  EXPECT_GE(kinds_without_kin("unseen"), 8u);
-}
-
-TEST(Unseen, none_does_anything_at_size_nought) { expect_nothing_at_size_nought(unseen_faults(), every_condition()); }
-
-TEST(Unseen, each_moves_the_reading_more_by_its_size) { expect_more_by_size(unseen_faults(), every_condition()); }
-
-TEST(Unseen, a_truth_drawn_from_the_split_is_of_the_split_and_stays_out_of_the_matrix) { expect_drawn_from("unseen"); }
-
-/// Minutes: FUSEE_LONG_TESTS=1.
-TEST(Unseen, joints_on_which_each_is_well_seen_are_found) {
-  if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
-  expect_joints_on_which_each_is_well_seen("unseen");
-}
 
 // ---- one by one, by hand --------------------------------------------------------------------------------------------
 

@@ -5,9 +5,7 @@
 namespace fusee::rig {
 namespace {
 
-using H = Hidden;
-using C = Character;
-using J = MadeJoint;
+using namespace short_names;
 
 Fault attachment(const std::string& name, void (*set)(H&, double, const C&, const J&),
                  Numbers (*numbers)(const H&, const J&)) {

@@ -1,9 +1,7 @@
-// The third split that is kept aside: each fault is seen, does nothing at size nought, and is what it says, by hand.
+// The third split that is kept aside: each fault is what it says, by hand.
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -14,30 +12,6 @@
 
 namespace fusee::rig {
 namespace {
-
-// ---- all of them ----------------------------------------------------------------------------------------------------
-
-TEST(Withheld, sixteen_kinds_that_no_other_list_holds) {
-  const std::vector<std::string> withheld = names_in("withheld");
-  EXPECT_GE(std::set<std::string>(withheld.begin(), withheld.end()).size(), 16u);
-  EXPECT_GE(kinds_without_kin("withheld"), 12u);
-}
-
-TEST(Withheld, none_does_anything_at_size_nought) {
-  expect_nothing_at_size_nought(withheld_faults(), loads_and_rests());
-}
-
-TEST(Withheld, each_moves_the_reading_more_by_its_size) { expect_more_by_size(withheld_faults(), loads_and_rests()); }
-
-TEST(Withheld, a_truth_drawn_from_the_split_is_of_the_split_and_stays_out_of_the_matrix) {
-  expect_drawn_from("withheld");
-}
-
-/// Minutes: FUSEE_LONG_TESTS=1.
-TEST(Withheld, joints_on_which_each_is_well_seen_are_found) {
-  if (std::getenv("FUSEE_LONG_TESTS") == nullptr) GTEST_SKIP() << "FUSEE_LONG_TESTS is not set";
-  expect_joints_on_which_each_is_well_seen("withheld");
-}
 
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
