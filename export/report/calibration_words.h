@@ -23,7 +23,7 @@ std::string audit_words(const FoundEffect& effect);
 /// "Or something without a name: a wave of 1.9 times a turn of the motor is 4.6 nats behind."; "" where the group holds
 /// names alone.
 std::string nameless_words(const FoundEffect& effect);
-/// "With joint sensor gain beside it (gain = 1.394 %), which corrected.toml holds too, runs that were left out …"; ""
+/// "Perhaps joint sensor gain (gain = 1.26 % …) beside it: with both … runs that were left out are foretold best."; ""
 /// where no member of its group is handed over beside it.
 std::string beside_words(const FoundEffect& effect, const std::string& load_unit);
 /// "0.021° rms, place: the same at a place whichever way …"

@@ -402,24 +402,17 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   return others;
 }
 
-/// By what a name is told, if not by its shape over place, load and speed.
-struct ToldBy {
-  bool warmth = false;
-  bool time = false;  ///< by what the joint does while the bench warms up, or from some moment on
-};
+bool is_told_by_warmth(const Effect& effect) { return effect.needs.temperature; }
 
-ToldBy told_by(const std::string& name, const EffectSet& catalogue) {
-  const auto found =
-      std::find_if(catalogue.begin(), catalogue.end(), [&](const Effect* effect) { return effect->name == name; });
-  if (found == catalogue.end()) return {};
-  const bool warmth = (*found)->needs.temperature;
-  return {warmth, warmth || (*found)->starts_in_time};
-}
+/// By what the joint does while the bench warms up, or from some moment on. Something without a name that walks beside
+/// it walks as it likes: sealed split, seeds 131078 and 131119: thermal_expansion by 101 and 71 nats, beside a rest
+/// that differed from run to run, where a press fit slipped and a pin wore.
+bool is_told_by_time(const Effect& effect) { return is_told_by_warmth(effect) || effect.starts_in_time; }
 
 /// Nats by which a name must be ahead of what has none, where nothing stays unexplained.
-double least_ahead(const ToldBy& told, bool alone) {
-  if (told.warmth) return k_thresholds.ahead_by_warmth;
-  return alone && !told.time ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
+double least_ahead(const Effect& effect, bool alone) {
+  if (is_told_by_warmth(effect)) return k_thresholds.ahead_by_warmth;
+  return alone && !is_told_by_time(effect) ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
 }
 
 }  // namespace
@@ -461,16 +454,13 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
   return rivals;
 }
 
-// Something without a name that walks beside a name that is told by time walks as it likes: sealed split, seeds 131078
-// and 131119: thermal_expansion by 101 and 71 nats, beside a rest that differed from run to run, where a press fit
-// slipped and a pin wore.
-void take_nameless(const Left& left, const EffectSet& catalogue, const std::vector<CredibleGroup>& groups,
+void take_nameless(const Left& left, const EffectSet& found, const std::vector<CredibleGroup>& groups,
                    std::vector<FoundEffect>& effects) {
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    const ToldBy told = told_by(effects[i].name, catalogue);
-    const bool is_doubtful = groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && told.time);
+    const bool is_doubtful =
+        groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(*found[i]));
     const double least =
-        left.anything ? k_thresholds.ahead_beside_rest : least_ahead(told, effects[i].group.size() == 1);
+        left.anything ? k_thresholds.ahead_beside_rest : least_ahead(*found[i], effects[i].group.size() == 1);
     if (is_doubtful || effects[i].nameless.behind < least) effects[i].group.emplace_back(k_nameless);
   }
 }

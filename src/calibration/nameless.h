@@ -20,8 +20,8 @@ struct Left {
   bool in_time = false;  ///< and it walks, or differs from run to run
 };
 
-/// Groups that may hold nothing with a name say so. `catalogue`: what was tried; `groups`: of each effect.
-void take_nameless(const Left& left, const EffectSet& catalogue, const std::vector<CredibleGroup>& groups,
+/// Groups that may hold nothing with a name say so. `found`, `groups`: of each of `effects`, in their order.
+void take_nameless(const Left& left, const EffectSet& found, const std::vector<CredibleGroup>& groups,
                    std::vector<FoundEffect>& effects);
 
 }  // namespace fusee

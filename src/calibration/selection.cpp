@@ -114,6 +114,7 @@ class Selector {
                   const Amplitudes& unnamed) const;
   std::vector<Look> looks_beside(const Fitter& fitter, const Fit& base, const Effect& effect) const;
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added);
+  Fit fitted_to_the_end(const Fitter& fitter, const Addition& added) const;
   void try_singles();
   Explained plainly(const Fit& fit) const;
   double plain_score(const Fit& fit) const;
@@ -290,6 +291,7 @@ const std::vector<Addition>& Selector::beside_best() {
 
 void Selector::take_best(Fit best) {
   selection_.best = std::move(best);
+  selection_.without.clear();
   beside_best_.reset();
 }
 
@@ -396,14 +398,22 @@ void Selector::settle_best() {
   take_best(best.usable && best.log_evidence >= likeliest->log_evidence ? std::move(best) : *likeliest);
 }
 
-/// The best without each of its members, the others fitted anew.
+/// The best without each of its members, the others fitted anew, once.
 void Selector::leave_each_out() {
   const Fit& best = selection_.best;
+  if (selection_.without.size() == best.effects.size()) return;
   selection_.without.assign(best.effects.size(), {});
   workers_.each(best.effects.size(), [&](const Fitter& fitter, std::size_t i) {
     const Effect& effect = *best.effects[i];
     selection_.without[i] = fitter.fit(without(best.effects, effect), without(best.at, effect));
   });
+}
+
+/// To the end unless it is far behind the best.
+Fit Selector::fitted_to_the_end(const Fitter& fitter, const Addition& added) const {
+  Fit fit = fitter.with_effect(*added.base, *added.effect);
+  if (fit.usable && score(fit) > score(selection_.best) - k_thresholds.far) fit = fitter.fit(fit.effects, fit.at);
+  return fit;
 }
 
 /// Every member is left out, and held against every effect in its place that a look does not give up, and against those
@@ -429,9 +439,7 @@ bool Selector::challenge() {
   }
   report("holding rivals against what was found", 0);
   workers_.each(added.size(), [&](const Fitter& fitter, std::size_t i) {
-    Fit& fit = selection_.rivals[i].fit;
-    fit = fitter.with_effect(*added[i].base, *added[i].effect);
-    if (fit.usable && score(fit) > score(best) - k_thresholds.far) fit = fitter.fit(fit.effects, fit.at);
+    selection_.rivals[i].fit = fitted_to_the_end(fitter, added[i]);
   });
   std::erase_if(selection_.rivals, [](const Rival& rival) { return !rival.fit.usable; });
   const double before = score(best);
@@ -542,12 +550,14 @@ bool Selector::try_all_beside() {
       !is_unexplained(unnamed_beside(evidence_, best), evidence_.floor))
     return false;
   const double before = score(best);
-  std::vector<Addition> added = beside_best();
-  std::vector<Fit> fits = fitted("trying every effect beside what was found", added);
-  std::erase_if(fits, [&](const Fit& fit) { return !fit.usable || score(fit) < before - k_thresholds.far; });
-  workers_.each(fits.size(),
-                [&](const Fitter& fitter, std::size_t i) { fits[i] = fitter.fit(fits[i].effects, fits[i].at); });
-  for (Fit& fit : fits) keep(std::move(fit));
+  const std::vector<Addition>& added = beside_best();
+  std::vector<Fit> fits(added.size());
+  report("trying every effect beside what was found", 0);
+  workers_.each(added.size(),
+                [&](const Fitter& fitter, std::size_t i) { fits[i] = fitted_to_the_end(fitter, added[i]); });
+  for (Fit& fit : fits) {
+    if (score(fit) >= before - k_thresholds.far) keep(std::move(fit));
+  }
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 

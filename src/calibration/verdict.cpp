@@ -164,7 +164,7 @@ void conclude(const Evidence& evidence, const Selection& selection, const Unname
     calibration.unknown = unnamed.parts;
   }
   const bool walks = is_walking(scatter);
-  take_nameless({unexplained || walks, walks || (unexplained && goes_with_time(unnamed))}, selection.catalogue,
+  take_nameless({unexplained || walks, walks || (unexplained && goes_with_time(unnamed))}, selection.best.effects,
                 selection.groups, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
   calibration.summary =

@@ -20,10 +20,6 @@ class Concluded : public testing::Test {
   Selection selection;
   Calibration calibration;
 
-  Concluded() {
-    for (const Effect& effect : effects(kind_of(*evidence.declared))) selection.catalogue.push_back(&effect);
-  }
-
   /// A rest of so many squares of the floor that turns its sign from row to row.
   void leave(double squares) {
     Fit& fit = selection.best;
@@ -47,6 +43,9 @@ class Concluded : public testing::Test {
     any.families.setConstant(k_floor);
     selection.best.explained = evidence.marginal->best(tangent_of(evidence, selection.best), any);
     selection.groups.resize(calibration.effects.size());
+    selection.best.effects.clear();
+    for (const FoundEffect& effect : calibration.effects)
+      selection.best.effects.push_back(find_effect(effect.name, JointKind::tendons));
     conclude(evidence, selection, unnamed_beside(evidence, selection.best), calibration);
     return calibration.verdict;
   }
