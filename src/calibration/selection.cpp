@@ -49,7 +49,7 @@ struct Addition {
 
 /// Two effects beside a base.
 struct PairBeside {
-  std::size_t base = 0;
+  const Fit* base = nullptr;
   const Addition* one = nullptr;
   const Addition* other = nullptr;
   double promise = 0;
@@ -133,7 +133,9 @@ class Selector {
   const std::vector<Addition>& beside_best();
   bool challenge();
   std::vector<Fit> reduced() const;
-  std::vector<PairBeside> pairs_beside(const Fit& base, std::size_t place, const std::vector<Addition>& looks) const;
+  std::vector<PairBeside> pairs_beside(const Fit& base, const Amplitudes& unnamed,
+                                       const std::vector<Addition>& looks) const;
+  std::vector<PairBeside> pairs_beside(const Fit& base, const std::vector<Addition>& looks) const;
   bool exchange();
   bool try_all_beside();
   std::vector<Weighed> weighed();
@@ -504,8 +506,25 @@ std::vector<Fit> Selector::reduced() const {
   return all;
 }
 
-/// The best of all pairs of `looks` by a linear look, sets that were not looked at.
-std::vector<PairBeside> Selector::pairs_beside(const Fit& base, std::size_t place,
+/// The best pairs, none of whose effects is in more than a few: the chord of a slack takes what it meets, promises much
+/// beside any other, and kept nothing of it (unopened split, seeds 201046, 201142, 201159).
+std::vector<PairBeside> best_of_each(std::vector<PairBeside> pairs, std::size_t most) {
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const PairBeside& a, const PairBeside& b) { return a.promise > b.promise; });
+  std::vector<PairBeside> best;
+  std::map<const Effect*, std::size_t> times;
+  for (const PairBeside& pair : pairs) {
+    if (best.size() == most) break;
+    std::size_t &one = times[pair.one->effect], &other = times[pair.other->effect];
+    if (std::max(one, other) >= k_thresholds.most_of_each) continue;
+    ++one, ++other;
+    best.push_back(pair);
+  }
+  return best;
+}
+
+/// The best of all pairs of `looks` by a linear look, sets that were not looked at, with so much unnamed beside them.
+std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const Amplitudes& unnamed,
                                                const std::vector<Addition>& looks) const {
   std::vector<const Look*> usable;
   std::vector<const Addition*> owners;
@@ -514,7 +533,7 @@ std::vector<PairBeside> Selector::pairs_beside(const Fit& base, std::size_t plac
     usable.push_back(&addition.look);
     owners.push_back(&addition);
   }
-  const SharedLooks shared(evidence_, base, base.explained.amplitudes, usable);
+  const SharedLooks shared(evidence_, base, unnamed, usable);
   std::vector<PairBeside> pairs;
   for (std::size_t i = 0; i < owners.size(); ++i) {
     for (std::size_t j = i + 1; j < owners.size(); ++j) {
@@ -522,20 +541,31 @@ std::vector<PairBeside> Selector::pairs_beside(const Fit& base, std::size_t plac
       effects.insert(effects.end(), {owners[i]->effect, owners[j]->effect});
       if (is_tried(key_of(effects))) continue;
       const double cost = rareness_of(*owners[i]->effect) + rareness_of(*owners[j]->effect);
-      pairs.push_back({place, owners[i], owners[j], shared.log_evidence({i, j}) - cost});
+      pairs.push_back({&base, owners[i], owners[j], shared.log_evidence({i, j}) - cost});
     }
   }
-  const auto keep_best = [&](std::size_t most) {
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const PairBeside& a, const PairBeside& b) { return a.promise > b.promise; });
-    pairs.resize(std::min(pairs.size(), most));
-  };
-  keep_best(k_thresholds.most_looks_instead);
+  pairs = best_of_each(std::move(pairs), k_thresholds.most_looks_instead);
   for (PairBeside& pair : pairs)
-    pair.promise = promised(base, {pair.one->effect, pair.other->effect}, {&pair.one->look, &pair.other->look},
-                            base.explained.amplitudes);
-  keep_best(k_thresholds.most_instead);
+    pair.promise =
+        promised(base, {pair.one->effect, pair.other->effect}, {&pair.one->look, &pair.other->look}, unnamed);
   return pairs;
+}
+
+/// The same where what has no name stays as large as it is beside the base, and where there is none: two that explain
+/// all between them are of little use as long as it explains as much (unopened split, seed 201142: 7 nats).
+std::vector<PairBeside> Selector::pairs_beside(const Fit& base, const std::vector<Addition>& looks) const {
+  std::vector<PairBeside> pairs = pairs_beside(base, base.explained.amplitudes, looks);
+  for (const PairBeside& pair : pairs_beside(base, plainly(base).amplitudes, looks)) {
+    const auto known = std::find_if(pairs.begin(), pairs.end(), [&](const PairBeside& other) {
+      return other.one == pair.one && other.other == pair.other;
+    });
+    if (known == pairs.end()) {
+      pairs.push_back(pair);
+    } else {
+      known->promise = std::max(known->promise, pair.promise);
+    }
+  }
+  return best_of_each(std::move(pairs), k_thresholds.most_instead);
 }
 
 /// One or two others in the place of none, one or two members: what takes two exchanges at once, since either alone is
@@ -550,7 +580,7 @@ bool Selector::exchange() {
   });
   std::vector<std::vector<PairBeside>> pairs(bases.size());
   workers_.each(bases.size(), [&](const Fitter&, std::size_t i) {
-    if (bases[i].effects.size() + 2 <= k_thresholds.most_effects) pairs[i] = pairs_beside(bases[i], i, looks[i]);
+    if (bases[i].effects.size() + 2 <= k_thresholds.most_effects) pairs[i] = pairs_beside(bases[i], looks[i]);
   });
   std::vector<Addition> singles;
   std::vector<PairBeside> both;
@@ -568,8 +598,8 @@ bool Selector::exchange() {
   std::vector<Fit> fits = fitted("exchanging effects", singles, &Selector::fitted_a_little);
   std::vector<Fit> wider(both.size());
   workers_.each(both.size(), [&](const Fitter& fitter, std::size_t k) {
-    const Fit one = fitter.with_effect(bases[both[k].base], *both[k].one->effect);
-    if (one.usable) wider[k] = fitter.with_effect(one, *both[k].other->effect);
+    const Fit one = fitter.with_effect(*both[k].base, *both[k].one->effect);
+    if (one.usable) wider[k] = fitted_to_the_end(fitter, {&one, both[k].other->effect});
   });
   for (Fit& fit : fits) keep(std::move(fit));
   for (Fit& fit : wider) keep(std::move(fit));
