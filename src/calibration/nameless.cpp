@@ -435,7 +435,10 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
   });
   const std::vector<UnderOtherLoads> loads = under_other_loads(evidence, workers, selection);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    if (!selection.without[i].usable) continue;
+    if (!selection.without[i].usable) {
+      rivals[i].behind = 0;  // Nothing says that it is more than what has no name.
+      continue;
+    }
     const Reading& instead = readings[i + 1];
     rivals[i].behind = readings.front().score - instead.score;
     if (loads[i].score > instead.score) {

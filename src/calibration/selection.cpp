@@ -822,9 +822,12 @@ void Selector::write_down() {
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     Candidate candidate;
     candidate.name = best.effects[i]->name;
-    candidate.evidence = best.log_evidence - selection_.without[i].log_evidence;
     candidate.accepted = true;
-    candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
+    candidate.why = "without it, and with the others where they are, the joint could not be simulated";
+    if (selection_.without[i].usable) {
+      candidate.evidence = best.log_evidence - selection_.without[i].log_evidence;
+      candidate.why = "without it the data are 10^" + nats_words(candidate.evidence) + " times less likely";
+    }
     selection_.tried.push_back(candidate);
   }
   for (const Addition& look : beside_best()) {
