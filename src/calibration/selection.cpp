@@ -20,9 +20,9 @@
 // against every effect in its place; and once that gains nothing either, one or two others are tried in the place of
 // none, one or two members: a slip and an offset imitated slack and a wave and a lever's length a profile, and no
 // single exchange that was looked at led from one to the other. Where something stays unexplained all the same, no look
-// is trusted any more: every effect is fitted beside the best. Then all sets ever seen are weighed together: a member
-// stands if it, or what stands in its place elsewhere, is in nearly all of the weight. What may be there unasked joins
-// its group.
+// is trusted any more: every effect is fitted beside the best. Then the likeliest are fitted to the end, and all sets
+// ever seen are weighed together, each by its likeliest fit: a member stands if it, or what stands in its place
+// elsewhere, is in nearly all of the weight. What may be there unasked joins its group.
 
 namespace fusee {
 namespace {

@@ -29,6 +29,13 @@ inline double acted(const Action& action, const Moment& now, std::vector<double>
   return action.act(now, action.numbers, memory);
 }
 
+/// One tendon's way is longer by so much, the other's as much shorter; of what has no memory.
+inline void expect_ways_apart(const Hidden& hidden, const Moment& now, double longer, double tolerance) {
+  std::vector<double> none;
+  EXPECT_NEAR(acted(hidden.longer[0].at(0), now, none), longer, tolerance);
+  EXPECT_NEAR(acted(hidden.longer[1].at(0), now, none), -longer, tolerance);
+}
+
 inline SensorPlan silent() {
   SensorPlan sensors;
   sensors.noise = 0;

@@ -194,7 +194,6 @@ TEST(Reserved, a_sleeve_rubs_once_in_each_of_its_turns) {
 
 TEST(Reserved, somebody_leans_on_the_bench_for_a_while) {
   const Hidden hidden = with("leaning_on_bench", 0.2, soft(), {1.0, 1.0, 0.8});
-  std::vector<double> none;
   Moment now;
   for (const auto& [run, second, share] : {std::tuple{1, 4.9, 0.0},
                                            {1, 5.25, 0.5},
@@ -205,8 +204,8 @@ TEST(Reserved, somebody_leans_on_the_bench_for_a_while) {
                                            {0, 10.0, 0.0},
                                            {2, 10.0, 0.0}}) {
     now.run = static_cast<std::size_t>(run), now.run_time = second;
-    EXPECT_NEAR(acted(hidden.longer[0].at(0), now, none), 0.2 * share, 1e-12) << run << " " << second;
-    EXPECT_NEAR(acted(hidden.longer[1].at(0), now, none), -0.2 * share, 1e-12) << run << " " << second;
+    SCOPED_TRACE(::testing::Message() << run << " " << second);
+    expect_ways_apart(hidden, now, 0.2 * share, 1e-12);
   }
 }
 

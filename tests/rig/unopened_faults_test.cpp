@@ -197,20 +197,18 @@ TEST(Unopened, an_idler_seizes_at_one_moment) {
 
 TEST(Unopened, a_frame_bows_while_the_sun_shines_on_it) {
   const Hidden hidden = with("sun_on_frame", 0.2, soft());
-  std::vector<double> none;
   Moment now;
   // From 10 s for 40 s, 30 s behind.
   for (const auto& [time, share] :
        {std::pair{0.0, 0.0}, {10.0, 0.0}, {40.0, 0.632121}, {50.0, 0.736403}, {80.0, 0.270907}, {600.0, 0.0}}) {
     now.time = time;
-    EXPECT_NEAR(acted(hidden.longer[0].at(0), now, none), 0.2 * share, 1e-6) << time;
-    EXPECT_NEAR(acted(hidden.longer[1].at(0), now, none), -0.2 * share, 1e-6) << time;
+    SCOPED_TRACE(time);
+    expect_ways_apart(hidden, now, 0.2 * share, 1e-6);
   }
 }
 
 TEST(Unopened, a_neighbouring_joint_goes_to_and_fro_by_the_clock) {
   const Hidden hidden = with("neighbouring_joint", 0.2, soft());
-  std::vector<double> none;
   Moment now;
   // Every 14 s.
   for (const auto& [time, share] : {std::pair{0.0, 0.0},
@@ -223,8 +221,8 @@ TEST(Unopened, a_neighbouring_joint_goes_to_and_fro_by_the_clock) {
                                     {19.6, 0.5},
                                     {150.5, 1.0}}) {
     now.time = time;
-    EXPECT_NEAR(acted(hidden.longer[0].at(0), now, none), 0.2 * share, 1e-12) << time;
-    EXPECT_NEAR(acted(hidden.longer[1].at(0), now, none), -0.2 * share, 1e-12) << time;
+    SCOPED_TRACE(time);
+    expect_ways_apart(hidden, now, 0.2 * share, 1e-12);
   }
 }
 
