@@ -17,7 +17,7 @@ const std::vector<FaultList>& fault_lists() {
   static const std::vector<FaultList> lists = {
       {"named", named_faults()},       {"wide", wide_faults()},         {"tuning", tuning_faults()},
       {"unseen", unseen_faults()},     {"sealed", sealed_faults()},     {"withheld", withheld_faults()},
-      {"reserved", reserved_faults()}, {"unopened", unopened_faults()},
+      {"reserved", reserved_faults()}, {"unopened", unopened_faults()}, {"unread", unread_faults()},
   };
   return lists;
 }
