@@ -305,8 +305,7 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   // What has no name took it before the effects could: they are let go first.
   Fit start = started(effects, from, LooseRow::anywhere);
   if (!start.usable) return beside;
-  const Amplitudes alone = all_error_named(start);
-  Fit named = settled(judged(descended(std::move(start), 0, k_chords, alone, 1)));
+  const Fit named = settled(named_first(start));
   return named.usable && named.log_evidence > beside.log_evidence ? named : beside;
 }
 
@@ -363,6 +362,11 @@ Amplitudes Fitter::all_error_named(const Fit& fit) const {
   return alone;
 }
 
+/// A few steps with all slopes, as if all of the error were its effects'.
+Fit Fitter::named_first(const Fit& start) const {
+  return judged(descended(start, 0, k_chords, all_error_named(start), 1));
+}
+
 /// The looser the joint, the less the rows say that rest anywhere, and steps lead to more play than there is. Rows that
 /// rest where they were pushed lead to as much as there is, and then say as much as any.
 Fit Fitter::or_pushed(Fit fit) const {
@@ -375,47 +379,60 @@ Fit Fitter::or_pushed(Fit fit) const {
   return pushed.usable && pushed.log_evidence > fit.log_evidence ? pushed : fit;
 }
 
-/// Of the starts of `effect` beside `base` the one whose slopes promise most.
-Fit Fitter::best_start(const Fit& base, const Effect& effect, const Amplitudes& unnamed) const {
+/// Of each of the starts of `effect` beside `base`, what cannot be simulated left out.
+std::vector<Fit> Fitter::started_beside(const Fit& base, const Effect& effect) const {
   EffectSet effects = base.effects;
   effects.push_back(&effect);
-  Fit best;
-  double promised = -std::numeric_limits<double>::infinity();
+  std::vector<Fit> all;
   for (const std::vector<double>& values : starts_of(evidence(), base, effect)) {
     Imperfections start = base.at;
     for (std::size_t k = 0; k < values.size(); ++k) set_value(start, effect.parameters[k], values[k]);
     Fit fit = at(base, effects, start);
-    if (!fit.usable) continue;
-    const Explained explained = evidence().marginal->at(tangent_of(evidence(), fit), unnamed);
-    const double promise = explained.log_evidence - price_of(evidence(), fit);
-    if (promise <= promised) continue;
-    promised = promise;
-    best = std::move(fit);
+    if (fit.usable) all.push_back(std::move(fit));
   }
-  return best;
+  return all;
+}
+
+double Fitter::promised(const Fit& start, const Amplitudes& unnamed) const {
+  const double nats = evidence().marginal->at(tangent_of(evidence(), start), unnamed).log_evidence;
+  return std::isfinite(nats) ? nats - price_of(evidence(), start) : -std::numeric_limits<double>::infinity();
+}
+
+/// Place of the start whose slopes promise most with so much unnamed beside them.
+std::size_t Fitter::most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const {
+  std::vector<double> promises;
+  for (const Fit& start : starts) promises.push_back(promised(start, unnamed));
+  return static_cast<std::size_t>(std::max_element(promises.begin(), promises.end()) - promises.begin());
 }
 
 Fit Fitter::with_effect_alone(const Fit& base, const Effect& effect) const {
-  Fit start = best_start(base, effect, all_error_named(base));
-  if (!start.usable) return start;
-  const Amplitudes alone = all_error_named(start);
-  return judged(descended(std::move(start), 0, k_chords, alone, 1));
+  const std::vector<Fit> starts = started_beside(base, effect);
+  if (starts.empty()) return {};
+  return named_first(starts[most_promising(starts, all_error_named(base))]);
 }
 
 Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
-  Fit best = best_start(base, effect, base.explained.amplitudes);
-  if (!best.usable) return best;
-  const double promised =
-      evidence().marginal->at(tangent_of(evidence(), best), base.explained.amplitudes).log_evidence -
-      price_of(evidence(), best);
-  const Amplitudes alone = all_error_named(best);
+  const std::vector<Fit> starts = started_beside(base, effect);
+  if (starts.empty()) return {};
+  const std::size_t beside = most_promising(starts, base.explained.amplitudes);
+  const std::size_t alone = most_promising(starts, all_error_named(base));
+  Fit fit = from_start(base, starts[beside]);
+  if (alone == beside) return fit;
+  Fit other = settled(named_first(starts[alone]));
+  const bool is_better = other.usable && (!fit.usable || other.log_evidence > fit.log_evidence);
+  return is_better ? other : fit;
+}
+
+/// By chords.
+Fit Fitter::from_start(const Fit& base, const Fit& start) const {
+  const Amplitudes& unnamed = base.explained.amplitudes;
   const auto ended = [&](Fit from) {
-    return judged(descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds));
+    return judged(descended(std::move(from), base.x.size(), k_chords, unnamed, k_few_rounds));
   };
-  Fit first = ended(descended(best, base.x.size(), k_chords, alone, 1));
+  Fit first = ended(descended(start, base.x.size(), k_chords, all_error_named(start), 1));
   // What the start promised is reached: small steps from there would not find more.
-  if (first.usable && first.log_evidence >= promised) return or_pushed(std::move(first));
-  Fit beside = ended(std::move(best));
+  if (first.usable && first.log_evidence >= promised(start, unnamed)) return or_pushed(std::move(first));
+  Fit beside = ended(start);
   const bool is_better = beside.usable && (!first.usable || beside.log_evidence > first.log_evidence);
   return or_pushed(is_better ? std::move(beside) : std::move(first));
 }

@@ -62,6 +62,8 @@ class Fitter {
   Fit by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& within) const;
 
   /// `base` with one effect more, from the best of its starts, close to its optimum: what candidates are compared by.
+  /// The best beside what has no name, and, with all slopes, the best as if all that is left were named: the former
+  /// explains as much at any start where it takes all (unopened split, seeds 201021, 201201, 202192).
   Fit with_effect(const Fit& base, const Effect& effect) const;
 
   /// The same as if all that is left were the effect's.
@@ -93,7 +95,11 @@ class Fitter {
   Fit at(const Fit& base, const EffectSet& effects, const Imperfections& at) const;
   Fit descended(Fit fit, Eigen::Index from, int steps, const Amplitudes& amplitudes, int rounds) const;
   void judge(Fit& fit) const;
-  Fit best_start(const Fit& base, const Effect& effect, const Amplitudes& unnamed) const;
+  std::vector<Fit> started_beside(const Fit& base, const Effect& effect) const;
+  double promised(const Fit& start, const Amplitudes& unnamed) const;
+  std::size_t most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const;
+  Fit from_start(const Fit& base, const Fit& start) const;
+  Fit named_first(const Fit& start) const;
   Amplitudes all_error_named(const Fit& fit) const;
   /// At the end of its steps.
   Fit judged(Fit fit) const;

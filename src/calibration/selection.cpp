@@ -118,9 +118,11 @@ class Selector {
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added, FitOne fit_one);
   Fit fitted_a_little(const Fitter& fitter, const Addition& added) const;
   Fit fitted_to_the_end(const Fitter& fitter, const Addition& added) const;
+  Fit fitted_alone(const Fitter& fitter, const Addition& added) const;
   void try_singles();
   Explained plainly(const Fit& fit) const;
   double plain_score(const Fit& fit) const;
+  std::vector<Fit> singles_plainly();
   std::vector<Fit> wider_plainly(const std::vector<Fit>& beam);
   void explain_plainly();
   bool widen();
@@ -219,6 +221,10 @@ std::vector<Fit> Selector::fitted(const std::string& what, const std::vector<Add
 
 Fit Selector::fitted_a_little(const Fitter& fitter, const Addition& added) const {
   return fitter.with_effect(*added.base, *added.effect);
+}
+
+Fit Selector::fitted_alone(const Fitter& fitter, const Addition& added) const {
+  return fitter.with_effect_alone(*added.base, *added.effect);
 }
 
 /// To the end unless it is far behind the best.
@@ -356,11 +362,27 @@ std::vector<Fit> Selector::wider_plainly(const std::vector<Fit>& beam) {
   return wider;
 }
 
+/// No effect and each by itself, where it explains most if nothing stays without a name: beside what has none, friction
+/// that holds a joint fast ends as none at all (unopened split, seed 201021).
+std::vector<Fit> Selector::singles_plainly() {
+  std::vector<Addition> added;
+  for (const Effect* effect : selection_.catalogue) added.push_back({&selection_.none, effect});
+  std::vector<Fit> singles = fitted("trying effects one by one", added, &Selector::fitted_alone);
+  for (Fit& single : singles) {
+    const auto seen = seen_.find(key_of(single.effects));
+    if (seen == seen_.end() || (single.usable && plain_score(single) > plain_score(seen->second))) continue;
+    single = seen->second;
+  }
+  std::erase_if(singles, [](const Fit& fit) { return !fit.usable; });
+  singles.insert(singles.begin(), selection_.none);
+  return singles;
+}
+
 /// Sets that explain most where nothing stays without a name, until little does. Beside what has none, sets of two do
 /// no better than it where three are needed; of plain squares each takes its part. Such a fit may end on another summit
 /// than one beside what has no name, and its set stays to be tried.
 void Selector::explain_plainly() {
-  std::vector<Fit> beam;
+  std::vector<Fit> beam = singles_plainly();
   const auto keep_best = [&] {
     std::vector<double> scores(beam.size());
     workers_.each(beam.size(), [&](const Fitter&, std::size_t i) { scores[i] = plain_score(beam[i]); });
@@ -373,7 +395,6 @@ void Selector::explain_plainly() {
     beam = std::move(best);
     return scores[order.front()];
   };
-  for (const auto& [key, fit] : seen_) beam.push_back(fit);
   double reached = keep_best();
   while (reached < score_of_names(beam.front()) - k_thresholds.little_unnamed &&
          beam.front().effects.size() < k_thresholds.most_effects) {
@@ -455,8 +476,10 @@ void Selector::leave_each_out() {
 }
 
 /// Every member is left out, and held against every effect in its place that a look does not give up, and against those
-/// whose place is searched for: of a profile's wave in the place of a runout a look promised nothing, and it was 13
-/// nats likelier (matrix, seed 41022). Whether a better set was found.
+/// whose place is searched for, or that hold the joint fast: of a profile's wave in the place of a runout a look
+/// promised nothing, and it was 13 nats likelier (matrix, seed 41022), of a joint's friction in the place of play 35
+/// (unopened split, seed 202192). A look that would give up the member itself gives up nothing that promises as much
+/// (202208: a runout in the place of pins, 4 nats likelier). Whether a better set was found.
 bool Selector::challenge() {
   const Fit& best = selection_.best;
   leave_each_out();
@@ -468,8 +491,12 @@ bool Selector::challenge() {
   selection_.rivals.clear();
   std::vector<Addition> added;
   for (std::size_t i = 0; i < looks.size(); ++i) {
+    const auto own = std::find_if(looks[i].begin(), looks[i].end(),
+                                  [&](const Addition& addition) { return addition.effect == best.effects[i]; });
     for (const Addition& addition : looks[i]) {
-      const bool given_up = addition.promise < score(best) - k_thresholds.far && !is_searched(*addition.effect);
+      const bool says_little = is_searched(*addition.effect) || addition.effect->sticks;
+      const bool is_worse = addition.promise < std::min(own->promise, score(best) - k_thresholds.far);
+      const bool given_up = is_worse && !says_little;
       if (given_up || contains(best.effects, *addition.effect)) continue;
       selection_.rivals.push_back({best.effects[i], addition.effect, {}});
       added.push_back(addition);

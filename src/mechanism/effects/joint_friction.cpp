@@ -23,7 +23,8 @@ Effect joint_friction(JointKind) {
                         .shown = shown::as_is,
                         .key = key::plain("joint_friction_Nmm", "Nmm", 0, 1e+07,
                                           "dry friction of the joint's bearing, against either direction")}};
-  effect.starts = {{10}, {100}};
+  effect.starts = {{10}, {100}, {1000}};
+  effect.sticks = true;
   return effect;
 }
 
