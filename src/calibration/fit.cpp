@@ -9,7 +9,8 @@
 // Gauss and Newton's steps towards the summit of the posterior, with the discrepancy integrated out: what a smooth
 // curve without a name explains as well does not bend the numbers of an effect. A candidate takes its steps by chords:
 // the slopes of the parameters that the base has are its own, those of the effect are found anew at every step. So it
-// costs a dozen simulations, whatever stands beside it.
+// costs a dozen simulations, whatever stands beside it. Where another of its starts explains more as if nothing stayed
+// without a name, it is fitted from there too, with all slopes.
 
 namespace fusee {
 namespace {
@@ -416,15 +417,15 @@ Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
   if (starts.empty()) return {};
   const std::size_t beside = most_promising(starts, base.explained.amplitudes);
   const std::size_t alone = most_promising(starts, all_error_named(base));
-  Fit fit = from_start(base, starts[beside]);
+  Fit fit = by_chords(base, starts[beside]);
   if (alone == beside) return fit;
   Fit other = settled(named_first(starts[alone]));
   const bool is_better = other.usable && (!fit.usable || other.log_evidence > fit.log_evidence);
   return is_better ? other : fit;
 }
 
-/// By chords.
-Fit Fitter::from_start(const Fit& base, const Fit& start) const {
+/// With one effect more from `start`, by the slopes that the base has.
+Fit Fitter::by_chords(const Fit& base, const Fit& start) const {
   const Amplitudes& unnamed = base.explained.amplitudes;
   const auto ended = [&](Fit from) {
     return judged(descended(std::move(from), base.x.size(), k_chords, unnamed, k_few_rounds));

@@ -98,7 +98,7 @@ class Fitter {
   std::vector<Fit> started_beside(const Fit& base, const Effect& effect) const;
   double promised(const Fit& start, const Amplitudes& unnamed) const;
   std::size_t most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const;
-  Fit from_start(const Fit& base, const Fit& start) const;
+  Fit by_chords(const Fit& base, const Fit& start) const;
   Fit named_first(const Fit& start) const;
   Amplitudes all_error_named(const Fit& fit) const;
   /// At the end of its steps.
