@@ -159,6 +159,12 @@ class LastSized {
   std::optional<SizedDiscrepancy> last_;
 };
 
+/// Of two the likelier that can be used; the first where neither is.
+Fit likelier(Fit one, Fit other) {
+  const bool is_other = other.usable && (!one.usable || other.log_evidence > one.log_evidence);
+  return is_other ? std::move(other) : std::move(one);
+}
+
 /// Whether the slopes promise a better place than this.
 bool is_promising(const Fit& fit) { return fit.explained.log_evidence > fit.explained.log_evidence_here + 0.5; }
 
@@ -306,8 +312,7 @@ Fit Fitter::fit(const EffectSet& effects, const Imperfections& from) const {
   // What has no name took it before the effects could: they are let go first.
   Fit start = started(effects, from, LooseRow::anywhere);
   if (!start.usable) return beside;
-  const Fit named = settled(named_first(start));
-  return named.usable && named.log_evidence > beside.log_evidence ? named : beside;
+  return likelier(std::move(beside), settled(named_first(start)));
 }
 
 Fit Fitter::by_squares(const Fit& fit, const std::vector<ConfidenceInterval>& within) const {
@@ -376,8 +381,7 @@ Fit Fitter::or_pushed(Fit fit) const {
   if (!start.usable) return fit;
   const Amplitudes alone = all_error_named(start);
   const Fit near = descended(std::move(start), 0, k_most_steps_down, alone, 1);
-  Fit pushed = fitted(near.effects, near.at, LooseRow::pushed);
-  return pushed.usable && pushed.log_evidence > fit.log_evidence ? pushed : fit;
+  return likelier(std::move(fit), fitted(near.effects, near.at, LooseRow::pushed));
 }
 
 /// Of each of the starts of `effect` beside `base`, what cannot be simulated left out.
@@ -399,43 +403,38 @@ double Fitter::promised(const Fit& start, const Amplitudes& unnamed) const {
   return std::isfinite(nats) ? nats - price_of(evidence(), start) : -std::numeric_limits<double>::infinity();
 }
 
-/// Place of the start whose slopes promise most with so much unnamed beside them.
-std::size_t Fitter::most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const {
+Fitter::Promise Fitter::most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const {
   std::vector<double> promises;
   for (const Fit& start : starts) promises.push_back(promised(start, unnamed));
-  return static_cast<std::size_t>(std::max_element(promises.begin(), promises.end()) - promises.begin());
+  const auto most = std::max_element(promises.begin(), promises.end());
+  return {static_cast<std::size_t>(most - promises.begin()), *most};
 }
 
 Fit Fitter::with_effect_alone(const Fit& base, const Effect& effect) const {
   const std::vector<Fit> starts = started_beside(base, effect);
   if (starts.empty()) return {};
-  return named_first(starts[most_promising(starts, all_error_named(base))]);
+  return named_first(starts[most_promising(starts, all_error_named(base)).place]);
 }
 
 Fit Fitter::with_effect(const Fit& base, const Effect& effect) const {
   const std::vector<Fit> starts = started_beside(base, effect);
   if (starts.empty()) return {};
-  const std::size_t beside = most_promising(starts, base.explained.amplitudes);
-  const std::size_t alone = most_promising(starts, all_error_named(base));
-  Fit fit = by_chords(base, starts[beside]);
-  if (alone == beside) return fit;
-  Fit other = settled(named_first(starts[alone]));
-  const bool is_better = other.usable && (!fit.usable || other.log_evidence > fit.log_evidence);
-  return is_better ? other : fit;
+  const Promise beside = most_promising(starts, base.explained.amplitudes);
+  const std::size_t alone = most_promising(starts, all_error_named(base)).place;
+  Fit fit = by_chords(base, starts[beside.place], beside.nats);
+  return alone == beside.place ? fit : likelier(std::move(fit), settled(named_first(starts[alone])));
 }
 
-/// With one effect more from `start`, by the slopes that the base has.
-Fit Fitter::by_chords(const Fit& base, const Fit& start) const {
-  const Amplitudes& unnamed = base.explained.amplitudes;
+/// With one effect more from `start`, by the slopes that the base has; `promise`: of the start, beside what the base
+/// leaves without a name.
+Fit Fitter::by_chords(const Fit& base, const Fit& start, double promise) const {
   const auto ended = [&](Fit from) {
-    return judged(descended(std::move(from), base.x.size(), k_chords, unnamed, k_few_rounds));
+    return judged(descended(std::move(from), base.x.size(), k_chords, base.explained.amplitudes, k_few_rounds));
   };
   Fit first = ended(descended(start, base.x.size(), k_chords, all_error_named(start), 1));
   // What the start promised is reached: small steps from there would not find more.
-  if (first.usable && first.log_evidence >= promised(start, unnamed)) return or_pushed(std::move(first));
-  Fit beside = ended(start);
-  const bool is_better = beside.usable && (!first.usable || beside.log_evidence > first.log_evidence);
-  return or_pushed(is_better ? std::move(beside) : std::move(first));
+  if (first.usable && first.log_evidence >= promise) return or_pushed(std::move(first));
+  return or_pushed(likelier(std::move(first), ended(start)));
 }
 
 Fit Fitter::judged(Fit fit) const {

@@ -97,8 +97,13 @@ class Fitter {
   void judge(Fit& fit) const;
   std::vector<Fit> started_beside(const Fit& base, const Effect& effect) const;
   double promised(const Fit& start, const Amplitudes& unnamed) const;
-  std::size_t most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const;
-  Fit by_chords(const Fit& base, const Fit& start) const;
+  /// Of the start whose slopes promise most with so much unnamed beside them.
+  struct Promise {
+    std::size_t place = 0;
+    double nats = 0;
+  };
+  Promise most_promising(const std::vector<Fit>& starts, const Amplitudes& unnamed) const;
+  Fit by_chords(const Fit& base, const Fit& start, double promise) const;
   Fit named_first(const Fit& start) const;
   Amplitudes all_error_named(const Fit& fit) const;
   /// At the end of its steps.

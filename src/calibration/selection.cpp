@@ -118,7 +118,8 @@ class Selector {
   std::vector<Fit> fitted(const std::string& what, const std::vector<Addition>& added, FitOne fit_one);
   Fit fitted_a_little(const Fitter& fitter, const Addition& added) const;
   Fit fitted_to_the_end(const Fitter& fitter, const Addition& added) const;
-  Fit fitted_alone(const Fitter& fitter, const Addition& added) const;
+  Fit fitted_plainly(const Fitter& fitter, const Addition& added) const;
+  std::vector<Addition> each_alone() const;
   void try_singles();
   Explained plainly(const Fit& fit) const;
   double plain_score(const Fit& fit) const;
@@ -223,10 +224,6 @@ Fit Selector::fitted_a_little(const Fitter& fitter, const Addition& added) const
   return fitter.with_effect(*added.base, *added.effect);
 }
 
-Fit Selector::fitted_alone(const Fitter& fitter, const Addition& added) const {
-  return fitter.with_effect_alone(*added.base, *added.effect);
-}
-
 /// To the end unless it is far behind the best.
 Fit Selector::fitted_to_the_end(const Fitter& fitter, const Addition& added) const {
   Fit fit = fitted_a_little(fitter, added);
@@ -234,10 +231,15 @@ Fit Selector::fitted_to_the_end(const Fitter& fitter, const Addition& added) con
   return fit;
 }
 
+/// Of the catalogue, beside nothing.
+std::vector<Addition> Selector::each_alone() const {
+  std::vector<Addition> all;
+  for (const Effect* effect : selection_.catalogue) all.push_back({&selection_.none, effect});
+  return all;
+}
+
 void Selector::try_singles() {
-  std::vector<Addition> added;
-  for (const Effect* effect : selection_.catalogue) added.push_back({&selection_.none, effect});
-  std::vector<Fit> fits = fitted("trying effects one by one", added, &Selector::fitted_to_the_end);
+  std::vector<Fit> fits = fitted("trying effects one by one", each_alone(), &Selector::fitted_to_the_end);
   const Eigen::Index own = selection_.none.x.size();
   for (Fit& fit : fits) {
     Look look;
@@ -362,17 +364,18 @@ std::vector<Fit> Selector::wider_plainly(const std::vector<Fit>& beam) {
   return wider;
 }
 
-/// No effect and each by itself, where it explains most if nothing stays without a name: beside what has none, friction
-/// that holds a joint fast ends as none at all (unopened split, seed 201021).
+/// Where it explains most if nothing stays without a name: beside what has none, friction that holds a joint fast ends
+/// as none at all (unopened split, seed 201021).
+Fit Selector::fitted_plainly(const Fitter& fitter, const Addition& added) const {
+  Fit fit = fitter.with_effect_alone(*added.base, *added.effect);
+  const auto seen = seen_.find(key_of({added.effect}));
+  const bool is_better = seen == seen_.end() || (fit.usable && plain_score(fit) > plain_score(seen->second));
+  return is_better ? fit : seen->second;
+}
+
+/// No effect and each by itself.
 std::vector<Fit> Selector::singles_plainly() {
-  std::vector<Addition> added;
-  for (const Effect* effect : selection_.catalogue) added.push_back({&selection_.none, effect});
-  std::vector<Fit> singles = fitted("trying effects one by one", added, &Selector::fitted_alone);
-  for (Fit& single : singles) {
-    const auto seen = seen_.find(key_of(single.effects));
-    if (seen == seen_.end() || (single.usable && plain_score(single) > plain_score(seen->second))) continue;
-    single = seen->second;
-  }
+  std::vector<Fit> singles = fitted("trying effects one by one", each_alone(), &Selector::fitted_plainly);
   std::erase_if(singles, [](const Fit& fit) { return !fit.usable; });
   singles.insert(singles.begin(), selection_.none);
   return singles;

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,19 @@ inline std::vector<RunPlan> loads_and_rests() {
 inline double acted(const Action& action, const Moment& now, std::vector<double>& memory) {
   return action.act(now, action.numbers, memory);
 }
+
+/// Both tendons one after another, each with what it remembers.
+class BothWays {
+ public:
+  explicit BothWays(const Hidden& hidden) : hidden_(hidden) {}
+  std::array<double, 2> operator()(const Moment& now) {
+    return {acted(hidden_.longer[0].at(0), now, memories_[0]), acted(hidden_.longer[1].at(0), now, memories_[1])};
+  }
+
+ private:
+  const Hidden& hidden_;
+  std::array<std::vector<double>, 2> memories_;
+};
 
 /// One tendon's way is longer by so much, the other's as much shorter; of what has no memory.
 inline void expect_ways_apart(const Hidden& hidden, const Moment& now, double longer, double tolerance) {

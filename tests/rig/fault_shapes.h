@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "rig/faults.h"
@@ -25,6 +26,17 @@ inline double theta_within(const Character& character, const MadeJoint& joint) {
 inline double end_of_range(const Character& character, const MadeJoint& joint) {
   const Joint& declared = joint.declared.joint;
   return character.sign > 0 ? declared.theta_max : declared.theta_min;
+}
+
+/// rad: the ways from the pulley up to tendon 1's pin and to tendon 2's, each from upright to its own side.
+inline std::array<double, 2> ways_to_pins(const MadeJoint& joint) {
+  const Guides& guides = joint.declared.guides;
+  const double EF = joint.declared.pulley.EF;
+  return {std::atan2(guides.EB, EF), std::atan2(guides.ED, EF)};
+}
+/// Unit, along those.
+inline std::array<Vec2, 2> up_to_pins(double first, double second) {
+  return {Vec2(-std::sin(first), std::cos(first)), Vec2(std::sin(second), std::cos(second))};
 }
 
 inline double pretension(const MadeJoint& joint) { return joint.declared.tendon.pretension; }

@@ -57,7 +57,7 @@ double lost_steps(const Moment& now, const N& n, N& memory) {
 /// and has all its way where one tendon is slack.
 template <std::size_t side>
 double worn_bushing(const Moment& now, const N& n, N& memory) {
-  const std::array<Vec2, 2> up = {Vec2(-std::sin(n[1]), std::cos(n[1])), Vec2(std::sin(n[2]), std::cos(n[2]))};
+  const std::array<Vec2, 2> up = up_to_pins(n[1], n[2]);
   const Vec2 force = now.tension[0] * up[0] + now.tension[1] * up[1];
   if (force.norm() < 1e-9) return 0.0;
   const Vec2 push = force.normalized();
@@ -265,9 +265,8 @@ std::vector<Fault> drive_faults() {
        .kin = {"motor_offset"}},  // what the motor's sensor is off by ever after
       {.name = "worn_shaft_bushing", .first = 0.1, .most = 0.6,
        .set = [](H& h, double s, const C&, const J& j) {
-         const Guides& guides = j.declared.guides;
-         const double EF = j.declared.pulley.EF;
-         const N numbers = {s, std::atan2(guides.EB, EF), std::atan2(guides.ED, EF)};
+         const auto [first, second] = ways_to_pins(j);
+         const N numbers = {s, first, second};
          h.longer[0].push_back({"worn_bushing", numbers, worn_bushing<0>});
          h.longer[1].push_back({"worn_bushing", numbers, worn_bushing<1>});
        },

@@ -73,14 +73,12 @@ TEST(Reserved, a_stepper_loses_steps_once_on_every_hard_stroke) {
 
 TEST(Reserved, a_shaft_lies_in_its_bushing_where_the_tendons_pull_it) {
   const Hidden hidden = with("worn_shaft_bushing", 0.2, soft());
-  std::array<std::vector<double>, 2> memories;
+  BothWays ways(hidden);
   Moment now;
   // Pins 50 mm to either side and 80 mm above: cos φ = 0.847998, cos 2φ = 0.438202.
   const auto longer = [&](double first, double second) {
     now.tension = {first, second};
-    std::array<double, 2> ways{};
-    for (std::size_t side = 0; side < 2; ++side) ways[side] = acted(hidden.longer[side].at(0), now, memories[side]);
-    return ways;
+    return ways(now);
   };
   EXPECT_NEAR(longer(20.0, 20.0)[1], 0.0, 1e-12);
   for (const double pull : {5.0, 40.0}) {

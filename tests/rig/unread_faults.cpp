@@ -64,7 +64,7 @@ double hot_motor(const Moment& now, const N& n, N& memory) {
 /// out by the other one's too. A bushing has an end, and slots keep what they have.
 template <std::size_t side>
 double bending_bracket(const Moment& now, const N& n, N& memory) {
-  const std::array<Vec2, 2> up = {Vec2(-std::sin(n[1]), std::cos(n[1])), Vec2(std::sin(n[2]), std::cos(n[2]))};
+  const std::array<Vec2, 2> up = up_to_pins(n[1], n[2]);
   const Vec2 force = now.tension[0] * up[0] + now.tension[1] * up[1];
   if (memory.empty()) memory = {force.x(), force.y()};
   return -n[0] * (force - Vec2(memory[0], memory[1])).dot(up[side]);
@@ -247,9 +247,8 @@ std::vector<Fault> drive_faults() {
        }},
       {.name = "motor_bracket_bending", .first = 0.01, .most = 0.2,
        .set = [](H& h, double s, const C&, const J& j) {
-         const Guides& guides = j.declared.guides;
-         const double EF = j.declared.pulley.EF;
-         const N numbers = {s, std::atan2(guides.EB, EF), std::atan2(guides.ED, EF)};
+         const auto [first, second] = ways_to_pins(j);
+         const N numbers = {s, first, second};
          h.longer[0].push_back({"bending_bracket", numbers, bending_bracket<0>});
          h.longer[1].push_back({"bending_bracket", numbers, bending_bracket<1>});
        },

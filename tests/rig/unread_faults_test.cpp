@@ -13,19 +13,6 @@
 namespace fusee::rig {
 namespace {
 
-/// Both tendons one after another, each with what it remembers.
-class BothWays {
- public:
-  explicit BothWays(const Hidden& hidden) : hidden_(hidden) {}
-  std::array<double, 2> operator()(const Moment& now) {
-    return {acted(hidden_.longer[0].at(0), now, memories_[0]), acted(hidden_.longer[1].at(0), now, memories_[1])};
-  }
-
- private:
-  const Hidden& hidden_;
-  std::array<std::vector<double>, 2> memories_;
-};
-
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
 TEST(Unread, a_shaft_is_ahead_of_a_late_motor_sensor) {
