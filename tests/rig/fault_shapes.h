@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "rig/faults.h"
 
@@ -50,6 +52,28 @@ inline double give(const MadeJoint& joint) {
 /// What lags behind `x` by up to `width` to either side (play); `where` is its memory.
 inline double behind(double x, double width, double& where) {
   return where = std::clamp(where, x - width, x + width);
+}
+/// What follows `to` with a time constant, s; `where` is its memory.
+inline double followed(double to, double seconds, double constant, double& where) {
+  return where = to + (where - to) * std::exp(-seconds / constant);
+}
+/// How often the motor has turned round so far; `memory` holds its last way, and that.
+inline double reversals(const Moment& now, std::vector<double>& memory) {
+  if (memory.empty()) memory = {now.direction, 0.0};
+  if (now.direction * memory[0] < 0) memory[1] += 1.0;
+  memory[0] = now.direction;
+  return memory[1];
+}
+
+/// N: of both tendons and the load, on the joint's axis.
+inline Vec2 force_on_axis(const Moment& now) {
+  const Vec2 load = now.load * Vec2(-std::cos(now.theta), std::sin(now.theta));
+  return now.tension[0] * now.pull[0] + now.tension[1] * now.pull[1] + load;
+}
+/// The link's end lies off by `moved`, and the way to a pin is so much shorter.
+template <std::size_t side>
+double nearer(const Moment& now, const Vec2& moved) {
+  return -moved.dot(now.pull[side]);
 }
 
 }  // namespace fusee::rig

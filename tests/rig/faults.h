@@ -67,6 +67,8 @@ std::vector<Fault> reserved_faults();
 std::vector<Fault> unopened_faults();
 /// Without a name, by a seventh hand: kept aside, and run once after all else is settled.
 std::vector<Fault> unread_faults();
+/// Without a name, by an eighth hand: kept aside, and run once after all else is settled.
+std::vector<Fault> untold_faults();
 
 /// The faults of several lists as one, in their order.
 std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists);

@@ -33,4 +33,9 @@ class Random {
   std::uint64_t state_;
 };
 
+/// What is drawn anew with every number; each `stream` by itself.
+inline Random numbered(double number, std::uint64_t stream) {
+  return Random(static_cast<std::uint64_t>(number) * 1000003ULL + stream);
+}
+
 }  // namespace fusee::rig

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "rig/fault_shapes.h"
 #include "rig/faults.h"
@@ -230,8 +229,7 @@ double leaking_sensor(const Moment& now, const N& n, N& memory) {
 double crackling_track(const Moment& now, const N& n, N& memory) {
   if (memory.empty()) memory = {0.0};
   memory[0] += 1.0;
-  Random random(static_cast<std::uint64_t>(memory[0]) * 1000003ULL + 41);
-  return n[0] * bump((now.theta - n[1]) / n[2]) * random.normal();
+  return n[0] * bump((now.theta - n[1]) / n[2]) * numbered(memory[0], 41).normal();
 }
 
 /// A bus that hangs: every n[1] s (the first at n[2]), for n[0] s, the log repeats the joint's last angle. In practice

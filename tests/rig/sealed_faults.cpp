@@ -207,7 +207,7 @@ double hum(const Moment& now, const N& n, N&) { return n[0] * std::sin(n[1] * no
 double sparks(const Moment& now, const N& n, N& memory) {
   if (memory.empty()) memory = {0.0};
   memory[0] += 1.0;
-  Random random(static_cast<std::uint64_t>(memory[0]) * 1000003ULL + 17);
+  Random random = numbered(memory[0], 17);
   const double speed = std::abs(now.alpha_speed);
   if (random.share() > 0.2 * speed / (1.0 + speed)) return 0.0;
   return n[0] * random.sign();

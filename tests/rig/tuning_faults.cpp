@@ -56,17 +56,10 @@ double tightening(const Moment& now, const N& n, N& memory) {
   return -n[0] * (1.0 - std::exp(-(memory[1] - memory[0]) / n[1]));
 }
 
-/// The link's end lies off by `moved`, and the way to a pin is so much shorter.
-template <std::size_t side>
-double nearer(const Moment& now, const Vec2& moved) {
-  return -moved.dot(now.pull[side]);
-}
-
 /// The joint's axis lies against its hole, n[0] off the middle, where the forces push it.
 template <std::size_t side>
 double loose_axis(const Moment& now, const N& n, N& memory) {
-  const Vec2 load = now.load * Vec2(-std::cos(now.theta), std::sin(now.theta));
-  const Vec2 force = now.tension[0] * now.pull[0] + now.tension[1] * now.pull[1] + load;
+  const Vec2 force = force_on_axis(now);
   if (force.norm() < 1e-9) return 0.0;
   const Vec2 push = force.normalized();
   if (memory.empty()) memory = {push.x(), push.y()};

@@ -2,7 +2,6 @@
 // neither how calibration infers nor what it makes of the other splits. Nothing is tuned on these; they are run once.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "rig/fault_shapes.h"
 #include "rig/faults.h"
@@ -137,21 +136,14 @@ double neighbour(const Moment& now, const N& n, N&) {
 /// A plain bearing rubs with what presses on it: both tendons and the load, as vectors; n[0] mm: its radius times its
 /// coefficient. In practice 0.2 … 5 mm. A bearing's friction as it is declared is the same under any force; pins rub
 /// with their own tendon, and not with the load.
-double pressed_bearing(const Moment& now, const N& n, N&) {
-  const Vec2 load = now.load * Vec2(-std::cos(now.theta), std::sin(now.theta));
-  return n[0] * (now.tension[0] * now.pull[0] + now.tension[1] * now.pull[1] + load).norm();
-}
+double pressed_bearing(const Moment& now, const N& n, N&) { return n[0] * force_on_axis(now).norm(); }
 
 /// Grains of sand go round in the bearing: in every n[1] rad of the joint another one is under a ball, seldom in a way
 /// that matters (the fourth power of what is drawn), up to n[0] N·mm, and after each reversal they lie differently. In
 /// practice 50 … 3000 N·mm, 1 … 3 deg. Friction and dents are there again in the next stroke.
 double sand(const Moment& now, const N& n, N& memory) {
-  if (memory.empty()) memory = {now.direction, 0.0};
-  if (now.direction * memory[0] < 0) memory[1] += 1.0;
-  memory[0] = now.direction;
   const double cell = 5000.0 + std::floor(now.theta / n[1]);
-  Random random(static_cast<std::uint64_t>(10000.0 * memory[1] + cell) * 1000003ULL + 53);
-  return n[0] * std::pow(random.share(), 4);
+  return n[0] * std::pow(numbered(10000.0 * reversals(now, memory) + cell, 53).share(), 4);
 }
 
 /// A loop of the link's cable hooks on a screw's head: on the way up from θ = n[1] it is drawn tight, to n[0] N·mm over

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 #include "rig/fault_shapes.h"
 #include "rig/faults.h"
@@ -54,8 +53,7 @@ double bad_flank(const Moment& now, const N& n, N& memory) {
 double hot_motor(const Moment& now, const N& n, N& memory) {
   if (memory.empty()) memory = {0.0};
   const double pull = now.load / n[1];
-  memory[0] = pull * pull + (memory[0] - pull * pull) * std::exp(-now.seconds / n[2]);
-  return -n[0] * pull * memory[0];
+  return -n[0] * pull * followed(pull * pull, now.seconds, n[2], memory[0]);
 }
 
 /// The bracket that holds motor and pulley bends: the pulley's axis moves by n[0] mm for a newton of what both tendons
@@ -84,8 +82,7 @@ double laid_anew(const Moment& now, const N& n, N& memory) {
   if (memory.size() > whole + 3) memory.resize(whole + 3);
   while (memory.size() < whole + 3) {
     memory[0] += 1.0;
-    Random random(static_cast<std::uint64_t>(memory[0]) * 1000003ULL + 61);
-    memory.push_back(random.normal());
+    memory.push_back(numbered(memory[0], 61).normal());
   }
   double laid = (pieces - static_cast<double>(whole)) * memory.back();
   for (std::size_t piece = 0; piece < whole; ++piece) laid += memory[2 + piece];

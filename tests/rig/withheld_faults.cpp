@@ -2,7 +2,6 @@
 // neither how calibration infers nor what it makes of the other splits. Nothing is tuned on these; they are run once.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "rig/fault_shapes.h"
 #include "rig/faults.h"
@@ -43,10 +42,7 @@ double hunting(const Moment& now, const N& n, N&) {
 
 /// Before each run the motor looks for home on a switch of its own, and finds it within n[0] (standard deviation; n[1]
 /// numbers the switch). In practice 0.1 … 2 deg. An offset that is another in every run.
-double careless_homing(const Moment& now, const N& n, N&) {
-  Random random(static_cast<std::uint64_t>(n[1]) * 1000003ULL + now.run);
-  return n[0] * random.normal();
-}
+double careless_homing(const Moment& now, const N& n, N&) { return n[0] * numbered(n[1], now.run).normal(); }
 
 // ---- groove, tendon, pins -------------------------------------------------------------------------------------------
 
@@ -100,10 +96,7 @@ double worn_wax(const Moment& now, const N& n, N& memory) {
 /// pin to where its own way is shorter, until it lies at the plate. n[0] mm in all, most of it within n[1] reversals.
 /// In practice 0.05 … 1 mm. Creep and warmth know no reversals, slip is one moment, pins stand where they stand.
 double walking_down(const Moment& now, const N& n, N& memory) {
-  if (memory.empty()) memory = {now.direction, 0.0};
-  if (now.direction * memory[0] < 0) memory[1] += 1.0;
-  memory[0] = now.direction;
-  return -n[0] * (1.0 - std::exp(-memory[1] / n[1]));
+  return -n[0] * (1.0 - std::exp(-reversals(now, memory) / n[1]));
 }
 
 // ---- joint and link -------------------------------------------------------------------------------------------------
@@ -181,8 +174,7 @@ double spike_filter(const Moment& now, const N& n, N& memory) {
 double jittering_stamps(const Moment& now, const N& n, N& memory) {
   if (memory.empty()) memory = {0.0};
   memory[0] += 1.0;
-  Random random(static_cast<std::uint64_t>(memory[0]) * 1000003ULL + 29);
-  return n[0] * now.theta_speed * random.normal();
+  return n[0] * now.theta_speed * numbered(memory[0], 29).normal();
 }
 
 /// One entry of the table by which the sensor was made straight is wrong, at θ = n[1]: by n[0], and in a straight line
