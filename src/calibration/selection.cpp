@@ -43,7 +43,7 @@ struct Look {
 struct Addition {
   const Fit* base = nullptr;
   const Effect* effect = nullptr;
-  double promise = 0;
+  double promise = -std::numeric_limits<double>::infinity();
   Look look = {};  ///< by which it is promised
 };
 
@@ -220,15 +220,21 @@ std::vector<Fit> Selector::fitted(const std::string& what, const std::vector<Add
   return fits;
 }
 
+/// Whether a look promised more than a short fit reached: the slopes that the base had are no longer its own, and the
+/// end is elsewhere (unread split, seed 211303: an offset beside an encoder's eccentricity, 200 nats).
+bool ended_early(const Fit& fit, const Addition& added) { return score(fit) < added.promise - k_thresholds.as_good; }
+
+/// Closely enough to compare by.
 Fit Selector::fitted_a_little(const Fitter& fitter, const Addition& added) const {
-  return fitter.with_effect(*added.base, *added.effect);
+  Fit fit = fitter.with_effect(*added.base, *added.effect);
+  return fit.usable && ended_early(fit, added) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
 /// To the end unless it is far behind the best.
 Fit Selector::fitted_to_the_end(const Fitter& fitter, const Addition& added) const {
-  Fit fit = fitted_a_little(fitter, added);
-  if (fit.usable && score(fit) > score(selection_.best) - k_thresholds.far) fit = fitter.fit(fit.effects, fit.at);
-  return fit;
+  Fit fit = fitter.with_effect(*added.base, *added.effect);
+  const bool is_near = fit.usable && score(fit) > score(selection_.best) - k_thresholds.far;
+  return is_near || (fit.usable && ended_early(fit, added)) ? fitter.fit(fit.effects, fit.at) : fit;
 }
 
 /// Of the catalogue, beside nothing.
