@@ -174,6 +174,7 @@ std::string calibration_json(const CalibrationProduct& product) {
   json["unexplained_rms_deg"] = angle_json(calibration.unexplained_rms);
   json["unexplained_where"] = calibration.unexplained_where;
   json["unknown"] = unknown_json(calibration.unknown);
+  json["instead"] = unknown_json(calibration.instead);
   json["covered"] = covered_json(product);
   json["slips"] = slips_json(product.slips);
   json["detectable"] = detectable_json(calibration);

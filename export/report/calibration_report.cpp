@@ -279,6 +279,13 @@ std::string covered_html(const CalibrationProduct& product) {
   return "<h3>What of it the table covers</h3><p>" + safe_text(first_upper(words)) + ".</p>" + curve_html(product);
 }
 
+std::string described_html(const std::string& heading, const std::vector<Unknown>& parts) {
+  std::string html = parts.empty() ? "" : "<h3>" + heading + "</h3>";
+  for (const Unknown& part : parts)
+    html += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
+  return html;
+}
+
 std::string rest_section(const CalibrationProduct& product) {
   const Calibration& calibration = product.calibration;
   const std::string plot = rest_html(product);
@@ -290,11 +297,9 @@ std::string rest_section(const CalibrationProduct& product) {
   const std::string colour = " Neighbouring rows of it are correlated by " +
                              readable(calibration.rest_autocorrelation, 2) +
                              "; noise would be near 0. Dashed: the noise floor of a single row.";
-  std::string unknown;
-  for (const Unknown& part : calibration.unknown)
-    unknown += "<p>" + safe_text(first_upper(unknown_words(part))) + ".</p>" + unknown_html(part);
-  if (!unknown.empty()) unknown = "<h3>What has no name, by what it depends on</h3>" + unknown;
-  unknown += covered_html(product);
+  const std::string unknown = described_html("What has no name, by what it depends on", calibration.unknown) +
+                              described_html("As likely as what was named: what has no name", calibration.instead) +
+                              covered_html(product);
   return html_section("rest", "What is left",
                       "<p class=\"lead\">" + safe_text(words + colour) + "</p>" + plot + unknown);
 }

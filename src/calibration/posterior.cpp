@@ -5,11 +5,12 @@
 #include <limits>
 
 namespace fusee {
-namespace {
 
 bool shares(const EffectSet& one, const EffectSet& other) {
   return std::any_of(one.begin(), one.end(), [&](const Effect* effect) { return contains(other, *effect); });
 }
+
+namespace {
 
 /// Weights of the likeliest set's 1.
 std::vector<double> weights_of(const std::vector<Weighed>& sets) {

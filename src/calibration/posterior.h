@@ -9,6 +9,9 @@
 
 namespace fusee {
 
+/// Whether an effect of the one is in the other.
+bool shares(const EffectSet& one, const EffectSet& other);
+
 /// A set that was looked at; of two the one with the larger weight is the likelier.
 struct Weighed {
   EffectSet effects;

@@ -22,7 +22,8 @@
 // single exchange that was looked at led from one to the other. Where something stays unexplained all the same, no look
 // is trusted any more: every effect is fitted beside the best. Then the likeliest are fitted to the end, and all sets
 // ever seen are weighed together, each by its likeliest fit: a member stands if it, or what stands in its place
-// elsewhere, is in nearly all of the weight. What may be there unasked joins its group.
+// elsewhere, is in nearly all of the weight. Where names that leave nothing are as likely as what has none, they take
+// its place and say so. What may be there unasked joins its group.
 
 namespace fusee {
 namespace {
@@ -154,6 +155,9 @@ class Selector {
   bool is_completed_beside(const Fit& others) const;
   bool drop_doubtful();
   void drop_all_doubtful();
+  const Fit* completed_by_names(const Unnamed& beside_best) const;
+  std::vector<Weighed> weighed_plainly();
+  void complete_by_names();
   void write_down();
 
   void report(const std::string& what, double share) const {
@@ -764,6 +768,62 @@ void Selector::drop_all_doubtful() {
   }
 }
 
+/// Names that leave nothing without a name, or hardly a part of what the best leaves, where the data are as likely with
+/// them but for what sets that do as well may differ by: the likeliest set that keeps what is named.
+const Fit* Selector::completed_by_names(const Unnamed& beside_best) const {
+  const auto keeps_names = [&](const Fit& fit) {
+    return std::all_of(selection_.groups.begin(), selection_.groups.end(),
+                       [&](const CredibleGroup& group) { return shares(fit.effects, group.members); });
+  };
+  const auto leaves_little = [&](const Fit& fit) {
+    const Unnamed beside = unnamed_beside(evidence_, fit);
+    return !is_unexplained(beside, evidence_.floor) || beside.rms < k_thresholds.part_completed * beside_best.rms;
+  };
+  const std::vector<const Fit*> sets = ranked();
+  for (const Fit* fit : sets) {
+    if (score(*fit) < score(*sets.front()) - k_thresholds.as_good) break;
+    if (keeps_names(*fit) && leaves_little(*fit)) return fit;
+  }
+  return nullptr;
+}
+
+/// All sets that were looked at, as if nothing stayed without a name.
+std::vector<Weighed> Selector::weighed_plainly() {
+  std::vector<Weighed> sets(seen_.size());
+  std::vector<const Fit*> fits = ranked();
+  workers_.each(fits.size(), [&](const Fitter&, std::size_t i) {
+    sets[i] = {fits[i]->effects, plain_score(*fits[i]) / selection_.temperature};
+  });
+  return sets;
+}
+
+/// Names that leave nothing, as likely as what has no name, take its place: the data do not tell which it is, and each
+/// group says so. Which names is asked as if nothing stayed without one.
+void Selector::complete_by_names() {
+  const Unnamed instead = unnamed_beside(evidence_, selection_.best);
+  const bool is_much =
+      is_unexplained(instead, evidence_.floor) && instead.rms > k_thresholds.least_completed * evidence_.floor;
+  const Fit* names = is_much ? completed_by_names(instead) : nullptr;
+  if (names == nullptr) return;
+  selection_.instead = instead.parts;
+  const std::vector<CredibleGroup> sure = std::move(selection_.groups);
+  take_best(*names);
+  challenge();
+  const std::vector<Weighed> sets = weighed_plainly();
+  selection_.groups.clear();
+  for (const Effect* effect : selection_.best.effects) {
+    const auto known = std::find_if(sure.begin(), sure.end(),
+                                    [&](const CredibleGroup& group) { return contains(group.members, *effect); });
+    CredibleGroup group = group_of(sets, *effect);
+    group.doubt = known == sure.end() ? 1.0 : known->doubt;
+    for (const Effect* member : known == sure.end() ? EffectSet() : known->members) {
+      if (!contains(group.members, *member) && !contains(selection_.best.effects, *member))
+        group.members.push_back(member);
+    }
+    selection_.groups.push_back(std::move(group));
+  }
+}
+
 /// Root mean square over the rows of what a Gaussian of covariance `C` does by the slopes `J`, rad.
 double rms_by(const Eigen::MatrixXd& J, const Eigen::MatrixXd& C) {
   return std::sqrt(std::max(0.0, (J * C).cwiseProduct(J).sum()) /
@@ -896,6 +956,7 @@ Selection Selector::run() {
   }
   if (settle_rivals()) settle_best();
   drop_all_doubtful();
+  complete_by_names();
   join_companions();
   look_at_variance();
   write_down();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct Selection {
   double temperature = 1;             ///< by which evidence is overstated: variances are as many times larger
   /// Of each number of `best`, over all sets that hold it by their weight: mean square about it, in its steps.
   std::map<const EffectParameter*, double> variance;
+  /// What has no name and is as likely as names of `best` that took its place.
+  std::optional<std::vector<Unknown>> instead;
   std::vector<Candidate> tried;
 };
 

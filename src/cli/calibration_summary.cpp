@@ -62,6 +62,7 @@ std::vector<std::string> effect_texts(const Calibration& c, const std::string& l
   if (!c.unexplained_where.empty())
     texts.push_back("unexplained: " + deg(c.unexplained_rms) + " deg rms beyond the noise, " + c.unexplained_where);
   for (const Unknown& unknown : c.unknown) texts.push_back("without a name: " + unknown_words(unknown));
+  for (const Unknown& unknown : c.instead) texts.push_back("or, as likely, without a name: " + unknown_words(unknown));
   return texts;
 }
 

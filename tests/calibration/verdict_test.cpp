@@ -134,6 +134,18 @@ TEST_F(Concluded, BesideSomethingUnexplainedANameNeedsMore) {
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash"));
 }
 
+TEST_F(Concluded, NamesInThePlaceOfSomethingWithoutOneNeedMoreThoughTheyLeaveNothing) {
+  leave(1);
+  selection.instead = std::vector<Unknown>{{"place", 0, 0.002, 20, "place", {}, {}}};
+  calibration.effects = {ahead_by(k_thresholds.ahead_of_nameless + 1), ahead_by(k_thresholds.ahead_beside_rest + 1)};
+  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "nameless"));
+  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash"));
+  ASSERT_EQ(calibration.instead.size(), 1u);
+  EXPECT_EQ(calibration.instead.front().factor, "place");
+  EXPECT_TRUE(calibration.unknown.empty()) << "names leave nothing";
+}
+
 TEST_F(Concluded, WhatIsToldByTimeIsUnsureBesideWhatDiffersFromRunToRun) {
   for (const bool by_run : {false, true}) {
     leave(by_run ? 1 : 5);

@@ -138,6 +138,7 @@ struct Calibration {
   double rest_autocorrelation = 0;  ///< of the residual after all effects, row to row; 0: white
   double unexplained_rms = 0;
   std::vector<Unknown> unknown;     ///< the largest first
+  std::vector<Unknown> instead;     ///< without a name, and as likely as names that were taken in its place
   EmpiricalCurve curve;             ///< of what of it depends on place and direction alone
   std::string unexplained_where;  ///< where in α, which direction, load, harmonic
   std::vector<Detectable> detectable;
