@@ -155,8 +155,8 @@ class Selector {
   bool is_completed_beside(const Fit& others) const;
   bool drop_doubtful();
   void drop_all_doubtful();
-  const Fit* completed_by_names(const Unnamed& beside_best) const;
-  std::vector<Weighed> weighed_plainly();
+  std::vector<std::pair<double, const Fit*>> ranked_plainly();
+  const Fit* completed_by_names();
   void complete_by_names();
   void write_down();
 
@@ -768,59 +768,66 @@ void Selector::drop_all_doubtful() {
   }
 }
 
-/// Names that leave nothing without a name, or hardly a part of what the best leaves, where the data are as likely with
-/// them but for what sets that do as well may differ by: the likeliest set that keeps what is named.
-const Fit* Selector::completed_by_names(const Unnamed& beside_best) const {
-  const auto keeps_names = [&](const Fit& fit) {
-    return std::all_of(selection_.groups.begin(), selection_.groups.end(),
-                       [&](const CredibleGroup& group) { return shares(fit.effects, group.members); });
-  };
-  const auto leaves_little = [&](const Fit& fit) {
-    const Unnamed beside = unnamed_beside(evidence_, fit);
-    return !is_unexplained(beside, evidence_.floor) || beside.rms < k_thresholds.part_completed * beside_best.rms;
-  };
-  const std::vector<const Fit*> sets = ranked();
-  for (const Fit* fit : sets) {
-    if (score(*fit) < score(*sets.front()) - k_thresholds.as_good) break;
-    if (keeps_names(*fit) && leaves_little(*fit)) return fit;
+/// To a group, but for what `best` has elsewhere.
+void add_members(const EffectSet& members, const EffectSet& best, CredibleGroup& group) {
+  for (const Effect* member : members) {
+    if (!contains(group.members, *member) && !contains(best, *member)) group.members.push_back(member);
   }
-  return nullptr;
 }
 
-/// All sets that were looked at, as if nothing stayed without a name.
-std::vector<Weighed> Selector::weighed_plainly() {
-  std::vector<Weighed> sets(seen_.size());
-  std::vector<const Fit*> fits = ranked();
-  workers_.each(fits.size(), [&](const Fitter&, std::size_t i) {
-    sets[i] = {fits[i]->effects, plain_score(*fits[i]) / selection_.temperature};
-  });
-  return sets;
+/// Scores of all sets that were looked at, as if nothing stayed without a name, the best first.
+std::vector<std::pair<double, const Fit*>> Selector::ranked_plainly() {
+  std::vector<std::pair<double, const Fit*>> all;
+  for (const Fit* fit : ranked()) all.emplace_back(0.0, fit);
+  workers_.each(all.size(), [&](const Fitter&, std::size_t i) { all[i].first = plain_score(*all[i].second); });
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  return all;
 }
 
-/// Names that leave nothing, as likely as what has no name, take its place: the data do not tell which it is, and each
-/// group says so. Which names is asked as if nothing stayed without one.
+/// Of the sets that keep what is named the likeliest as if nothing stayed without a name, where the data do not ask for
+/// something that does.
+const Fit* Selector::completed_by_names() {
+  const auto keeping_names = [&] {
+    std::vector<std::pair<double, const Fit*>> all = ranked_plainly();
+    std::erase_if(all, [&](const auto& set) {
+      return !std::all_of(selection_.groups.begin(), selection_.groups.end(),
+                          [&](const CredibleGroup& group) { return shares(set.second->effects, group.members); });
+    });
+    return all;
+  };
+  std::vector<const Fit*> likeliest;
+  for (const auto& [likely, fit] : keeping_names()) {
+    if (likeliest.size() < k_thresholds.plain_beam) likeliest.push_back(fit);
+  }
+  for (Fit& fit : settled(likeliest)) take_in(std::move(fit));
+  const std::vector<std::pair<double, const Fit*>> names = keeping_names();
+  const double asked = score(*ranked().front()) - k_thresholds.unexplained;
+  return names.empty() || names.front().first < asked ? nullptr : names.front().second;
+}
+
+/// Where names alone are so likely that nobody would say of what they leave that it has no name, they take the place of
+/// what has none: the data do not tell which it is, and each group says so. Which names is asked as if nothing stayed
+/// without one.
 void Selector::complete_by_names() {
   const Unnamed instead = unnamed_beside(evidence_, selection_.best);
-  const bool is_much =
-      is_unexplained(instead, evidence_.floor) && instead.rms > k_thresholds.least_completed * evidence_.floor;
-  const Fit* names = is_much ? completed_by_names(instead) : nullptr;
+  if (!is_unexplained(instead, evidence_.floor) || instead.rms < k_thresholds.least_completed * evidence_.floor) return;
+  const Fit* names = completed_by_names();
   if (names == nullptr) return;
   selection_.instead = instead.parts;
   const std::vector<CredibleGroup> sure = std::move(selection_.groups);
   take_best(*names);
   challenge();
-  const std::vector<Weighed> sets = weighed_plainly();
+  std::vector<Weighed> plainly;
+  for (const auto& [likely, fit] : ranked_plainly()) plainly.push_back({fit->effects, likely / selection_.temperature});
   selection_.groups.clear();
   for (const Effect* effect : selection_.best.effects) {
-    const auto known = std::find_if(sure.begin(), sure.end(),
-                                    [&](const CredibleGroup& group) { return contains(group.members, *effect); });
-    CredibleGroup group = group_of(sets, *effect);
-    group.doubt = known == sure.end() ? 1.0 : known->doubt;
-    for (const Effect* member : known == sure.end() ? EffectSet() : known->members) {
-      if (!contains(group.members, *member) && !contains(selection_.best.effects, *member))
-        group.members.push_back(member);
+    CredibleGroup& group = selection_.groups.emplace_back(group_of(plainly, *effect));
+    group.doubt = 1;
+    for (const CredibleGroup& known : sure) {
+      if (!contains(known.members, *effect)) continue;
+      group.doubt = known.doubt;
+      add_members(known.members, selection_.best.effects, group);
     }
-    selection_.groups.push_back(std::move(group));
   }
 }
 

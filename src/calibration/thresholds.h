@@ -89,13 +89,12 @@ struct Thresholds {
   /// wrong name that may be none.
   double part_left = 0.8;
   double most_doubtful_part = 0.5;
-  /// Names that leave nothing unexplained, or less than such a part of it, rms, take the place of something without a
-  /// name, where that is so many noise floors and no more than as_good nats likelier; their groups say that it may be
-  /// nothing with a name. Of eight joints of named faults that were missed (unopened and unread splits, seeds 201004,
-  /// 201022, 201046, 201154, 202108, 202119, 211280, 211303) six had such a set within 3 nats, and ten of their faults
-  /// are held with it. 40 joints with a fault without a name from 213001: two were blamed before, the same two are. Of
-  /// joints as declared what stays is 0.4 to 0.8 noise floors, where anything does.
-  double part_completed = 0.2;
+  /// Where something without a name is as large as so many noise floors, rms, names take its place with which the data
+  /// are less than `unexplained` nats less likely; their groups say that it may be nothing with a name. Of nine joints
+  /// of named faults that were missed (201004, 201022, 201046, 201154, 202108, 202119, 211280, 211303, 221014) seven had
+  /// such names, and a dozen of their faults are held with them. With a fault without a name, 80 joints from 213001 and
+  /// 222001: three are blamed, as without. Of joints as declared what stays is 0.4 to 0.8 noise floors, where anything
+  /// does.
   double least_completed = 0.8;
   /// Intervals beside what stays unexplained are so much wider: what it takes of a name, or gives to it, nobody knows.
   /// Reserved split, 204 joints from 192001: of 95 numbers beside a fault without a name 88 % were within intervals
