@@ -56,15 +56,13 @@ TEST_P(KeptAside, joints_on_which_each_is_well_seen_are_found) {
   expect_joints_on_which_each_is_well_seen(GetParam().name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, KeptAside,
-                         ::testing::Values(Split{"unseen", 12, 8, every_condition()},
-                                           Split{"sealed", 20, 12, loads_and_rests()},
-                                           Split{"withheld", 16, 12, loads_and_rests()},
-                                           Split{"reserved", 20, 10, loads_and_rests()},
-                                           Split{"unopened", 20, 10, loads_and_rests()},
-                                           Split{"unread", 20, 10, loads_and_rests()},
-                                           Split{"untold", 20, 10, loads_and_rests()}),
-                         [](const auto& split) { return split.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Of, KeptAside,
+    ::testing::Values(Split{"unseen", 12, 8, every_condition()}, Split{"sealed", 20, 12, loads_and_rests()},
+                      Split{"withheld", 16, 12, loads_and_rests()}, Split{"reserved", 20, 10, loads_and_rests()},
+                      Split{"unopened", 20, 10, loads_and_rests()}, Split{"unread", 20, 10, loads_and_rests()},
+                      Split{"untold", 20, 10, loads_and_rests()}, Split{"unmet", 20, 10, loads_and_rests()}),
+    [](const auto& split) { return split.param.name; });
 
 }  // namespace
 }  // namespace fusee::rig
