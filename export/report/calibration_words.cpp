@@ -63,11 +63,10 @@ std::string nameless_words(const FoundEffect& effect) {
   if (effect.group.empty() || effect.group.back() != k_nameless) return "";
   const Nameless& rival = effect.nameless;
   const std::string words =
-      "Or something without a name that does the same: " +
-      (rival.words.empty() ? "something else is left that has none, and " : rival.words + " in its place, ") +
-      (rival.words.empty() ? open_words(effect.name) + " is no more than " + rounded(rival.behind, 2) + " nats ahead"
-       : rival.behind < 0  ? "with which the data are " + rounded(-rival.behind, 2) + " nats likelier"
-                           : "with which the data are only " + rounded(rival.behind, 2) + " nats less likely");
+      "Or something without a name that does the same: " + (rival.words.empty() ? "a smooth curve" : rival.words) +
+      " in its place, with which the data are " +
+      (rival.behind < 0 ? rounded(-rival.behind, 2) + " nats likelier"
+                        : "only " + rounded(rival.behind, 2) + " nats less likely");
   return words + (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 

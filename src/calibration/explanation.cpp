@@ -68,6 +68,19 @@ void place_beside(const Evidence& evidence, const Selection& selection, const Fi
 
 }  // namespace
 
+std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selection& selection) {
+  const Fit& best = selection.best;
+  std::vector<const Rival*> all;
+  for (const Rival& rival : selection.rivals) {
+    const auto accepted = std::find(best.effects.begin(), best.effects.end(), rival.accepted);
+    if (accepted == best.effects.end()) continue;  // of a set that another was likelier than
+    const Fit& others = selection.without[static_cast<std::size_t>(accepted - best.effects.begin())];
+    const bool does_nothing = others.usable && score(rival.fit) < score(others);
+    if (!does_nothing && as_good(evidence, rival.fit, best)) all.push_back(&rival);
+  }
+  return all;
+}
+
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers) {
   const Fit& best = selection.best;
   const std::vector<ConfidenceInterval> ranges = intervals(selection);
@@ -79,12 +92,9 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     found.correctable_by = effect->correctable_by;
     found.parameters = fitted_parameters(evidence, numbers, ranges, *effect);
     for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
-    const Fit& others = selection.without[all.size()];
-    for (const Rival& rival : selection.rivals) {
-      const bool in_group = std::count(found.group.begin(), found.group.end(), rival.rival->name) > 0;
-      const bool does_nothing = others.usable && score(rival.fit) < score(others);
-      if (rival.accepted == effect && !in_group && !does_nothing && as_good(evidence, rival.fit, best))
-        found.group.push_back(rival.rival->name);
+    for (const Rival* rival : rivals_as_good(evidence, selection)) {
+      const bool in_group = std::count(found.group.begin(), found.group.end(), rival->rival->name) > 0;
+      if (rival->accepted == effect && !in_group) found.group.push_back(rival->rival->name);
     }
     found.rms_drop = rms_drop(selection, all.size());
     for (const Candidate& candidate : selection.tried)
@@ -97,11 +107,10 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
 
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection) {
   std::vector<std::string> all;
-  for (const Rival& rival : selection.rivals) {
-    if (!as_good(evidence, rival.fit, selection.best)) continue;
-    const double apart = rms_apart(evidence, rival.fit.residual, selection.best.residual);
-    all.push_back(with_numbers(evidence, selection.best, *rival.accepted) + " or " +
-                  with_numbers(evidence, rival.fit, *rival.rival) + ": " + rounded(degrees(apart), 2) +
+  for (const Rival* rival : rivals_as_good(evidence, selection)) {
+    const double apart = rms_apart(evidence, rival->fit.residual, selection.best.residual);
+    all.push_back(with_numbers(evidence, selection.best, *rival->accepted) + " or " +
+                  with_numbers(evidence, rival->fit, *rival->rival) + ": " + rounded(degrees(apart), 2) +
                   "° rms apart in these runs");
   }
   return all;

@@ -13,6 +13,10 @@ namespace fusee {
 /// In the order of selection.best.effects. `numbers`: the same set with the numbers that are handed over.
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers);
 
+/// With which the data are as likely as far as they can tell, and likelier than with nothing in the place of what was
+/// found.
+std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selection& selection);
+
 /// "pulley_scale (scale_percent = −2.01) or slack (slack_mm = 0.31): 0.004° rms apart in these runs", one for each
 /// rival that does as well.
 std::vector<std::string> null_combinations(const Evidence& evidence, const Selection& selection);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/explanation.h"
 #include "calibration/thresholds.h"
 #include "fusee/base/text.h"
 #include "fusee/plan/bench_run.h"
@@ -68,15 +69,6 @@ std::vector<PlannedRun> proposals(const Evidence& evidence) {
                                    BenchChange::joint_sensor_turned, BenchChange::on_its_side})
     add(with(change));
   return all;
-}
-
-/// Explanations that the data do not tell apart.
-std::vector<const Rival*> as_good_pairs(const Evidence& evidence, const Selection& selection) {
-  std::vector<const Rival*> pairs;
-  for (const Rival& rival : selection.rivals) {
-    if (as_good(evidence, rival.fit, selection.best)) pairs.push_back(&rival);
-  }
-  return pairs;
 }
 
 /// In the joint that was found and in each of its rivals.
@@ -164,7 +156,7 @@ void ask_for_both_sides(const Measurement& measurement, std::vector<std::string>
 }
 
 std::vector<std::string> next_runs(const Evidence& evidence, const Selection& selection) {
-  const std::vector<const Rival*> pairs = as_good_pairs(evidence, selection);
+  const std::vector<const Rival*> pairs = rivals_as_good(evidence, selection);
   if (pairs.empty()) return {};
   std::vector<RankedMeasurement> ranked;
   for (const PlannedRun& run : proposals(evidence)) ranked.push_back(tried(run, evidence, selection, pairs));

@@ -263,6 +263,29 @@ TEST(RmsDrop, IsNeverBelowNothing) {
   EXPECT_EQ(found[0].rms_drop, 0);
 }
 
+TEST(Rivals, ThatDoAsWellDoSomething) {
+  const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
+  Selection selection;
+  const Effect &gain = named("joint_sensor_gain"), &lag = named("sensor_lag");
+  const auto likely = [](const EffectSet& effects, double log_evidence) {
+    Fit fit;
+    fit.effects = effects;
+    fit.log_evidence = log_evidence;
+    fit.usable = true;
+    return fit;
+  };
+  selection.best = likely({&gain}, 10);
+  selection.without = {likely({}, 8)};
+  selection.rivals = {{&gain, &lag, likely({&lag}, 9)}};
+  EXPECT_TRUE(rivals_as_good(evidence, selection).empty()) << "rarer than none, and hardly likelier";
+  selection.without = {likely({}, 2)};
+  EXPECT_EQ(rivals_as_good(evidence, selection).size(), 1u);
+  selection.rivals.front().fit.log_evidence = 5;
+  EXPECT_TRUE(rivals_as_good(evidence, selection).empty());
+  selection.rivals = {{&lag, &gain, likely({&gain}, 9)}};
+  EXPECT_TRUE(rivals_as_good(evidence, selection).empty()) << "what it stands for is not in the set";
+}
+
 TEST(FoundEffects, SayWhatTheirSignMeans) {
   const Evidence evidence = evidence_of(measured({0, 5}, white_noise(k_floor, 1)));
   Workers workers(evidence);
