@@ -402,17 +402,15 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
   return others;
 }
 
-bool is_told_by_warmth(const Effect& effect) { return effect.needs.temperature; }
-
 /// By what the joint does while the bench warms up, or from some moment on. Something without a name that walks beside
 /// it walks as it likes: sealed split, seeds 131078 and 131119: thermal_expansion by 101 and 71 nats, beside a rest
 /// that differed from run to run, where a press fit slipped and a pin wore.
-bool is_told_by_time(const Effect& effect) { return is_told_by_warmth(effect) || effect.starts_in_time; }
+bool is_told_by_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
 
 /// Nats by which a name must be ahead of what has none, where nothing stays unexplained.
 double least_ahead(const Effect& effect, bool alone) {
-  if (is_told_by_warmth(effect)) return k_thresholds.ahead_by_warmth;
-  return alone && !is_told_by_time(effect) ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
+  if (is_told_by_time(effect)) return k_thresholds.ahead_by_time;
+  return alone ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
 }
 
 }  // namespace

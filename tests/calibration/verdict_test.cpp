@@ -106,14 +106,16 @@ TEST_F(Concluded, OneOfSeveralHasToBeFurtherAhead) {
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "slack"));
 }
 
-TEST_F(Concluded, WarmthHasToBeFurtherAhead) {
-  for (const double more : {-1.0, 1.0}) {
-    leave(1);
-    calibration = {};
-    calibration.effects = {ahead_by(k_thresholds.ahead_by_warmth + more)};
-    calibration.effects.front().name = calibration.effects.front().group.front() = "thermal_expansion";
-    EXPECT_EQ(verdict(), more < 0 ? CalibrationVerdict::confounded : CalibrationVerdict::explained);
-    EXPECT_EQ(calibration.effects.front().group.size(), more < 0 ? 2u : 1u);
+TEST_F(Concluded, WhatIsToldByWarmthOrByItsTimeHasToBeFurtherAhead) {
+  for (const char* name : {"thermal_expansion", "tendon_slip"}) {
+    for (const double more : {-1.0, 1.0}) {
+      leave(1);
+      calibration = {};
+      calibration.effects = {ahead_by(k_thresholds.ahead_by_time + more)};
+      calibration.effects.front().name = calibration.effects.front().group.front() = name;
+      EXPECT_EQ(verdict(), more < 0 ? CalibrationVerdict::confounded : CalibrationVerdict::explained) << name;
+      EXPECT_EQ(calibration.effects.front().group.size(), more < 0 ? 2u : 1u) << name;
+    }
   }
 }
 
