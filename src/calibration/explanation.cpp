@@ -84,6 +84,7 @@ std::vector<const Rival*> rivals_as_good(const Evidence& evidence, const Selecti
 std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection& selection, const Fit& numbers) {
   const Fit& best = selection.best;
   const std::vector<ConfidenceInterval> ranges = intervals(selection);
+  const std::vector<const Rival*> rivals = rivals_as_good(evidence, selection);
   std::vector<FoundEffect> all;
   for (const Effect* effect : best.effects) {
     FoundEffect found;
@@ -92,7 +93,7 @@ std::vector<FoundEffect> found_effects(const Evidence& evidence, const Selection
     found.correctable_by = effect->correctable_by;
     found.parameters = fitted_parameters(evidence, numbers, ranges, *effect);
     for (const Effect* member : selection.groups[all.size()].members) found.group.push_back(member->name);
-    for (const Rival* rival : rivals_as_good(evidence, selection)) {
+    for (const Rival* rival : rivals) {
       const bool in_group = std::count(found.group.begin(), found.group.end(), rival->rival->name) > 0;
       if (rival->accepted == effect && !in_group) found.group.push_back(rival->rival->name);
     }
