@@ -18,7 +18,7 @@ const std::vector<FaultList>& fault_lists() {
       {"named", named_faults()},       {"wide", wide_faults()},         {"tuning", tuning_faults()},
       {"unseen", unseen_faults()},     {"sealed", sealed_faults()},     {"withheld", withheld_faults()},
       {"reserved", reserved_faults()}, {"unopened", unopened_faults()}, {"unread", unread_faults()},
-      {"untold", untold_faults()},     {"unmet", unmet_faults()},
+      {"untold", untold_faults()},     {"unmet", unmet_faults()},       {"unheard", unheard_faults()},
   };
   return lists;
 }

@@ -71,6 +71,8 @@ std::vector<Fault> unread_faults();
 std::vector<Fault> untold_faults();
 /// Without a name, by a ninth hand: kept aside, and run once after all else is settled.
 std::vector<Fault> unmet_faults();
+/// Without a name, by a tenth hand: kept aside, and run once after all else is settled.
+std::vector<Fault> unheard_faults();
 
 /// The faults of several lists as one, in their order.
 std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists);
