@@ -407,10 +407,18 @@ Fit leaving_out(const Fitter& fitter, const Fit& fit, const Effect& effect) {
 /// that differed from run to run, where a press fit slipped and a pin wore.
 bool is_told_by_time(const Effect& effect) { return effect.needs.temperature || effect.starts_in_time; }
 
+/// Whether the group holds what leaves the joint free within a play: it takes what it meets.
+bool may_be_loose(const std::vector<std::string>& group, const EffectSet& catalogue) {
+  return std::any_of(catalogue.begin(), catalogue.end(), [&](const Effect* effect) {
+    return effect->loosens && std::count(group.begin(), group.end(), effect->name) > 0;
+  });
+}
+
 /// Nats by which a name must be ahead of what has none, where nothing stays unexplained.
-double least_ahead(const Effect& effect, bool alone) {
+double least_ahead(const Effect& effect, const std::vector<std::string>& group, const EffectSet& catalogue) {
   if (is_told_by_time(effect)) return k_thresholds.ahead_by_time;
-  return alone ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
+  if (may_be_loose(group, catalogue)) return k_thresholds.ahead_with_play;
+  return group.size() == 1 ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
 }
 
 }  // namespace
@@ -455,14 +463,15 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
   return rivals;
 }
 
-void take_nameless(const Left& left, const EffectSet& found, const std::vector<CredibleGroup>& groups,
-                   std::vector<FoundEffect>& effects) {
+void take_nameless(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects) {
   for (std::size_t i = 0; i < effects.size(); ++i) {
+    const Effect& found = *selection.best.effects[i];
+    std::vector<std::string>& group = effects[i].group;
     const bool is_doubtful =
-        groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(*found[i]));
+        selection.groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(found));
     const double least =
-        left.anything ? k_thresholds.ahead_beside_rest : least_ahead(*found[i], effects[i].group.size() == 1);
-    if (is_doubtful || effects[i].nameless.behind < least) effects[i].group.emplace_back(k_nameless);
+        left.anything ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
+    if (is_doubtful || effects[i].nameless.behind < least) group.emplace_back(k_nameless);
   }
 }
 

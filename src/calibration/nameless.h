@@ -20,8 +20,7 @@ struct Left {
   bool in_time = false;  ///< and it walks, or differs from run to run
 };
 
-/// Groups that may hold nothing with a name say so. `found`, `groups`: of each of `effects`, in their order.
-void take_nameless(const Left& left, const EffectSet& found, const std::vector<CredibleGroup>& groups,
-                   std::vector<FoundEffect>& effects);
+/// Groups that may hold nothing with a name say so. `effects`: what was found of the selection's best, in its order.
+void take_nameless(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects);
 
 }  // namespace fusee

@@ -120,6 +120,10 @@ struct Thresholds {
   /// that creaks; of eight beyond 40 one. tendon_slip was a frame that creaks (131077, by 12) and a bench that rocks
   /// over on its feet (unmet split, 231029 and 231264, by 25 and 23) …
   double ahead_by_time = 40.0;
+  /// … what may be slack, alone or in a group: a loose joint rests anywhere within its play, and so takes what it
+  /// meets. A wave that dries off a scale (231240, by 20), play at the joint's sensor (213009, by 29). Of six that were
+  /// there three were 23 to 36 nats ahead, the others 140 and more …
+  double ahead_with_play = 40.0;
   /// … and any where something stays without a name or walks beside it: what is there then is known to be nothing of
   /// the catalogue, and it may do more than what it was left with. Matrix, 225 joints between seeds 92001 and 99102, 76
   /// with a fault without a name: at 10, 10 and 30 nats four of these are blamed on something else, at 10, 15 and 45

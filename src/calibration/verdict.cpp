@@ -166,8 +166,7 @@ void conclude(const Evidence& evidence, const Selection& selection, const Unname
   const bool walks = is_walking(scatter);
   if (selection.instead) calibration.instead = *selection.instead;
   const bool in_time = walks || (unexplained && goes_with_time(unnamed));
-  take_nameless({unexplained || walks || selection.instead, in_time}, selection.best.effects, selection.groups,
-                calibration.effects);
+  take_nameless({unexplained || walks || selection.instead, in_time}, selection, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
   calibration.summary =
       finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);

@@ -127,6 +127,7 @@ struct Effect {
   std::vector<std::vector<double>> starts;  ///< of the fit, beside zero; one value a parameter
   bool starts_in_time = false;  ///< and wherever the residual steps: size and time are the first two parameters
   bool sticks = false;          ///< holds the joint where it is until more pushes: a slope or a chord says little of it
+  bool loosens = false;         ///< leaves the joint free within a play: where in it it rests, any reading says
   Needs needs;
   /// What stays of it when `before` was found earlier and `joint` now, into `joint`, where WhenFoundAgain does not say
   /// it all; null: it does.

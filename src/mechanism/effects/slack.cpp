@@ -73,6 +73,7 @@ Effect slack(JointKind kind) {
                          "added to tendon.pretension_N; tendons with slack have none"),
        .again = WhenFoundAgain::added,
        .idle = has_no_pretension}};
+  effect.loosens = true;
   effect.starts = {{0.1, 0}, {0.5, 0}, {2.0, 0}};
   return effect;
 }
