@@ -1,7 +1,7 @@
 #include "base/decompositions.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 namespace fusee {
 
@@ -16,6 +16,27 @@ Eigen::VectorXd relative_eigenvalues(const Eigen::MatrixXd& A, const Eigen::Matr
 
 Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) { return A.ldlt().solve(b); }
 Eigen::MatrixXd solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.ldlt().solve(B); }
+
+Cholesky::Cholesky(const Eigen::MatrixXd& A) : factors_(A) {}
+Eigen::MatrixXd Cholesky::lower() const { return factors_.matrixL(); }
+double Cholesky::half_log_determinant() const { return factors_.matrixLLT().diagonal().array().log().sum(); }
+Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const { return factors_.solve(b); }
+Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const { return factors_.solve(B); }
+
+/// A⁻¹ = L⁻ᵀ L⁻¹, strip by strip: a column of L⁻¹ begins at its own row.
+Eigen::VectorXd Cholesky::inverse_diagonal() const {
+  constexpr Eigen::Index strip = 16;
+  const Eigen::MatrixXd& L = factors_.matrixLLT();
+  Eigen::VectorXd diagonal(L.rows());
+  for (Eigen::Index first = 0; first < L.rows(); first += strip) {
+    const Eigen::Index left = L.rows() - first;
+    const Eigen::Index count = std::min(strip, left);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Identity(left, count);
+    L.bottomRightCorner(left, left).triangularView<Eigen::Lower>().solveInPlace(columns);
+    diagonal.segment(first, count) = columns.colwise().squaredNorm();
+  }
+  return diagonal;
+}
 
 LeastSquares::LeastSquares(const Eigen::MatrixXd& A) : factors_(A) {}
 Eigen::VectorXd LeastSquares::nearest(const Eigen::VectorXd& b) const { return factors_.solve(b); }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/decompositions.h"
 #include "calibration/starts.h"
 #include "calibration/thresholds.h"
 
@@ -125,11 +126,10 @@ double cost_of_play(const Evidence& evidence, const Fit& fit) {
   if (fit.x.size() == 0 || said.unheard.isZero()) return nats;
   const Eigen::MatrixXd unheard = said.unheard.cwiseSqrt().asDiagonal() * Eigen::MatrixXd(fit.J(rows, Eigen::all));
   const double beta = marginal.worth() / (evidence.floor * evidence.floor);
-  const Eigen::MatrixXd wider = fit.explained.covariance.llt().matrixL();
+  const Eigen::MatrixXd wider = Cholesky(fit.explained.covariance).lower();
   const Eigen::MatrixXd gained =
       Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size()) + beta * (unheard * wider).transpose() * (unheard * wider);
-  const Eigen::MatrixXd root = gained.llt().matrixL();
-  return nats + root.diagonal().array().log().sum();
+  return nats + Cholesky(gained).half_log_determinant();
 }
 
 /// Whether something larger than noise is left to what has no name.

@@ -25,21 +25,6 @@ double information(double x, double prior) {
   return std::isfinite(prior) ? (k_tail + 1.0) / (k_tail * prior * prior + x * x) : 1e-12;
 }
 
-/// Of A⁻¹ = L⁻ᵀ L⁻¹, strip by strip: a column of L⁻¹ begins at its own row.
-Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& A) {
-  constexpr Eigen::Index strip = 16;
-  const Eigen::MatrixXd& L = A.matrixLLT();
-  Eigen::VectorXd diagonal(L.rows());
-  for (Eigen::Index first = 0; first < L.rows(); first += strip) {
-    const Eigen::Index left = L.rows() - first;
-    const Eigen::Index count = std::min(strip, left);
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Identity(left, count);
-    L.bottomRightCorner(left, left).triangularView<Eigen::Lower>().solveInPlace(columns);
-    diagonal.segment(first, count) = columns.colwise().squaredNorm();
-  }
-  return diagonal;
-}
-
 }  // namespace
 
 double log_prior(double x, double prior) {
@@ -128,7 +113,7 @@ SizedDiscrepancy Marginal::sized(const Amplitudes& amplitudes, double give) cons
   u.size = Eigen::Map<const Eigen::VectorXd>(size.data(), static_cast<Eigen::Index>(size.size()));
   Eigen::MatrixXd A = u.beta * (u.size.asDiagonal() * gram_(u.columns, u.columns) * u.size.asDiagonal());
   A.diagonal().array() += 1.0;
-  u.A.compute(A);
+  u.A = Cholesky(A);
   return u;
 }
 
@@ -147,8 +132,7 @@ Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepanc
   Solved s;
   s.B = u.beta * (u.size.asDiagonal() * sums.JD(Eigen::all, u.columns).transpose());
   // Where there is no effect there is nothing to solve: Eigen looks at the first number even of none.
-  s.AB = s.B;
-  if (s.AB.size() > 0) u.A.solveInPlace(s.AB);
+  s.AB = s.B.size() > 0 ? u.A.solve(s.B) : s.B;
   s.t = u.beta * u.size.cwiseProduct(sums.Dr(u.columns));
   s.At = u.A.solve(s.t);
   s.JJ = u.beta * sums.JJ - s.B.transpose() * s.AB;
@@ -157,8 +141,8 @@ Marginal::Solved Marginal::solved(const TangentSums& sums, const SizedDiscrepanc
   const double rows = worth_ * sums.rows;
   const double freedom = k_thresholds.noise_freedom;
   const double excess = floor_ * floor_ / (u.amplitudes.noise * u.amplitudes.noise);
-  s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * std::log(u.beta) -
-               u.A.matrixLLT().diagonal().array().log().sum() + 0.5 * freedom * (std::log(excess) - excess);
+  s.constant = log_prior_of(u.amplitudes) + 0.5 * rows * std::log(u.beta) - u.A.half_log_determinant() +
+               0.5 * freedom * (std::log(excess) - excess);
   return s;
 }
 
@@ -179,9 +163,9 @@ double log_evidence_of(const ReducedTangent& tangent, const std::vector<Eigen::I
     H(k, k) += by_prior;
     g[k] -= by_prior * x[k];
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(H);
+  const Cholesky factor(H);
   const Eigen::VectorXd step = factor.solve(g);
-  double log_evidence = tangent.constant - factor.matrixLLT().diagonal().array().log().sum() -
+  double log_evidence = tangent.constant - factor.half_log_determinant() -
                         0.5 * (tangent.rr + tangent.against + step.dot(known * step) - 2.0 * step.dot(gradient));
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     if (std::isfinite(prior[k])) log_evidence += log_prior(x[k] + step[k], prior[k]) + 0.5 * std::log(k_two_pi);
@@ -198,11 +182,11 @@ Explained Marginal::explained(const TangentSums& tangent, const SizedDiscrepancy
     H(k, k) += known;
     g[k] -= known * tangent.x[k];
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(H);
+  const Cholesky factor(H);
   Explained explained;
   explained.amplitudes = u.amplitudes;
-  explained.step = count > 0 ? Eigen::VectorXd(factor.solve(g)) : Eigen::VectorXd();
-  explained.covariance = factor.solve(Eigen::MatrixXd::Identity(count, count));
+  explained.step = count > 0 ? factor.solve(g) : Eigen::VectorXd();
+  explained.covariance = factor.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
   const Eigen::VectorXd& step = explained.step;
   double squares = s.rr + tangent.against;
   if (count > 0) {
@@ -211,7 +195,7 @@ Explained Marginal::explained(const TangentSums& tangent, const SizedDiscrepancy
   }
   explained.height = s.constant - 0.5 * (s.rr + tangent.against);
   explained.height_ahead = s.constant - 0.5 * squares;
-  double width = count > 0 ? factor.matrixLLT().diagonal().array().log().sum() : 0.0;
+  double width = count > 0 ? factor.half_log_determinant() : 0.0;
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!std::isfinite(tangent.prior[k])) continue;
     explained.height += log_prior(tangent.x[k], tangent.prior[k]);
@@ -230,7 +214,7 @@ Explained Marginal::explained(const TangentSums& tangent, const SizedDiscrepancy
 
 Amplitudes Marginal::reestimated(const TangentSums& sums, const Explained& now, const SizedDiscrepancy& u,
                                  const Solved& s) const {
-  Eigen::VectorXd unknown = inverse_diagonal(u.A);
+  Eigen::VectorXd unknown = u.A.inverse_diagonal();
   if (now.step.size() > 0) unknown += (s.AB * now.covariance).cwiseProduct(s.AB).rowwise().sum();
   Amplitudes better = now.amplitudes;
   double determined = static_cast<double>(now.step.size());

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "base/decompositions.h"
 #include "calibration/discrepancy.h"
 
 namespace fusee {
@@ -64,7 +65,7 @@ struct SizedDiscrepancy {
   double beta = 0;  ///< of a row's square, 1/rad²
   std::vector<Eigen::Index> columns;
   Eigen::VectorXd size;
-  Eigen::LLT<Eigen::MatrixXd> A;  ///< I + λ DᵀD λ β
+  Cholesky A;  ///< I + λ DᵀD λ β
 };
 
 /// A tangent with noise and discrepancy integrated out: any choice of its columns is weighed by a small matrix.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.h"
 #include "calibration/thresholds.h"
 #include "joint/forward.h"
 
@@ -57,7 +58,7 @@ double share_of(const Evidence& evidence, const Fit& best, const Effect& effect,
   }
   if (own.empty() || !(slope.squaredNorm() > 0)) return 0;
   const Eigen::MatrixXd J = tangent.J(Eigen::all, own);
-  const Eigen::VectorXd left = slope - J * J.colPivHouseholderQr().solve(slope);
+  const Eigen::VectorXd left = slope - J * solved(J.transpose() * J, Eigen::VectorXd(J.transpose() * slope));
   return 1.0 - left.squaredNorm() / slope.squaredNorm();
 }
 

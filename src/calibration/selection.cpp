@@ -40,6 +40,12 @@ struct Look {
   Eigen::VectorXd prior;
 };
 
+/// A set as it explains most where nothing stays without a name.
+struct Plain {
+  double score = 0;
+  Fit fit;
+};
+
 /// A fit that is there, and what is tried beside it.
 struct Addition {
   const Fit* base = nullptr;
@@ -125,15 +131,10 @@ class Selector {
   Explained plainly(const Fit& fit) const;
   double plain_score(const Fit& fit) const;
   std::vector<Fit> singles_plainly();
-  std::vector<Fit> wider_plainly(const std::vector<Fit>& beam);
-  struct Plain {
-    double score = 0;  ///< as if nothing stayed without a name
-    Fit fit;
-  };
-  std::vector<Plain> scored_plainly(std::vector<Fit> fits);
-  std::vector<Fit> likeliest_plainly(std::vector<Fit> fits);
-  void explain_plainly();
+  std::vector<Fit> wider_plainly(const std::vector<const Fit*>& beam);
   std::vector<const Plain*> remembered_plainly() const;
+  std::vector<const Plain*> remember_plainly(std::vector<Fit> fits);
+  void explain_plainly();
   std::vector<Fit> reduced_plainly(const std::vector<const Plain*>& sets, std::set<Key>& reduced);
   bool try_pairs_from_nothing();
   bool exchange_plainly();
@@ -185,7 +186,7 @@ class Selector {
   Selection selection_;
   std::vector<Look> looks_;  ///< of each effect of the catalogue; empty where it cannot be simulated
   std::map<Key, Fit> seen_;
-  std::map<Key, Plain> plainly_;                      ///< sets as they explain most where nothing stays without a name
+  std::map<Key, Plain> plainly_;                      ///< sets that were looked at so
   std::optional<std::vector<Addition>> beside_best_;  ///< until there is another best
   std::vector<Fit> companions_;                       ///< the best with one effect more that may be there
   std::set<Key> tried_;                               ///< sets that were reached beside what has no name
@@ -363,10 +364,10 @@ double Selector::plain_score(const Fit& fit) const {
 }
 
 /// Each of the beam with one effect more, the best first.
-std::vector<Fit> Selector::wider_plainly(const std::vector<Fit>& beam) {
+std::vector<Fit> Selector::wider_plainly(const std::vector<const Fit*>& beam) {
   std::vector<std::vector<Addition>> looks(beam.size());
   workers_.each(beam.size(), [&](const Fitter& fitter, std::size_t i) {
-    looks[i] = promising(fitter, beam[i], plainly(beam[i]).amplitudes, k_thresholds.plain_looks);
+    looks[i] = promising(fitter, *beam[i], plainly(*beam[i]).amplitudes, k_thresholds.plain_looks);
   });
   std::map<Key, Addition> added;
   for (const std::vector<Addition>& look : looks) {
@@ -403,56 +404,54 @@ std::vector<Fit> Selector::singles_plainly() {
   return singles;
 }
 
-/// With their scores as if nothing stayed without a name, the best first.
-std::vector<Selector::Plain> Selector::scored_plainly(std::vector<Fit> fits) {
-  std::vector<Plain> all(fits.size());
-  workers_.each(fits.size(), [&](const Fitter&, std::size_t i) {
-    const double likely = plain_score(fits[i]);
-    all[i] = {likely, std::move(fits[i])};
-  });
-  std::stable_sort(all.begin(), all.end(), [](const Plain& a, const Plain& b) { return a.score > b.score; });
+/// The first few.
+std::vector<const Plain*> likeliest_plainly(std::vector<const Plain*> all) {
+  std::stable_sort(all.begin(), all.end(), [](const Plain* a, const Plain* b) { return a->score > b->score; });
+  all.resize(std::min(all.size(), k_thresholds.plain_beam));
   return all;
 }
 
-/// The likeliest of them; all are remembered.
-std::vector<Fit> Selector::likeliest_plainly(std::vector<Fit> fits) {
-  std::vector<Plain> all = scored_plainly(std::move(fits));
-  std::vector<Fit> best;
-  for (std::size_t i = 0; i < std::min(all.size(), k_thresholds.plain_beam); ++i) best.push_back(all[i].fit);
-  for (Plain& plain : all) {
-    const auto [place, added] = plainly_.try_emplace(key_of(plain.fit.effects), plain);
-    if (!added && plain.score > place->second.score) place->second = std::move(plain);
+std::vector<const Fit*> fits_of(const std::vector<const Plain*>& sets) {
+  std::vector<const Fit*> fits;
+  for (const Plain* plain : sets) fits.push_back(&plain->fit);
+  return fits;
+}
+
+/// Of all sets that were looked at plainly.
+std::vector<const Plain*> Selector::remembered_plainly() const {
+  std::vector<const Plain*> all;
+  for (const auto& [key, plain] : plainly_) all.push_back(&plain);
+  return likeliest_plainly(std::move(all));
+}
+
+/// Of these sets, each where it is likeliest.
+std::vector<const Plain*> Selector::remember_plainly(std::vector<Fit> fits) {
+  std::vector<double> scores(fits.size());
+  workers_.each(fits.size(), [&](const Fitter&, std::size_t i) { scores[i] = plain_score(fits[i]); });
+  std::vector<const Plain*> all;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const auto [place, added] = plainly_.try_emplace(key_of(fits[i].effects));
+    if (added || scores[i] > place->second.score) place->second = {scores[i], std::move(fits[i])};
+    all.push_back(&place->second);
   }
-  return best;
+  return likeliest_plainly(std::move(all));
 }
 
 /// Sets that explain most where nothing stays without a name, until little does. Beside what has none, sets of two do
 /// no better than it where three are needed; of plain squares each takes its part. Such a fit may end on another summit
 /// than one beside what has no name, and its set stays to be tried.
 void Selector::explain_plainly() {
-  std::vector<Fit> beam = likeliest_plainly(singles_plainly());
-  double reached = plain_score(beam.front());
-  while (reached < score_of_names(beam.front()) - k_thresholds.little_unnamed &&
-         beam.front().effects.size() < k_thresholds.most_effects) {
-    std::vector<Fit> wider = wider_plainly(beam);
+  std::vector<const Plain*> beam = remember_plainly(singles_plainly());
+  while (beam.front()->score < score_of_names(beam.front()->fit) - k_thresholds.little_unnamed &&
+         beam.front()->fit.effects.size() < k_thresholds.most_effects) {
+    std::vector<Fit> wider = wider_plainly(fits_of(beam));
     for (const Fit& fit : wider) take_in(fit);
     if (wider.empty()) break;
-    beam = likeliest_plainly(std::move(wider));
-    const double before = std::exchange(reached, plain_score(beam.front()));
-    if (reached <= before) break;
+    const double before = beam.front()->score;
+    beam = remember_plainly(std::move(wider));
+    if (beam.front()->score <= before) break;
   }
-  std::vector<const Fit*> all;
-  for (const Fit& fit : beam) all.push_back(&fit);
-  for (Fit& fit : settled(all)) take_in(std::move(fit));
-}
-
-/// The likeliest of all sets that were looked at plainly.
-std::vector<const Selector::Plain*> Selector::remembered_plainly() const {
-  std::vector<const Plain*> all;
-  for (const auto& [key, plain] : plainly_) all.push_back(&plain);
-  std::stable_sort(all.begin(), all.end(), [](const Plain* a, const Plain* b) { return a->score > b->score; });
-  all.resize(std::min(all.size(), k_thresholds.plain_beam));
-  return all;
+  for (Fit& fit : settled(fits_of(beam))) take_in(std::move(fit));
 }
 
 /// Each of these without each of its members, to the end: those that were not looked at so before.
@@ -490,7 +489,7 @@ bool Selector::try_pairs_from_nothing() {
   workers_.each(pairs.size(), [&](const Fitter& fitter, std::size_t i) { fits[i] = fitter.fit(pairs[i], {}); });
   std::erase_if(fits, [](const Fit& fit) { return !fit.usable; });
   for (const Fit& fit : fits) take_in(fit);
-  likeliest_plainly(std::move(fits));
+  remember_plainly(std::move(fits));
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
@@ -504,16 +503,16 @@ bool Selector::exchange_plainly() {
   std::set<Key> reduced;
   for (int exchanges = 0; exchanges <= k_thresholds.most_exchanges; ++exchanges) {
     const double reached = remembered_plainly().front()->score;
-    const std::vector<Fit> less = reduced_plainly(remembered_plainly(), reduced);
-    std::vector<Fit> instead = wider_plainly(less);
-    instead.insert(instead.end(), less.begin(), less.end());
+    std::vector<Fit> instead = reduced_plainly(remembered_plainly(), reduced);
+    std::vector<const Fit*> less;
+    for (const Fit& fit : instead) less.push_back(&fit);
+    std::vector<Fit> wider = wider_plainly(less);
+    instead.insert(instead.end(), wider.begin(), wider.end());
     for (const Fit& fit : instead) take_in(fit);
-    likeliest_plainly(std::move(instead));
+    remember_plainly(std::move(instead));
     if (!(remembered_plainly().front()->score > reached + k_thresholds.better)) break;
   }
-  std::vector<const Fit*> likeliest;
-  for (const Plain* plain : remembered_plainly()) likeliest.push_back(&plain->fit);
-  for (Fit& fit : settled(likeliest)) keep(std::move(fit));
+  for (Fit& fit : settled(fits_of(remembered_plainly()))) keep(std::move(fit));
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
@@ -947,13 +946,13 @@ std::optional<std::size_t> Selector::shares_with(const Fit& wider) const {
   const std::vector<Eigen::Index> own = places_of(wider, *wider.effects.back());
   const double least = k_thresholds.least_shared * evidence_.floor;
   if (own.empty() || rms_by(tangent.J(Eigen::all, own), C(own, own)) < least) return {};
-  const Eigen::MatrixXd known = C(own, own).inverse();
   std::optional<std::size_t> most;
   double most_shared = least;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     const std::vector<Eigen::Index> others = places_of(wider, *best.effects[i]);
     if (others.empty()) continue;
-    const double shared = rms_by(tangent.J(Eigen::all, others), C(others, own) * known * C(own, others));
+    const double shared =
+        rms_by(tangent.J(Eigen::all, others), C(others, own) * solved(C(own, own), Eigen::MatrixXd(C(own, others))));
     if (shared > most_shared) most_shared = shared, most = i;
   }
   return most;

@@ -32,21 +32,19 @@ class Explanation {
         M(i, j) = sizes_[i] * sizes_[j] * (known.runs(a, b) + known.readings(a, b)) + (i == j ? 1.0 : 0.0);
       }
     }
-    factor_.compute(M);
-    log_determinant_ = 2 * factor_.matrixL().toDenseMatrix().diagonal().array().log().sum();
+    factor_ = Cholesky(M);
   }
 
   double evidence(const Eigen::VectorXd& z) const {
     Eigen::VectorXd seen(sizes_.size());
     for (Eigen::Index i = 0; i < seen.size(); ++i) seen[i] = sizes_[i] * z[columns_[static_cast<std::size_t>(i)]];
-    return 0.5 * seen.dot(factor_.solve(seen)) - 0.5 * log_determinant_;
+    return 0.5 * seen.dot(factor_.solve(seen)) - factor_.half_log_determinant();
   }
 
  private:
   std::vector<Eigen::Index> columns_;
   Eigen::VectorXd sizes_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  double log_determinant_ = 0;
+  Cholesky factor_;
 };
 
 std::vector<Eigen::Index> span(Eigen::Index from, Eigen::Index to) {

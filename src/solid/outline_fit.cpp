@@ -113,8 +113,8 @@ double tukey_weight(double gap, double end) {
 /// Gauss and Newton's step.
 Eigen::Vector3d step_of(const Gaps& gaps, const Eigen::VectorXd& weights) {
   const Eigen::Matrix3d normal = gaps.slope.transpose() * weights.asDiagonal() * gaps.slope;
-  const Eigen::Vector3d pull = gaps.slope.transpose() * weights.asDiagonal() * gaps.size;
-  return -normal.ldlt().solve(pull);
+  const Eigen::VectorXd pull = gaps.slope.transpose() * weights.asDiagonal() * gaps.size;
+  return -solved(normal, pull);
 }
 
 /// The same for the shift alone.
