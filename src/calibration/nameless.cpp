@@ -8,6 +8,7 @@
 #include <set>
 
 #include "calibration/marginal.h"
+#include "calibration/other_geometry.h"
 #include "calibration/other_loads.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
@@ -123,7 +124,8 @@ class Shapes {
       add_thresholds();
     }
     if (varies(facts_, &RowFacts::speed, 0.1))
-      add_places([](const RowFacts& r) { return r.speed * r.direction; }, Dependence::speed, "of a loop that grows "
+      add_places([](const RowFacts& r) { return r.speed * r.direction; }, Dependence::speed,
+                 "of a loop that grows "
                  "with speed");
     add_times();
     add_drifts(&RowFacts::session, "time");
@@ -182,8 +184,7 @@ class Shapes {
           centred);
       add(dependence, 1, "a jump" + at, {[=](const RowFacts& r) { return r.place > place ? times(r) : 0.0; }}, centred);
       for (const double width : k_widths) {
-        add(dependence, 2, "a lump" + at,
-            {[=](const RowFacts& r) {
+        add(dependence, 2, "a lump" + at, {[=](const RowFacts& r) {
               const double away = (r.place - place) / width;
               return times(r) * std::exp(-0.5 * away * away);
             }},
@@ -197,7 +198,8 @@ class Shapes {
     for (const double way : k_shape_ways) {
       const auto fading = [=](const RowFacts& r) { return times(r) * std::exp(-r.since / way); };
       const auto ending = [=](const RowFacts& r) { return times(r) * std::max(0.0, 1.0 - r.since / way); };
-      const std::string words = "what dies away over " + rounded(100 * way, 2) + " % of the way behind a reversal" + how;
+      const std::string words =
+          "what dies away over " + rounded(100 * way, 2) + " % of the way behind a reversal" + how;
       add(Dependence::reversal, 1, words,
           {[=](const RowFacts& r) { return r.direction > 0 ? fading(r) : 0.0; },
            [=](const RowFacts& r) { return r.direction < 0 ? fading(r) : 0.0; }},
@@ -421,6 +423,20 @@ double least_ahead(const Effect& effect, const std::vector<std::string>& group, 
   return group.size() == 1 ? k_thresholds.ahead_of_nameless : k_thresholds.ahead_in_a_group;
 }
 
+/// Of names that are ahead of all else: `with`, the score with all of them.
+void look_at_geometry(const Evidence& evidence, Workers& workers, const Selection& selection, double with,
+                      std::vector<Nameless>& rivals) {
+  std::vector<bool> asked;
+  for (const Nameless& rival : rivals) asked.push_back(rival.behind >= k_thresholds.ahead_of_nameless);
+  const std::vector<double> scores = under_other_geometry(evidence, workers, selection, asked);
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    if (!(with - scores[i] < rivals[i].behind)) continue;
+    rivals[i].behind = with - scores[i];
+    rivals[i].words = "tendons' paths that are longer or shorter by a smooth curve of the joint's angle";
+    rivals[i].separating_run = "measure pins, lever and pulley with a caliper";
+  }
+}
+
 }  // namespace
 
 std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection) {
@@ -446,9 +462,8 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
       continue;
     }
     const Reading& instead = readings[i + 1];
-    rivals[i].behind = readings.front().score - instead.score;
+    rivals[i].behind = readings.front().score - std::max(instead.score, loads[i].score);
     if (loads[i].score > instead.score) {
-      rivals[i].behind = readings.front().score - loads[i].score;
       rivals[i].words = "loads of " + rounded(loads[i].times, 2) + " times what was logged";
       rivals[i].separating_run = "hang a known weight where the load acts and compare it with what is logged";
       continue;
@@ -460,6 +475,7 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
       break;
     }
   }
+  look_at_geometry(evidence, workers, selection, readings.front().score, rivals);
   return rivals;
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "fusee/transmission/load.h"
 #include "joint/outline_error.h"
+#include "joint/upper_span_table.h"
 
 namespace fusee {
 namespace {
@@ -81,8 +83,8 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
 }
 
 GeometryError geometry_of(const Imperfections& at) {
-  return {at.pulley,       at.pins.left,  at.pins.right, at.pins.radius,
-          at.joint.length, at.joint.drum, at.joint.end1, at.joint.end2};
+  return {at.pulley,     at.pins.left,  at.pins.right, at.pins.radius, at.joint.length,
+          at.joint.drum, at.joint.end1, at.joint.end2, at.joint.path1, at.joint.path2};
 }
 
 /// Pulleys made for `declared` and imperfect themselves, seen from pins as mounted.
@@ -130,6 +132,9 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       return paths;
     };
   }
+  const std::array<PathError, 2> longer = {at.joint.path1, at.joint.path2};
+  if (longer != std::array<PathError, 2>{})
+    model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most, longer);
   return model;
 }
 

@@ -18,6 +18,8 @@ struct GeometryError {
   DrumError drum;
   AttachmentError end1;
   AttachmentError end2;
+  PathError path1;
+  PathError path2;
 
   bool operator==(const GeometryError&) const = default;
 };

@@ -39,8 +39,17 @@ struct Knot {
   End length, m, normal;
 };
 
-Knot knot_at(const PinPlace& place, double theta, double h) {
-  const UpperSpan span = upper_span(place, theta);
+/// The moment arm is what the path loses by an angle.
+UpperSpan made_longer(UpperSpan span, double theta, const PathError& by) {
+  span.length += (by.square + by.cube * theta) * theta * theta;
+  span.m -= (2.0 * by.square + 3.0 * by.cube * theta) * theta;
+  span.dm -= 2.0 * by.square + 6.0 * by.cube * theta;
+  span.d2m -= 6.0 * by.cube;
+  return span;
+}
+
+Knot knot_at(const PinPlace& place, double theta, double h, const PathError& longer) {
+  const UpperSpan span = made_longer(upper_span(place, theta), theta, longer);
   return {{span.length, -h * span.m, -h * h * span.dm},
           {span.m, h * span.dm, h * h * span.d2m},
           {span.normal, h * span.dnormal, h * h * span.d2normal}};
@@ -50,7 +59,7 @@ Knot knot_at(const PinPlace& place, double theta, double h) {
 
 // No piece reaches over the place where the tendon leaves the drum, at which its arm has a kink: below it the span is a
 // straight line of θ, or, on a drum off the axis, has pieces of its own.
-UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most) {
+UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most, const PathError& longer) {
   if (const auto leaves = lift_off(place); leaves && *leaves > least) {
     // The free branch begins a hair beyond, with slopes of its own.
     constexpr double k_hair = 1e-12;
@@ -58,21 +67,22 @@ UpperSpanTable::UpperSpanTable(const PinPlace& place, double least, double most)
     on_drum_ = upper_span(place, least);
     on_drum_from_ = least;
     wound_up_ = on_drum_.on_drum + on_drum_.normal + least;
-    if (place.drum_off != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair);
+    if (place.drum_off != 0) over_drum_ = pieces(place, least, on_drum_until_ - k_hair, longer);
     least = *leaves + k_hair;
     if (least >= most) return;
   }
-  free_ = pieces(place, least, most);
+  free_ = pieces(place, least, most, longer);
 }
 
-UpperSpanTable::Pieces UpperSpanTable::pieces(const PinPlace& place, double least, double most) {
+UpperSpanTable::Pieces UpperSpanTable::pieces(const PinPlace& place, double least, double most,
+                                              const PathError& longer) {
   Pieces all;
   all.least = least;
   all.step = (most - least) / k_pieces;
   all.curves.reserve(k_pieces);
-  Knot from = knot_at(place, least, all.step);
+  Knot from = knot_at(place, least, all.step, longer);
   for (std::size_t i = 1; i <= k_pieces; ++i) {
-    const Knot to = knot_at(place, least + all.step * static_cast<double>(i), all.step);
+    const Knot to = knot_at(place, least + all.step * static_cast<double>(i), all.step, longer);
     all.curves.push_back({between(from.length, to.length), between(from.m, to.m), between(from.normal, to.normal)});
     from = to;
   }

@@ -227,6 +227,17 @@ TEST(Selection, ACaliperSplitsAGroup) {
   EXPECT_THAT(all_groups(with), Not(Contains("radius_offset")));
 }
 
+// A curve beside the readings does not explain what geometry does under load: names of other geometry would.
+TEST(Selection, GeometryWithoutANameIsNotNamedForSure) {
+  const DeclaredMechanism declared = bench_joint();
+  Imperfections truth;
+  truth.joint.path1 = {3.0, -1.0};
+  truth.joint.path2 = {1.0, 2.0};
+  const Calibration found = calibrate(declared, logged(declared, truth, k_full));
+  EXPECT_FALSE(found.effects.empty()) << "something of it may be a name";
+  for (const FoundEffect& effect : found.effects) EXPECT_THAT(effect.group, Contains("nameless")) << found.summary;
+}
+
 TEST(Selection, AWalkingZeroIsNoEffectOfTheCatalogue) {
   const DeclaredMechanism declared = bench_joint();
   Measurement measurement = logged(declared, {}, k_full);

@@ -100,10 +100,10 @@ TEST_F(Concluded, WhatIsFarAheadOfEverythingWithoutANameIs) {
 TEST_F(Concluded, OneOfSeveralHasToBeFurtherAhead) {
   leave(1);
   calibration.effects = {ahead_by(k_thresholds.ahead_in_a_group - 1), ahead_by(k_thresholds.ahead_in_a_group + 1)};
-  for (FoundEffect& effect : calibration.effects) effect.group.emplace_back("slack");
+  for (FoundEffect& effect : calibration.effects) effect.group.emplace_back("joint_friction");
   EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
-  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "slack", "nameless"));
-  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "slack"));
+  EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "joint_friction", "nameless"));
+  EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash", "joint_friction"));
 }
 
 TEST_F(Concluded, WhatIsToldByWarmthOrByItsTimeHasToBeFurtherAhead) {
@@ -115,6 +115,23 @@ TEST_F(Concluded, WhatIsToldByWarmthOrByItsTimeHasToBeFurtherAhead) {
       calibration.effects.front().name = calibration.effects.front().group.front() = name;
       EXPECT_EQ(verdict(), more < 0 ? CalibrationVerdict::confounded : CalibrationVerdict::explained) << name;
       EXPECT_EQ(calibration.effects.front().group.size(), more < 0 ? 2u : 1u) << name;
+    }
+  }
+}
+
+TEST_F(Concluded, WhatMayBeSlackHasToBeFurtherAheadAloneOrInAGroup) {
+  const Effect& play = *find_effect("slack", JointKind::tendons);
+  selection.catalogue = {&play};
+  const std::vector<std::vector<std::string>> groups = {{"slack"}, {"backlash", "slack"}};
+  for (const std::vector<std::string>& group : groups) {
+    for (const double more : {-1.0, 1.0}) {
+      leave(1);
+      calibration = {};
+      calibration.effects = {ahead_by(k_thresholds.ahead_with_play + more)};
+      calibration.effects.front().name = group.front();
+      calibration.effects.front().group = group;
+      verdict();
+      EXPECT_EQ(calibration.effects.front().group.size(), group.size() + (more < 0 ? 1 : 0)) << group.front();
     }
   }
 }

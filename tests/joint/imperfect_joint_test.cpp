@@ -1,6 +1,7 @@
 // What imperfections of a joint with tendons do to what its sensor shows.
 #include <gtest/gtest.h>
 
+#include "fusee/joint/simulate.h"
 #include "joint/creep_memory.h"
 #include "joint/forward.h"
 #include "support/mechanisms.h"
@@ -62,6 +63,51 @@ TEST(Pins, BothMovedAreThoseOfAnotherFile) {
   moved.pulley.EF -= 0.5;
   Forward forward(moved, log, mechanism);
   EXPECT_LT(rms(predict(mechanism, both, log)[0], forward({})[0]), 1e-9);
+}
+
+/// Longer by a wander of the joint's centre, or whatever else has no name.
+Imperfections wandering() {
+  Imperfections at;
+  at.joint.path1 = {2.5, -0.8};
+  at.joint.path2 = {-1.5, 0.6};
+  return at;
+}
+
+TEST(Paths, OfTheMirroredJointAreMirrored) {
+  const Mechanism mechanism = testing::linear_wrist();
+  const BenchLog log{swept(mechanism, 6)};
+  const Imperfections at = wandering();
+  Imperfections other = at;
+  std::swap(other.joint.path1, other.joint.path2);
+  const std::vector<double> found = predict(mechanism, at, log)[0];
+  const std::vector<double> seen = predict(testing::mirrored(mechanism), other, mirrored(log))[0];
+  EXPECT_GT(rms(found, predict(mechanism, {}, log)[0]), radians(0.05));
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], -seen[i], 1e-7) << i;
+}
+
+// By the virtual work of both tensions over a little way, the lengths differenced.
+TEST(Paths, PullOnTheJointByTheLengthThatTheyLose) {
+  Mechanism mechanism = testing::linear_wrist();
+  mechanism.tendon.pretension = 40;
+  const Imperfections at = wandering();
+  const auto length = [&](Side side, double theta) {
+    const double image = side == Side::left ? -theta : theta;
+    const PathError& longer = side == Side::left ? at.joint.path1 : at.joint.path2;
+    return upper_span(pin_place(mechanism, side, mechanism.seen_pitch_radius()), image).length +
+           longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
+  };
+  constexpr double way = 1e-5;
+  double most = 0;
+  const auto states = simulate(mechanism, at, {swept(mechanism, 0)});
+  for (const JointState& state : states.front()) {
+    const auto work = [&](Side side, double tension) {
+      return tension * (length(side, state.theta + way) - length(side, state.theta - way)) / (2 * way);
+    };
+    const double left = work(Side::left, state.t1.upper), right = work(Side::right, state.t2.upper);
+    EXPECT_NEAR(left + right, 0.0, 1e-6 * std::abs(left)) << state.theta;
+    most = std::max(most, std::abs(state.t1.upper - state.t2.upper));
+  }
+  EXPECT_GT(most, 1.0) << "N: both arms are not alike";
 }
 
 TEST(Sheath, ItsErrorsAreThoseOfAnotherFile) {

@@ -85,10 +85,10 @@ struct PinPlaceError {
 struct PinError {
   PinPlaceError left;
   PinPlaceError right;
-  double radius = 0;    ///< added to both pins' radius, mm
-  double friction = 0;  ///< added to the capstan coefficient, of idlers to that of their bearings
+  double radius = 0;            ///< added to both pins' radius, mm
+  double friction = 0;          ///< added to the capstan coefficient, of idlers to that of their bearings
   double bearing_friction = 0;  ///< added to the coefficient of idlers' bearings
-  double give = 0;      ///< each pin moves along the tendon's force on it, mm/N
+  double give = 0;              ///< each pin moves along the tendon's force on it, mm/N
 
   bool operator==(const PinError&) const = default;
 };
@@ -118,12 +118,23 @@ struct AttachmentError {
   bool operator==(const AttachmentError&) const = default;
 };
 
+/// A tendon's path from its pin to the joint beside all that is declared: longer by square · θ² + cube · θ³, θ to its
+/// own side. Geometry that no effect has a name for, as a flexure whose centre wanders.
+struct PathError {
+  double square = 0;  ///< mm/rad²
+  double cube = 0;    ///< mm/rad³
+
+  bool operator==(const PathError&) const = default;
+};
+
 struct JointError {
   double length = 0;    ///< added to OC, mm
   double friction = 0;  ///< dry friction of the bearing, N·mm
   DrumError drum;
   AttachmentError end1;
   AttachmentError end2;
+  PathError path1;
+  PathError path2;
   WeightError weight;
   double mean_load = 0;  ///< tip force beside the declared one, under which the joint is to follow its law, N
 
