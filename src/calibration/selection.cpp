@@ -20,10 +20,11 @@
 // against every effect in its place; and once that gains nothing either, one or two others are tried in the place of
 // none, one or two members: a slip and an offset imitated slack and a wave and a lever's length a profile, and no
 // single exchange that was looked at led from one to the other. Where something stays unexplained all the same, no look
-// is trusted any more: every effect is fitted beside the best. Then the likeliest are fitted to the end, and all sets
-// ever seen are weighed together, each by its likeliest fit: a member stands if it, or what stands in its place
-// elsewhere, is in nearly all of the weight. Where names that leave nothing are as likely as what has none, they take
-// its place and say so. What may be there unasked joins its group.
+// is trusted any more: every effect is fitted beside the best, the likeliest single one with each other from nothing,
+// and the sets that explain most by plain squares with one member out or in its place changed. Then the likeliest are
+// fitted to the end, and all sets ever seen are weighed together, each by its likeliest fit: a member stands if it, or
+// what stands in its place elsewhere, is in nearly all of the weight. Where names that leave nothing are as likely as
+// what has none, they take its place and say so. What may be there unasked joins its group.
 
 namespace fusee {
 namespace {
@@ -404,7 +405,7 @@ std::vector<Fit> Selector::singles_plainly() {
   return singles;
 }
 
-/// The first few.
+/// The first few of them by their scores.
 std::vector<const Plain*> likeliest_plainly(std::vector<const Plain*> all) {
   std::stable_sort(all.begin(), all.end(), [](const Plain* a, const Plain* b) { return a->score > b->score; });
   all.resize(std::min(all.size(), k_thresholds.plain_beam));
