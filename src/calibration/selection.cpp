@@ -135,6 +135,7 @@ class Selector {
   std::vector<Fit> wider_plainly(const std::vector<const Fit*>& beam);
   std::vector<const Plain*> remembered_plainly() const;
   std::vector<const Plain*> remember_plainly(std::vector<Fit> fits);
+  std::vector<const Plain*> take_in_plainly(std::vector<Fit> fits);
   void explain_plainly();
   std::vector<Fit> reduced_plainly(const std::vector<const Plain*>& sets, std::set<Key>& reduced);
   bool try_pairs_from_nothing();
@@ -438,6 +439,12 @@ std::vector<const Plain*> Selector::remember_plainly(std::vector<Fit> fits) {
   return likeliest_plainly(std::move(all));
 }
 
+/// The same of sets that count beside what has no name too.
+std::vector<const Plain*> Selector::take_in_plainly(std::vector<Fit> fits) {
+  for (const Fit& fit : fits) take_in(fit);
+  return remember_plainly(std::move(fits));
+}
+
 /// Sets that explain most where nothing stays without a name, until little does. Beside what has none, sets of two do
 /// no better than it where three are needed; of plain squares each takes its part. Such a fit may end on another summit
 /// than one beside what has no name, and its set stays to be tried.
@@ -446,10 +453,9 @@ void Selector::explain_plainly() {
   while (beam.front()->score < score_of_names(beam.front()->fit) - k_thresholds.little_unnamed &&
          beam.front()->fit.effects.size() < k_thresholds.most_effects) {
     std::vector<Fit> wider = wider_plainly(fits_of(beam));
-    for (const Fit& fit : wider) take_in(fit);
     if (wider.empty()) break;
     const double before = beam.front()->score;
-    beam = remember_plainly(std::move(wider));
+    beam = take_in_plainly(std::move(wider));
     if (beam.front()->score <= before) break;
   }
   for (Fit& fit : settled(fits_of(beam))) take_in(std::move(fit));
@@ -489,8 +495,7 @@ bool Selector::try_pairs_from_nothing() {
   std::vector<Fit> fits(pairs.size());
   workers_.each(pairs.size(), [&](const Fitter& fitter, std::size_t i) { fits[i] = fitter.fit(pairs[i], {}); });
   std::erase_if(fits, [](const Fit& fit) { return !fit.usable; });
-  for (const Fit& fit : fits) take_in(fit);
-  remember_plainly(std::move(fits));
+  take_in_plainly(std::move(fits));
   return score(*ranked().front()) > before + k_thresholds.better;
 }
 
@@ -509,8 +514,7 @@ bool Selector::exchange_plainly() {
     for (const Fit& fit : instead) less.push_back(&fit);
     std::vector<Fit> wider = wider_plainly(less);
     instead.insert(instead.end(), wider.begin(), wider.end());
-    for (const Fit& fit : instead) take_in(fit);
-    remember_plainly(std::move(instead));
+    take_in_plainly(std::move(instead));
     if (!(remembered_plainly().front()->score > reached + k_thresholds.better)) break;
   }
   for (Fit& fit : settled(fits_of(remembered_plainly()))) keep(std::move(fit));

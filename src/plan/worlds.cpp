@@ -33,18 +33,20 @@ class Explanation {
       }
     }
     factor_ = Cholesky(M);
+    half_log_determinant_ = factor_.half_log_determinant();
   }
 
   double evidence(const Eigen::VectorXd& z) const {
     Eigen::VectorXd seen(sizes_.size());
     for (Eigen::Index i = 0; i < seen.size(); ++i) seen[i] = sizes_[i] * z[columns_[static_cast<std::size_t>(i)]];
-    return 0.5 * seen.dot(factor_.solve(seen)) - factor_.half_log_determinant();
+    return 0.5 * seen.dot(factor_.solve(seen)) - half_log_determinant_;
   }
 
  private:
   std::vector<Eigen::Index> columns_;
   Eigen::VectorXd sizes_;
   Cholesky factor_;
+  double half_log_determinant_ = 0;
 };
 
 std::vector<Eigen::Index> span(Eigen::Index from, Eigen::Index to) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fusee/transmission/transmission.h"
 #include "rig/fault_shapes.h"
 #include "rig/truths.h"
 #include "support/mechanisms.h"
@@ -82,6 +83,14 @@ inline Hidden with(const std::string& fault, double size, const MadeJoint& joint
 
 inline Log run_of(const Hidden& hidden, const RunPlan& plan, const MadeJoint& joint) {
   return log_runs(joint, hidden, {plan}, silent()).front();
+}
+
+/// The angle that the law has for every row's α and what the shaft is off by there.
+template <typename Off>
+void expect_shaft_off(const Log& log, Off off) {
+  const Transmission law(stiff().declared);
+  for (std::size_t row = 1; row < log.size(); ++row)
+    EXPECT_NEAR(log[row].theta, law.theta(log[row].alpha + off(row)), 1e-5) << row;
 }
 
 inline std::vector<Log> short_logs_of(const Hidden& hidden, const std::vector<RunPlan>& plans) {

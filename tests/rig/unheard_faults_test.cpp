@@ -15,14 +15,6 @@
 namespace fusee::rig {
 namespace {
 
-/// The angle that the law has for every row's α and what the shaft is off by there.
-template <typename Off>
-void expect_shaft_off(const Log& log, Off off) {
-  const Transmission law(stiff().declared);
-  for (std::size_t row = 1; row < log.size(); ++row)
-    EXPECT_NEAR(log[row].theta, law.theta(log[row].alpha + off(row)), 1e-5) << row;
-}
-
 /// Both pins 37 deg off the way down.
 Moment pulled_down(double theta) {
   Moment now;

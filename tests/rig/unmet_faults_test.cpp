@@ -19,14 +19,6 @@ namespace {
 /// Of what comes within a time constant, after so many of them.
 double come(double constants) { return 1.0 - std::exp(-constants); }
 
-/// The angle that the law has for every row's α and what the shaft is off by there.
-template <typename Off>
-void expect_shaft_off(const Log& log, Off off) {
-  const Transmission law(stiff().declared);
-  for (std::size_t row = 1; row < log.size(); ++row)
-    EXPECT_NEAR(log[row].theta, law.theta(log[row].alpha + off(row)), 1e-5) << row;
-}
-
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
 TEST(Unmet, commands_come_in_beats) {
