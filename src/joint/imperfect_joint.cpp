@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "fusee/transmission/load.h"
 #include "joint/outline_error.h"
-#include "joint/upper_span_table.h"
 
 namespace fusee {
 namespace {
@@ -79,7 +77,7 @@ MountedMechanism mounted(const Mechanism& declared, const Imperfections& at) {
   mechanism.tendon.modulus /= std::max(k_least_stiffness, 1.0 + at.tendon.stretch);
   mechanism.tendon.pretension =
       at.tendon.pretension_share() * std::max(0.0, mechanism.tendon.pretension + at.tendon.pretension);
-  return {std::move(mechanism)};
+  return {std::move(mechanism), {at.joint.path1, at.joint.path2}};
 }
 
 GeometryError geometry_of(const Imperfections& at) {
@@ -132,9 +130,6 @@ JointModel imperfect_geometry(const MadePulleys& made, const Mechanism& declared
       return paths;
     };
   }
-  const std::array<PathError, 2> longer = {at.joint.path1, at.joint.path2};
-  if (longer != std::array<PathError, 2>{})
-    model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most, longer);
   return model;
 }
 

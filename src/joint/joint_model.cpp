@@ -137,7 +137,7 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   set_statics(model, in);
   model.theta_least = last_with_arms(model.pins, 0.0, mounted.joint.theta_min - k_reach);
   model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
-  model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most);
+  model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most, in.longer);
   return model;
 }
 

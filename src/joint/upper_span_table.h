@@ -54,7 +54,7 @@ class UpperSpanTable {
 /// Of the left tendon's image and of the right one.
 struct UpperSpans {
   UpperSpans(const std::array<PinPlace, 2>& pins, double theta_least, double theta_most,
-             const std::array<PathError, 2>& longer = {})
+             const std::array<PathError, 2>& longer)
       : left(pins[0], -theta_most, -theta_least, longer[0]), right(pins[1], theta_least, theta_most, longer[1]) {}
   UpperSpanTable left, right;
 };

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 
+#include "fusee/mechanism/imperfections.h"
 #include "fusee/mechanism/mechanism.h"
 #include "fusee/transmission/guide_friction.h"
 #include "fusee/transmission/transmission.h"
@@ -19,6 +20,7 @@ namespace fusee {
 /// declared one.
 struct MountedMechanism {
   Mechanism mechanism;
+  std::array<PathError, 2> longer = {};  ///< left, right
 };
 
 /// A tendon below its pin, in its right-hand image (α counts as winding in). mm, rad.
