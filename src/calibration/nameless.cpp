@@ -428,7 +428,8 @@ void look_at_geometry(const Evidence& evidence, Workers& workers, const Selectio
                       std::vector<Nameless>& rivals) {
   std::vector<bool> asked;
   for (const Nameless& rival : rivals) asked.push_back(rival.behind >= k_thresholds.ahead_of_nameless);
-  const std::vector<double> scores = under_other_geometry(evidence, workers, selection, asked);
+  const std::vector<double> scores =
+      under_other_geometry(evidence, workers, selection, asked, with - k_thresholds.ahead_of_nameless);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     if (!(with - scores[i] < rivals[i].behind)) continue;
     rivals[i].behind = with - scores[i];
