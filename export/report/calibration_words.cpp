@@ -62,12 +62,14 @@ std::string audit_words(const FoundEffect& effect) {
 std::string nameless_words(const FoundEffect& effect) {
   if (effect.group.empty() || effect.group.back() != k_nameless) return "";
   const Nameless& rival = effect.nameless;
+  const std::string run = rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".";
+  if (!rival.doubt.empty()) return "Or something without a name that does the same: " + rival.doubt + run;
   const std::string words =
       "Or something without a name that does the same: " + (rival.words.empty() ? "a smooth curve" : rival.words) +
       " in its place, with which the data are " +
       (rival.behind < 0 ? rounded(-rival.behind, 2) + " nats likelier"
                         : "only " + rounded(rival.behind, 2) + " nats less likely");
-  return words + (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
+  return words + run;
 }
 
 std::string beside_words(const FoundEffect& effect, const std::string& load_unit) {

@@ -4,6 +4,7 @@
 #include "calibration/audit.h"
 #include "calibration/catalogue.h"
 #include "calibration/delivered.h"
+#include "calibration/evenness.h"
 #include "calibration/expected_sizes.h"
 #include "calibration/explanation.h"
 #include "calibration/nameless.h"
@@ -180,7 +181,11 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   if (options.audit) {
     const std::vector<Nameless> nameless = nameless_rivals(evidence, workers, selection);
-    for (std::size_t i = 0; i < nameless.size(); ++i) calibration.effects[i].nameless = nameless[i];
+    const std::vector<Evenness> even = evenness(evidence, workers, selection);
+    for (std::size_t i = 0; i < nameless.size(); ++i) {
+      calibration.effects[i].nameless = nameless[i];
+      calibration.effects[i].evenness = even[i];
+    }
   }
   calibration.null_combinations = null_combinations(evidence, selection);
   calibration.next_runs = next_runs(evidence, selection);

@@ -438,6 +438,23 @@ void look_at_geometry(const Evidence& evidence, Workers& workers, const Selectio
   }
 }
 
+/// Why the effect may be of what stays without a name, however far it is ahead; "": it may not.
+std::string why_of_the_rest(const Evenness& even) {
+  if (even.uneven > k_thresholds.most_uneven)
+    return "it would be of another size " + even.words + ", which makes the data " + rounded(even.uneven, 2) +
+           " nats likelier, and something stays unexplained beside it";
+  if (even.part < k_thresholds.least_part)
+    return "it does " + rounded(even.part, 2) + " times as much as what stays unexplained beside it";
+  return "";
+}
+
+/// Something stays beside the effect.
+void doubt_beside_rest(FoundEffect& effect) {
+  effect.nameless.doubt = why_of_the_rest(effect.evenness);
+  if (effect.evenness.uneven > k_thresholds.most_uneven)
+    effect.nameless.separating_run = effect.evenness.separating_run;
+}
+
 }  // namespace
 
 std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers, const Selection& selection) {
@@ -488,7 +505,9 @@ void take_nameless(const Left& left, const Selection& selection, std::vector<Fou
         selection.groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(found));
     const double least =
         left.anything ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
-    if (is_doubtful || effects[i].nameless.behind < least) group.emplace_back(k_nameless);
+    if (left.anything && effects[i].nameless.behind >= least) doubt_beside_rest(effects[i]);
+    if (is_doubtful || effects[i].nameless.behind < least || !effects[i].nameless.doubt.empty())
+      group.emplace_back(k_nameless);
   }
 }
 

@@ -46,6 +46,16 @@ struct Nameless {
   double behind = std::numeric_limits<double>::infinity();
   std::string words;           ///< what it would be: "a wave of 5.2 times a turn of the motor"; "" where nothing is
   std::string separating_run;  ///< what would tell it from the effect
+  std::string doubt;           ///< why it may be that whatever the data say of it in the effect's place, or ""
+};
+
+/// Whether an effect is one thing: as large in every run, either way, everywhere and under any load.
+struct Evenness {
+  double uneven = 0;           ///< nats by which the data are likelier where it may be of another size …
+  std::string words;           ///< … "from run to run"
+  std::string separating_run;  ///< what would show whether it is
+  /// What it does, rms, by what is left beside all that was found; infinite: not asked.
+  double part = std::numeric_limits<double>::infinity();
 };
 
 /// A member of a group that may be there beside the effect, with the numbers that are handed over.
@@ -68,6 +78,7 @@ struct FoundEffect {
   double evidence = 0;  ///< log of how many times less likely the data are without it
   Audit audit;
   Nameless nameless;
+  Evenness evenness;
   CorrectableBy correctable_by = CorrectableBy::nothing;
 };
 
