@@ -39,56 +39,76 @@ double lag_one_correlation(const Evidence& evidence, const Fit& fit) {
 
 namespace {
 
-/// Sums of squares of a residual about the means of its strokes.
+using Alike = std::tuple<std::size_t, int, std::size_t>;  ///< run, direction, Block::alike
+
+/// A number of each stroke, a mean or a tilt, and the residual about what it describes.
 struct Within {
-  std::map<std::tuple<std::size_t, int, std::size_t>, std::vector<double>> means;  ///< run, direction, Block::alike
+  std::map<Alike, std::vector<double>> numbers;
   double squares = 0;
   double products = 0;  ///< of neighbours
   double rows = 0;
   double strokes = 0;
   double inverse_rows = 0;  ///< Σ 1 / rows of a stroke
 
-  /// Each stroke's mean has taken one.
-  double freedom() const { return rows - strokes; }
+  /// `about`: what is left of a stroke, of whose freedom `taken` is gone.
+  void add(const Alike& of, double number, const Eigen::VectorXd& about, double taken) {
+    numbers[of].push_back(number);
+    squares += about.squaredNorm();
+    products += about.head(about.size() - 1).dot(about.tail(about.size() - 1));
+    const auto count = static_cast<double>(about.size());
+    rows += count - taken;
+    strokes += 1;
+    inverse_rows += 1.0 / count;
+  }
+
+  double freedom() const { return rows; }
+  double mean_square() const { return squares / freedom(); }
+  /// Of a number of a stroke, by noise alone.
+  double of_noise() const {
+    const double colour = squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
+    return mean_square() * (1.0 + colour) / (1.0 - colour) * inverse_rows / strokes;
+  }
 };
 
-Within within_strokes(const Evidence& evidence, const Fit& fit) {
-  Within sums;
-  for (const Block& block : evidence.blocks) {
-    double mean = 0;
-    for (const std::size_t row : block.rows)
-      mean += fit.residual[static_cast<Eigen::Index>(row)] / static_cast<double>(block.rows.size());
-    const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
-    sums.means[{block.run, direction, block.alike}].push_back(mean);
-    double last = 0;
-    for (const std::size_t row : block.rows) {
-      const double deviation = fit.residual[static_cast<Eigen::Index>(row)] - mean;
-      sums.squares += deviation * deviation;
-      sums.products += deviation * last;
-      last = deviation;
-    }
-    sums.rows += static_cast<double>(block.rows.size());
-    sums.strokes += 1;
-    sums.inverse_rows += 1.0 / static_cast<double>(block.rows.size());
-  }
-  return sums;
-}
-
-struct VarianceOfMeans {
+struct VarianceOfNumbers {
   double variance = 0;
   double freedom = 0;
 };
 
-/// Mean square of means about those that are alike; zero where no stroke has a like.
-VarianceOfMeans variance_of_means(const Within& sums) {
+/// Mean square of numbers about those that are alike; zero where no stroke has a like.
+VarianceOfNumbers variance_of_numbers(const Within& sums) {
   double between = 0;
   double freedom = 0;
-  for (const auto& [key, means] : sums.means) {
-    const double centre = mean_of(means);
-    for (const double mean : means) between += (mean - centre) * (mean - centre);
-    freedom += static_cast<double>(means.size()) - 1.0;
+  for (const auto& [key, numbers] : sums.numbers) {
+    const double centre = mean_of(numbers);
+    for (const double number : numbers) between += (number - centre) * (number - centre);
+    freedom += static_cast<double>(numbers.size()) - 1.0;
   }
   return {freedom > 0 ? between / freedom : 0.0, freedom};
+}
+
+/// rms of the numbers about those that are alike, beyond what noise does to them.
+double beyond_noise(const Within& sums) {
+  const VarianceOfNumbers numbers = variance_of_numbers(sums);
+  const double of_noise = sums.of_noise();
+  const bool is_beyond = numbers.variance > of_noise * rarest_ratio(numbers.freedom, sums.freedom());
+  return is_beyond ? std::sqrt(numbers.variance - of_noise) : 0.0;
+}
+
+/// α of all rows, as Block::rows counts them.
+Eigen::VectorXd alphas(const Measurement& measurement) {
+  std::vector<double> all;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) all.push_back(sample.alpha);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+/// Mean 0 and mean square 1, or zero where all are alike.
+Eigen::VectorXd standardized(Eigen::VectorXd values) {
+  values.array() -= values.mean();
+  const double size = rms_of(values);
+  return size > 0 ? Eigen::VectorXd(values / size) : Eigen::VectorXd::Zero(values.size());
 }
 
 }  // namespace
@@ -105,19 +125,34 @@ double rarest_ratio(double upper_freedom, double lower_freedom) {
 }
 
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
-  const Within sums = within_strokes(evidence, fit);
+  const Eigen::VectorXd alpha = alphas(evidence.measurement);
+  Within means, tilts;
+  for (const Block& block : evidence.blocks) {
+    const std::vector<Eigen::Index> rows(block.rows.begin(), block.rows.end());
+    const Alike of = {block.run, evidence.measurement.runs[block.run].strokes[block.stroke].direction, block.alike};
+    const double mean = fit.residual(rows).mean();
+    const Eigen::VectorXd about_mean = fit.residual(rows).array() - mean;
+    means.add(of, mean, about_mean, 1.0);
+    const Eigen::VectorXd place = standardized(alpha(rows));
+    if (place.isZero()) continue;
+    const double tilt = about_mean.dot(place) / static_cast<double>(rows.size());
+    tilts.add(of, tilt, about_mean - tilt * place, 2.0);
+  }
   StrokeScatter scatter;
-  if (sums.freedom() <= 0) return scatter;
-  scatter.within = std::sqrt(sums.squares / sums.freedom());
-  const double colour = sums.squares > 0 ? std::clamp(sums.products / sums.squares, 0.0, 0.95) : 0.0;
-  const double of_noise =
-      scatter.within * scatter.within * (1.0 + colour) / (1.0 - colour) * sums.inverse_rows / sums.strokes;
-  const VarianceOfMeans means = variance_of_means(sums);
-  if (means.variance > of_noise * rarest_ratio(means.freedom, sums.freedom()))
-    scatter.between = std::sqrt(means.variance - of_noise);
+  if (means.freedom() > 0) {
+    scatter.within = std::sqrt(means.mean_square());
+    scatter.between = beyond_noise(means);
+  }
+  if (tilts.freedom() > 0) {
+    scatter.about_tilts = std::sqrt(tilts.mean_square());
+    scatter.tilts = beyond_noise(tilts);
+  }
   return scatter;
 }
 
-bool is_walking(const StrokeScatter& scatter) { return scatter.between > k_thresholds.walks * scatter.within; }
+bool is_walking(const StrokeScatter& scatter) {
+  return scatter.between > k_thresholds.walks * scatter.within ||
+         scatter.tilts > k_thresholds.walks * scatter.about_tilts;
+}
 
 }  // namespace fusee

@@ -21,10 +21,12 @@ double lag_one_correlation(const Evidence& evidence, const Fit& fit);
 double rarest_ratio(double upper_freedom, double lower_freedom);
 
 /// Of the residual: rms of the means of strokes about their run and direction, beyond what noise does to means, and rms
-/// within strokes. rad
+/// within strokes; the same of their tilts over α, by what these do to the rows, and rms about both. rad
 struct StrokeScatter {
   double between = 0;
   double within = 0;
+  double tilts = 0;
+  double about_tilts = 0;
 };
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit);
 

@@ -93,7 +93,8 @@ std::string finding(const Calibration& calibration, const Rest& rest, const Stro
   const std::string names = effects_words(calibration.effects);
   switch (calibration.verdict) {
     case CalibrationVerdict::not_repeatable:
-      return "The same angle, direction and load give joint angles that differ by " + in_degrees(scatter.between) +
+      return "The same angle, direction and load give joint angles that differ by " +
+             in_degrees(std::hypot(scatter.between, scatter.tilts)) +
              " rms from stroke to stroke: look for something loose before any correction.";
     case CalibrationVerdict::unexplained:
       return (names.empty() ? "No effect of the catalogue explains what was measured" : "Found " + names) + "; " +

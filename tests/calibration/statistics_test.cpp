@@ -1,4 +1,6 @@
 // What is said of fits, against numbers worked out by hand.
+#include "calibration/statistics.h"
+
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -6,7 +8,6 @@
 #include <utility>
 
 #include "calibration/linear_joint.h"
-#include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 
 namespace fusee::linear {
@@ -47,6 +48,27 @@ TEST(StrokeScatter, TellsMeansOfStrokesFromRowsWithin) {
   EXPECT_NEAR(found.between, std::sqrt(2 * a * a - 1.0 / (k_rows - 1.0)), 1e-12);
   EXPECT_TRUE(is_walking(found));
   EXPECT_FALSE(is_walking(stroke_scatter(evidence, with_errors(evidence, std::vector<double>(8, 1.0)))));
+}
+
+// A gain that is another after each reversal: means of strokes say nothing of it.
+TEST(StrokeScatter, TellsTiltsOfStrokesFromRowsWithin) {
+  const Evidence evidence = two_runs();
+  Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
+  const double a = 3;
+  for (std::size_t b = 0; b < 8; ++b) {
+    const std::vector<std::size_t>& rows = evidence.blocks[b].rows;
+    const double half = 0.5 * (static_cast<double>(rows.size()) - 1.0);
+    const double rms = std::sqrt((static_cast<double>(rows.size() * rows.size()) - 1.0) / 12.0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double along = (static_cast<double>(i) - half) / rms;
+      fit.residual[static_cast<Eigen::Index>(rows[i])] += b % 4 < 2 ? a * along : -a * along;
+    }
+  }
+  const StrokeScatter found = stroke_scatter(evidence, fit);
+  EXPECT_EQ(found.between, 0);
+  EXPECT_NEAR(found.about_tilts, 1.0, 0.05);
+  EXPECT_NEAR(found.tilts, std::sqrt(2) * a, 0.05);
+  EXPECT_TRUE(is_walking(found));
 }
 
 TEST(RarestRatio, IsExceededAsSeldomAsThreeStandardDeviations) {
