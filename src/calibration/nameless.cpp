@@ -498,14 +498,17 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
 }
 
 void take_nameless(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects) {
+  const bool beside_nameless =
+      left.anything || std::any_of(effects.begin(), effects.end(),
+                                   [](const FoundEffect& effect) { return effect.nameless.behind < 0; });
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Effect& found = *selection.best.effects[i];
     std::vector<std::string>& group = effects[i].group;
     const bool is_doubtful =
         selection.groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(found));
     const double least =
-        left.anything ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
-    if (left.anything && effects[i].nameless.behind >= least) doubt_beside_rest(effects[i]);
+        beside_nameless ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
+    if (beside_nameless && effects[i].nameless.behind >= least) doubt_beside_rest(effects[i]);
     if (is_doubtful || effects[i].nameless.behind < least || !effects[i].nameless.doubt.empty())
       group.emplace_back(k_nameless);
   }

@@ -39,7 +39,9 @@ const Effect& longer_paths() {
   static const Effect effect = [] {
     Effect paths;
     paths.name = "longer_paths";
-    paths.parameters = {path_parameter("square1", [](Imperfections& at) -> double& { return at.joint.path1.square; }),
+    paths.parameters = {path_parameter("slope1", [](Imperfections& at) -> double& { return at.joint.path1.slope; }),
+                        path_parameter("slope2", [](Imperfections& at) -> double& { return at.joint.path2.slope; }),
+                        path_parameter("square1", [](Imperfections& at) -> double& { return at.joint.path1.square; }),
                         path_parameter("cube1", [](Imperfections& at) -> double& { return at.joint.path1.cube; }),
                         path_parameter("square2", [](Imperfections& at) -> double& { return at.joint.path2.square; }),
                         path_parameter("cube2", [](Imperfections& at) -> double& { return at.joint.path2.cube; })};

@@ -41,8 +41,8 @@ struct Knot {
 
 /// The moment arm is what the path loses by an angle.
 UpperSpan made_longer(UpperSpan span, double theta, const PathError& by) {
-  span.length += (by.square + by.cube * theta) * theta * theta;
-  span.m -= (2.0 * by.square + 3.0 * by.cube * theta) * theta;
+  span.length += (by.slope + (by.square + by.cube * theta) * theta) * theta;
+  span.m -= by.slope + (2.0 * by.square + 3.0 * by.cube * theta) * theta;
   span.dm -= 2.0 * by.square + 6.0 * by.cube * theta;
   span.d2m -= 6.0 * by.cube;
   return span;

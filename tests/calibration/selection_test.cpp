@@ -231,11 +231,41 @@ TEST(Selection, ACaliperSplitsAGroup) {
 TEST(Selection, GeometryWithoutANameIsNotNamedForSure) {
   const DeclaredMechanism declared = bench_joint();
   Imperfections truth;
-  truth.joint.path1 = {4.0, 4.0};
+  truth.joint.path1 = {0.0, 4.0, 4.0};
   const Calibration found = calibrate(declared, logged(declared, truth, {{0, 1}, {12, 1}, {0, 8}, {-12, 1}}));
   ASSERT_FALSE(found.effects.empty());
   EXPECT_THAT(found.effects.front().group, testing::AllOf(Contains("guide_position"), Contains("nameless")));
   EXPECT_THAT(found.effects.front().nameless.words, testing::HasSubstr("tendons' paths"));
+}
+
+/// Of two joints, run by run in turn.
+Measurement in_turn(Measurement one, const Measurement& other) {
+  for (std::size_t i = 1; i < one.runs.size(); i += 2) one.runs[i] = other.runs[i];
+  return one;
+}
+
+TEST(Selection, AnEffectIsOfOneSize) {
+  const DeclaredMechanism declared = bench_joint();
+  const std::vector<Plan> plans = {{0, 1}, {0, 1}, {3, 1}, {3, 1}};
+  const auto play_of = [&](double degrees) {
+    Imperfections at;
+    at.shaft.backlash = radians(degrees);
+    return logged(declared, at, plans);
+  };
+  const Calibration even = calibrate(declared, play_of(2));
+  ASSERT_EQ(even.effects.size(), 1u) << why(even);
+  EXPECT_LT(even.effects.front().evenness.uneven, 1);
+  EXPECT_GT(even.effects.front().evenness.part, 5);
+  EXPECT_EQ(even.effects.front().group, std::vector<std::string>{"backlash"});
+
+  const Calibration uneven = calibrate(declared, in_turn(play_of(1.5), play_of(2.5)));
+  const auto play = std::find_if(uneven.effects.begin(), uneven.effects.end(),
+                                 [](const FoundEffect& effect) { return effect.name == "backlash"; });
+  ASSERT_NE(play, uneven.effects.end()) << why(uneven);
+  EXPECT_GT(play->evenness.uneven, 100);
+  EXPECT_EQ(play->evenness.words, "from run to run");
+  EXPECT_EQ(play->group.back(), "nameless");
+  EXPECT_THAT(play->nameless.doubt, testing::HasSubstr("of another size from run to run"));
 }
 
 TEST(Selection, AWalkingZeroIsNoEffectOfTheCatalogue) {

@@ -68,7 +68,7 @@ TEST(Pins, BothMovedAreThoseOfAnotherFile) {
 /// Longer by a wander of the joint's centre, or whatever else has no name.
 Imperfections wandering() {
   Imperfections at;
-  at.joint.path1 = {2.5, -0.8};
+  at.joint.path1 = {-0.6, 2.5, -0.8};
   at.joint.path2 = {-1.5, 0.6};
   return at;
 }

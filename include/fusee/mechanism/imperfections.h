@@ -118,9 +118,10 @@ struct AttachmentError {
   bool operator==(const AttachmentError&) const = default;
 };
 
-/// A tendon's path from its pin to the joint beside all that is declared: longer by square · θ² + cube · θ³, θ to its
-/// own side. Geometry that no effect has a name for, as a flexure whose centre wanders.
+/// A tendon's path beside all that is declared: longer by slope · θ + square · θ² + cube · θ³, θ to its own side.
+/// Geometry that no effect has a name for, as a flexure whose centre wanders, or a cord that leaves its drum aslant.
 struct PathError {
+  double slope = 0;   ///< mm/rad
   double square = 0;  ///< mm/rad²
   double cube = 0;    ///< mm/rad³
 
