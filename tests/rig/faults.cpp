@@ -15,11 +15,13 @@ std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists) {
 
 const std::vector<FaultList>& fault_lists() {
   static const std::vector<FaultList> lists = {
-      {"named", named_faults()},           {"wide", wide_faults()},         {"tuning", tuning_faults()},
-      {"unseen", unseen_faults()},         {"sealed", sealed_faults()},     {"withheld", withheld_faults()},
-      {"reserved", reserved_faults()},     {"unopened", unopened_faults()}, {"unread", unread_faults()},
-      {"untold", untold_faults()},         {"unmet", unmet_faults()},       {"unheard", unheard_faults()},
-      {"unforeseen", unforeseen_faults()},
+      {"named", named_faults()},           {"wide", wide_faults()},
+      {"tuning", tuning_faults()},         {"unseen", unseen_faults()},
+      {"sealed", sealed_faults()},         {"withheld", withheld_faults()},
+      {"reserved", reserved_faults()},     {"unopened", unopened_faults()},
+      {"unread", unread_faults()},         {"untold", untold_faults()},
+      {"unmet", unmet_faults()},           {"unheard", unheard_faults()},
+      {"unforeseen", unforeseen_faults()}, {"unimagined", unimagined_faults()},
   };
   return lists;
 }
