@@ -68,8 +68,8 @@ TEST(Pins, BothMovedAreThoseOfAnotherFile) {
 /// Longer by a wander of the joint's centre, or whatever else has no name.
 Imperfections wandering() {
   Imperfections at;
-  at.joint.path1 = {-0.6, 2.5, -0.8};
-  at.joint.path2 = {-1.5, 0.6};
+  at.joint.path1 = {-0.1, 2.5, -0.8};
+  at.joint.path2 = {0.2, -1.5, 0.6};
   return at;
 }
 
@@ -94,7 +94,7 @@ TEST(Paths, PullOnTheJointByTheLengthThatTheyLose) {
     const double image = side == Side::left ? -theta : theta;
     const PathError& longer = side == Side::left ? at.joint.path1 : at.joint.path2;
     return upper_span(pin_place(mechanism, side, mechanism.seen_pitch_radius()), image).length +
-           longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
+           longer.slope * image + longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
   };
   constexpr double way = 1e-5;
   double most = 0;
