@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -34,7 +35,7 @@ struct Partition {
 };
 
 int load_part(const RowFacts& row) {
-  const double size = row.load < 0 ? -row.load : row.load;
+  const double size = std::abs(row.load);
   const int step = size < k_no_load ? 0 : size < k_large_load ? 1 : 2;
   return row.load < 0 ? -step : step;
 }

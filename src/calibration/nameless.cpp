@@ -508,7 +508,7 @@ void take_nameless(const Left& left, const Selection& selection, std::vector<Fou
         selection.groups[i].doubt > k_thresholds.most_mistaken || (left.in_time && is_told_by_time(found));
     const double least =
         beside_nameless ? k_thresholds.ahead_beside_rest : least_ahead(found, group, selection.catalogue);
-    if (beside_nameless && effects[i].nameless.behind >= least) doubt_beside_rest(effects[i]);
+    if (left.anything && effects[i].nameless.behind >= least) doubt_beside_rest(effects[i]);
     if (is_doubtful || effects[i].nameless.behind < least || !effects[i].nameless.doubt.empty())
       group.emplace_back(k_nameless);
   }

@@ -130,10 +130,10 @@ struct Thresholds {
   /// one; names that stand alone and are there are 98 and 92, at 15, 15 and 45 they would be 84. Sealed and withheld
   /// splits, the same joints: of 30 names by 50 to 100 nats beside a rest six are not there (a skin that is drawn tight
   /// as gravity, a tendon that walks down its pin as slack), of 23 by more than 100 one.
-  /// So is what has none where the data are likelier with it than with another of the names. Splits unread, untold,
-  /// unmet, unheard and unforeseen, 1080 joints where nothing stays unexplained: of the 316 names that were said for
-  /// sure four that are there are given up, and a pan never counted as capstan friction (251037) and a wearer who tires
-  /// as gravity (251102).
+  /// It is as good as known where the data are likelier without a name than with another of the names: of 316 names that
+  /// were said for sure where nothing stays unexplained, on 1080 joints of the splits unread to unforeseen, four that
+  /// are there are given up for it, and two that are not (251037, a pan never counted, as capstan friction; 251102, a
+  /// wearer who tires, as gravity).
   double ahead_beside_rest = 100.0;
   /// … and then not by more than so many nats be likelier of another size in another run, direction, place or load
   /// (evenness.h), nor do less than so many times what stays beside it. Splits unread, untold, unmet and unheard, 985
