@@ -499,8 +499,8 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
 
 void take_nameless(const Left& left, const Selection& selection, std::vector<FoundEffect>& effects) {
   const bool beside_nameless =
-      left.anything || std::any_of(effects.begin(), effects.end(),
-                                   [](const FoundEffect& effect) { return effect.nameless.behind < 0; });
+      left.anything ||
+      std::any_of(effects.begin(), effects.end(), [](const FoundEffect& effect) { return effect.nameless.behind < 0; });
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const Effect& found = *selection.best.effects[i];
     std::vector<std::string>& group = effects[i].group;

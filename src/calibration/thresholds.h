@@ -130,19 +130,19 @@ struct Thresholds {
   /// one; names that stand alone and are there are 98 and 92, at 15, 15 and 45 they would be 84. Sealed and withheld
   /// splits, the same joints: of 30 names by 50 to 100 nats beside a rest six are not there (a skin that is drawn tight
   /// as gravity, a tendon that walks down its pin as slack), of 23 by more than 100 one.
-  /// It is as good as known where the data are likelier without a name than with another of the names: of 316 names that
-  /// were said for sure where nothing stays unexplained, on 1080 joints of the splits unread to unforeseen, four that
-  /// are there are given up for it, and two that are not (251037, a pan never counted, as capstan friction; 251102, a
-  /// wearer who tires, as gravity).
+  /// It is as good as known where the data are likelier without a name than with another of the names: of 316 names
+  /// that were said for sure where nothing stays unexplained, on 1080 joints of the splits unread to unforeseen, four
+  /// that are there are given up for it, and two that are not (251037, a pan never counted, as capstan friction;
+  /// 251102, a wearer who tires, as gravity).
   double ahead_beside_rest = 100.0;
   /// … and then not by more than so many nats be likelier of another size in another run, direction, place or load
   /// (evenness.h), nor do less than so many times what stays beside it. Splits unread, untold, unmet and unheard, 985
-  /// joints, the 25 names that were said for sure beside a rest: seven were not there (tendons that rub on each other as
-  /// stretch, creep, lag and slack, by 114 to 465 nats; a bench that rocks as a slip; a scale that mists over as slack;
-  /// a wire drawn in too slowly as lag). These ask for another size by 93, 296, 9, 37, 0, 14 and 101 nats and do 20,
-  /// 1.9, 0.3, 1, 0.8, 2.3 and 1.4 times what stays. Of the 18 that were there or as good as there seven are given up:
-  /// four lags that were others in some runs or under some loads (20 to 61 nats), two frictions (16, 34), one that did
-  /// 1.3 times what stays; the others ask for 9 nats at most and do 2.9 times what stays and more.
+  /// joints, the 25 names that were said for sure beside a rest: seven were not there (tendons that rub on each other
+  /// as stretch, creep, lag and slack, by 114 to 465 nats; a bench that rocks as a slip; a scale that mists over as
+  /// slack; a wire drawn in too slowly as lag). These ask for another size by 93, 296, 9, 37, 0, 14 and 101 nats and do
+  /// 20, 1.9, 0.3, 1, 0.8, 2.3 and 1.4 times what stays. Of the 18 that were there or as good as there seven are given
+  /// up: four lags that were others in some runs or under some loads (20 to 61 nats), two frictions (16, 34), one that
+  /// did 1.3 times what stays; the others ask for 9 nats at most and do 2.9 times what stays and more.
   double most_uneven = 12.0;
   double least_part = 2.0;
 
