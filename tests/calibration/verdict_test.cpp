@@ -77,7 +77,7 @@ FoundEffect ahead_by(double nats) {
   FoundEffect effect;
   effect.name = "backlash";
   effect.group = {"backlash"};
-  effect.nameless = {nats, "a jump at 50 % of the way", "come from both sides"};
+  effect.nameless = {nats, "a jump at 50 % of the way", "come from both sides", ""};
   return effect;
 }
 
@@ -151,6 +151,31 @@ TEST_F(Concluded, BesideSomethingUnexplainedANameNeedsMore) {
   EXPECT_EQ(verdict(), CalibrationVerdict::unexplained);
   EXPECT_THAT(calibration.effects.front().group, testing::ElementsAre("backlash", "nameless"));
   EXPECT_THAT(calibration.effects.back().group, testing::ElementsAre("backlash"));
+}
+
+TEST_F(Concluded, BesideSomethingUnexplainedANameIsOfOneSizeAndDoesMore) {
+  FoundEffect uneven = ahead_by(k_thresholds.ahead_beside_rest + 1), small = uneven;
+  uneven.evenness = {k_thresholds.most_uneven + 1, "from run to run", "repeat one run five times", 10};
+  small.evenness.part = k_thresholds.least_part - 0.1;
+  for (const double left : {1.0, 5.0}) {
+    leave(left);
+    calibration = {};
+    calibration.effects = {uneven, small};
+    verdict();
+    for (const FoundEffect& effect : calibration.effects) EXPECT_EQ(effect.group.size(), left > 1 ? 2u : 1u) << left;
+  }
+  EXPECT_THAT(calibration.effects.front().nameless.doubt, HasSubstr("of another size from run to run"));
+  EXPECT_THAT(calibration.effects.back().nameless.doubt, HasSubstr("1.9 times as much as what stays"));
+  EXPECT_THAT(calibration.next_runs, testing::Contains("repeat one run five times"));
+}
+
+TEST_F(Concluded, WhereAnythingIsLikelierWithoutANameTheOthersNeedMore) {
+  leave(1);
+  calibration.effects = {ahead_by(-1), ahead_by(k_thresholds.ahead_beside_rest - 1),
+                         ahead_by(k_thresholds.ahead_beside_rest + 1)};
+  EXPECT_EQ(verdict(), CalibrationVerdict::confounded);
+  EXPECT_EQ(calibration.effects[1].group.size(), 2u);
+  EXPECT_EQ(calibration.effects[2].group.size(), 1u);
 }
 
 TEST_F(Concluded, NamesInThePlaceOfSomethingWithoutOneNeedMoreThoughTheyLeaveNothing) {
