@@ -62,14 +62,12 @@ std::string audit_words(const FoundEffect& effect) {
 std::string nameless_words(const FoundEffect& effect) {
   if (effect.group.empty() || effect.group.back() != k_nameless) return "";
   const Nameless& rival = effect.nameless;
-  const std::string run = rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".";
-  if (!rival.doubt.empty()) return "Or something without a name that does the same: " + rival.doubt + run;
-  const std::string words =
-      "Or something without a name that does the same: " + (rival.words.empty() ? "a smooth curve" : rival.words) +
-      " in its place, with which the data are " +
-      (rival.behind < 0 ? rounded(-rival.behind, 2) + " nats likelier"
-                        : "only " + rounded(rival.behind, 2) + " nats less likely");
-  return words + run;
+  const std::string in_its_place = (rival.words.empty() ? "a smooth curve" : rival.words) +
+                                   " in its place, with which the data are " +
+                                   (rival.behind < 0 ? rounded(-rival.behind, 2) + " nats likelier"
+                                                     : "only " + rounded(rival.behind, 2) + " nats less likely");
+  return "Or something without a name that does the same: " + (rival.doubt.empty() ? in_its_place : rival.doubt) +
+         (rival.separating_run.empty() ? "." : ". To tell them apart: " + rival.separating_run + ".");
 }
 
 std::string beside_words(const FoundEffect& effect, const std::string& load_unit) {

@@ -178,8 +178,8 @@ Calibration calibrate(const DeclaredMechanism& declared, const Measurement& meas
   const Unnamed unnamed = unnamed_beside(evidence, selection.best);
   const Delivered made = delivered(evidence, workers, selection, unnamed);
   calibration.effects = found_effects(evidence, selection, made.fit);
-  if (options.audit) take_audit(audit(evidence, workers, selection), calibration);
   if (options.audit) {
+    take_audit(audit(evidence, workers, selection), calibration);
     const std::vector<Nameless> nameless = nameless_rivals(evidence, workers, selection);
     const std::vector<Evenness> even = evenness(evidence, workers, selection);
     for (std::size_t i = 0; i < nameless.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/statistics.h"
 #include "calibration/thresholds.h"
 #include "measurement/seen_span.h"
 
@@ -81,17 +82,15 @@ struct BothWays {
 };
 
 BothWays ways_of(const Evidence& evidence, const Eigen::VectorXd& curve) {
-  std::vector<double> alpha;
-  for (const Run& run : evidence.measurement.runs) {
-    for (const Sample& sample : run.samples) alpha.push_back(sample.alpha);
-  }
+  const Eigen::VectorXd alpha = alphas(evidence.measurement);
   BothWays ways;
   Eigen::Index row = 0;
   for (const Block& block : evidence.blocks) {
     const int direction = evidence.measurement.runs[block.run].strokes[block.stroke].direction;
     for (const std::size_t sample : block.rows) {
       const double value = curve[row++];
-      if (direction != 0) (direction > 0 ? ways.up : ways.down).emplace_back(alpha[sample], value);
+      if (direction != 0)
+        (direction > 0 ? ways.up : ways.down).emplace_back(alpha[static_cast<Eigen::Index>(sample)], value);
     }
   }
   for (Way* way : {&ways.up, &ways.down}) std::sort(way->begin(), way->end());

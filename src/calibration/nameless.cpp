@@ -438,21 +438,17 @@ void look_at_geometry(const Evidence& evidence, Workers& workers, const Selectio
   }
 }
 
-/// Why the effect may be of what stays without a name, however far it is ahead; "": it may not.
-std::string why_of_the_rest(const Evenness& even) {
-  if (even.uneven > k_thresholds.most_uneven)
-    return "it would be of another size " + even.words + ", which makes the data " + rounded(even.uneven, 2) +
-           " nats likelier, and something stays unexplained beside it";
-  if (even.part < k_thresholds.least_part)
-    return "it does " + rounded(even.part, 2) + " times as much as what stays unexplained beside it";
-  return "";
-}
-
-/// Something stays beside the effect.
+/// Says why the effect may be of what stays beside it, however far it is ahead.
 void doubt_beside_rest(FoundEffect& effect) {
-  effect.nameless.doubt = why_of_the_rest(effect.evenness);
-  if (effect.evenness.uneven > k_thresholds.most_uneven)
-    effect.nameless.separating_run = effect.evenness.separating_run;
+  const Evenness& even = effect.evenness;
+  Nameless& nameless = effect.nameless;
+  if (even.uneven > k_thresholds.most_uneven) {
+    nameless.doubt = "it would be of another size " + even.words + ", which makes the data " + rounded(even.uneven, 2) +
+                     " nats likelier, and something stays unexplained beside it";
+    nameless.separating_run = even.separating_run;
+  } else if (even.part < k_thresholds.least_part) {
+    nameless.doubt = "it does " + rounded(even.part, 2) + " times as much as what stays unexplained beside it";
+  }
 }
 
 }  // namespace

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "calibration/parameters.h"
 #include "fusee/mechanism/effect.h"
 
 // A curve beside the readings knows nothing of moment arms: under load a path that is longer by a curve turns the joint
 // further where its arm is smaller, as every geometry does, and the names of geometry were then far ahead of all that
-// has none (unheard split, seeds 241038 and 241092: a flexure's centre that wanders, as a runout, by 52 and 206 nats; by
-// 4 and less of such paths). So the set without the effect is fitted again with them, a square and a cube of the angle
-// each: what is linear in it is as a drum or a zero, that are there to be found.
+// has none (unheard split, seeds 241038 and 241092: a flexure's centre that wanders, as a runout, by 52 and 206 nats;
+// by 4 and less of such paths). So the set without the effect is fitted again with them, a slope, a square and a cube
+// of the angle each: a tendon that leaves its drum aslant has all three (251083, 251117: 173 and 27 nats without a
+// slope).
 //
 // Both paths may be long by so much that a fit from none ends on a wrong summit (241041: 39 nats below; 241063: 30), so
 // it begins with curves of both signs too. And what was found to mend the name's fit is not wanted beside the paths
@@ -53,21 +56,19 @@ const Effect& longer_paths() {
 /// mm/rad², of both paths, where a fit begins.
 constexpr std::array k_starts = {0.0, 3.0, -3.0};
 
-Fit without_one_more(const Fitter& fitter, const Fit& fit) {
+/// None where its paths do as well without none of its effects.
+std::optional<Fit> without_one_more(const Fitter& fitter, const Fit& fit) {
   for (const Effect* effect : fit.effects) {
     if (effect == &longer_paths()) continue;
     Fit fewer = fitter.fit(without(fit.effects, *effect), without(fit.at, *effect));
     if (fewer.usable && score(fewer) > score(fit)) return fewer;
   }
-  return fit;
+  return std::nullopt;
 }
 
 /// `fit` without the effects that its paths do as well without.
 Fit without_idle_ones(const Fitter& fitter, Fit fit) {
-  for (std::size_t members = fit.effects.size() + 1; fit.effects.size() < members;) {
-    members = fit.effects.size();
-    fit = without_one_more(fitter, fit);
-  }
+  while (std::optional<Fit> fewer = without_one_more(fitter, fit)) fit = std::move(*fewer);
   return fit;
 }
 

@@ -24,6 +24,14 @@ double rms_of(const Eigen::VectorXd& values) {
   return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size())) : 0.0;
 }
 
+Eigen::VectorXd alphas(const Measurement& measurement) {
+  std::vector<double> all;
+  for (const Run& run : measurement.runs) {
+    for (const Sample& sample : run.samples) all.push_back(sample.alpha);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
 double lag_one_correlation(const Evidence& evidence, const Fit& fit) {
   double products = 0;
   double squares = 0;
@@ -46,7 +54,7 @@ struct Within {
   std::map<Alike, std::vector<double>> numbers;
   double squares = 0;
   double products = 0;  ///< of neighbours
-  double rows = 0;
+  double freedom = 0;   ///< rows, less what the numbers have taken
   double strokes = 0;
   double inverse_rows = 0;  ///< Σ 1 / rows of a stroke
 
@@ -56,13 +64,12 @@ struct Within {
     squares += about.squaredNorm();
     products += about.head(about.size() - 1).dot(about.tail(about.size() - 1));
     const auto count = static_cast<double>(about.size());
-    rows += count - taken;
+    freedom += count - taken;
     strokes += 1;
     inverse_rows += 1.0 / count;
   }
 
-  double freedom() const { return rows; }
-  double mean_square() const { return squares / freedom(); }
+  double mean_square() const { return squares / freedom; }
   /// Of a number of a stroke, by noise alone.
   double of_noise() const {
     const double colour = squares > 0 ? std::clamp(products / squares, 0.0, 0.95) : 0.0;
@@ -91,17 +98,8 @@ VarianceOfNumbers variance_of_numbers(const Within& sums) {
 double beyond_noise(const Within& sums) {
   const VarianceOfNumbers numbers = variance_of_numbers(sums);
   const double of_noise = sums.of_noise();
-  const bool is_beyond = numbers.variance > of_noise * rarest_ratio(numbers.freedom, sums.freedom());
+  const bool is_beyond = numbers.variance > of_noise * rarest_ratio(numbers.freedom, sums.freedom);
   return is_beyond ? std::sqrt(numbers.variance - of_noise) : 0.0;
-}
-
-/// α of all rows, as Block::rows counts them.
-Eigen::VectorXd alphas(const Measurement& measurement) {
-  std::vector<double> all;
-  for (const Run& run : measurement.runs) {
-    for (const Sample& sample : run.samples) all.push_back(sample.alpha);
-  }
-  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 /// Mean 0 and mean square 1, or zero where all are alike.
@@ -139,11 +137,11 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
     tilts.add(of, tilt, about_mean - tilt * place, 2.0);
   }
   StrokeScatter scatter;
-  if (means.freedom() > 0) {
+  if (means.freedom > 0) {
     scatter.within = std::sqrt(means.mean_square());
     scatter.between = beyond_noise(means);
   }
-  if (tilts.freedom() > 0) {
+  if (tilts.freedom > 0) {
     scatter.about_tilts = std::sqrt(tilts.mean_square());
     scatter.tilts = beyond_noise(tilts);
   }

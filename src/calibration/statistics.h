@@ -12,6 +12,9 @@ bool as_good(const Evidence& evidence, const Fit& rival, const Fit& best);
 /// Root of the mean square; 0 of none.
 double rms_of(const Eigen::VectorXd& values);
 
+/// α of all rows, as Block::rows counts them.
+Eigen::VectorXd alphas(const Measurement& measurement);
+
 /// Of the residual from row to row within blocks, −1 … 1.
 double lag_one_correlation(const Evidence& evidence, const Fit& fit);
 

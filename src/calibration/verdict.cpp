@@ -5,6 +5,7 @@
 #include <map>
 
 #include "calibration/nameless.h"
+#include "calibration/statistics.h"
 #include "fusee/base/text.h"
 #include "measurement/seen_span.h"
 
@@ -30,14 +31,11 @@ std::string list(const std::vector<std::string>& names) {
 /// Means of a residual by place and direction, over all runs.
 class Places {
  public:
-  explicit Places(const Measurement& measurement) : bins_{seen_span(measurement, &Sample::alpha), k_bins} {
-    for (const Run& run : measurement.runs) {
-      for (const Sample& sample : run.samples) alpha_.push_back(sample.alpha);
-    }
-  }
+  explicit Places(const Measurement& measurement)
+      : alpha_(alphas(measurement)), bins_{seen_span(measurement, &Sample::alpha), k_bins} {}
 
   void add(std::size_t row, int direction, double residual) {
-    Mean& mean = means_[{bins_.bin(alpha_[row]), direction}];
+    Mean& mean = means_[{bins_.bin(alpha_[static_cast<Eigen::Index>(row)]), direction}];
     mean.sum += residual;
     mean.count += 1;
   }
@@ -56,7 +54,7 @@ class Places {
   }
 
  private:
-  std::vector<double> alpha_;  ///< of every row
+  Eigen::VectorXd alpha_;  ///< of every row
   Bins bins_;
   std::map<std::pair<int, int>, Mean> means_;  ///< by place and direction
 };
