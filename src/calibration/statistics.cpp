@@ -102,13 +102,6 @@ double beyond_noise(const Within& sums) {
   return is_beyond ? std::sqrt(numbers.variance - of_noise) : 0.0;
 }
 
-/// Mean 0 and mean square 1, or zero where all are alike.
-Eigen::VectorXd standardized(Eigen::VectorXd values) {
-  values.array() -= values.mean();
-  const double size = rms_of(values);
-  return size > 0 ? Eigen::VectorXd(values / size) : Eigen::VectorXd::Zero(values.size());
-}
-
 }  // namespace
 
 double rarest_ratio(double upper_freedom, double lower_freedom) {
@@ -124,6 +117,7 @@ double rarest_ratio(double upper_freedom, double lower_freedom) {
 
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   const Eigen::VectorXd alpha = alphas(evidence.measurement);
+  std::map<Alike, double> widths;  // rms of α about its mean, of the first of each kind: no two strokes are sampled alike
   Within means, tilts;
   for (const Block& block : evidence.blocks) {
     const std::vector<Eigen::Index> rows(block.rows.begin(), block.rows.end());
@@ -131,10 +125,10 @@ StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
     const double mean = fit.residual(rows).mean();
     const Eigen::VectorXd about_mean = fit.residual(rows).array() - mean;
     means.add(of, mean, about_mean, 1.0);
-    const Eigen::VectorXd place = standardized(alpha(rows));
-    if (place.isZero()) continue;
-    const double tilt = about_mean.dot(place) / static_cast<double>(rows.size());
-    tilts.add(of, tilt, about_mean - tilt * place, 2.0);
+    const Eigen::VectorXd place = alpha(rows).array() - alpha(rows).mean();
+    if (place.isZero(0)) continue;
+    const double slope = about_mean.dot(place) / place.squaredNorm();
+    tilts.add(of, slope * widths.try_emplace(of, rms_of(place)).first->second, about_mean - slope * place, 2.0);
   }
   StrokeScatter scatter;
   if (means.freedom > 0) {

@@ -71,6 +71,20 @@ TEST(StrokeScatter, TellsTiltsOfStrokesFromRowsWithin) {
   EXPECT_TRUE(is_walking(found));
 }
 
+// No two strokes are sampled alike: one that is cut short has the slope of the others, and no other tilt.
+TEST(StrokeScatter, StrokesOfOneSlopeAreAlikeWhateverTheirWidth) {
+  Evidence evidence = two_runs();
+  Fit fit = with_errors(evidence, std::vector<double>(8, 1.0));
+  fit.residual += 100 * alphas(evidence.measurement);
+  for (const std::size_t b : {2, 3, 6, 7}) {
+    std::vector<std::size_t>& rows = evidence.blocks[b].rows;
+    rows = {rows.begin() + 2, rows.end() - 2};
+  }
+  const StrokeScatter found = stroke_scatter(evidence, fit);
+  EXPECT_EQ(found.tilts, 0);
+  EXPECT_FALSE(is_walking(found));
+}
+
 TEST(RarestRatio, IsExceededAsSeldomAsThreeStandardDeviations) {
   std::mt19937 random(7);
   for (const auto& [upper, lower] : {std::pair{1.0, 40.0}, {3.0, 20.0}, {5.0, 200.0}, {40.0, 15.0}, {200.0, 8.0}}) {
