@@ -46,6 +46,9 @@ constexpr const char* k_usage =
     "  --jobs N            joints at work at once (2)\n"
     "  --most-missed P     exit code 4 when more than P % of the named faults are missed\n"
     "  --most-blamed P     exit code 4 when more than P % of the joints, of either kind, are falsely blamed\n"
+    "  --most-empty P      exit code 4 when of more than P % of the joints, of either kind, a group names nothing that "
+    "is\n"
+    "                      there, though it may say that it may be something without a name\n"
     "  --joint FILE        this joint, without its [load], and none drawn at random: faults of its drum, attachments "
     "and\n"
     "                      idlers\n"
@@ -79,6 +82,7 @@ struct Request {
   std::size_t jobs = 2;
   double most_missed = 100;  ///< %
   double most_blamed = 100;
+  double most_empty = 100;
 };
 
 constexpr std::array<std::pair<const char*, Kind>, 6> k_kinds = {{{"nothing", Kind::nothing},
@@ -177,6 +181,8 @@ bool read_option(const std::string& word, const std::string& text, Request& requ
     request.most_missed = *value;
   } else if (word == "--most-blamed") {
     request.most_blamed = *value;
+  } else if (word == "--most-empty") {
+    request.most_empty = *value;
   } else {
     return false;
   }
@@ -332,8 +338,10 @@ bool report(const std::vector<Judgement>& all, const Request& request) {
   std::fputs(k_size_words, stdout);
   if (protocol != Protocol::random) std::fputs(k_usual_words, stdout);
   const Rates found = rates(all);
-  const double blamed = std::max(found.false_blame.share(), found.false_blame_outside.share());
-  return 100 * found.miss.share() <= request.most_missed && 100 * blamed <= request.most_blamed;
+  const double blamed = std::max(found.false_names.share(), found.false_names_outside.share());
+  const double empty = std::max(found.false_blame.share(), found.false_blame_outside.share());
+  return 100 * found.miss.share() <= request.most_missed && 100 * blamed <= request.most_blamed &&
+         100 * empty <= request.most_empty;
 }
 
 int run(const std::vector<std::string>& words) {
