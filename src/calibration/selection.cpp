@@ -821,13 +821,15 @@ bool Selector::leaves_unexplained(const Fit& fit) const {
   return is_unexplained(unnamed_beside(evidence_, fit), evidence_.floor);
 }
 
-/// Whether all is explained by the best, or clearly more, and not by these of its members.
+/// Whether all is explained by the best, or clearly more, or all of a part, and not by these of its members.
 bool Selector::is_completed_beside(const Fit& others) const {
   const Fit& best = selection_.best;
   const Unnamed beside_others = unnamed_beside(evidence_, others);
   if (!is_unexplained(beside_others, evidence_.floor)) return false;
   const Unnamed beside_best = unnamed_beside(evidence_, best);
-  return beside_best.rms < k_thresholds.part_left * beside_others.rms || !is_unexplained(beside_best, evidence_.floor);
+  return beside_best.rms < k_thresholds.part_left * beside_others.rms ||
+         !is_unexplained(beside_best, evidence_.floor) ||
+         is_without_a_part(beside_best, beside_others, evidence_.floor);
 }
 
 /// What is not sure enough to be named, with all that could stand in its place, or has no size to name, goes, the most

@@ -294,4 +294,16 @@ bool is_unexplained(const Unnamed& unnamed, double floor) {
   return unnamed.evidence > k_thresholds.unexplained && unnamed.rms > k_thresholds.least_left * floor;
 }
 
+bool is_without_a_part(const Unnamed& unnamed, const Unnamed& beside_others, double floor) {
+  const auto rms_here = [&](const std::string& factor) {
+    const auto same = std::find_if(unnamed.parts.begin(), unnamed.parts.end(),
+                                   [&](const Unknown& part) { return part.factor == factor; });
+    return same == unnamed.parts.end() ? 0.0 : same->rms;
+  };
+  return std::any_of(beside_others.parts.begin(), beside_others.parts.end(), [&](const Unknown& part) {
+    return part.rms >= k_thresholds.least_part_taken * floor &&
+           rms_here(part.factor) < k_thresholds.part_of_a_part_left * part.rms;
+  });
+}
+
 }  // namespace fusee

@@ -28,4 +28,7 @@ Unnamed unnamed_beside(const Evidence& evidence, const Fit& fit);
 /// Whether what is left is more than noise and the model's own error.
 bool is_unexplained(const Unnamed& unnamed, double floor);
 
+/// Whether a part that stays beside others is gone here, or nearly so, whatever else may stay.
+bool is_without_a_part(const Unnamed& unnamed, const Unnamed& beside_others, double floor);
+
 }  // namespace fusee

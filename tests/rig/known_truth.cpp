@@ -45,6 +45,8 @@ constexpr const char* k_usage =
     "  --no-calibration    makes the data alone\n"
     "  --jobs N            joints at work at once (2)\n"
     "  --most-missed P     exit code 4 when more than P % of the named faults are missed\n"
+    "  --most-lost P       exit code 4 when more than P % of the named faults beside one without a name are in no "
+    "group\n"
     "  --most-blamed P     exit code 4 when more than P % of the joints, of either kind, are falsely blamed\n"
     "  --most-empty P      exit code 4 when of more than P % of the joints, of either kind, a group names nothing that "
     "is\n"
@@ -81,6 +83,7 @@ struct Request {
   bool list = false;
   std::size_t jobs = 2;
   double most_missed = 100;  ///< %
+  double most_lost = 100;
   double most_blamed = 100;
   double most_empty = 100;
 };
@@ -179,6 +182,8 @@ bool read_option(const std::string& word, const std::string& text, Request& requ
     request.first = whole;
   } else if (word == "--most-missed") {
     request.most_missed = *value;
+  } else if (word == "--most-lost") {
+    request.most_lost = *value;
   } else if (word == "--most-blamed") {
     request.most_blamed = *value;
   } else if (word == "--most-empty") {
@@ -340,8 +345,9 @@ bool report(const std::vector<Judgement>& all, const Request& request) {
   const Rates found = rates(all);
   const double blamed = std::max(found.false_names.share(), found.false_names_outside.share());
   const double empty = std::max(found.false_blame.share(), found.false_blame_outside.share());
-  return 100 * found.miss.share() <= request.most_missed && 100 * blamed <= request.most_blamed &&
-         100 * empty <= request.most_empty;
+  const double lost = found.kept.all > 0 ? 1 - found.kept.share() : 0.0;
+  return 100 * found.miss.share() <= request.most_missed && 100 * lost <= request.most_lost &&
+         100 * blamed <= request.most_blamed && 100 * empty <= request.most_empty;
 }
 
 int run(const std::vector<std::string>& words) {
