@@ -54,11 +54,6 @@ constexpr std::array k_partitions = {
               load_part},
 };
 
-/// What an effect does to the rows in use.
-Eigen::VectorXd done_by(const Evidence& evidence, const Fitter& fitter, const Fit& best, const Effect& effect) {
-  return (fitter.residual(without(best.at, effect), best.rest) - best.residual)(evidence.rows());
-}
-
 /// `base` with a number more for each part of the rows: by how much of itself `done` is larger there.
 Tangent of_another_size(const Tangent& base, const Eigen::VectorXd& done, const std::vector<RowFacts>& rows,
                         const Partition& partition) {
@@ -89,7 +84,7 @@ std::vector<Evenness> evenness(const Evidence& evidence, Workers& workers, const
   const double even = likely(base);
   std::vector<Evenness> all(best.effects.size());
   workers.each(all.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Eigen::VectorXd done = done_by(evidence, fitter, best, *best.effects[i]);
+    const Eigen::VectorXd done = done_by(fitter, evidence, best, *best.effects[i]);
     if (!done.allFinite()) return;
     all[i].part = rms_of(done) / std::max(rms_of(base.residual), std::numeric_limits<double>::min());
     for (const Partition& partition : k_partitions) {

@@ -186,6 +186,10 @@ std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect) {
   return own;
 }
 
+Eigen::VectorXd done_by(const Fitter& fitter, const Evidence& evidence, const Fit& fit, const Effect& effect) {
+  return (fitter.residual(without(fit.at, effect), fit.rest) - fit.residual)(evidence.rows());
+}
+
 Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
   const std::vector<Eigen::Index> rows = evidence.rows();
   Tangent tangent;

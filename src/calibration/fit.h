@@ -114,6 +114,9 @@ class Fitter {
   Model model_;
 };
 
+/// What an effect of `fit` does to the rows in use, rad.
+Eigen::VectorXd done_by(const Fitter& fitter, const Evidence& evidence, const Fit& fit, const Effect& effect);
+
 /// What a set's evidence is computed from: the rows in use.
 Tangent tangent_of(const Evidence& evidence, const Fit& fit);
 /// What a tangent says of the place `x`.
