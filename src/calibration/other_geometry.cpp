@@ -82,20 +82,26 @@ Fit without_idle_ones(const Fitter& fitter, Fit fit) {
 
 double score_of_usable(const Fit& fit) { return fit.usable ? score(fit) : -std::numeric_limits<double>::infinity(); }
 
-/// Of `others` with longer paths, from the starts in their order until one is as good as `enough`.
-double best_with_longer_paths(const Fitter& fitter, const Fit& others, double enough) {
+/// Of `others` with longer paths, from one start.
+Fit with_longer_paths(const Fitter& fitter, const Fit& others, double square) {
   EffectSet effects = others.effects;
   effects.push_back(&longer_paths());
-  Fit best;
-  for (const double square : k_starts) {
-    Imperfections start = others.at;
-    start.joint.path1.square = start.joint.path2.square = square;
-    Fit fit = fitter.fit(effects, start);
-    if (score_of_usable(fit) > score_of_usable(best)) best = std::move(fit);
-    if (score_of_usable(best) > enough) break;
+  Imperfections start = others.at;
+  start.joint.path1.square = start.joint.path2.square = square;
+  return fitter.fit(effects, start);
+}
+
+using FromStarts = std::array<Fit, k_starts.size()>;
+
+/// By the starts in their order until one is as good as `enough`.
+double best_of(const Fitter& fitter, FromStarts& fits, double enough) {
+  Fit* best = &fits.front();
+  for (Fit& fit : fits) {
+    if (score_of_usable(*best) > enough) break;
+    if (score_of_usable(fit) > score_of_usable(*best)) best = &fit;
   }
-  if (score_of_usable(best) < enough - k_most_by_idle_ones) return score_of_usable(best);
-  return score(without_idle_ones(fitter, std::move(best)));
+  if (score_of_usable(*best) < enough - k_most_by_idle_ones) return score_of_usable(*best);
+  return score(without_idle_ones(fitter, std::move(*best)));
 }
 
 /// Which part of what an effect does, squared, is the same at a place whichever way, load and run.
@@ -118,12 +124,17 @@ std::vector<double> under_other_geometry(const Evidence& evidence, Workers& work
   std::vector<double> scores(asked.size(), -std::numeric_limits<double>::infinity());
   if (evidence.declared->transmission) return scores;
   const std::vector<RowFacts> rows = row_facts(evidence);
-  workers.each(asked.size(), [&](const Fitter& fitter, std::size_t i) {
+  std::vector<FromStarts> fits(asked.size());
+  workers.each(asked.size() * k_starts.size(), [&](const Fitter& fitter, std::size_t task) {
+    const std::size_t i = task / k_starts.size(), start = task % k_starts.size();
     const Fit& without = selection.without[i];
     if (!asked[i] || !without.usable) return;
     const Eigen::VectorXd done = done_by(fitter, evidence, selection.best, *selection.best.effects[i]);
-    if (share_of_place(rows, done) >= k_least_of_place) scores[i] = best_with_longer_paths(fitter, without, enough);
+    if (share_of_place(rows, done) >= k_least_of_place)
+      fits[i][start] = with_longer_paths(fitter, without, k_starts[start]);
   });
+  workers.each(asked.size(),
+               [&](const Fitter& fitter, std::size_t i) { scores[i] = best_of(fitter, fits[i], enough); });
   return scores;
 }
 
