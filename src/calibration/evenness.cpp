@@ -47,7 +47,7 @@ constexpr std::array k_partitions = {
               "come to each place from both sides in steps, without load and with the largest",
               [](const RowFacts& row) { return row.direction > 0 ? 1 : 0; }},
     Partition{"from place to place", "repeat the slow unloaded run with ten times as many rows",
-              [](const RowFacts& row) { return std::min(k_thirds - 1, static_cast<int>(k_thirds * row.place)); }},
+              [](const RowFacts& row) { return place_bin(row, k_thirds); }},
     Partition{"from load to load",
               "stand at three places and put the load on and off in eight steps, both signs: an effect follows its law "
               "over all of them",
@@ -84,7 +84,7 @@ std::vector<Evenness> evenness(const Evidence& evidence, Workers& workers, const
   const double even = likely(base);
   std::vector<Evenness> all(best.effects.size());
   workers.each(all.size(), [&](const Fitter& fitter, std::size_t i) {
-    const Eigen::VectorXd done = done_by(fitter, evidence, best, *best.effects[i]);
+    const Eigen::VectorXd done = fitter.done_by(best, *best.effects[i]);
     if (!done.allFinite()) return;
     all[i].part = rms_of(done) / std::max(rms_of(base.residual), std::numeric_limits<double>::min());
     for (const Partition& partition : k_partitions) {

@@ -186,10 +186,6 @@ std::vector<Eigen::Index> places_of(const Fit& fit, const Effect& effect) {
   return own;
 }
 
-Eigen::VectorXd done_by(const Fitter& fitter, const Evidence& evidence, const Fit& fit, const Effect& effect) {
-  return (fitter.residual(without(fit.at, effect), fit.rest) - fit.residual)(evidence.rows());
-}
-
 Tangent tangent_of(const Evidence& evidence, const Fit& fit) {
   const std::vector<Eigen::Index> rows = evidence.rows();
   Tangent tangent;
@@ -493,6 +489,10 @@ Fit Fitter::beside(const Fit& fit, const Effect& effect, const std::vector<doubl
 Fit Fitter::beside(const Fit& fit, const Effect& effect) const {
   const std::vector<std::vector<double>> starts = starts_of(evidence(), fit, effect);
   return beside(fit, effect, starts.empty() ? std::vector<double>() : starts.front());
+}
+
+Eigen::VectorXd Fitter::done_by(const Fit& fit, const Effect& effect) const {
+  return (residual(without(fit.at, effect), fit.rest) - fit.residual)(evidence().rows());
 }
 
 Fit Fitter::with_direction(const Fit& fit, const Effect& effect) const {

@@ -72,6 +72,9 @@ class Fitter {
   /// What `at` leaves of the readings, as Said.
   Eigen::VectorXd residual(const Imperfections& at, LooseRow rest) const { return model_.said(at, rest).residual; }
 
+  /// What an effect of `fit` does to the rows in use, rad.
+  Eigen::VectorXd done_by(const Fit& fit, const Effect& effect) const;
+
   /// `fit` with `effect` added where it does nothing: what the data would say of it. No fit.
   Fit with_direction(const Fit& fit, const Effect& effect) const;
 
@@ -113,9 +116,6 @@ class Fitter {
 
   Model model_;
 };
-
-/// What an effect of `fit` does to the rows in use, rad.
-Eigen::VectorXd done_by(const Fitter& fitter, const Evidence& evidence, const Fit& fit, const Effect& effect);
 
 /// What a set's evidence is computed from: the rows in use.
 Tangent tangent_of(const Evidence& evidence, const Fit& fit);

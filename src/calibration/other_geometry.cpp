@@ -59,7 +59,7 @@ const Effect& longer_paths() {
 constexpr std::array k_starts = {0.0, 3.0, -3.0};
 /// Nats that may be gained by what is not wanted beside the paths: 3 to 9 on seven joints, once 21.
 constexpr double k_most_by_idle_ones = 25.0;
-constexpr std::size_t k_place_bins = 16;
+constexpr int k_bins_of_a_span = 16;
 /// Of what an effect does, squared, the part that is alike at a place from which on paths may be it: of geometry 0.35
 /// (a lever) to 1, of play and of a stretch under loads of either sign 0.06 and less.
 constexpr double k_least_of_place = 0.15;
@@ -106,14 +106,15 @@ double best_of(const Fitter& fitter, FromStarts& fits, double enough) {
 
 /// Which part of what an effect does, squared, is the same at a place whichever way, load and run.
 double share_of_place(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done) {
-  std::array<double, k_place_bins> sums{}, counts{};
+  std::array<double, k_bins_of_a_span> sums{}, counts{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto place = std::min<std::size_t>(k_place_bins - 1, static_cast<std::size_t>(k_place_bins * rows[i].place));
+    const auto place = static_cast<std::size_t>(place_bin(rows[i], k_bins_of_a_span));
     sums[place] += done[static_cast<Eigen::Index>(i)];
     counts[place] += 1;
   }
   double squares = 0;
-  for (std::size_t p = 0; p < k_place_bins; ++p) squares += counts[p] > 0 ? sums[p] * sums[p] / counts[p] : 0.0;
+  for (std::size_t place = 0; place < k_bins_of_a_span; ++place)
+    squares += counts[place] > 0 ? sums[place] * sums[place] / counts[place] : 0.0;
   return squares / std::max(done.squaredNorm(), std::numeric_limits<double>::min());
 }
 
@@ -124,14 +125,16 @@ std::vector<double> under_other_geometry(const Evidence& evidence, Workers& work
   std::vector<double> scores(asked.size(), -std::numeric_limits<double>::infinity());
   if (evidence.declared->transmission) return scores;
   const std::vector<RowFacts> rows = row_facts(evidence);
+  std::vector<double> shares(asked.size());
+  workers.each(asked.size(), [&](const Fitter& fitter, std::size_t i) {
+    if (asked[i] && selection.without[i].usable)
+      shares[i] = share_of_place(rows, fitter.done_by(selection.best, *selection.best.effects[i]));
+  });
   std::vector<FromStarts> fits(asked.size());
   workers.each(asked.size() * k_starts.size(), [&](const Fitter& fitter, std::size_t task) {
     const std::size_t i = task / k_starts.size(), start = task % k_starts.size();
-    const Fit& without = selection.without[i];
-    if (!asked[i] || !without.usable) return;
-    const Eigen::VectorXd done = done_by(fitter, evidence, selection.best, *selection.best.effects[i]);
-    if (share_of_place(rows, done) >= k_least_of_place)
-      fits[i][start] = with_longer_paths(fitter, without, k_starts[start]);
+    if (shares[i] >= k_least_of_place)
+      fits[i][start] = with_longer_paths(fitter, selection.without[i], k_starts[start]);
   });
   workers.each(asked.size(),
                [&](const Fitter& fitter, std::size_t i) { scores[i] = best_of(fitter, fits[i], enough); });

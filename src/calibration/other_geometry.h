@@ -11,8 +11,8 @@
 namespace fusee {
 
 /// Score of the best set with such paths in an effect's place and in that of others that it then does as well without,
-/// of each that is asked for, in the order of `Selection::best`; −infinity: not asked, or not to be had. Better ones are
-/// not looked for where a score is above `enough`.
+/// of each that is asked for, in the order of `Selection::best`; −infinity: not asked, nothing that geometry does, or
+/// not to be had. Of the starts of a fit none is taken after one that is above `enough`.
 std::vector<double> under_other_geometry(const Evidence& evidence, Workers& workers, const Selection& selection,
                                          const std::vector<bool>& asked, double enough);
 

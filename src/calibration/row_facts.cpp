@@ -46,6 +46,8 @@ std::vector<std::vector<GoneOn>> gone_on(const Evidence& evidence) {
 
 }  // namespace
 
+int place_bin(const RowFacts& row, int count) { return Bins{{0, 1}, count}.bin(row.place); }
+
 std::vector<RowFacts> row_facts(const Evidence& evidence) {
   const SeenSpan span = seen_span(evidence.measurement, &Sample::alpha);
   const std::vector<std::vector<GoneOn>> gone = gone_on(evidence);

@@ -24,6 +24,9 @@ struct RowFacts {
   std::size_t block = 0;
 };
 
+/// Which of `count` even parts of the seen span a row lies in, from 0.
+int place_bin(const RowFacts& row, int count);
+
 /// Of the rows in use, block by block.
 std::vector<RowFacts> row_facts(const Evidence& evidence);
 

@@ -194,7 +194,10 @@ TEST(Unnamed, IsWithoutAPartWhateverElseStays) {
   const auto of = [](double place, double run) {
     Unnamed unnamed;
     for (const auto& [factor, rms] : {std::pair("run", run), std::pair("place", place)}) {
-      if (rms > 0) unnamed.parts.emplace_back().factor = factor, unnamed.parts.back().rms = rms;
+      if (rms == 0) continue;
+      Unknown& part = unnamed.parts.emplace_back();
+      part.factor = factor;
+      part.rms = rms;
     }
     return unnamed;
   };

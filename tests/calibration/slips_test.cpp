@@ -69,27 +69,22 @@ std::vector<std::string> words(const std::vector<UndoneSlip>& slips) {
   return all;
 }
 
-Calibration calibrated(const DeclaredMechanism& file, Measurement data) {
+Calibration calibrated(const DeclaredMechanism& file, Measurement data, bool look_for_effects = true) {
   compare_with_declared(file, data);
-  return calibrate(file, data);
+  CalibrationOptions options;
+  options.look_for_effects = look_for_effects;
+  return calibrate(file, data, options);
 }
 
 /// Rms over all rows with nothing fitted, rad: no rows are left out, as a slip's trial does.
-double left_by(const DeclaredMechanism& file, Measurement data) {
-  compare_with_declared(file, data);
-  CalibrationOptions options;
-  options.look_for_effects = false;
-  return calibrate(file, data, options).before.rms;
+double left_by(const DeclaredMechanism& file, const Measurement& data) {
+  return calibrated(file, data, false).before.rms;
 }
 
 /// What calibrate finds of a file, and then of its slips: where one is plain no effect is looked for, as the program
 /// does not.
 std::vector<UndoneSlip> slips_of(const DeclaredMechanism& file, const Measurement& data) {
-  Measurement compared = data;
-  compare_with_declared(file, compared);
-  CalibrationOptions options;
-  options.look_for_effects = !is_plainly_a_slip(file, data);
-  return slips_that_explain(file, data, calibrate(file, compared, options));
+  return slips_that_explain(file, data, calibrated(file, data, !is_plainly_a_slip(file, data)));
 }
 
 std::vector<std::string> said(const DeclaredMechanism& file, const Measurement& data) {
@@ -209,13 +204,10 @@ TEST(UndoneSlips, are_seen_before_any_search_where_they_are_plain) {
     EXPECT_FALSE(is_plainly_a_slip(bench.right, bench.data)) << name;
     bench.right.guides.OE *= -1;
     EXPECT_TRUE(is_plainly_a_slip(bench.right, bench.data)) << name;
-    CalibrationOptions options;
-    options.look_for_effects = false;
-    compare_with_declared(bench.right, bench.data);
-    const Calibration found = calibrate(bench.right, bench.data, options);
+    const Calibration found = calibrated(bench.right, bench.data, false);
     EXPECT_EQ(found.verdict, CalibrationVerdict::unexplained);
     EXPECT_THAT(found.effects, IsEmpty());
-    EXPECT_THAT(words(slips_that_explain(bench.right, rig_data(name).data, found)),
+    EXPECT_THAT(words(slips_that_explain(bench.right, bench.data, found)),
                 ElementsAre(HasSubstr("guides.OE_mm = -14 in place of 14")))
         << name;
   }
