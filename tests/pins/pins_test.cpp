@@ -2,6 +2,7 @@
 // bytes were.
 #include <gmock/gmock.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <filesystem>
 
@@ -65,6 +66,13 @@ std::string test_name(const ::testing::TestParamInfo<PinnedRun>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Outputs, ::testing::ValuesIn(runs()), test_name);
+
+// By them Eigen cuts its products, and sums end in other digits.
+TEST(Pins, DoNotGoByTheCachesOfTheProcessor) {
+  EXPECT_EQ(Eigen::l1CacheSize(), 32 << 10);
+  EXPECT_EQ(Eigen::l2CacheSize(), 256 << 10);
+  EXPECT_EQ(Eigen::l3CacheSize(), 2 << 20);
+}
 
 TEST(Pins, AreOfRunsThatThereAre) {
   std::vector<std::string> names;
