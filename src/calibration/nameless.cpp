@@ -8,11 +8,11 @@
 #include <set>
 
 #include "calibration/marginal.h"
-#include "calibration/other_geometry.h"
 #include "calibration/other_loads.h"
 #include "calibration/row_facts.h"
 #include "calibration/statistics.h"
 #include "calibration/thresholds.h"
+#include "calibration/unnamed_effects.h"
 #include "fusee/base/text.h"
 
 // The discrepancy is smooth: a kink, a jump, a lump or a wave of many periods costs it many columns, and a name that
@@ -424,17 +424,17 @@ double least_ahead(const Effect& effect, const std::vector<std::string>& group, 
 }
 
 /// Of names that are ahead of all else: `with`, the score with all of them.
-void look_at_geometry(const Evidence& evidence, Workers& workers, const Selection& selection, double with,
-                      std::vector<Nameless>& rivals) {
+void look_at_unnamed_effects(const Evidence& evidence, Workers& workers, const Selection& selection, double with,
+                             std::vector<Nameless>& rivals) {
   std::vector<bool> asked;
   for (const Nameless& rival : rivals) asked.push_back(rival.behind >= k_thresholds.ahead_of_nameless);
-  const std::vector<double> scores =
-      under_other_geometry(evidence, workers, selection, asked, with - k_thresholds.ahead_of_nameless);
+  std::vector<UnnamedInPlace> unnamed =
+      unnamed_in_place(evidence, workers, selection, asked, with - k_thresholds.ahead_of_nameless);
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    if (!(with - scores[i] < rivals[i].behind)) continue;
-    rivals[i].behind = with - scores[i];
-    rivals[i].words = "tendons' paths that are longer or shorter by a smooth curve of the joint's angle";
-    rivals[i].separating_run = "measure pins, lever and pulley with a caliper";
+    if (!(with - unnamed[i].score < rivals[i].behind)) continue;
+    rivals[i].behind = with - unnamed[i].score;
+    rivals[i].words = std::move(unnamed[i].words);
+    rivals[i].separating_run = std::move(unnamed[i].separating_run);
   }
 }
 
@@ -489,7 +489,7 @@ std::vector<Nameless> nameless_rivals(const Evidence& evidence, Workers& workers
       break;
     }
   }
-  look_at_geometry(evidence, workers, selection, readings.front().score, rivals);
+  look_at_unnamed_effects(evidence, workers, selection, readings.front().score, rivals);
   return rivals;
 }
 

@@ -45,6 +45,9 @@ constexpr int k_newton_rounds = 6;
 /// The same before the joint's place was searched for: from row to row it is mostly nearer than this to where it is
 /// looked for.
 constexpr double k_glide = 0.02;  // rad
+/// Dry friction that goes by the tendons' pull is found to this share of itself, or in so many rounds more.
+constexpr double k_near_dry = 1e-4;
+constexpr int k_rubbing_rounds = 6;
 /// Tendons at less hold nothing: what rounding leaves in one that just pushed a loose joint along. N
 constexpr double k_least_hold = 1e-4;
 /// Before the place where a tendon leaves its drum. rad
@@ -89,7 +92,7 @@ struct TendonHistory {
   /// What lies on the joint's drum, seen from the link, where it rubs there; else that is a part of the upper span.
   std::optional<WoundProfile> on_drum;
   double behind_drum = 0;  ///< straight, from the drum to the tendon's end
-  double upper = 0;  ///< tensions at the last step
+  double upper = 0;        ///< tensions at the last step
   double lower = 0;
   double home = 0;       ///< tension at home, N
   Vec2 home_push{0, 0};  ///< on its pin at home, which stands there as declared, N
@@ -567,6 +570,7 @@ struct JointMotion::State {
   std::array<double, 2> released{};  ///< so far, mm
   double theta = 0;
   bool loose = false;       ///< at the last step
+  double dry = 0;           ///< friction that holds the joint, N·mm
   double expected = 0;      ///< model.expected at the last step
   double wound_energy = 0;  ///< since home
   double home_energy = 0;
@@ -580,6 +584,7 @@ struct JointMotion::State {
   std::optional<Rest> balanced(const std::array<AtAlpha, 2>& at, const JointStep& step, double start,
                                double last_step) const;
   std::optional<Rest> settled(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
+  std::optional<Rest> rubbed(std::array<AtAlpha, 2>& at, const JointStep& step, double start);
   bool consistent(std::array<AtAlpha, 2>& at, const std::array<Trial, 2>& now, double move);
   bool is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const;
   EquilibriumPoint accept(std::array<AtAlpha, 2>& at, const JointStep& step, const Rest& rest);
@@ -593,6 +598,7 @@ JointMotion::State::State(JointModel joint) : model(std::move(joint)) {
   tendons[0] = at_home(Side::left, model, paths[0], model.pretension);
   tendons[1] = at_home(Side::right, model, paths[1], model.pretension * arm1 / arm2);
   expected = model.expected(0.0);
+  dry = model.dry_friction(model.pretension, model.pretension * arm1 / arm2);
   for (const TendonHistory& tendon : tendons) home_energy += energy_of_spans(tendon, model);
 }
 
@@ -622,9 +628,9 @@ std::optional<Rest> JointMotion::State::balanced(const std::array<AtAlpha, 2>& a
   // from where it is expected.
   if (theta > model.theta_least && theta < model.theta_most) {
     const double here = pull(theta).value;
-    if (std::abs(here) <= model.bearing_friction) return Rest{theta, 0, true};
-    held = std::copysign(model.bearing_friction, here);
-    if (loose || model.bearing_friction > 0) start = theta;
+    if (std::abs(here) <= dry) return Rest{theta, 0, true};
+    held = std::copysign(dry, here);
+    if (loose || dry > 0) start = theta;
   }
   const auto found = fallen_to_zero(start, model.theta_least, model.theta_most, last_step, pull);
   if (!found) return std::nullopt;
@@ -659,7 +665,7 @@ std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, cons
     return balanced(at, step, from, exactly);
   };
   // Where pins give way there may be two places that hold, and the search finds the one that is in keeping.
-  const bool first_search = loose || model.bearing_friction > 0 || model.pin_give > 0;
+  const bool first_search = loose || dry > 0 || model.pin_give > 0;
   auto rest =
       first_search ? search(start) : std::optional(Rest{std::clamp(start, model.theta_least, model.theta_most)});
   for (int i = 0; i < k_rounds && rest; ++i) {
@@ -682,16 +688,28 @@ std::optional<Rest> JointMotion::State::settled(std::array<AtAlpha, 2>& at, cons
   return rest;
 }
 
+/// Settled, with as much dry friction as the tendons' pull asks for there.
+std::optional<Rest> JointMotion::State::rubbed(std::array<AtAlpha, 2>& at, const JointStep& step, double start) {
+  std::optional<Rest> rest = settled(at, step, start);
+  for (int i = 0; i < k_rubbing_rounds && rest; ++i) {
+    const double due = model.dry_friction(rest->trials[0].balance.upper, rest->trials[1].balance.upper);
+    if (std::abs(due - dry) <= k_near_dry * due) break;
+    dry = due;
+    rest = settled(at, step, start);
+  }
+  return rest;
+}
+
 /// Nothing but its bearing's friction keeps the joint where it is in its play. That is no hold: a joint was named whose
 /// friction of 0.007 N·mm made rows sure that without it rest anywhere (four false groups of 34 on wide joints).
 bool JointMotion::State::is_loose(const EquilibriumPoint& point, const std::array<Trial, 2>& now) const {
   const auto hardly_pulls = [&](const TendonState& tendon, const Trial& trial) {
-    const double held = model.bearing_friction > 0 ? (1.0 + k_rounding) * model.bearing_friction / trial.span.m : 0.0;
+    const double held = dry > 0 ? (1.0 + k_rounding) * dry / trial.span.m : 0.0;
     return tendon.upper < k_least_hold + held;
   };
   if (!hardly_pulls(point.t1, now[0]) || !hardly_pulls(point.t2, now[1])) return false;
   // What keeps a tendon taut until the friction is used up is given back before the play begins.
-  const double taken_up = model.bearing_friction > 0 ? point.t1.stretch + point.t2.stretch : 0.0;
+  const double taken_up = dry > 0 ? point.t1.stretch + point.t2.stretch : 0.0;
   return point.t1.slack + point.t2.slack - taken_up > k_least_play;
 }
 
@@ -701,7 +719,7 @@ EquilibriumPoint JointMotion::State::accept(std::array<AtAlpha, 2>& at, const Jo
   EquilibriumPoint point;
   point.alpha = step.alpha;
   point.load_torque = step.tip_force * model.lever + step.torque + model.own_torque(found);
-  friction += model.bearing_friction * std::abs(found - theta);
+  friction += dry * std::abs(found - theta);
   point.theta = theta = found;
   point.stiffness = point.stiffness_stuck = model.own_slope(found);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -770,7 +788,7 @@ EquilibriumPoint JointMotion::to(const JointStep& step) {
   // Where the law ends nothing is expected: the search starts from where the joint stands.
   const double known = model.expected(step.alpha);
   const double expected = std::isfinite(known) ? known : state.expected;
-  const auto rest = state.settled(at, step, state.theta + expected - state.expected);
+  const auto rest = state.rubbed(at, step, state.theta + expected - state.expected);
   if (!rest) return state.refuse(step);
   state.expected = expected;
   state.released = step.tendon.released;

@@ -1,5 +1,6 @@
 #include "fusee/joint/joint_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -139,6 +140,13 @@ JointModel joint_model(const MadePulleys& made, const MountedMechanism& in) {
   model.theta_most = last_with_arms(model.pins, 0.0, mounted.joint.theta_max + k_reach);
   model.upper = std::make_shared<const UpperSpans>(model.pins, model.theta_least, model.theta_most, in.longer);
   return model;
+}
+
+double JointModel::dry_friction(double left, double right) const {
+  if (rubbing == RubbingError{}) return bearing_friction;
+  const double first = std::max(0.0, left) / k_usual_pull, second = std::max(0.0, right) / k_usual_pull;
+  const double area = 0.5 * (std::pow(first, 2.0 / 3.0) + std::pow(second, 2.0 / 3.0));
+  return bearing_friction + rubbing.by_area * area + rubbing.by_lesser * std::min(first, second);
 }
 
 void set_statics(JointModel& model, const MountedMechanism& in) {

@@ -238,6 +238,23 @@ TEST(Selection, GeometryWithoutANameIsNotNamedForSure) {
   EXPECT_THAT(found.effects.front().nameless.words, testing::HasSubstr("tendons' paths"));
 }
 
+// It holds the joint as a bearing's does, and that was 220 nats ahead of every curve beside the readings.
+TEST(Selection, FrictionByAnotherLawIsNotNamedForSure) {
+  const DeclaredMechanism declared = bench_joint();
+  Imperfections truth;
+  truth.joint.rubbing.by_area = 250;
+  const Calibration found = calibrate(declared, logged(declared, truth, {{0, 1}, {8, 1}, {0, 8}, {-8, 1}}));
+  ASSERT_FALSE(found.effects.empty());
+  EXPECT_THAT(found.effects.front().group, Contains("nameless")) << why(found);
+  EXPECT_THAT(found.effects.front().nameless.words, testing::HasSubstr("a friction that is not in proportion"));
+
+  truth = {};
+  truth.joint.friction = 250;
+  const Calibration named = calibrate(declared, logged(declared, truth, {{0, 1}, {8, 1}, {0, 8}, {-8, 1}}));
+  ASSERT_EQ(named.effects.size(), 1u) << why(named);
+  EXPECT_THAT(named.effects.front().group, testing::ElementsAre("joint_friction"));
+}
+
 /// Of two joints, run by run in turn.
 Measurement in_turn(Measurement one, const Measurement& other) {
   for (std::size_t i = 1; i < one.runs.size(); i += 2) one.runs[i] = other.runs[i];

@@ -93,8 +93,8 @@ TEST(Paths, PullOnTheJointByTheLengthThatTheyLose) {
   const auto length = [&](Side side, double theta) {
     const double image = side == Side::left ? -theta : theta;
     const PathError& longer = side == Side::left ? at.joint.path1 : at.joint.path2;
-    return upper_span(pin_place(mechanism, side, mechanism.seen_pitch_radius()), image).length +
-           longer.slope * image + longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
+    return upper_span(pin_place(mechanism, side, mechanism.seen_pitch_radius()), image).length + longer.slope * image +
+           longer.square * std::pow(image, 2) + longer.cube * std::pow(image, 3);
   };
   constexpr double way = 1e-5;
   double most = 0;
@@ -108,6 +108,47 @@ TEST(Paths, PullOnTheJointByTheLengthThatTheyLose) {
     most = std::max(most, std::abs(state.t1.upper - state.t2.upper));
   }
   EXPECT_GT(most, 1.0) << "N: both arms are not alike";
+}
+
+// By the virtual work of both tensions and the load over a little way, the lengths differenced.
+TEST(Rubbing, HoldsByBothPullsOrTheLesserOne) {
+  Mechanism mechanism = testing::linear_wrist();
+  mechanism.tendon.pretension = 40;
+  mechanism.tendon.modulus = 2000;
+  constexpr double way = 1e-5;
+  const auto arm = [&](Side side, double theta) {
+    const auto length = [&](double at) {
+      return upper_span(pin_place(mechanism, side, mechanism.seen_pitch_radius()), side == Side::left ? -at : at)
+          .length;
+    };
+    return std::abs(length(theta + way) - length(theta - way)) / (2 * way);
+  };
+  const BenchLog log{swept(mechanism, 6)};
+  for (const RubbingError& rubbing : {RubbingError{200, 0}, {0, 200}, {100, 100}}) {
+    Imperfections at;
+    at.joint.rubbing = rubbing;
+    const std::vector<JointState> states = simulate(mechanism, at, log).front();
+    int moved = 0, held = 0;
+    double least = 1e9, most = 0;
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      const auto& [t1, t2] = std::pair(states[i].t1.upper, states[i].t2.upper);
+      const double theta = states[i].theta, turned = theta - states[i - 1].theta;
+      const double pull = t2 * arm(Side::right, theta) - t1 * arm(Side::left, theta) - 6 * mechanism.joint.R;
+      const double dry = rubbing.by_area * (std::cbrt(t1 * t1) + std::cbrt(t2 * t2)) / (2 * std::cbrt(100.0)) +
+                         rubbing.by_lesser * std::min(t1, t2) / 10;
+      if (std::abs(turned) > 1e-9) {
+        EXPECT_NEAR(pull, std::copysign(dry, turned), 2e-3 * dry) << i;
+        ++moved;
+      } else {
+        EXPECT_LE(std::abs(pull), (1 + 1e-3) * dry) << i;
+        ++held;
+      }
+      least = std::min(least, dry), most = std::max(most, dry);
+    }
+    EXPECT_GT(moved, 100);
+    EXPECT_GT(held, 5) << "behind its reversals";
+    EXPECT_GT(most, 1.02 * least) << "it goes by what is pulled";
+  }
 }
 
 TEST(Sheath, ItsErrorsAreThoseOfAnotherFile) {

@@ -77,6 +77,7 @@ struct JointModel {
   double drum_friction = 0;                      ///< between tendon and drum, as groove_friction
   double slack = 0;                              ///< material of each tendon beyond what the pretension leaves, mm
   double bearing_friction = 0;                   ///< dry, of the joint's bearing, N·mm
+  RubbingError rubbing;                          ///< dry, and by the tendons' pull
   double pin_give = 0;                           ///< a pin moves by this along what its tendon pushes it with, mm/N
   /// Between tendon and groove: what lies on a pulley slides as far as this lets it, up to the knot. Infinite: it keeps
   /// the strain that it was wound at; 0: it is a part of the spring.
@@ -91,6 +92,9 @@ struct JointModel {
   double theta_least = 0;    ///< between here and theta_most both tendons have a moment arm about O, rad
   double theta_most = 0;
   std::shared_ptr<const UpperSpans> upper;  ///< of these pins between these angles
+
+  /// All dry friction that holds the joint, of tendons that pull it with `left` and `right` N; N·mm.
+  double dry_friction(double left, double right) const;
 
   /// What weight and spring turn the joint with, against +θ, N·mm; and its derivative.
   double own_torque(double theta) const { return weight * std::sin(tilt - theta) + spring.torque(theta); }

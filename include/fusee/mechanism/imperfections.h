@@ -128,9 +128,21 @@ struct PathError {
   bool operator==(const PathError&) const = default;
 };
 
+/// Of both tendons, where RubbingError is what it says, N.
+constexpr double k_usual_pull = 10.0;
+
+/// Dry friction by laws that no effect has, N·mm on the joint where both tendons pull with k_usual_pull.
+struct RubbingError {
+  double by_area = 0;    ///< with the power 2/3 of each tendon's pull, as soft fibres on polished pins (Howell)
+  double by_lesser = 0;  ///< with the pull of the tendon that pulls less, as of two that rub on each other
+
+  bool operator==(const RubbingError&) const = default;
+};
+
 struct JointError {
   double length = 0;    ///< added to OC, mm
   double friction = 0;  ///< dry friction of the bearing, N·mm
+  RubbingError rubbing;
   DrumError drum;
   AttachmentError end1;
   AttachmentError end2;

@@ -1,0 +1,238 @@
+#include "calibration/unnamed_effects.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "calibration/parameters.h"
+#include "calibration/row_facts.h"
+
+// A curve beside the readings knows nothing of moment arms and tensions. Two kinds of things act through them and have
+// no name:
+//
+// - Geometry. Under load a path that is longer by a curve turns the joint further where its arm is smaller, as every
+//   geometry does, and the names of geometry were then far ahead of all that has none (unheard split, seeds 241038 and
+//   241092: a flexure's centre that wanders, as a runout, by 52 and 206 nats; by 4 and less of such paths). So the set
+//   without the effect is fitted again with them, a slope, a square and a cube of the angle each: a tendon that leaves
+//   its drum aslant has all three (251083, 251117: 173 and 27 nats without a slope). Both paths may be long by so much
+//   that a fit from none ends on a wrong summit (241041: 39 nats below; 241063: 30), so it begins with curves of both
+//   signs too.
+// - Friction by another law. It holds the joint within the tendons' give, which is wider where they are softer or their
+//   arms smaller, as every friction does; but not in proportion to their pull, as on pins, nor whatever they pull, as
+//   in a bearing (undreamt split, seeds 271100, 271143, 271150: fibres by Howell's law, as a bearing's friction, by 19
+//   to 224 nats; unheard split, 241065, 241071: tendons that rub on each other).
+//
+// What was found to mend the name's fit is not wanted beside what has none (241096: a drum's radius, 21 nats): the
+// others go one by one as long as the evidence grows. Each is asked only where it may be it, of geometry what is alike
+// at a place, of friction what turns over with the direction: such fits were a quarter of a calibration's time.
+
+namespace fusee {
+namespace {
+
+/// mm at 57 degrees, a quarter of it at 29: pins, levers and pulleys are off by as much.
+constexpr double k_usual_path = 2.0;
+/// N·mm: a bearing's, and more, since it may be the pins'.
+constexpr double k_usual_rubbing = 100.0;
+/// Nats that may be gained by what is not wanted beside it: 3 to 9 on seven joints, once 21.
+constexpr double k_most_by_idle_ones = 25.0;
+constexpr int k_bins_of_a_span = 16;
+/// Of what an effect does, squared, the part that is alike at a place from which on paths may be it: of geometry 0.35
+/// (a lever) to 1, of play and of a stretch under loads of either sign 0.06 and less.
+constexpr double k_least_of_place = 0.15;
+/// The same, of the part that turns over with the direction, from which on friction may be it.
+constexpr double k_least_of_direction = 0.15;
+
+EffectParameter number_of(const char* name, double& (*number)(Imperfections&), double least, double most, double step,
+                          double prior) {
+  EffectParameter parameter;
+  parameter.name = name;
+  parameter.number = number;
+  parameter.least = least;
+  parameter.most = most;
+  parameter.step = step;
+  parameter.prior = prior;
+  return parameter;
+}
+
+EffectParameter path_number(const char* name, double& (*number)(Imperfections&)) {
+  return number_of(name, number, -20, 20, 1e-2, k_usual_path);
+}
+
+EffectParameter rubbing_number(const char* name, double& (*number)(Imperfections&)) {
+  return number_of(name, number, 0, 1e5, 0.5, k_usual_rubbing);
+}
+
+Effect longer_paths() {
+  Effect paths;
+  paths.name = "longer_paths";
+  paths.parameters = {path_number("slope1", [](Imperfections& at) -> double& { return at.joint.path1.slope; }),
+                      path_number("slope2", [](Imperfections& at) -> double& { return at.joint.path2.slope; }),
+                      path_number("square1", [](Imperfections& at) -> double& { return at.joint.path1.square; }),
+                      path_number("cube1", [](Imperfections& at) -> double& { return at.joint.path1.cube; }),
+                      path_number("square2", [](Imperfections& at) -> double& { return at.joint.path2.square; }),
+                      path_number("cube2", [](Imperfections& at) -> double& { return at.joint.path2.cube; })};
+  paths.starts = {{0, 0, 0, 0, 0, 0}, {0, 0, 3, 0, 3, 0}, {0, 0, -3, 0, -3, 0}};
+  return paths;
+}
+
+Effect rubbing() {
+  Effect friction;
+  friction.name = "rubbing";
+  friction.parameters = {
+      rubbing_number("by_area_Nmm", [](Imperfections& at) -> double& { return at.joint.rubbing.by_area; }),
+      rubbing_number("by_lesser_Nmm", [](Imperfections& at) -> double& { return at.joint.rubbing.by_lesser; })};
+  friction.starts = {{100, 0}, {0, 100}, {1000, 0}, {0, 1000}};
+  friction.sticks = true;
+  return friction;
+}
+
+/// Sum over parts of the rows of the squares of what is alike in each.
+template <std::size_t parts, typename Part>
+double alike(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done, Part part) {
+  std::array<double, parts> sums{}, counts{};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto own = static_cast<std::size_t>(part(rows[i]));
+    sums[own] += done[static_cast<Eigen::Index>(i)];
+    counts[own] += 1;
+  }
+  double squares = 0;
+  for (std::size_t own = 0; own < parts; ++own) squares += counts[own] > 0 ? sums[own] * sums[own] / counts[own] : 0.0;
+  return squares;
+}
+
+/// The same at a place, whichever way, load and run.
+double alike_at_a_place(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done) {
+  return alike<k_bins_of_a_span>(rows, done, [](const RowFacts& row) { return place_bin(row, k_bins_of_a_span); });
+}
+
+/// The same at a place one way, beyond what is the same both ways.
+double alike_one_way(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done) {
+  const auto part = [](const RowFacts& row) { return 2 * place_bin(row, k_bins_of_a_span) + (row.direction > 0); };
+  return alike<2 * k_bins_of_a_span>(rows, done, part) - alike_at_a_place(rows, done);
+}
+
+struct UnnamedEffect {
+  Effect effect;
+  double (*of_its_kind)(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done);
+  double least_of_its_kind;  ///< of all that an effect does, squared
+  const char* words;
+  const char* separating_run;
+};
+
+/// In no catalogue: nobody could look for them with a caliper.
+const std::array<UnnamedEffect, 2>& unnamed_effects() {
+  static const std::array<UnnamedEffect, 2> all = {{
+      {longer_paths(), alike_at_a_place, k_least_of_place,
+       "tendons' paths that are longer or shorter by a smooth curve of the joint's angle",
+       "measure pins, lever and pulley with a caliper"},
+      {rubbing(), alike_one_way, k_least_of_direction,
+       "a friction that is not in proportion to the tendons' pull, or goes by the one that pulls less",
+       "repeat one run with twice the pretension, and with four times: how a loop grows with the pull is its law"},
+  }};
+  return all;
+}
+
+/// None where `unnamed` does as well without none of the others.
+std::optional<Fit> without_one_more(const Fitter& fitter, const Fit& fit, const Effect& unnamed) {
+  for (const Effect* effect : fit.effects) {
+    if (effect == &unnamed) continue;
+    Fit fewer = fitter.fit(without(fit.effects, *effect), without(fit.at, *effect));
+    if (fewer.usable && score(fewer) > score(fit)) return fewer;
+  }
+  return std::nullopt;
+}
+
+/// `fit` without the effects that `unnamed` does as well without.
+Fit without_idle_ones(const Fitter& fitter, Fit fit, const Effect& unnamed) {
+  while (std::optional<Fit> fewer = without_one_more(fitter, fit, unnamed)) fit = std::move(*fewer);
+  return fit;
+}
+
+double score_of_usable(const Fit& fit) { return fit.usable ? score(fit) : -std::numeric_limits<double>::infinity(); }
+
+/// Of `others` with an effect more, from one of its starts.
+Fit with_unnamed(const Fitter& fitter, const Fit& others, const Effect& unnamed, const std::vector<double>& start) {
+  EffectSet effects = others.effects;
+  effects.push_back(&unnamed);
+  Imperfections at = others.at;
+  for (std::size_t k = 0; k < start.size(); ++k) set_value(at, unnamed.parameters[k], start[k]);
+  return fitter.fit(effects, at);
+}
+
+/// An unnamed effect in the place of one that has a name: a fit from each of its starts.
+struct Substitute {
+  std::size_t effect = 0;
+  const UnnamedEffect* unnamed = nullptr;
+  std::vector<Fit> fits;
+  double score = -std::numeric_limits<double>::infinity();
+};
+
+/// Where what an effect does is of an unnamed one's kind.
+std::vector<Substitute> substitutes_of(const Evidence& evidence, Workers& workers, const Selection& selection,
+                                       const std::vector<bool>& asked) {
+  const std::vector<RowFacts> rows = row_facts(evidence);
+  std::vector<std::vector<Substitute>> of_effects(asked.size());
+  workers.each(asked.size(), [&](const Fitter& fitter, std::size_t i) {
+    if (!asked[i] || !selection.without[i].usable) return;
+    const Eigen::VectorXd done = fitter.done_by(selection.best, *selection.best.effects[i]);
+    const double all = std::max(done.squaredNorm(), std::numeric_limits<double>::min());
+    for (const UnnamedEffect& unnamed : unnamed_effects()) {
+      if (unnamed.of_its_kind(rows, done) >= unnamed.least_of_its_kind * all)
+        of_effects[i].push_back({i, &unnamed, std::vector<Fit>(unnamed.effect.starts.size())});
+    }
+  });
+  std::vector<Substitute> substitutes;
+  for (std::vector<Substitute>& own : of_effects) std::move(own.begin(), own.end(), std::back_inserter(substitutes));
+  return substitutes;
+}
+
+/// From each start, side by side.
+void fit_from_starts(Workers& workers, const Selection& selection, std::vector<Substitute>& substitutes) {
+  struct Task {
+    Substitute* substitute = nullptr;
+    std::size_t start = 0;
+  };
+  std::vector<Task> tasks;
+  for (Substitute& substitute : substitutes) {
+    for (std::size_t start = 0; start < substitute.fits.size(); ++start) tasks.push_back({&substitute, start});
+  }
+  workers.each(tasks.size(), [&](const Fitter& fitter, std::size_t i) {
+    const auto& [substitute, start] = tasks[i];
+    const Effect& unnamed = substitute->unnamed->effect;
+    substitute->fits[start] =
+        with_unnamed(fitter, selection.without[substitute->effect], unnamed, unnamed.starts[start]);
+  });
+}
+
+/// By the starts in their order until one is as good as `enough`.
+double best_score(const Fitter& fitter, Substitute& substitute, double enough) {
+  Fit* best = &substitute.fits.front();
+  for (Fit& fit : substitute.fits) {
+    if (score_of_usable(*best) > enough) break;
+    if (score_of_usable(fit) > score_of_usable(*best)) best = &fit;
+  }
+  if (score_of_usable(*best) < enough - k_most_by_idle_ones) return score_of_usable(*best);
+  return score(without_idle_ones(fitter, std::move(*best), substitute.unnamed->effect));
+}
+
+}  // namespace
+
+std::vector<UnnamedInPlace> unnamed_in_place(const Evidence& evidence, Workers& workers, const Selection& selection,
+                                             const std::vector<bool>& asked, double enough) {
+  std::vector<UnnamedInPlace> found(asked.size());
+  if (evidence.declared->transmission) return found;
+  std::vector<Substitute> substitutes = substitutes_of(evidence, workers, selection, asked);
+  fit_from_starts(workers, selection, substitutes);
+  workers.each(substitutes.size(), [&](const Fitter& fitter, std::size_t i) {
+    substitutes[i].score = best_score(fitter, substitutes[i], enough);
+  });
+  for (const Substitute& substitute : substitutes) {
+    if (substitute.score > found[substitute.effect].score)
+      found[substitute.effect] = {substitute.score, substitute.unnamed->words, substitute.unnamed->separating_run};
+  }
+  return found;
+}
+
+}  // namespace fusee
