@@ -22,7 +22,7 @@ const std::vector<FaultList>& fault_lists() {
       {"unread", unread_faults()},         {"untold", untold_faults()},
       {"unmet", unmet_faults()},           {"unheard", unheard_faults()},
       {"unforeseen", unforeseen_faults()}, {"unimagined", unimagined_faults()},
-      {"undreamt", undreamt_faults()},
+      {"undreamt", undreamt_faults()},     {"unsuspected", unsuspected_faults()},
   };
   return lists;
 }

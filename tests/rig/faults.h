@@ -79,6 +79,8 @@ std::vector<Fault> unforeseen_faults();
 std::vector<Fault> unimagined_faults();
 /// Without a name, by a thirteenth hand: kept aside, and run once after all else is settled.
 std::vector<Fault> undreamt_faults();
+/// Without a name, by a fourteenth hand: kept aside, and run once after all else is settled.
+std::vector<Fault> unsuspected_faults();
 
 /// The faults of several lists as one, in their order.
 std::vector<Fault> joined(const std::vector<std::vector<Fault>>& lists);

@@ -63,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Split{"unopened", 20, 10, loads_and_rests()}, Split{"unread", 20, 10, loads_and_rests()},
                       Split{"untold", 20, 10, loads_and_rests()}, Split{"unmet", 20, 10, loads_and_rests()},
                       Split{"unheard", 20, 10, loads_and_rests()}, Split{"unforeseen", 24, 15, loads_and_rests()},
-                      Split{"unimagined", 24, 15, loads_and_rests()}, Split{"undreamt", 31, 17, loads_and_rests()}),
+                      Split{"unimagined", 24, 15, loads_and_rests()}, Split{"undreamt", 31, 17, loads_and_rests()},
+                      Split{"unsuspected", 32, 18, loads_and_rests()}),
     [](const auto& split) { return split.param.name; });
 
 }  // namespace

@@ -36,7 +36,7 @@ constexpr const char* k_usage =
     "  --kinds NAME        only these: nothing one two three unknown beside (repeatable)\n"
     "  --split NAME        where faults without a name are drawn from: tuning (unless told), or those that are\n"
     "                      kept aside: unseen, sealed, withheld, reserved, unopened, unread, untold, unmet, unheard,\n"
-    "                      unforeseen, unimagined, undreamt\n"
+    "                      unforeseen, unimagined, undreamt, unsuspected\n"
     "  --leave-out NAME    joints that have this effect, calibrated by a catalogue that does not; all: each in turn\n"
     "  --protocol NAME     full: five runs; single: one unloaded run; random: any (full; random with --joints)\n"
     "  --any-groove        the groove's friction is drawn from 0.05 to 0.5 while the file says 0.2 (always with "
