@@ -11,17 +11,12 @@
 #include "fusee/measurement/measurement.h"
 #include "fusee/transmission/transmission.h"
 #include "rig/bench.h"
+#include "rig/fault_checks.h"
 #include "rig/truths.h"
 #include "support/mechanisms.h"
 
 namespace fusee::rig {
-namespace {
-
-SensorPlan silent() {
-  SensorPlan sensors;
-  sensors.noise = 0;
-  return sensors;
-}
+namespace tuning {
 
 /// Stiff and without friction: θ is the law's, whatever the load.
 const MadeJoint& forearm() {
@@ -52,8 +47,8 @@ Hidden with(const std::string& fault, double size, const Character& character = 
   return hidden;
 }
 
-Log run_of(const Hidden& hidden, const RunPlan& plan = single_protocol().front(), const MadeJoint& joint = forearm()) {
-  return log_runs(joint, hidden, {plan}, silent()).front();
+Log run_of(const Hidden& hidden, const RunPlan& plan = single_protocol().front()) {
+  return run_of(hidden, plan, forearm());
 }
 
 TEST(Unnamed, a_gear_turns_the_shaft) {
@@ -322,5 +317,5 @@ TEST(Programme, random_truths_are_of_the_kind_asked_for) {
   EXPECT_NE(random_truth(Kind::two, "tuning", 1).name, random_truth(Kind::two, "tuning", 2).name);
 }
 
-}  // namespace
+}  // namespace tuning
 }  // namespace fusee::rig

@@ -3,7 +3,7 @@
 #include "rig/faults.h"
 
 namespace fusee::rig {
-namespace {
+namespace named_list {
 
 using namespace short_names;
 
@@ -174,9 +174,10 @@ std::vector<Fault> joint_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace named_list
 
 std::vector<Fault> named_faults() {
+  using namespace named_list;
   return joined({motor_faults(), pulley_faults(), tendon_faults(), pin_faults(), joint_faults()});
 }
 

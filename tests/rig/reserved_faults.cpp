@@ -9,7 +9,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace reserved {
 
 using namespace short_names;
 
@@ -367,9 +367,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace reserved
 
 std::vector<Fault> reserved_faults() {
+  using namespace reserved;
   return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
 }
 

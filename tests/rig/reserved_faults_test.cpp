@@ -13,7 +13,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace reserved {
 
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
@@ -403,5 +403,5 @@ TEST(Reserved, a_bus_that_hangs_repeats_the_last_angle) {
   EXPECT_GE(repeated, 10);
 }
 
-}  // namespace
+}  // namespace reserved
 }  // namespace fusee::rig

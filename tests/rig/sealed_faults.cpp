@@ -8,7 +8,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace sealed {
 
 using namespace short_names;
 
@@ -365,9 +365,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace sealed
 
 std::vector<Fault> sealed_faults() {
+  using namespace sealed;
   return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
 }
 

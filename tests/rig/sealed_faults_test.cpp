@@ -12,7 +12,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace sealed {
 
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
@@ -356,5 +356,5 @@ TEST(Sealed, a_bracket_bows_while_its_core_is_warmer_than_its_skin) {
   EXPECT_LT(last, 0.2 * most);
 }
 
-}  // namespace
+}  // namespace sealed
 }  // namespace fusee::rig

@@ -5,7 +5,7 @@
 #include "rig/faults.h"
 
 namespace fusee::rig {
-namespace {
+namespace tuning_list {
 
 using namespace short_names;
 
@@ -181,9 +181,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace tuning_list
 
 std::vector<Fault> tuning_faults() {
+  using namespace tuning_list;
   return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
 }
 

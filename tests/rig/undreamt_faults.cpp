@@ -9,7 +9,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace undreamt {
 
 using namespace short_names;
 
@@ -468,9 +468,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace undreamt
 
 std::vector<Fault> undreamt_faults() {
+  using namespace undreamt;
   return joined({drive_faults(), tendon_faults(), joint_faults(), sensor_faults()});
 }
 

@@ -12,7 +12,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace undreamt {
 
 /// One tendon has it, by the sign of the character, and the other has not: what acts on that one.
 const Action& only_action(const Hidden& hidden, double sign) {
@@ -533,5 +533,5 @@ TEST(Undreamt, a_zero_walks_by_chance) {
   EXPECT_NEAR(std::sqrt(squares / 400.0), 1.0, 0.1);
 }
 
-}  // namespace
+}  // namespace undreamt
 }  // namespace fusee::rig

@@ -10,7 +10,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace unforeseen {
 
 using namespace short_names;
 
@@ -443,9 +443,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unforeseen
 
 std::vector<Fault> unforeseen_faults() {
+  using namespace unforeseen;
   return joined({drive_faults(), pulley_faults(), tendon_faults(), joint_faults(), sensor_faults()});
 }
 

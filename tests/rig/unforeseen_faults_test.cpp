@@ -15,7 +15,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unforeseen {
 
 /// One tendon has it, by the sign of the character, and the other has not: what acts on that one.
 const Action& only_action(const Hidden& hidden, double sign) {
@@ -562,5 +562,5 @@ TEST(Unforeseen, a_camera_looks_for_its_focus_at_each_reversal) {
   EXPECT_GT(*gains.rbegin(), 0.01);
 }
 
-}  // namespace
+}  // namespace unforeseen
 }  // namespace fusee::rig

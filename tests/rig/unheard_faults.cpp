@@ -10,7 +10,7 @@
 #include "rig/faults.h"
 
 namespace fusee::rig {
-namespace {
+namespace unheard {
 
 using namespace short_names;
 
@@ -393,9 +393,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unheard
 
 std::vector<Fault> unheard_faults() {
+  using namespace unheard;
   return joined({drive_faults(), pulley_faults(), tendon_faults(), joint_faults(), link_faults(), sensor_faults()});
 }
 

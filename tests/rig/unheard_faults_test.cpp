@@ -13,7 +13,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unheard {
 
 /// Both pins 37 deg off the way down.
 Moment pulled_down(double theta) {
@@ -440,5 +440,5 @@ TEST(Unheard, a_table_levels_itself) {
   EXPECT_NEAR(tilted(1e4 + 11.5, 1, -20.0), 0.01 * (1.0 + left), 1e-12);
 }
 
-}  // namespace
+}  // namespace unheard
 }  // namespace fusee::rig

@@ -11,7 +11,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace unimagined {
 
 using namespace short_names;
 
@@ -452,9 +452,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unimagined
 
 std::vector<Fault> unimagined_faults() {
+  using namespace unimagined;
   return joined({drive_faults(), tendon_faults(), joint_faults(), sensor_faults()});
 }
 

@@ -12,7 +12,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unimagined {
 
 /// One tendon has it, by the sign of the character, and the other has not: what acts on that one.
 const Action& only_action(const Hidden& hidden, double sign) {
@@ -561,5 +561,5 @@ TEST(Unimagined, a_sensor_learns_its_range) {
   }
 }
 
-}  // namespace
+}  // namespace unimagined
 }  // namespace fusee::rig

@@ -10,7 +10,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace unmet {
 
 using namespace short_names;
 
@@ -328,8 +328,11 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unmet
 
-std::vector<Fault> unmet_faults() { return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()}); }
+std::vector<Fault> unmet_faults() {
+  using namespace unmet;
+  return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
+}
 
 }  // namespace fusee::rig

@@ -14,7 +14,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unmet {
 
 /// Of what comes within a time constant, after so many of them.
 double come(double constants) { return 1.0 - std::exp(-constants); }
@@ -449,5 +449,5 @@ TEST(Unmet, mist_dries_off_the_scale) {
   }
 }
 
-}  // namespace
+}  // namespace unmet
 }  // namespace fusee::rig

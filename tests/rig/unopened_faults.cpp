@@ -8,7 +8,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace unopened {
 
 using namespace short_names;
 
@@ -336,9 +336,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unopened
 
 std::vector<Fault> unopened_faults() {
+  using namespace unopened;
   return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
 }
 

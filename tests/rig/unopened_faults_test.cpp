@@ -12,7 +12,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unopened {
 
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
@@ -389,5 +389,5 @@ TEST(Unopened, a_coarse_range_is_kept_until_the_joint_is_well_back) {
   }
 }
 
-}  // namespace
+}  // namespace unopened
 }  // namespace fusee::rig

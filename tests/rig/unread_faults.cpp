@@ -10,7 +10,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace unread {
 
 using namespace short_names;
 
@@ -337,8 +337,11 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unread
 
-std::vector<Fault> unread_faults() { return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()}); }
+std::vector<Fault> unread_faults() {
+  using namespace unread;
+  return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
+}
 
 }  // namespace fusee::rig

@@ -11,7 +11,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unread {
 
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
@@ -409,5 +409,5 @@ TEST(Unread, what_a_joint_does_until_its_index_is_seen_is_lost) {
   }
 }
 
-}  // namespace
+}  // namespace unread
 }  // namespace fusee::rig

@@ -8,7 +8,7 @@
 #include "rig/faults.h"
 
 namespace fusee::rig {
-namespace {
+namespace unseen {
 
 using namespace short_names;
 
@@ -322,9 +322,10 @@ std::vector<Fault> link_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unseen
 
 std::vector<Fault> unseen_faults() {
+  using namespace unseen;
   return joined({drive_faults(), tendon_faults(), frame_faults(), link_faults()});
 }
 

@@ -9,7 +9,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unseen {
 
 // ---- one by one, by hand --------------------------------------------------------------------------------------------
 
@@ -305,5 +305,5 @@ TEST(Unseen, a_warm_tendon_gives_more_and_only_under_more_than_home) {
   EXPECT_NEAR(softer.act(now, softer.numbers, memory), 0.1 * stretch, 1e-12) << "a tenth less, ten kelvin colder";
 }
 
-}  // namespace
+}  // namespace unseen
 }  // namespace fusee::rig

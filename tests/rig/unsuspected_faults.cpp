@@ -10,7 +10,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace unsuspected {
 
 using namespace short_names;
 
@@ -526,9 +526,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace unsuspected
 
 std::vector<Fault> unsuspected_faults() {
+  using namespace unsuspected;
   return joined({drive_faults(), tendon_faults(), joint_faults(), sensor_faults()});
 }
 

@@ -11,7 +11,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace unsuspected {
 
 /// One tendon has it, by the sign of the character, and the other has not: what acts on that one.
 const Action& only_action(const Hidden& hidden, double sign) {
@@ -686,5 +686,5 @@ TEST(Unsuspected, shorted_turns_are_lacking_ever_after) {
   }
 }
 
-}  // namespace
+}  // namespace unsuspected
 }  // namespace fusee::rig

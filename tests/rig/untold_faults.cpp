@@ -1,5 +1,6 @@
-// A seventh split: what goes wrong with tendon joints on real benches, by an eighth hand that saw neither how calibration
-// infers nor what it makes of the other splits. It was kept aside until 62 of its joints were run, and is tuned on since.
+// A seventh split: what goes wrong with tendon joints on real benches, by an eighth hand that saw neither how
+// calibration infers nor what it makes of the other splits. It was kept aside until 62 of its joints were run, and is
+// tuned on since.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,7 +10,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace untold {
 
 using namespace short_names;
 
@@ -404,9 +405,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace untold
 
 std::vector<Fault> untold_faults() {
+  using namespace untold;
   return joined({drive_faults(), tendon_faults(), frame_faults(), link_faults(), sensor_faults()});
 }
 

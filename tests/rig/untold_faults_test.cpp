@@ -13,7 +13,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace untold {
 
 /// 63 %, 37 %: of what comes or goes within a time constant.
 const double k_come = 1.0 - std::exp(-1.0), k_left = std::exp(-1.0);
@@ -545,5 +545,5 @@ TEST(Untold, a_gyroscopes_scale_is_seen_in_what_moves) {
   }
 }
 
-}  // namespace
+}  // namespace untold
 }  // namespace fusee::rig

@@ -3,7 +3,7 @@
 #include "rig/faults.h"
 
 namespace fusee::rig {
-namespace {
+namespace wide_list {
 
 using namespace short_names;
 
@@ -21,9 +21,10 @@ Numbers end_numbers(const H& h, const J&) {
   return {{"across_mm", h.end_moved[tendon].x()}, {"along_mm", h.end_moved[tendon].y()}};
 }
 
-}  // namespace
+}  // namespace wide_list
 
 std::vector<Fault> wide_faults() {
+  using namespace wide_list;
   return {
       {.name = "drum_radius",
        .first = 0.1,

@@ -8,7 +8,7 @@
 #include "rig/random.h"
 
 namespace fusee::rig {
-namespace {
+namespace withheld {
 
 using namespace short_names;
 
@@ -319,9 +319,10 @@ std::vector<Fault> sensor_faults() {
 }
 // clang-format on
 
-}  // namespace
+}  // namespace withheld
 
 std::vector<Fault> withheld_faults() {
+  using namespace withheld;
   return joined({drive_faults(), tendon_faults(), link_faults(), sensor_faults()});
 }
 

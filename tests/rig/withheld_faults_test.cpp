@@ -11,7 +11,7 @@
 #include "rig/fault_checks.h"
 
 namespace fusee::rig {
-namespace {
+namespace withheld {
 
 // ---- motor and shaft, by hand: a stiff joint stands where the law says ----------------------------------------------
 
@@ -328,5 +328,5 @@ TEST(Withheld, a_gyroscope_drifts_from_the_begin_of_each_run) {
   }
 }
 
-}  // namespace
+}  // namespace withheld
 }  // namespace fusee::rig
