@@ -38,11 +38,9 @@ constexpr double k_usual_rubbing = 100.0;
 /// Nats that may be gained by what is not wanted beside it: 3 to 9 on seven joints, once 21.
 constexpr double k_most_by_idle_ones = 25.0;
 constexpr int k_bins_of_a_span = 16;
-/// Of what an effect does, squared, the part that is alike at a place from which on paths may be it: of geometry 0.35
-/// (a lever) to 1, of play and of a stretch under loads of either sign 0.06 and less.
-constexpr double k_least_of_place = 0.15;
-/// The same, of the part that turns over with the direction, from which on friction may be it.
-constexpr double k_least_of_direction = 0.15;
+/// Of what an effect does, squared, the part from which on something of that kind may be it. Alike at a place are of
+/// geometry 0.35 (a lever) to 1, of play and of a stretch under loads of either sign 0.06 and less.
+constexpr double k_least_of_its_kind = 0.15;
 
 EffectParameter number_of(const char* name, double& (*number)(Imperfections&), double least, double most, double step,
                           double prior) {
@@ -116,7 +114,6 @@ double alike_one_way(const std::vector<RowFacts>& rows, const Eigen::VectorXd& d
 struct UnnamedEffect {
   Effect effect;
   double (*of_its_kind)(const std::vector<RowFacts>& rows, const Eigen::VectorXd& done);
-  double least_of_its_kind;  ///< of all that an effect does, squared
   const char* words;
   const char* separating_run;
 };
@@ -124,10 +121,10 @@ struct UnnamedEffect {
 /// In no catalogue: nobody could look for them with a caliper.
 const std::array<UnnamedEffect, 2>& unnamed_effects() {
   static const std::array<UnnamedEffect, 2> all = {{
-      {longer_paths(), alike_at_a_place, k_least_of_place,
+      {longer_paths(), alike_at_a_place,
        "tendons' paths that are longer or shorter by a smooth curve of the joint's angle",
        "measure pins, lever and pulley with a caliper"},
-      {rubbing(), alike_one_way, k_least_of_direction,
+      {rubbing(), alike_one_way,
        "a friction that is not in proportion to the tendons' pull, or goes by the one that pulls less",
        "repeat one run with twice the pretension, and with four times: how a loop grows with the pull is its law"},
   }};
@@ -179,7 +176,7 @@ std::vector<Substitute> substitutes_of(const Evidence& evidence, Workers& worker
     const Eigen::VectorXd done = fitter.done_by(selection.best, *selection.best.effects[i]);
     const double all = std::max(done.squaredNorm(), std::numeric_limits<double>::min());
     for (const UnnamedEffect& unnamed : unnamed_effects()) {
-      if (unnamed.of_its_kind(rows, done) >= unnamed.least_of_its_kind * all)
+      if (unnamed.of_its_kind(rows, done) >= k_least_of_its_kind * all)
         of_effects[i].push_back({i, &unnamed, std::vector<Fit>(unnamed.effect.starts.size())});
     }
   });
