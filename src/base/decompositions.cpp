@@ -10,9 +10,7 @@ SymmetricEigen eigen_of(const Eigen::MatrixXd& symmetric) {
   return {found.eigenvalues(), found.eigenvectors()};
 }
 
-Eigen::VectorXd relative_eigenvalues(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(A, B, Eigen::EigenvaluesOnly).eigenvalues();
-}
+bool is_positive_definite(const Eigen::MatrixXd& A) { return A.llt().info() == Eigen::Success; }
 
 Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) { return A.ldlt().solve(b); }
 Eigen::MatrixXd solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.ldlt().solve(B); }

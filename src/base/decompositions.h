@@ -15,8 +15,8 @@ struct SymmetricEigen {
 };
 SymmetricEigen eigen_of(const Eigen::MatrixXd& symmetric);
 
-/// λ of A x = λ B x, the least first: A in units of B, which is positive definite.
-Eigen::VectorXd relative_eigenvalues(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+/// Of a symmetric matrix: xᵀA x is above zero for every x.
+bool is_positive_definite(const Eigen::MatrixXd& A);
 
 /// A⁻¹ b of a symmetric matrix that is not indefinite.
 Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);

@@ -23,7 +23,7 @@ bool can_do_without(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& all) {
   const Eigen::MatrixXd scaled = size.asDiagonal() * all * size.asDiagonal();
   const Eigen::MatrixXd part = size.asDiagonal() * rest * size.asDiagonal();
   const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(all.rows(), all.cols());
-  return relative_eigenvalues(part + ridge, scaled + ridge).minCoeff() > k_least_known;
+  return is_positive_definite(part + ridge - k_least_known * (scaled + ridge));
 }
 
 /// What is fitted: sums block by block and of what was measured by hand, where the numbers stand.
