@@ -11,7 +11,7 @@ namespace {
 
 // A signal handler can speak to the program through nothing but globals of this type.
 volatile std::sig_atomic_t interrupted = 0;
-volatile std::sig_atomic_t deferred = 0;
+volatile std::sig_atomic_t is_deferred = 0;
 volatile std::sig_atomic_t json_wanted = 0;
 
 void write_signal_safe(int descriptor, std::string_view text) {
@@ -32,7 +32,7 @@ void write_signal_safe(int descriptor, std::string_view text) {
 
 extern "C" void on_signal(int) {
   interrupted = 1;
-  if (!deferred) leave();
+  if (!is_deferred) leave();
 }
 
 }  // namespace
@@ -50,9 +50,9 @@ void catch_interrupts(bool json) {
   if (before.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
 }
 
-InterruptsDeferred::InterruptsDeferred() { deferred = 1; }
+InterruptsDeferred::InterruptsDeferred() { is_deferred = 1; }
 InterruptsDeferred::~InterruptsDeferred() {
-  if (std::uncaught_exceptions() > 0) deferred = 0;
+  if (std::uncaught_exceptions() > 0) is_deferred = 0;
 }
 
 void leave_interrupted() { leave(); }

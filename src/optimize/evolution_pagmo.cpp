@@ -1,5 +1,5 @@
 /// \file
-/// Evolution by pagmo. The one file that knows it, compiled as a module and as a library (CMakeLists.txt).
+/// Evolution by pagmo. The one file that knows it, in a module and in a library (CMakeLists.txt).
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
 #include <pagmo/algorithms/sga.hpp>

@@ -20,7 +20,7 @@ constexpr double k_volume_tolerance = 1e-6;
 // The groove is measured this far from what was cut into it, mm: a tool's facets lie within it of the plan's outline.
 constexpr double k_beside = 0.1;
 
-std::string place_of(const Vec2& point) { return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ") mm"; }
+std::string place_in_plan(const Vec2& point) { return "(" + fixed(point.x(), 3) + ", " + fixed(point.y(), 3) + ") mm"; }
 
 // Measures one groove on the sections of a mesh, in the pulley's own mm (the mesh's scale is taken out).
 class GrooveGauge {
@@ -45,7 +45,7 @@ class GrooveGauge {
     }
     const auto [deviation, where] = floor_deviation();
     checks.push_back(at_most("floor_deviation" + name, deviation, tolerance + k_float_grain, "mm",
-                             "P" + std::string(left_ ? "1" : "2") + " at " + place_of(where)));
+                             "P" + std::string(left_ ? "1" : "2") + " at " + place_in_plan(where)));
     checks.push_back(at_least("wall" + name, thinnest_wall(), min_wall - k_float_grain, "mm",
                               fmt::format("in the section at z = {} mm", rounded(z()))));
     checks.push_back(

@@ -50,8 +50,8 @@ constexpr double k_between_parts = 5.0;
 // Formats and slicers keep fewer digits than a float near the axis has: faces that lie closer than this would cross
 // there. Draco's finest grid is about a tenth of it.
 bool stands_rounding(TriangleMesh mesh) {
-  constexpr double k_grain = 0x1p-15;  // mm
-  for (Vec3& vertex : mesh.vertices) vertex = k_grain * (vertex / k_grain).array().round().matrix();
+  constexpr double k_coarsest_grain = 0x1p-15;  // mm
+  for (Vec3& vertex : mesh.vertices) vertex = k_coarsest_grain * (vertex / k_coarsest_grain).array().round().matrix();
   return !find_crossing(mesh).facets;
 }
 
