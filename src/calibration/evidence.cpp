@@ -23,6 +23,11 @@ constexpr std::size_t k_cheaper = 5;
 constexpr std::size_t k_least_rows_a_block = 6;
 /// Of a held point, where a run holds so many that there is not enough for all.
 constexpr std::size_t k_rows_a_stand = 3;
+/// Stands within this part of what α spans repeat one another, …
+constexpr double k_one_stand = 0.02;
+/// … and ways whose ends are. Levels of a load that goes with the motion cut strokes into pieces, two of one level at
+/// two places: what differs between these is the joint's law, and no scatter (the jaw of profiles/calibration.md).
+constexpr double k_one_way = 0.1;
 
 /// Whole cycles, evenly spread, of so many strokes that enough rows of each are left; the ends of the others are
 /// history.
@@ -350,7 +355,7 @@ struct Kind {
   bool held = false;
   int pull = 0;
   double load = 0;
-  double alpha = 0;  ///< held: where; of stands that were joined that of the first
+  double from = 0, to = 0;  ///< α at its ends; of stands that were joined those of the first
 };
 
 class BlockMaker {
@@ -389,8 +394,12 @@ class BlockMaker {
       std::erase_if(block.rows, [&](std::size_t row) { return !counted_[row]; });
       if (block.rows.empty()) continue;
       block.load = level_of(run, stretch.first, stretch.last).mean();
-      const Kind kind{run.strokes[stretch.stroke].direction, stretch.held, stretch.pull, block.load,
-                      run.samples[stretch.first].alpha};
+      const Kind kind{run.strokes[stretch.stroke].direction,
+                      stretch.held,
+                      stretch.pull,
+                      block.load,
+                      run.samples[stretch.first].alpha,
+                      run.samples[stretch.last].alpha};
       if (block.rows.size() >= k_least_rows_a_block) {
         add(kind, std::move(block));
       } else if (stretch.held) {
@@ -411,10 +420,13 @@ class BlockMaker {
     return stretch.stroke == 0 && run.strokes.size() > 2;
   }
 
+  bool in_one_place(const Kind& a, const Kind& b) const {
+    const double apart = (a.held ? k_one_stand : k_one_way) * (alphas_.any() ? alphas_.size() : 0.0);
+    return std::abs(a.from - b.from) <= apart && std::abs(a.to - b.to) <= apart;
+  }
+
   bool are_alike(const Kind& a, const Kind& b, bool anywhere) const {
-    const bool same_place =
-        anywhere || !a.held || std::abs(a.alpha - b.alpha) <= 0.02 * (alphas_.any() ? alphas_.size() : 0.0);
-    return a.direction == b.direction && a.held == b.held && a.pull == b.pull && same_place &&
+    return a.direction == b.direction && a.held == b.held && a.pull == b.pull && (anywhere || in_one_place(a, b)) &&
            std::abs(a.load - b.load) <= load_tolerance_;
   }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 
 #include "calibration/linear_joint.h"
@@ -126,6 +127,37 @@ Measurement held_at_ends(const std::vector<double>& loads, std::size_t rows) {
     run.stretches.push_back({first, first + rows - 1, visit, true, 0});
   }
   return measurement;
+}
+
+/// Four strokes of 60 rows there and back; the load in thirds of each as `levels` has them.
+Measurement in_thirds(const std::array<double, 3>& levels) {
+  Measurement measurement;
+  fusee::Run& run = measurement.runs.emplace_back();
+  run.name = "run_1";
+  run.has_time = run.has_load = true;
+  for (std::size_t stroke = 0; stroke < 5; ++stroke) {
+    const int direction = stroke % 2 == 0 ? 1 : -1;
+    const std::size_t first = run.samples.size();
+    for (std::size_t i = 0; i < 60; ++i) {
+      Sample sample;
+      sample.time = static_cast<double>(run.samples.size());
+      sample.alpha = direction * (static_cast<double>(i) / 59 - 0.5);
+      sample.theta = sample.alpha / k_ratio;
+      sample.load = levels[i / 20];
+      run.samples.push_back(sample);
+    }
+    run.strokes.push_back({first, first + 59, direction, static_cast<int>(stroke / 2), false});
+    for (const std::size_t third : {0, 1, 2})
+      run.stretches.push_back({first + 20 * third, first + 20 * third + 19, stroke, false, 0});
+  }
+  return measurement;
+}
+
+TEST(Gather, PiecesOfOneLevelAtTwoPlacesAreNoRepeats) {
+  const Evidence evidence = gather(joint(), in_thirds({5, 0, 5}), k_floor);
+  std::vector<std::size_t> alike;
+  for (const Block& block : evidence.blocks) alike.push_back(block.alike);
+  EXPECT_THAT(alike, ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5));
 }
 
 TEST(Gather, HeldAnglesAreBlocks) {
