@@ -143,16 +143,31 @@ std::vector<Sides> held_points(const Measurement& measurement) {
   return points;
 }
 
+/// Where a run sweeps there and back; nothing where it does not.
+SeenSpan swept_both_ways(const Run& run) {
+  SeenSpan swept;
+  const auto goes = [&](int direction) {
+    return std::any_of(run.strokes.begin(), run.strokes.end(),
+                       [&](const Stroke& stroke) { return !stroke.partial && stroke.direction == direction; });
+  };
+  if (is_from_point_to_point(run) || !goes(1) || !goes(-1)) return swept;
+  for (const Sample& sample : run.samples) swept.take(sample.alpha);
+  return swept;
+}
+
 }  // namespace
 
 void ask_for_both_sides(const Measurement& measurement, std::vector<std::string>& next) {
-  const std::vector<Sides> points = held_points(measurement);
+  std::vector<Sides> points = held_points(measurement);
+  for (const Run& run : measurement.runs) {
+    const SeenSpan swept = swept_both_ways(run);
+    std::erase_if(points, [&](const Sides& p) { return p.alpha >= swept.least && p.alpha <= swept.most; });
+  }
   const auto both = std::count_if(points.begin(), points.end(), [](const Sides& p) { return p.rising && p.falling; });
   if (2 * static_cast<std::size_t>(both) >= points.size()) return;
   next.push_back(
       "come to each held point from both sides, up the range and down again: from one side alone play and friction "
-      "look "
-      "like an error of the place");
+      "look like an error of the place");
 }
 
 std::vector<std::string> next_runs(const Evidence& evidence, const Selection& selection) {

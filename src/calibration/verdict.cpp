@@ -167,9 +167,9 @@ void conclude(const Evidence& evidence, const Selection& selection, const Unname
   const bool in_time = walks || (unexplained && goes_with_time(unnamed));
   take_nameless({unexplained || walks || selection.instead, in_time}, selection, calibration.effects);
   calibration.verdict = verdict_of(walks, unexplained, calibration.effects);
+  ask_for_runs(calibration);
   calibration.summary =
       finding(calibration, rest, scatter, evidence.floor) + " " + figures(calibration, evidence.floor);
-  ask_for_runs(calibration);
 }
 
 }  // namespace fusee

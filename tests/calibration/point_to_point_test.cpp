@@ -62,6 +62,13 @@ Stops steps(int rows) {
   return stops;
 }
 
+/// There and back three times without a hold.
+Stops sweep(double share) {
+  Stops stops;
+  for (int i = 0; i < 360; ++i) stops.push_back({share * (std::abs(i % 120 - 60) / 30.0 - 1), 0.0, 1});
+  return stops;
+}
+
 /// A few angles again and again, the load of each cycle one of so many.
 Stops cycles_at(int loads, int rows) {
   Stops stops;
@@ -190,8 +197,8 @@ struct Ends {
   const char* seen_with;  ///< how the factor begins on which the unnamed error is said to depend
 };
 
-// At two places a smooth error has two numbers, with a name or without: nothing is named alone. What is more, each place
-// is come to from one side only. No harmonic is seen in two places either.
+// At two places a smooth error has two numbers, with a name or without: nothing is named alone. What is more, each
+// place is come to from one side only. No harmonic is seen in two places either.
 TEST(PointToPoint, two_places_name_nothing_alone) {
   for (const Ends& ends : {Ends{loose, "backlash", "place"}, Ends{soft, "tendon_stretch", "load"}}) {
     const Calibration found = calibrated({log_of(alternating_ends(20), ends.hidden(), 5)});
@@ -219,6 +226,9 @@ TEST(PointToPoint, points_from_one_side_are_asked_for_from_both) {
   Stops up;
   for (int i = 0; i < 7; ++i) up.push_back({-0.9 + 0.3 * i, 0.0, 6});
   EXPECT_THAT(calibrated({log_of(up, {}, 5)}).next_runs, Contains(StartsWith(k_both_sides)));
+  EXPECT_THAT(calibrated({log_of(up, {}, 5), log_of(sweep(0.95), {}, 6)}).next_runs,
+              Not(Contains(StartsWith(k_both_sides))));
+  EXPECT_THAT(calibrated({log_of(up, {}, 5), log_of(sweep(0.2), {}, 6)}).next_runs, Contains(StartsWith(k_both_sides)));
   Stops few = alternating_ends(1);
   few.resize(8);
   const Calibration too_few = calibrated({log_of(few, {}, 5)});
