@@ -117,7 +117,8 @@ double rarest_ratio(double upper_freedom, double lower_freedom) {
 
 StrokeScatter stroke_scatter(const Evidence& evidence, const Fit& fit) {
   const Eigen::VectorXd alpha = alphas(evidence.measurement);
-  std::map<Alike, double> widths;  // rms of α about its mean, of the first of each kind: no two strokes are sampled alike
+  // rms of α about its mean, of the first of each kind: no two strokes are sampled alike.
+  std::map<Alike, double> widths;
   Within means, tilts;
   for (const Block& block : evidence.blocks) {
     const std::vector<Eigen::Index> rows(block.rows.begin(), block.rows.end());
